@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# Compiler settings that hold for everything in the tree.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+option(ORCA_WERROR "Warnings are errors (on in every preset)" OFF)
+set(ORCA_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, e.g. address,undefined or thread")
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+set(ORCA_PLUGIN_DIR ${CMAKE_BINARY_DIR}/plugins)
+set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)
+
+add_library(orca_options INTERFACE)
+target_compile_options(orca_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${ORCA_WERROR}>:-Werror>
+  # Bit-identical runs: no fused multiply-add, no fast-math.
+  -ffp-contract=off)
+
+if(ORCA_SANITIZE)
+  add_compile_options(-fsanitize=${ORCA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${ORCA_SANITIZE})
+endif()
+
+find_program(ORCA_CCACHE ccache)
+if(ORCA_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${ORCA_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${ORCA_CCACHE})
+endif()
+find_program(ORCA_MOLD mold)
+if(ORCA_MOLD)
+  add_link_options(-fuse-ld=mold)
+endif()

@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# Lists the type names that ORCA_COMPONENT and ORCA_HARDWARE declare in SOURCES, one a line, in OUT.
+set(types "")
+foreach(source ${SOURCES})
+  file(STRINGS ${source} lines REGEX "^ORCA_(COMPONENT|HARDWARE)\\(")
+  foreach(line ${lines})
+    string(REGEX REPLACE "^[^\"]*\"([^\"]+)\".*$" "\\1" type "${line}")
+    string(APPEND types "${type}\n")
+  endforeach()
+endforeach()
+file(WRITE ${OUT} "${types}")

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "orca/base/time.hpp"
+
+namespace orca {
+
+/// The three communication patterns (thesis 7.3).
+enum class Pattern { push, query, send };
+
+/// Which end of a pattern a port is. The server offers, the proxy uses.
+enum class Role { server, proxy };
+
+[[nodiscard]] constexpr const char* to_string(Pattern pattern) {
+  return pattern == Pattern::push ? "Push" : pattern == Pattern::query ? "Query" : "Send";
+}
+[[nodiscard]] constexpr const char* to_string(Role role) { return role == Role::server ? "Server" : "Proxy"; }
+
+/// Identity of an object type: IDL name and hash of the flattened layout, never a typeid address.
+struct TypeId {
+  std::string name;        ///< e.g. "SonarRangeReadings".
+  std::uint64_t hash = 0;  ///< FNV-1a of the flattened layout.
+  friend bool operator==(const TypeId&, const TypeId&) = default;
+};
+
+/// How an edge buffers: the author of a port sets the default, the integrator decides in the graph.
+struct QueuePolicy {
+  enum class Overflow { drop_oldest, drop_newest };
+  std::uint32_t depth = 1;  ///< Objects kept, at least 1; depth 1 with drop_oldest means "the latest".
+  Overflow overflow = Overflow::drop_oldest;
+  friend bool operator==(const QueuePolicy&, const QueuePolicy&) = default;
+};
+
+/// One declared port of a component.
+struct PortContract {
+  std::string name;
+  Pattern pattern = Pattern::push;
+  Role role = Role::server;
+  TypeId type;                  ///< The object pushed or sent, or the request of a Query.
+  std::optional<TypeId> reply;  ///< Query only: the reply.
+  bool required = false;        ///< A proxy that must be connected.
+  bool many = false;            ///< A port array: any number of edges may end at this proxy.
+  QueuePolicy queue;            ///< Author's default for edges that end here.
+  std::string text;             ///< One sentence for people.
+};
+
+enum class ParamType { boolean, integer, real, text, text_list };
+using ParamValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>;
+
+[[nodiscard]] constexpr const char* to_string(ParamType type) {
+  switch (type) {
+    case ParamType::boolean: return "true or false";
+    case ParamType::integer: return "integer";
+    case ParamType::real: return "number";
+    case ParamType::text: return "text";
+    case ParamType::text_list: return "list of texts separated by ';'";
+  }
+  return "?";
+}
+
+/// One declared parameter. Numbers are in SI units.
+struct ParamContract {
+  std::string name;
+  ParamType type = ParamType::real;
+  std::string unit;                  ///< SI unit: "m", "rad", "s", "m/s", "rad/s", "Hz", ...; empty for none.
+  std::optional<double> min;         ///< Smallest allowed value, in `unit`.
+  std::optional<double> max;         ///< Largest allowed value, in `unit`.
+  std::vector<std::string> choices;  ///< Allowed values of a text; empty: any.
+  bool file = false;                 ///< A text that names a file; relative to the graph file that sets it.
+  ParamValue default_value;          ///< Of the type `type` says.
+  std::string text;                  ///< One sentence for people.
+};
+
+/// What starts a lap of work().
+struct Trigger {
+  enum class Kind {
+    free_running,  ///< The next lap follows at once; work() blocks by itself.
+    period,        ///< One lap each `period`.
+    on_port,       ///< One lap per new object on `port`.
+  };
+  Kind kind = Kind::free_running;
+  Duration period{0};
+  std::string port;
+};
+
+enum class PluginKind { component, hardware };
+
+/// What a component or a hardware container type offers and needs: computed by constructing it, nothing else.
+struct Contract {
+  PluginKind kind = PluginKind::component;
+  std::string type;     ///< e.g. "orca.SonarAvoid".
+  std::string library;  ///< File name of the plugin it came from.
+  std::vector<PortContract> ports;
+  std::vector<ParamContract> params;
+  Trigger default_trigger;
+  bool needs_hardware = false;  ///< The component must name a <hardware> of the graph.
+
+  [[nodiscard]] const PortContract* port(const std::string& name) const {
+    for (const PortContract& p : ports)
+      if (p.name == name) return &p;
+    return nullptr;
+  }
+  [[nodiscard]] const ParamContract* param(const std::string& name) const {
+    for (const ParamContract& p : params)
+      if (p.name == name) return &p;
+    return nullptr;
+  }
+};
+
+}  // namespace orca

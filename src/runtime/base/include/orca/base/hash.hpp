@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace orca {
+
+/// 64-bit FNV-1a, fed piece by piece. Numbers are taken little-endian, so the value is the same on every
+/// machine.
+///
+/// Thread contract: a plain value.
+/// @source  Fowler, Noll, Vo; draft-eastlake-fnv, offset basis and prime for 64 bits.
+class Fnv1a {
+ public:
+  void add(std::span<const std::byte> bytes) {
+    for (const std::byte b : bytes) step(static_cast<std::uint8_t>(b));
+  }
+  void add_u64(std::uint64_t value) {
+    for (int shift = 0; shift < 64; shift += 8) step(static_cast<std::uint8_t>(value >> shift));
+  }
+  /// The characters and a zero, so that ("ab", "c") and ("a", "bc") differ.
+  void add_text(std::string_view text) {
+    for (const char c : text) step(static_cast<std::uint8_t>(c));
+    step(0);
+  }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  void step(std::uint8_t byte) {
+    hash_ ^= byte;
+    hash_ *= 0x100000001b3ULL;
+  }
+
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+}  // namespace orca

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "orca/base/random.hpp"
+
+using orca::RandomStream;
+
+TEST_CASE("a random stream is fixed by seed, component and name, and by nothing else", "[base][random]") {
+  RandomStream a(1, "scout", "sonar");
+  RandomStream b(1, "scout", "sonar");
+  RandomStream other_seed(2, "scout", "sonar");
+  RandomStream other_name(1, "scout", "sona");
+  RandomStream shifted(1, "scou", "tsonar");
+  const auto first = a();
+  CHECK(first == b());
+  CHECK(first != other_seed());
+  CHECK(first != other_name());
+  CHECK(first != shifted());
+}
+
+TEST_CASE("uniform stays in its interval and normal has the asked mean and deviation", "[base][random]") {
+  RandomStream stream(7, "test", "moments");
+  double sum = 0.0;
+  double squares = 0.0;
+  constexpr int kDraws = 200000;
+  for (int i = 0; i < kDraws; ++i) {
+    const double u = stream.uniform(-1.0, 3.0);
+    REQUIRE(u >= -1.0);
+    REQUIRE(u < 3.0);
+    const double n = stream.normal(5.0, 2.0);
+    sum += n;
+    squares += (n - 5.0) * (n - 5.0);
+  }
+  // Five standard errors: 5 * 2 / sqrt(200000) = 0.022.
+  CHECK(std::abs(sum / kDraws - 5.0) < 0.023);
+  CHECK(std::abs(std::sqrt(squares / kDraws) - 2.0) < 0.016);
+}
