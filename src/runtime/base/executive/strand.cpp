@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/base/strand.hpp"
+
+#include <utility>
+
+namespace orca {
+
+Strand::Strand(Executive& executive, TaskOptions options)
+    : executive_(executive), options_(std::move(options)), event_(executive.make_event()) {}
+
+void Strand::start(std::function<void()> body) { task_ = executive_.spawn(options_, std::move(body)); }
+
+void Strand::interrupt() {
+  interrupted_.store(true, std::memory_order_release);
+  event_->notify();
+}
+
+}  // namespace orca
