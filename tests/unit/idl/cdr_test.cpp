@@ -8,19 +8,14 @@
 
 #include "all_objects.hpp"
 #include "random_object.hpp"
+#include "serialized.hpp"
 
 using orca::object_type;
+using orca::test::Bytes;
 using orca::test::random_object;
-using Bytes = std::vector<std::byte>;
+using orca::test::serialized;
 
 namespace {
-
-template <class T>
-Bytes serialized(const T& object) {
-  Bytes bytes;
-  object_type<T>().serialize(&object, bytes);
-  return bytes;
-}
 
 // The same object written by the code that fastddsgen generated: what a DDS peer would send.
 template <class T>

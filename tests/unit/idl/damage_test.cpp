@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstring>
+#include <memory>
+#include <span>
 
 #include "all_objects.hpp"
 #include "random_object.hpp"
+#include "serialized.hpp"
 
 using orca::Code;
 using orca::object_type;
 using orca::Status;
+using orca::test::Bytes;
 using orca::test::random_object;
-using Bytes = std::vector<std::byte>;
+using orca::test::serialized;
 
 namespace {
-
-template <class T>
-Bytes serialized(const T& object) {
-  Bytes bytes;
-  object_type<T>().serialize(&object, bytes);
-  return bytes;
-}
 
 template <class T>
 Status read(const Bytes& bytes, T& object) {
