@@ -2,6 +2,7 @@
 #include "cdr_reader.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace orca::detail {
 namespace {
@@ -67,14 +68,13 @@ void CdrReader::fail_enumerator(std::string_view name, std::uint32_t found, std:
 }
 
 Status CdrReader::status(std::string_view type_name) const {
-  const std::string where = std::string(type_name) + (path_.empty() ? "" : "." + path_);
-  if (failed()) return fail(Code::data_loss, problem_, where);
-  if (remaining() > kMaxPadding) {
-    return fail(Code::data_loss,
-                std::to_string(remaining()) + " bytes follow the last field; is the sender's type newer?",
-                where);
+  std::string problem = problem_;
+  if (!failed() && remaining() > kMaxPadding) {
+    problem = std::to_string(remaining()) + " bytes follow the last field; is the sender's type newer?";
   }
-  return ok();
+  if (problem.empty()) return ok();
+  return fail(Code::data_loss, std::move(problem),
+              std::string(type_name) + (path_.empty() ? "" : "." + path_));
 }
 
 }  // namespace orca::detail

@@ -27,7 +27,7 @@ class DumpWriter {
     if (info.header && depth_ > 0) return;  // Only the outermost object was ever stamped.
     start_field(info.name);
     write(value);
-    if (!info.unit.empty() && !info.unit.starts_with("1")) add_unit(info.unit);
+    if (!info.unit.empty() && info.unit != "1") add_unit(info.unit);
   }
 
   [[nodiscard]] std::string take() && { return std::move(text_); }
@@ -43,7 +43,9 @@ class DumpWriter {
   void write(T value) { text_ += std::to_string(value); }
   template <ReflectedEnum T>
   void write(T value) {
-    text_ += EnumReflection<T>::names[static_cast<std::size_t>(value)];
+    constexpr auto& names = EnumReflection<T>::names;
+    const auto index = static_cast<std::size_t>(value);
+    text_ += index < names.size() ? std::string(names[index]) : "unknown " + std::to_string(index);
   }
   template <ReflectedStruct T>
   void write(const T& value) {

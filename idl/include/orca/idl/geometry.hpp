@@ -9,13 +9,6 @@
 
 namespace orca {
 
-[[nodiscard]] inline idl::Point2D make_point(double x, double y) {
-  idl::Point2D point;
-  point.x(x);
-  point.y(y);
-  return point;
-}
-
 /// @param x, y, z [m]  in the frame that the user of the point names.
 [[nodiscard]] inline idl::Point make_point(double x, double y, double z) {
   idl::Point point;
