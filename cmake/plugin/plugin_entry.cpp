@@ -3,11 +3,12 @@
 #include "orca/component/manifest.hpp"
 
 extern "C" {
-// Set by the linker: the bounds of the section in which ORCA_COMPONENT and ORCA_HARDWARE gather their entries.
+// Set by the linker: the bounds of the section in which ORCA_COMPONENT and ORCA_HARDWARE gather their
+// entries.
 [[gnu::visibility("hidden")]] extern const orca::TypeEntry* const __start_orca_types[];
 [[gnu::visibility("hidden")]] extern const orca::TypeEntry* const __stop_orca_types[];
 
-extern const orca::Manifest orca_plugin_manifest;
-[[gnu::visibility("default")]] const orca::Manifest orca_plugin_manifest{
+[[gnu::visibility("default")]] extern const orca::Manifest orca_plugin_manifest;
+const orca::Manifest orca_plugin_manifest{
     orca::kAbiVersion, sizeof(orca::Manifest), ORCA_BUILD_ID, __start_orca_types, __stop_orca_types};
 }

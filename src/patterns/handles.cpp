@@ -26,7 +26,8 @@ PortDeclaration make_declaration(std::string name, Pattern pattern, Role role, T
   return declaration;
 }
 
-PushServerHandle::PushServerHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options) {
+PushServerHandle::PushServerHandle(PortOwner& owner, std::string name, TypeId type,
+                                   const PortOptions& options) {
   PortDeclaration declaration =
       make_declaration(std::move(name), Pattern::push, Role::server, std::move(type), options);
   declaration.slot = &endpoint_;
@@ -37,7 +38,8 @@ void PushServerHandle::push_loan(ObjectLoan loan) {
   endpoint().push(std::move(loan), &endpoint().home().provenance);
 }
 
-PushProxyHandle::PushProxyHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options) {
+PushProxyHandle::PushProxyHandle(PortOwner& owner, std::string name, TypeId type,
+                                 const PortOptions& options) {
   PortDeclaration declaration =
       make_declaration(std::move(name), Pattern::push, Role::proxy, std::move(type), options);
   declaration.slot = &endpoint_;
@@ -85,7 +87,8 @@ SendServerHandle::SendServerHandle(PortOwner& owner, std::string name, TypeId ty
   owner.declare_port(std::move(declaration));
 }
 
-SendProxyHandle::SendProxyHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options) {
+SendProxyHandle::SendProxyHandle(PortOwner& owner, std::string name, TypeId type,
+                                 const PortOptions& options) {
   PortDeclaration declaration =
       make_declaration(std::move(name), Pattern::send, Role::proxy, std::move(type), options);
   declaration.slot = &endpoint_;

@@ -42,7 +42,8 @@ void QueryServerEndpoint::close(const std::string& reason) {
     left.swap(waiting_);
   }
   for (const Question& question : left)
-    question.reply_to->reply(question.id, fail(Code::unavailable, path() + " answers nothing, because " + reason));
+    question.reply_to->reply(question.id,
+                             fail(Code::unavailable, path() + " answers nothing, because " + reason));
 }
 
 std::optional<QueryServerEndpoint::Question> QueryServerEndpoint::next(Handler& handler) {
@@ -92,8 +93,8 @@ QueryClientEndpoint::QueryClientEndpoint(PortHome& home, PortContract contract)
 
 Result<QueryId> QueryClientEndpoint::request(ObjectLoan loan, const Provenance* provenance) {
   if (target_ == nullptr)
-    return fail(Code::failed_precondition, "port " + path() + " is not connected; add <connect from=\"" + path() +
-                                               "\" to=\"...\"/> to the graph");
+    return fail(Code::failed_precondition, "port " + path() + " is not connected; add <connect from=\"" +
+                                               path() + "\" to=\"...\"/> to the graph");
   stamp(loan, provenance);
   QueryId id = 0;
   {

@@ -66,8 +66,8 @@ SendClientEndpoint::SendClientEndpoint(PortHome& home, PortContract contract)
 
 Status SendClientEndpoint::send(ObjectLoan loan, const Provenance* provenance) {
   if (target_ == nullptr)
-    return fail(Code::failed_precondition, "port " + path() + " is not connected; add <connect from=\"" + path() +
-                                               "\" to=\"...\"/> to the graph");
+    return fail(Code::failed_precondition, "port " + path() + " is not connected; add <connect from=\"" +
+                                               path() + "\" to=\"...\"/> to the graph");
   stamp(loan, provenance);
   return target_->offer(std::move(loan).seal());
 }

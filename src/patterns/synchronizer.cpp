@@ -7,7 +7,8 @@
 namespace orca {
 
 void Synchronizer::add(PushProxyHandle& subject) {
-  if (std::find(subjects_.begin(), subjects_.end(), &subject) == subjects_.end()) subjects_.push_back(&subject);
+  if (std::find(subjects_.begin(), subjects_.end(), &subject) == subjects_.end())
+    subjects_.push_back(&subject);
 }
 
 void Synchronizer::remove(PushProxyHandle& subject) { std::erase(subjects_, &subject); }

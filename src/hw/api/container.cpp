@@ -31,7 +31,8 @@ void HardwareContainer::release() {
 Status HardwareContainer::command(const idl::MotionCommand& command) {
   if (motion_ == nullptr) return fail(Code::failed_precondition, host_.name() + " has nothing that moves");
   if (state() != HardwareState::active)
-    return fail(Code::unavailable, host_.name() + " is " + to_string(state()) + ", not Active: nobody has started it");
+    return fail(Code::unavailable,
+                host_.name() + " is " + to_string(state()) + ", not Active: nobody has started it");
   const Status taken = motion_->command(command, host_.now());
   if (taken.ok()) strand_->wake();
   return taken;
@@ -103,7 +104,8 @@ void HardwareContainer::turn() {
       return;
     }
   }
-  const TimePoint expiry = state() == HardwareState::active && motion_ != nullptr ? motion_->expiry() : kForever;
+  const TimePoint expiry =
+      state() == HardwareState::active && motion_ != nullptr ? motion_->expiry() : kForever;
   strand_->pause_until(std::min(next_poll(), expiry));
 }
 

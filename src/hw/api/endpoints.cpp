@@ -33,7 +33,8 @@ Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
   if (command.kind() == idl::DONTCARE)
     return fail(Code::invalid_argument,
                 "a base needs a crisp motion command, not DONTCARE; put a MotionCommandFuser in front of it");
-  if (!std::isfinite(command.speed()) || !std::isfinite(command.direction()) || !std::isfinite(command.turn_rate()))
+  if (!std::isfinite(command.speed()) || !std::isfinite(command.direction()) ||
+      !std::isfinite(command.turn_rate()))
     return fail(Code::invalid_argument, "a motion command holds a number that is not finite");
   const std::lock_guard lock(mutex_);
   setpoint_ = command.kind() == idl::FULLSTOP ? DriveSetpoint{} : within_limits(command);

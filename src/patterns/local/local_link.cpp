@@ -49,7 +49,8 @@ Status connect_locally(Endpoint& from, Endpoint& to, const QueuePolicy& policy) 
   if (!fits(from.contract(), to.contract())) return mismatch(from, to);
   switch (from.contract().pattern) {
     case Pattern::push:
-      return connect_push(static_cast<PushServerEndpoint&>(from), static_cast<PushClientEndpoint&>(to), policy);
+      return connect_push(static_cast<PushServerEndpoint&>(from), static_cast<PushClientEndpoint&>(to),
+                          policy);
     case Pattern::send: return connect_proxy(static_cast<SendClientEndpoint&>(from), to);
     case Pattern::query: return connect_proxy(static_cast<QueryClientEndpoint&>(from), to);
   }

@@ -16,7 +16,8 @@ namespace {
 template <class Base>
 class Describer : public Base {
  public:
-  Describer(PluginKind kind, const TypeEntry& type, const std::string& library, std::string name) : name_(std::move(name)) {
+  Describer(PluginKind kind, const TypeEntry& type, const std::string& library, std::string name)
+      : name_(std::move(name)) {
     contract_.kind = kind;
     contract_.type = type.type;
     contract_.library = std::filesystem::path(library).filename().string();
@@ -28,7 +29,9 @@ class Describer : public Base {
   }
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] TimePoint now() const override { refuse("asked for the time"); }
-  [[nodiscard]] RandomStream random(std::string_view /*stream*/) const override { refuse("drew random numbers"); }
+  [[nodiscard]] RandomStream random(std::string_view /*stream*/) const override {
+    refuse("drew random numbers");
+  }
   void write_log(log::Level level, std::string_view text) const override { log::write(level, name_, text); }
   void announce(const Announcement& /*announcement*/) override { refuse("made an announcement"); }
 
@@ -48,7 +51,9 @@ class ComponentDescriber final : public Describer<ComponentHost> {
   ComponentDescriber(const TypeEntry& type, const std::string& library, hw::HardwareContainer* hardware)
       : Describer(PluginKind::component, type, library, type.type), hardware_(hardware) {}
 
-  void declare_port(PortDeclaration declaration) override { contract_.ports.push_back(std::move(declaration.contract)); }
+  void declare_port(PortDeclaration declaration) override {
+    contract_.ports.push_back(std::move(declaration.contract));
+  }
   void set_default_trigger(const Trigger& trigger) override { contract_.default_trigger = trigger; }
   [[nodiscard]] hw::HardwareContainer* hardware() override {
     contract_.needs_hardware = true;
@@ -100,7 +105,8 @@ auto guarded(const TypeEntry& type, Make&& make) -> decltype(make()) {
 
 }  // namespace
 
-Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& type, const std::string& library,
+Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& type,
+                                                             const std::string& library,
                                                              const std::string& name) {
   return guarded(type, [&]() -> Result<std::unique_ptr<DescribedHardware>> {
     return std::unique_ptr<DescribedHardware>(std::make_unique<HardwareDescriber>(type, library, name));

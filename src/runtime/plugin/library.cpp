@@ -27,20 +27,22 @@ std::string explain_load_error(const std::string& text) {
   if (at == std::string::npos) return text;
   const std::string rest = text.substr(at + mark.size());
   const std::string symbol = rest.substr(0, rest.find_first_of(",\t "));
-  return "it uses " + demangled(symbol) + ", which no library provides; link what it needs with orca_add_component(... LINK ...)";
+  return "it uses " + demangled(symbol) +
+         ", which no library provides; link what it needs with orca_add_component(... LINK ...)";
 }
 
 Error not_a_plugin(const std::string& path) {
   return fail(Code::invalid_argument,
-              "is not an Orca plugin: it exports no orca_plugin_manifest; build it with orca_add_component()", path);
+              "is not an Orca plugin: it exports no orca_plugin_manifest; build it with orca_add_component()",
+              path);
 }
 
 Status check_manifest(const Manifest& manifest, const std::string& path) {
   if (manifest.abi_version == kAbiVersion && manifest.size == sizeof(Manifest)) return ok();
   return fail(Code::invalid_argument,
               "was built for plugin ABI " + std::to_string(manifest.abi_version) + " (manifest of " +
-                  std::to_string(manifest.size) + " bytes), but this is ABI " + std::to_string(kAbiVersion) + " (" +
-                  std::to_string(sizeof(Manifest)) + " bytes); build it again",
+                  std::to_string(manifest.size) + " bytes), but this is ABI " + std::to_string(kAbiVersion) +
+                  " (" + std::to_string(sizeof(Manifest)) + " bytes); build it again",
               path);
 }
 
@@ -48,7 +50,8 @@ Status check_manifest(const Manifest& manifest, const std::string& path) {
 
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& path) {
   std::error_code unused;
-  if (!std::filesystem::is_regular_file(path, unused)) return fail(Code::not_found, "there is no such plugin", path);
+  if (!std::filesystem::is_regular_file(path, unused))
+    return fail(Code::not_found, "there is no such plugin", path);
   void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr)
     return fail(Code::invalid_argument, "cannot be loaded: " + explain_load_error(dlerror()), path);

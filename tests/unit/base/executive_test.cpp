@@ -234,6 +234,8 @@ TEST_CASE("a strand's wait sees a condition, a deadline or an interruption", "[b
       Strand strand(*executive, {"strand", 0});
       std::atomic<int> step{0};
       bool interrupted = false;
+      std::atomic<bool> leave{false};
+      strand.set_leave_condition([&] { return leave.load(); });
       strand.start([&] {
         CHECK(strand.wait_for(kForever, [&] { return step == 1; }));
         CHECK_FALSE(strand.wait_for(executive->now() + 5ms, [] { return false; }));
@@ -247,7 +249,8 @@ TEST_CASE("a strand's wait sees a condition, a deadline or an interruption", "[b
       step = 1;
       strand.wake();
       while (step != 2) executive->sleep_until(executive->now() + 1ms);
-      strand.interrupt();
+      leave = true;
+      strand.wake();
       CHECK(strand.join_until(kForever));
       CHECK(interrupted);
     });

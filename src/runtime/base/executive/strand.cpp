@@ -10,9 +10,4 @@ Strand::Strand(Executive& executive, TaskOptions options)
 
 void Strand::start(std::function<void()> body) { task_ = executive_.spawn(options_, std::move(body)); }
 
-void Strand::interrupt() {
-  interrupted_.store(true, std::memory_order_release);
-  event_->notify();
-}
-
 }  // namespace orca

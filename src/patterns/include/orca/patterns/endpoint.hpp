@@ -26,7 +26,8 @@ class LinkObserver {
   virtual void link_changed(std::string_view client, std::string_view server, bool connected) = 0;
 };
 
-/// What the object that a component handles at the moment belongs to; stamped on everything it sends meanwhile.
+/// What the object that a component handles at the moment belongs to; stamped on everything it sends
+/// meanwhile.
 struct Provenance {
   std::uint64_t mission = 0;  ///< 0: none.
   std::string origin;
@@ -44,8 +45,8 @@ struct PortHome {
   Provenance provenance;             ///< Touched by the component's strand only.
 };
 
-/// The part of a port that belongs to the host process and survives a swap of the plugin behind it. The handles that an
-/// author sees (PushProxy and friends) only point here.
+/// The part of a port that belongs to the host process and survives a swap of the plugin behind it. The
+/// handles that an author sees (PushProxy and friends) only point here.
 class Endpoint {
  public:
   Endpoint(PortHome& home, PortContract contract);

@@ -11,11 +11,13 @@ namespace orca {
 
 /// What an author may say about a port when declaring it.
 struct PortOptions {
-  std::string text;      ///< One sentence for people.
+  std::string text{};     ///< One sentence for people.
   bool optional = false;  ///< A proxy that may stay unconnected.
-  /// A PushProxy whose subscription the component makes itself; otherwise it lasts as long as the component works.
+  /// A PushProxy whose subscription the component makes itself; otherwise it lasts as long as the component
+  /// works.
   bool manual = false;
-  /// Objects kept per edge (Push) or waiting to be handled (Send and Query servers); 0: the pattern's default.
+  /// Objects kept per edge (Push) or waiting to be handled (Send and Query servers); 0: the pattern's
+  /// default.
   std::uint32_t depth = 0;
 };
 
@@ -25,7 +27,7 @@ struct PortDeclaration {
   bool manual = false;
   /// Where the handle wants the address of its endpoint; filled by the host before configure().
   Endpoint** slot = nullptr;
-  SendServerEndpoint::Handler on_object;   ///< Send servers only.
+  SendServerEndpoint::Handler on_object;    ///< Send servers only.
   QueryServerEndpoint::Handler on_request;  ///< Query servers only.
 };
 

@@ -98,14 +98,16 @@ class PushProxy : public PushProxyHandle {
   ObjectPtr<T> get_update_wait() { return object_cast<T>(get_update_wait_ref(kForever)); }
 
   /// Blocks until there is a new object, at most `limit`. Null when the time has passed.
-  ObjectPtr<T> get_update_wait_max(Duration limit) { return object_cast<T>(get_update_wait_ref(deadline_in(limit))); }
+  ObjectPtr<T> get_update_wait_max(Duration limit) {
+    return object_cast<T>(get_update_wait_ref(deadline_in(limit)));
+  }
 
   /// The newest object, without blocking and without taking it. Null before the first.
   [[nodiscard]] ObjectPtr<T> latest() const { return object_cast<T>(latest_ref()); }
 };
 
-/// A port array: objects of one type from any number of PushServers, told apart by the servers' names. Subscriptions
-/// are made by the component, by name, at run time.
+/// A port array: objects of one type from any number of PushServers, told apart by the servers' names.
+/// Subscriptions are made by the component, by name, at run time.
 ///
 /// Thread contract: the component's strand.
 template <class T>

@@ -76,7 +76,8 @@ struct EdgeCounters {
 /// Thread contract: deliver() from the server's strand, the rest from the client's.
 class PushEdge final : public PushSink {
  public:
-  PushEdge(Endpoint& client, PushSource& source, QueuePolicy policy, std::function<void(const ObjectRef&)> observe);
+  PushEdge(Endpoint& client, PushSource& source, QueuePolicy policy,
+           std::function<void(const ObjectRef&)> observe);
 
   void subscribe();
   void unsubscribe();

@@ -42,7 +42,8 @@ class QueryServer : public QueryServerHandle {
 /// The untyped part of QueryProxy.
 class QueryProxyHandle {
  public:
-  QueryProxyHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply, const PortOptions& options);
+  QueryProxyHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply,
+                   const PortOptions& options);
   QueryProxyHandle(const QueryProxyHandle&) = delete;
   QueryProxyHandle& operator=(const QueryProxyHandle&) = delete;
 
@@ -51,26 +52,30 @@ class QueryProxyHandle {
  protected:
   Result<QueryId> request_loan(ObjectLoan loan);
   [[nodiscard]] TimePoint deadline_in(Duration limit) const;
-  [[nodiscard]] QueryClientEndpoint& endpoint() const { return static_cast<QueryClientEndpoint&>(*endpoint_); }
+  [[nodiscard]] QueryClientEndpoint& endpoint() const {
+    return static_cast<QueryClientEndpoint&>(*endpoint_);
+  }
 
  private:
   Endpoint* endpoint_ = nullptr;
 };
 
-/// Asks one QueryServer (thesis 7.3, Fig. 7.5): blocking with query(), or in two steps with query_request() and
-/// query_receive() or query_receive_wait().
+/// Asks one QueryServer (thesis 7.3, Fig. 7.5): blocking with query(), or in two steps with query_request()
+/// and query_receive() or query_receive_wait().
 ///
 /// Thread contract: the component's strand.
 template <class Q, class A>
 class QueryProxy : public QueryProxyHandle {
  public:
   QueryProxy(PortOwner& owner, std::string name, const PortOptions& options = {})
-      : QueryProxyHandle(owner, std::move(name), type_id(object_type<Q>()), type_id(object_type<A>()), options) {}
+      : QueryProxyHandle(owner, std::move(name), type_id(object_type<Q>()), type_id(object_type<A>()),
+                         options) {}
 
   [[nodiscard]] Loan<Q> loan() const { return make_object<Q>(); }
 
   /// Asks and waits for the answer.
-  /// @errors  failed_precondition if not connected, unavailable if refused, deadline_exceeded, or the server's own.
+  /// @errors  failed_precondition if not connected, unavailable if refused, deadline_exceeded, or the
+  /// server's own.
   Result<ObjectPtr<A>> query(Loan<Q> request, Duration timeout = 1s) {
     const Result<QueryId> id = query_request(std::move(request));
     if (!id) return id.error();

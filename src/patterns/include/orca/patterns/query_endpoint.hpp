@@ -27,7 +27,8 @@ class QueryReplySink {
 class QueryTarget {
  public:
   virtual ~QueryTarget() = default;
-  /// Accepts the question, or refuses it with the reason. An accepted question is always answered, be it by an error.
+  /// Accepts the question, or refuses it with the reason. An accepted question is always answered, be it by
+  /// an error.
   virtual Status ask(const ObjectRef& request, QueryReplySink& reply_to, QueryId id) = 0;
   [[nodiscard]] virtual std::string path() const = 0;
 };
@@ -49,7 +50,8 @@ class QueryServerEndpoint final : public Endpoint, public QueryTarget {
   void close(const std::string& reason);
 
   /// Answers one waiting question.
-  /// @return false if none was waiting. An exception of the handler is passed on after the client has been told.
+  /// @return false if none was waiting. An exception of the handler is passed on after the client has been
+  /// told.
   bool handle_one();
 
   [[nodiscard]] IntakeCounters counters() const;

@@ -26,10 +26,12 @@ template <class T>
 class SendServer : public SendServerHandle {
  public:
   template <class C>
-  SendServer(C& owner, std::string name, Status (C::*handler)(const ObjectPtr<T>&), const PortOptions& options = {})
+  SendServer(C& owner, std::string name, Status (C::*handler)(const ObjectPtr<T>&),
+             const PortOptions& options = {})
       : SendServerHandle(
             owner, std::move(name), type_id(object_type<T>()),
-            [&owner, handler](const ObjectRef& object) { return (owner.*handler)(object_cast<T>(object)); }, options) {}
+            [&owner, handler](const ObjectRef& object) { return (owner.*handler)(object_cast<T>(object)); },
+            options) {}
 };
 
 /// The untyped part of SendProxy.

@@ -26,7 +26,8 @@ struct IntakeCounters {
   std::uint64_t failed = 0;   ///< Accepted, but the handler returned an error.
 };
 
-/// Server side of Send: accepted objects wait here until the component's strand handles them between two laps.
+/// Server side of Send: accepted objects wait here until the component's strand handles them between two
+/// laps.
 ///
 /// Thread contract: offer() from any strand; the rest from the server's.
 class SendServerEndpoint final : public Endpoint, public SendTarget {

@@ -7,8 +7,8 @@
 
 namespace orca {
 
-/// Waits for several PushProxies of one component (thesis 7.4, Fig. 7.11). It only waits: taking the objects stays with
-/// the proxies.
+/// Waits for several PushProxies of one component (thesis 7.4, Fig. 7.11). It only waits: taking the objects
+/// stays with the proxies.
 ///
 /// Every wait throws Interrupted when the component must leave its lap.
 /// Thread contract: the component's strand.

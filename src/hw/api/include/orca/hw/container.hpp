@@ -42,12 +42,13 @@ class HardwareHost : public PluginHost {
   [[nodiscard]] virtual Executive& executive() = 0;
 };
 
-/// All hardware behind one port or bus: it opens, starts, stops and closes the device, and has sensor and motion
-/// endpoints (thesis 10.2, Fig. 10.1-10.2). A server component (RobotBaseServer, LaserServer) wraps it.
+/// All hardware behind one port or bus: it opens, starts, stops and closes the device, and has sensor and
+/// motion endpoints (thesis 10.2, Fig. 10.1-10.2). A server component (RobotBaseServer, LaserServer) wraps
+/// it.
 ///
 /// A driver overrides the protected functions; they run on the container's own strand and never overlap. The
-/// constructor only declares parameters; prepare() declares endpoints from them and opens nothing, so that a graph can be
-/// checked without the device.
+/// constructor only declares parameters; prepare() declares endpoints from them and opens nothing, so that a
+/// graph can be checked without the device.
 ///
 /// Thread contract: the public functions from any strand.
 class HardwareContainer {
@@ -75,14 +76,17 @@ class HardwareContainer {
   void run();
   /// Stops the motors, closes the device and ends the strand.
   void shut_down();
-  [[nodiscard]] bool join_until(TimePoint deadline) { return strand_ == nullptr || strand_->join_until(deadline); }
+  [[nodiscard]] bool join_until(TimePoint deadline) {
+    return strand_ == nullptr || strand_->join_until(deadline);
+  }
 
   /// A user more or less: the device is started for the first and stopped after the last.
   void acquire();
   void release();
 
   /// Takes a command for the motion endpoint, to be carried out at once.
-  /// @errors  failed_precondition without a motion endpoint, unavailable unless active, and MotionHW::command()'s.
+  /// @errors  failed_precondition without a motion endpoint, unavailable unless active, and
+  /// MotionHW::command()'s.
   Status command(const idl::MotionCommand& command);
 
   [[nodiscard]] HardwareState state() const { return state_.load(std::memory_order_acquire); }

@@ -17,8 +17,8 @@ namespace orca::hw {
 /// What a sensor endpoint measures with: the robot's own senses, or the simulator's knowledge of the truth.
 enum class Source { sensor, truth };
 
-/// One kind of reading that a hardware container delivers, whatever its type (thesis 10.2, Fig. 10.5). The server that
-/// wraps the container turns it into a Push and a Query port named after the object type.
+/// One kind of reading that a hardware container delivers, whatever its type (thesis 10.2, Fig. 10.5). The
+/// server that wraps the container turns it into a Push and a Query port named after the object type.
 ///
 /// Thread contract: publish() from the container's strand; the rest from any.
 class SensorEndpoint {
@@ -72,19 +72,20 @@ struct DriveLimits {
   double max_speed = 0.0;        ///< [m/s]
   double max_steer_speed = 0.0;  ///< [rad/s]
   double steer_gain = 0.5;       ///< [1/s] turn rate per radian of direction asked for.
-  double big_turn_angle = 0.0;   ///< [rad] at larger directions the base drives at most `big_turn_speed`; 0: no such limit.
-  double big_turn_speed = 0.0;   ///< [m/s]
+  double big_turn_angle =
+      0.0;  ///< [rad] at larger directions the base drives at most `big_turn_speed`; 0: no such limit.
+  double big_turn_speed = 0.0;  ///< [m/s]
 };
 
 /// A crisp set-point for the motors of a differential or synchro base, robot frame.
 struct DriveSetpoint {
-  double speed = 0.0;       ///< [m/s] forward positive.
+  double speed = 0.0;        ///< [m/s] forward positive.
   double steer_speed = 0.0;  ///< [rad/s] counter-clockwise positive.
   friend bool operator==(const DriveSetpoint&, const DriveSetpoint&) = default;
 };
 
-/// The motion endpoint of a container (thesis 10.2, Fig. 10.6): takes crisp commands, keeps them within the limits, and
-/// lets none live longer than `max_command_age`.
+/// The motion endpoint of a container (thesis 10.2, Fig. 10.6): takes crisp commands, keeps them within the
+/// limits, and lets none live longer than `max_command_age`.
 ///
 /// Thread contract: command() from any strand; due() from the container's.
 class MotionHW {
@@ -92,7 +93,8 @@ class MotionHW {
   MotionHW(const DriveLimits& limits, Duration max_command_age);
 
   /// Takes a command, to be carried out at the container's next turn.
-  /// @errors  invalid_argument for DONTCARE (fuse first), for a negative speed weight, and for values that are not finite.
+  /// @errors  invalid_argument for DONTCARE (fuse first), for a negative speed weight, and for values that
+  /// are not finite.
   Status command(const idl::MotionCommand& command, TimePoint now);
 
   /// The set-point that holds now: zero when the last command is older than max_command_age.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "orca/base/executive.hpp"
 
@@ -18,7 +18,7 @@ struct Interrupted {};
 /// The one strand on which everything of a component runs: laps, handlers, parameter changes and state hooks.
 /// Because it is one task they never overlap, and authors need no locks.
 ///
-/// Thread contract: wake() and interrupt() from anywhere; the waits only from the strand's own task.
+/// Thread contract: wake() from anywhere; the waits only from the strand's own task.
 class Strand {
  public:
   Strand(Executive& executive, TaskOptions options);
@@ -29,9 +29,9 @@ class Strand {
   /// Something that the strand may be waiting for has changed.
   void wake() { event_->notify(); }
 
-  /// The present or next wait_for() of the strand throws Interrupted, until clear_interrupt().
-  void interrupt();
-  void clear_interrupt() { interrupted_.store(false, std::memory_order_release); }
+  /// What makes a wait_for() throw Interrupted: asked by the strand itself, each time it is woken. Set before
+  /// start().
+  void set_leave_condition(std::function<bool()> leave) { leave_ = std::move(leave); }
 
   /// Blocks until `condition` holds or the deadline comes. For waits inside a component's own code.
   ///
@@ -40,7 +40,7 @@ class Strand {
   template <class Condition>
   bool wait_for(TimePoint deadline, Condition&& condition) {
     while (!condition()) {
-      if (interrupted_.load(std::memory_order_acquire)) throw Interrupted{};
+      if (leave_ && leave_()) throw Interrupted{};
       if (!event_->wait_until(deadline) && executive_.now() >= deadline) return condition();
     }
     return true;
@@ -59,7 +59,7 @@ class Strand {
   Executive& executive_;
   TaskOptions options_;
   std::unique_ptr<Event> event_;
-  std::atomic<bool> interrupted_{false};
+  std::function<bool()> leave_;
   std::unique_ptr<Task> task_;
 };
 

@@ -14,13 +14,13 @@ namespace orca {
 
 /// The base of every component (thesis 9.3): an equal peer that talks through ports only.
 ///
-/// The state machine (thesis 9.4) calls the hooks: INIT configure(), CONNECT start(), WORK work() lap by lap, and stop()
-/// on the way back to IDLE. A component works while somebody subscribes to one of its PushServers, or while it has
-/// asked for it with stay_active(); the graph may say `autonomous`.
+/// The state machine (thesis 9.4) calls the hooks: INIT configure(), CONNECT start(), WORK work() lap by lap,
+/// and stop() on the way back to IDLE. A component works while somebody subscribes to one of its PushServers,
+/// or while it has asked for it with stay_active(); the graph may say `autonomous`.
 ///
-/// Two rules make this sound. The constructor only declares: ports and parameters are members, and nothing is opened or
-/// started, so that a process may construct a component only to describe it. And all hooks, laps and handlers run on one
-/// strand: they never overlap, no locks are needed.
+/// Two rules make this sound. The constructor only declares: ports and parameters are members, and nothing is
+/// opened or started, so that a process may construct a component only to describe it. And all hooks, laps
+/// and handlers run on one strand: they never overlap, no locks are needed.
 ///
 /// Thread contract: everything on the component's strand.
 class Component : public PortOwner {
@@ -29,11 +29,12 @@ class Component : public PortOwner {
   Component(const Component&) = delete;
   Component& operator=(const Component&) = delete;
 
-  /// INIT, once, after the parameters are set: check them, allocate. An error keeps the whole system from starting.
+  /// INIT, once, after the parameters are set: check them, allocate. An error keeps the whole system from
+  /// starting.
   virtual Status configure() { return ok(); }
 
-  /// CONNECT, each time a first client comes, after the component's own providers have been subscribed to. An error
-  /// leads to WORK_FAILED.
+  /// CONNECT, each time a first client comes, after the component's own providers have been subscribed to. An
+  /// error leads to WORK_FAILED.
   virtual Status start() { return ok(); }
 
   /// WORK: one lap. Blocking calls on ports are welcome.
@@ -48,9 +49,11 @@ class Component : public PortOwner {
 
  protected:
   /// What starts a lap unless the graph says otherwise; without these, the next lap follows at once.
-  /// @pre  called from the constructor.
+  /// @pre  called from the constructor or from configure().
   void lap_every(Duration period) { host_.set_default_trigger({Trigger::Kind::period, period, {}}); }
-  void lap_on(std::string port) { host_.set_default_trigger({Trigger::Kind::on_port, Duration{0}, std::move(port)}); }
+  void lap_on(std::string port) {
+    host_.set_default_trigger({Trigger::Kind::on_port, Duration{0}, std::move(port)});
+  }
 
   [[nodiscard]] const std::string& name() const { return host_.name(); }
   [[nodiscard]] TimePoint now() const { return host_.now(); }

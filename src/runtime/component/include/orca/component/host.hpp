@@ -56,7 +56,8 @@ class ComponentHost : public PluginHost {
   virtual void declare_port(PortDeclaration declaration) = 0;
   virtual void set_default_trigger(const Trigger& trigger) = 0;
 
-  /// The hardware that the graph binds to this component, or null. Naming it here makes it part of the contract.
+  /// The hardware that the graph binds to this component, or null. Naming it here makes it part of the
+  /// contract.
   [[nodiscard]] virtual hw::HardwareContainer* hardware() = 0;
 
   virtual void stay_active(bool active) = 0;

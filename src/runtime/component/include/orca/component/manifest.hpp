@@ -29,9 +29,9 @@ struct TypeEntry {
   void (*destroy_hardware)(hw::HardwareContainer*);
 };
 
-/// The one symbol that a plugin exports, `orca_plugin_manifest`. Plain data: it can be checked before any of the
-/// plugin's code has run. Compatibility is decided by abi_version, size and the objects' type hashes; build_id is for
-/// people.
+/// The one symbol that a plugin exports, `orca_plugin_manifest`. Plain data: it can be checked before any of
+/// the plugin's code has run. Compatibility is decided by abi_version, size and the objects' type hashes;
+/// build_id is for people.
 struct Manifest {
   std::uint32_t abi_version;
   std::uint32_t size;  ///< sizeof(Manifest) when the plugin was built.
@@ -42,16 +42,17 @@ struct Manifest {
 
 }  // namespace orca
 
-// Entries gather in a section of their own; plugin_entry.cpp, which orca_add_component() adds, exports its bounds.
-#define ORCA_DETAIL_TYPE_ENTRY(...)                                            \
-  namespace {                                                                  \
-  constexpr ::orca::TypeEntry orca_type_entry __VA_ARGS__;                     \
-  [[gnu::section("orca_types"), gnu::used, gnu::retain]] const ::orca::TypeEntry* const \
-      orca_type_entry_pointer = &orca_type_entry;                              \
+// Entries gather in a section of their own; plugin_entry.cpp, which orca_add_component() adds, exports its
+// bounds.
+#define ORCA_DETAIL_TYPE_ENTRY(...)                                                          \
+  namespace {                                                                                \
+  constexpr ::orca::TypeEntry orca_type_entry __VA_ARGS__;                                   \
+  [[gnu::section("orca_types"), gnu::used,                                                   \
+    gnu::retain]] const ::orca::TypeEntry* const orca_type_entry_pointer = &orca_type_entry; \
   }
 
 /// Makes a class of this source file known as a component type. Once per file, at its end.
-#define ORCA_COMPONENT(Class, type_name)                                                        \
-  ORCA_DETAIL_TYPE_ENTRY({::orca::PluginKind::component, type_name,                             \
+#define ORCA_COMPONENT(Class, type_name)                                                                     \
+  ORCA_DETAIL_TYPE_ENTRY({::orca::PluginKind::component, type_name,                                          \
                           [](::orca::ComponentHost& host) -> ::orca::Component* { return new Class(host); }, \
                           [](::orca::Component* component) { delete component; }, nullptr, nullptr})

@@ -6,8 +6,8 @@
 
 namespace orca {
 
-/// How one lap of work() ended. The thesis has a bool here (true: WORK_DONE, false: WORK_FAILED); an Outcome can also say
-/// "not yet", and a failure keeps its reason.
+/// How one lap of work() ended. The thesis has a bool here (true: WORK_DONE, false: WORK_FAILED); an Outcome
+/// can also say "not yet", and a failure keeps its reason.
 struct [[nodiscard]] Outcome {
   enum class Kind { again, done, failed };
   Kind kind = Kind::again;

@@ -14,12 +14,12 @@ namespace orca {
 
 /// What an author may say about a parameter: the one place where it is documented.
 struct ParamOptions {
-  std::string unit;                  ///< SI unit of the value; empty: none.
-  std::optional<double> min;         ///< In that unit.
-  std::optional<double> max;         ///< In that unit.
-  std::vector<std::string> choices;  ///< Allowed texts; empty: any.
-  bool file = false;                 ///< The text names a file.
-  std::string text;                  ///< One sentence for people.
+  std::string unit{};                  ///< SI unit of the value; empty: none.
+  std::optional<double> min{};         ///< In that unit.
+  std::optional<double> max{};         ///< In that unit.
+  std::vector<std::string> choices{};  ///< Allowed texts; empty: any.
+  bool file = false;                   ///< The text names a file.
+  std::string text{};                  ///< One sentence for people.
 };
 
 /// A parameter of a component: declared as a member, set by the graph before configure(), read with `*`.
@@ -41,7 +41,8 @@ class Param {
     contract.file = options.file;
     contract.default_value = ParamValue(std::move(default_value));
     contract.text = std::move(options.text);
-    owner.declare_param({std::move(contract), [this](const ParamValue& value) { value_ = std::get<T>(value); }});
+    owner.declare_param(
+        {std::move(contract), [this](const ParamValue& value) { value_ = std::get<T>(value); }});
   }
   Param(const Param&) = delete;
   Param& operator=(const Param&) = delete;

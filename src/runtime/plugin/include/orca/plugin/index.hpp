@@ -14,7 +14,8 @@ namespace orca {
 /// A plain value.
 class PluginIndex {
  public:
-  /// @param folders  searched in this order; the first that knows a type wins. Missing folders are remembered for
+  /// @param folders  searched in this order; the first that knows a type wins. Missing folders are remembered
+  /// for
   ///                 error texts.
   explicit PluginIndex(std::vector<std::string> folders);
 

@@ -11,14 +11,16 @@
 
 namespace orca {
 
-/// A plugin in memory, from load() until the object is destroyed. Whatever was made from its types must be gone by then.
+/// A plugin in memory, from load() until the object is destroyed. Whatever was made from its types must be
+/// gone by then.
 ///
 /// Thread contract: one thread.
 class PluginLibrary {
  public:
   /// Loads a plugin and checks its manifest.
   ///
-  /// @errors  not_found if there is no such file; invalid_argument, with what is wrong and what to do, for a file that
+  /// @errors  not_found if there is no such file; invalid_argument, with what is wrong and what to do, for a
+  /// file that
   ///          cannot be loaded, that is not an Orca plugin, or that was built for another ABI version.
   static Result<std::unique_ptr<PluginLibrary>> load(const std::string& path);
 

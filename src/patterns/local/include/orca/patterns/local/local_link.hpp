@@ -6,7 +6,8 @@
 
 namespace orca {
 
-/// Connects two ports of the same process: objects are handed over as they are, without copy or serialisation.
+/// Connects two ports of the same process: objects are handed over as they are, without copy or
+/// serialisation.
 ///
 /// @param from    a PushServer, QueryProxy or SendProxy, as in <connect from= to=>.
 /// @param to      the other end.
