@@ -27,8 +27,8 @@ std::string text_of(const ParamValue& value) {
 }
 
 void write_port(std::ostream& out, const PortContract& port) {
-  out << "    " << port.name << (port.many ? "[]" : "") << "  " << to_string(port.pattern) << to_string(port.role) << " of "
-      << port.type.name;
+  out << "    " << port.name << (port.many ? "[]" : "") << "  " << to_string(port.pattern)
+      << to_string(port.role) << " of " << port.type.name;
   if (port.reply) out << " -> " << port.reply->name;
   if (port.role == Role::proxy) out << (port.required ? ", required" : ", optional");
   out << (port.text.empty() ? "" : ": " + port.text) << "\n";
@@ -36,10 +36,12 @@ void write_port(std::ostream& out, const PortContract& port) {
 
 void write_param(std::ostream& out, const ParamContract& param) {
   const std::string unit = param.unit.empty() ? "" : " " + param.unit;
-  out << "    " << param.name << " = " << text_of(param.default_value) << unit << "  (" << to_string(param.type);
+  out << "    " << param.name << " = " << text_of(param.default_value) << unit << "  ("
+      << to_string(param.type);
   if (param.min) out << ", from " << xml::number_text(*param.min) << unit;
   if (param.max) out << ", to " << xml::number_text(*param.max) << unit;
-  for (const std::string& choice : param.choices) out << (&choice == &param.choices.front() ? ", one of " : " | ") << choice;
+  for (const std::string& choice : param.choices)
+    out << (&choice == &param.choices.front() ? ", one of " : " | ") << choice;
   out << ")" << (param.text.empty() ? "" : ": " + param.text) << "\n";
 }
 
@@ -57,7 +59,8 @@ void write_contract(std::ostream& out, const Contract& contract) {
 
 Result<std::string> describe_plugin(const std::string& path) {
   // With a folder in its name, so that the system's loader takes this file and does not search.
-  const Result<std::unique_ptr<PluginLibrary>> library = PluginLibrary::load(std::filesystem::absolute(path).string());
+  const Result<std::unique_ptr<PluginLibrary>> library =
+      PluginLibrary::load(std::filesystem::absolute(path).string());
   if (!library) return library.error();
   std::ostringstream out;
   for (const TypeEntry* type : (*library)->types()) {

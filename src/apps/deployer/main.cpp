@@ -23,7 +23,9 @@ int refuse(const std::string& text) {
 }
 
 // Plugins are found beside the program, then where the graph says; no environment variable.
-std::string plugin_folder() { return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "plugins").string(); }
+std::string plugin_folder() {
+  return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "plugins").string();
+}
 
 int describe(const Options& options) {
   const orca::Result<std::string> text = orca::deployer::describe_plugin(options.file);

@@ -58,7 +58,8 @@ Status set_argument(Options& options, const std::string& value) {
 }
 
 Status set_picture(Options& options, const std::string& value) {
-  if (!value.ends_with(".svg") && !value.ends_with(".png")) return expected("--picture", "a file ending in .svg or .png", value);
+  if (!value.ends_with(".svg") && !value.ends_with(".png"))
+    return expected("--picture", "a file ending in .svg or .png", value);
   options.run.picture_file = value;
   return ok();
 }
@@ -105,15 +106,17 @@ Status choose_executor(Options& options, const Words& executor) {
   } else {
     return expected("--executor", "thread, fiber or baton", name);
   }
-  if (Result<std::unique_ptr<Executive>> tried = make_executive(options.run.executive); !tried) return tried.error();
+  if (Result<std::unique_ptr<Executive>> tried = make_executive(options.run.executive); !tried)
+    return tried.error();
   return ok();
 }
 
 Error unknown(const std::string& word, const std::map<std::string, Option>& table) {
   std::vector<std::string> names;
   for (const auto& [name, option] : table) names.push_back(name);
-  return fail(Code::invalid_argument,
-              "unknown option \"" + word + "\"" + xml::did_you_mean(xml::nearest_name(word, names)) + " (see --help)");
+  return fail(Code::invalid_argument, "unknown option \"" + word + "\"" +
+                                          xml::did_you_mean(xml::nearest_name(word, names)) +
+                                          " (see --help)");
 }
 
 bool needs_file(Options::Action action) {
@@ -122,7 +125,8 @@ bool needs_file(Options::Action action) {
 
 Status take_word(Options& options, const std::string& word) {
   if (!options.file.empty())
-    return fail(Code::invalid_argument, "one file only: there is \"" + options.file + "\" and \"" + word + "\"");
+    return fail(Code::invalid_argument,
+                "one file only: there is \"" + options.file + "\" and \"" + word + "\"");
   options.file = word;
   return ok();
 }
