@@ -36,11 +36,9 @@ int describe(const Options& options) {
 
 int with_graph(const Options& options) {
   orca::xml::Diagnostics diagnostics;
-  const auto source = orca::graph::load_file(options.file, {options.profiles, options.args}, diagnostics);
-  std::vector<std::string> folders{plugin_folder()};
-  if (source) folders.insert(folders.end(), source->plugin_dirs.begin(), source->plugin_dirs.end());
-  orca::PluginCatalogue catalogue{orca::PluginIndex(folders)};
-  const auto graph = source ? orca::graph::check(*source, catalogue, diagnostics) : std::nullopt;
+  orca::PluginCatalogue catalogue{orca::PluginIndex({plugin_folder()})};
+  const auto graph =
+      orca::graph::load_file(options.file, {options.profiles, options.settings}, catalogue, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (!graph || diagnostics.has_errors()) return exit_with(ExitCode::bad_input);
   if (options.action == Options::Action::print) {

@@ -2,6 +2,7 @@
 #include "options.hpp"
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -53,7 +54,7 @@ Status set_until(Options& options, const std::string& value) {
 Status set_argument(Options& options, const std::string& value) {
   const auto equals = value.find('=');
   if (equals == std::string::npos || equals == 0) return expected("--set", "ARG=VALUE", value);
-  options.args[value.substr(0, equals)] = value.substr(equals + 1);
+  options.settings.push_back(value);
   return ok();
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ struct Options {
   Action action = Action::run;
   std::string file;  ///< The graph, or the plugin to describe.
   std::vector<std::string> profiles;
-  std::map<std::string, std::string> args;  ///< From --set.
+  std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
   RunOptions run;
   log::Level log_level = log::Level::info;
 };

@@ -14,10 +14,10 @@ namespace orca {
 /// How to run a system.
 struct RunOptions {
   ExecutiveOptions executive;
-  std::uint64_t seed = 1;
-  std::optional<Duration> until;  ///< End then [s of the run's clock]; none: no such limit.
-  std::string trace_file;         ///< Empty: none.
-  std::string picture_file;       ///< Ends in .svg or .png; empty: none.
+  std::optional<std::uint64_t> seed;  ///< None: the graph's, else 1.
+  std::optional<Duration> until;      ///< End then [s of the run's clock]; none: no such limit.
+  std::string trace_file;             ///< Empty: none.
+  std::string picture_file;           ///< Ends in .svg or .png; empty: none.
 };
 
 /// Exit codes of the deployer (DESIGN 15).
