@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ int describe(const Options& options) {
 }
 
 int with_graph(const Options& options) {
+  // First of all, so that a signal at any moment ends the run as it should.
+  std::optional<orca::StopSignal> stop;
+  if (options.action == Options::Action::run) stop.emplace();
   orca::xml::Diagnostics diagnostics;
   orca::PluginCatalogue catalogue{orca::PluginIndex({plugin_folder()})};
   const auto graph =
@@ -50,7 +54,7 @@ int with_graph(const Options& options) {
                  graph->components.size(), graph->edges.size());
     return exit_with(ExitCode::finished);
   }
-  return exit_with(orca::run_system(*graph, catalogue, options.run));
+  return exit_with(orca::run_system(*graph, catalogue, options.run, *stop));
 }
 
 }  // namespace
