@@ -124,7 +124,7 @@ class Run {
   Trace trace_;
   Announcer announcer_;
   std::unique_ptr<Event> changed_ = executive_.make_event();
-  RunContext context_{executive_, trace_, options_.seed,
+  RunContext context_{executive_, trace_, options_.seed.value_or(graph_.seed.value_or(1)),
                       [this](const Announcement& a) { announcer_.announce(a); },
                       [this] { changed_->notify(); }};
   System system_{graph_, context_, [this] { return stop_.requested(); }};
