@@ -32,7 +32,7 @@ class Plan {
     while (!open.empty()) {
       const auto [x, y] = open.front();
       open.pop_front();
-      for (const Cell next : {Cell{x + 1, y}, Cell{x - 1, y}, Cell{x, y + 1}, Cell{x, y - 1}})
+      for (const Cell& next : {Cell{x + 1, y}, Cell{x - 1, y}, Cell{x, y + 1}, Cell{x, y - 1}})
         if (!reached_.contains(next) && free(next)) {
           reached_.insert(next);
           open.push_back(next);

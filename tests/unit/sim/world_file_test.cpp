@@ -83,7 +83,7 @@ TEST_CASE("what is not a world is told as such", "[sim][world_file]") {
         "w.xml:1:1: error W001: the root element is <graph>; a world file begins with <world name=\"...\" "
         "version=\"1\">\n");
   CHECK_THAT(errors_in("<world name='w' version='2'/>"),
-             Catch::Contains("w.xml:1:25: error W010: version \"2\" of the world format is not known"));
+             Catch::Contains("w.xml:1:26: error W010: version \"2\" of the world format is not known"));
   CHECK_THAT(errors_in("<world name='w' version='1'>"), Catch::Contains("w.xml:1:"));
   CHECK_THAT(errors_in("<world/>"), Catch::Contains("error W004: <world> needs the attribute \"name\"") &&
                                         Catch::Contains("needs the attribute \"version\""));
