@@ -9,10 +9,10 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-const std::string kInertial =
-    R"(<inertial><mass value="10"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="0.5"/></inertial>)";
-const std::string kCollision =
-    R"(<collision><origin xyz="0 0 0.2"/><geometry><cylinder radius="0.2" length="0.3"/></geometry></collision>)";
+const std::string kInertial = R"(<inertial><mass value="10"/>)"
+                              R"(<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="0.5"/></inertial>)";
+const std::string kCollision = R"(<collision><origin xyz="0 0 0.2"/>)"
+                               R"(<geometry><cylinder radius="0.2" length="0.3"/></geometry></collision>)";
 const std::string kBase = R"(<link name="base">)" + kInertial + kCollision + "</link>";
 const std::string kDrive =
     R"(<drive type="differential" max_speed="1 m/s" max_steer_speed="2 rad/s" max_acceleration="1 m/s2")"
@@ -191,7 +191,7 @@ TEST_CASE("wrong devices are told where they stand", "[sim][robot_file]") {
              Catch::Contains("error R022: min_range must be less than max_range"));
   CHECK_THAT(device("", "10 deg", "100 deg"),
              Catch::Contains("error R022: half_lobe must be at most 90 deg"));
-  CHECK_THAT(device("", "0.2 s", "5 ms"), Catch::Contains("error R022: the period must be at least"));
+  CHECK_THAT(device("", "0.2 s", "5 ms"), Catch::Contains("error R022: the period must be between"));
   CHECK_THAT(device("<odometry period='0 s'/>", "0.2 s", "0.2 s"),
              Catch::Contains("error R005: period: \"0 s\""));
   CHECK_THAT(

@@ -111,6 +111,10 @@ TEST_CASE("wrong values are told where they stand", "[sim][world_file]") {
              Catch::Contains("w.xml:2:13: error W005: from: \"0\" is not a point"));
   CHECK_THAT(errors("<wall from='0 0' to='1 x'/>"),
              Catch::Contains("error W005: to: \"1 x\" is not a point"));
+  CHECK_THAT(errors("<place name='far' x='1e300' y='0'/>"),
+             Catch::Contains("error W005: x: \"1e300\" is farther"));
+  CHECK_THAT(errors("<wall from='0 0' to='1e6 1'/>"),
+             Catch::Contains("error W005: to: \"1e6 1\" is farther"));
   CHECK_THAT(errors("<place name='1st' x='0' y='0'/>"),
              Catch::Contains("error W005: name: \"1st\" is not a name"));
 }
