@@ -18,6 +18,13 @@ std::string help(std::string_view word, const std::vector<std::string>& allowed,
   return xml::did_you_mean(xml::nearest_name(word, allowed)) + "; " + where + ": " + xml::listed(allowed);
 }
 
+// [m] Far enough for any robot, near enough for coordinates exact to a nanometre's fraction.
+constexpr double kFarthest = 1e5;
+
+std::string too_far(std::string_view text) {
+  return "\"" + std::string(text) + "\" is farther than the 100 km that a world may reach";
+}
+
 bool is_name(std::string_view text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; };
@@ -82,6 +89,7 @@ std::optional<double> Attributes::checked(const xml::Attribute& a, std::string_v
   if (!a.intact) return std::nullopt;
   const Result<double> value = xml::parse_quantity(a.value, unit);
   if (!value) return wrong(a, value.error().message), std::nullopt;
+  if (unit == "m" && std::fabs(*value) > kFarthest) return wrong(a, too_far(a.value)), std::nullopt;
   if (sign == Sign::positive && *value <= 0.0)
     return wrong(a, "\"" + a.value + "\" is not more than 0"), std::nullopt;
   if (sign == Sign::not_negative && *value < 0.0)
@@ -139,6 +147,7 @@ std::optional<Vec2> Attributes::point_in(const xml::Attribute& a, std::string_vi
   const Result<double> x = comma ? xml::parse_quantity(pieces[0], "m") : xml::parse_number(pieces[0]);
   const Result<double> y = comma ? xml::parse_quantity(pieces[1], "m") : xml::parse_number(pieces[1]);
   if (!x || !y) return bad(" (" + (x ? y : x).error().message + ")");
+  if (std::fmax(std::fabs(*x), std::fabs(*y)) > kFarthest) return wrong(a, too_far(text)), std::nullopt;
   return Vec2{*x, *y};
 }
 

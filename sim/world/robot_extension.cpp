@@ -57,13 +57,17 @@ void read_order(const Attributes& e, SonarRing& ring) {
   std::ranges::transform(*given, ring.order.begin(), [](double k) { return static_cast<std::size_t>(k); });
 }
 
+void check_period(const Attributes& e, Duration period) {
+  if (period < World::kTick || period > std::chrono::hours{1})
+    e.error_at("period", 22, "the period must be between the simulation's tick of 10 ms and an hour");
+}
+
 void check_ring(const Attributes& e, const SonarRing& ring) {
   if (ring.half_lobe > 0.5 * std::numbers::pi)
     e.error_at("half_lobe", 22, "half_lobe must be at most 90 deg");
   if (ring.min_range >= ring.max_range && ring.max_range > 0.0)
     e.error_at("min_range", 22, "min_range must be less than max_range");
-  if (ring.period > Duration{0} && ring.period < World::kTick)
-    e.error_at("period", 22, "the period must be at least the simulation's tick of 10 ms");
+  if (ring.period > Duration{0}) check_period(e, ring.period);
 }
 
 SonarRing read_ring(const Attributes& e, double robot_radius) {
@@ -91,8 +95,7 @@ void read_odometer(const Attributes& e, RobotModel& model) {
   e.allow({"period"}, {});
   const auto period = e.duration("period", Sign::positive);
   if (!period) return;
-  if (*period < World::kTick)
-    return e.error_at("period", 22, "the period must be at least the simulation's tick of 10 ms");
+  check_period(e, *period);
   model.odometer = Odometer{*period};
 }
 

@@ -15,11 +15,6 @@ constexpr double kWallThickness = 0.1;
 constexpr double kWallHeight = 2.5;
 constexpr std::size_t kMaxCorners = 1000;
 
-bool strictly_cross(const Segment& s, const Segment& t) {
-  const auto side = [](const Segment& e, Vec2 p) { return cross(e.b - e.a, p - e.a); };
-  return side(s, t.a) * side(s, t.b) < 0.0 && side(t, s.a) * side(t, s.b) < 0.0;
-}
-
 // Why these corners do not bound an area; empty if they do.
 std::string polygon_fault(const std::vector<Vec2>& corners) {
   if (corners.size() < 3)
@@ -32,7 +27,7 @@ std::string polygon_fault(const std::vector<Vec2>& corners) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (edges[i].a == edges[i].b) return "two corners in a row are the same point";
     for (std::size_t k = i + 2; k < edges.size(); ++k)
-      if (strictly_cross(edges[i], edges[k])) return "two sides of the polygon cross each other";
+      if (cross_each_other(edges[i], edges[k])) return "two sides of the polygon cross each other";
   }
   const Bounds b = bounds_of(Outline{edges});
   return b.low.x < b.high.x && b.low.y < b.high.y ? "" : "the polygon has no area";

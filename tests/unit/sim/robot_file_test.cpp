@@ -9,10 +9,10 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-const std::string kInertial =
-    R"(<inertial><mass value="10"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="0.5"/></inertial>)";
-const std::string kCollision =
-    R"(<collision><origin xyz="0 0 0.2"/><geometry><cylinder radius="0.2" length="0.3"/></geometry></collision>)";
+const std::string kInertial = R"(<inertial><mass value="10"/>)"
+                              R"(<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="0.5"/></inertial>)";
+const std::string kCollision = R"(<collision><origin xyz="0 0 0.2"/>)"
+                               R"(<geometry><cylinder radius="0.2" length="0.3"/></geometry></collision>)";
 const std::string kBase = R"(<link name="base">)" + kInertial + kCollision + "</link>";
 const std::string kDrive =
     R"(<drive type="differential" max_speed="1 m/s" max_steer_speed="2 rad/s" max_acceleration="1 m/s2")"
@@ -80,19 +80,20 @@ TEST_CASE("the shipped scout has the dimensions of a Nomad Scout", "[sim][robot_
 
 TEST_CASE("masses and shapes of all links are carried into the frame of the root", "[sim][robot_file]") {
   const std::string arm = "<link name='arm'>" + kInertial +
-                          "<collision><geometry><box size='0.2 0.1 0.1'/></geometry></collision></link>"
+                          "<collision><geometry><box size='0.4 0.1 0.1'/></geometry></collision></link>"
                           "<joint name='j' type='fixed'><parent link='base'/><child link='arm'/>"
                           "<origin xyz='0 0.1 0.5' rpy='0 0 1.5707963267948966'/></joint>";
   std::string errors;
-  const auto model = read(robot(kBase + arm), errors);
+  const auto model = read(replaced(robot(kBase + arm), "<orca", "<orca bumper_radius='0.4 m'"), errors);
   INFO(errors);
   REQUIRE(model);
   CHECK(model->mass == 20.0);
   CHECK(model->yaw_inertia == Approx(0.5 + 0.5 + 10.0 * 0.01));
   CHECK(model->top == Approx(0.55));
   CHECK(model->bottom == Approx(0.05));
-  // Turned by 90 deg, the arm reaches 0.1 m along y from (0, 0.1).
-  CHECK(contains(model->footprint, {0.0, 0.199}));
+  // Turned by 90 deg, the arm reaches 0.2 m along y from (0, 0.1).
+  CHECK(contains(model->footprint, {0.0, 0.299}));
+  CHECK_FALSE(contains(model->footprint, {0.22, 0.1}));
 }
 
 TEST_CASE("a file without robot, links, drive or extension is told", "[sim][robot_file]") {
@@ -110,7 +111,7 @@ TEST_CASE("a file without robot, links, drive or extension is told", "[sim][robo
 TEST_CASE("joints that do not make a tree are told", "[sim][robot_file]") {
   CHECK_THAT(errors("<link name='b'/>"), Catch::Contains("error R014: the robot has 2 root links (b, base)"));
   CHECK_THAT(errors(joint("j", "bse", "base")),
-             Catch::Contains("r.urdf:3:46: error R012: there is no link \"bse\"; did you mean \"base\"?"));
+             Catch::Contains("r.urdf:3:44: error R012: there is no link \"bse\"; did you mean \"base\"?"));
   CHECK_THAT(errors("<link name='b'/><link name='c'/>" + joint("j", "c", "b") + joint("k", "b", "c")),
              Catch::Contains("error R015: link \"b\" is its own ancestor: b <- c <- b"));
   CHECK_THAT(errors("<link name='b'/><link name='c'/>" + joint("i", "base", "b") + joint("j", "base", "c") +
@@ -173,7 +174,7 @@ TEST_CASE("wrong devices are told where they stand", "[sim][robot_file]") {
     return errors_in(robot(kBase, kDrive + replaced(kRing, from, to) + text));
   };
   CHECK_THAT(errors_in(robot(kBase, replaced(kDrive, "1 m/s\"", "1 kg\""))),
-             Catch::Contains("r.urdf:3:58: error R005: max_speed: \"1 kg\""));
+             Catch::Contains("r.urdf:3:60: error R005: max_speed: \"1 kg\""));
   CHECK_THAT(errors_in(robot(kBase, replaced(kDrive, "differential", "synchro"))),
              Catch::Contains("error R005: type: \"synchro\" is not known"));
   CHECK_THAT(errors_in(robot(kBase, kDrive + kDrive)),
@@ -190,7 +191,7 @@ TEST_CASE("wrong devices are told where they stand", "[sim][robot_file]") {
              Catch::Contains("error R022: min_range must be less than max_range"));
   CHECK_THAT(device("", "10 deg", "100 deg"),
              Catch::Contains("error R022: half_lobe must be at most 90 deg"));
-  CHECK_THAT(device("", "0.2 s", "5 ms"), Catch::Contains("error R022: the period must be at least"));
+  CHECK_THAT(device("", "0.2 s", "5 ms"), Catch::Contains("error R022: the period must be between"));
   CHECK_THAT(device("<odometry period='0 s'/>", "0.2 s", "0.2 s"),
              Catch::Contains("error R005: period: \"0 s\""));
   CHECK_THAT(

@@ -83,7 +83,7 @@ TEST_CASE("what is not a world is told as such", "[sim][world_file]") {
         "w.xml:1:1: error W001: the root element is <graph>; a world file begins with <world name=\"...\" "
         "version=\"1\">\n");
   CHECK_THAT(errors_in("<world name='w' version='2'/>"),
-             Catch::Contains("w.xml:1:25: error W010: version \"2\" of the world format is not known"));
+             Catch::Contains("w.xml:1:26: error W010: version \"2\" of the world format is not known"));
   CHECK_THAT(errors_in("<world name='w' version='1'>"), Catch::Contains("w.xml:1:"));
   CHECK_THAT(errors_in("<world/>"), Catch::Contains("error W004: <world> needs the attribute \"name\"") &&
                                         Catch::Contains("needs the attribute \"version\""));
@@ -111,6 +111,10 @@ TEST_CASE("wrong values are told where they stand", "[sim][world_file]") {
              Catch::Contains("w.xml:2:13: error W005: from: \"0\" is not a point"));
   CHECK_THAT(errors("<wall from='0 0' to='1 x'/>"),
              Catch::Contains("error W005: to: \"1 x\" is not a point"));
+  CHECK_THAT(errors("<place name='far' x='1e300' y='0'/>"),
+             Catch::Contains("error W005: x: \"1e300\" is farther"));
+  CHECK_THAT(errors("<wall from='0 0' to='1e6 1'/>"),
+             Catch::Contains("error W005: to: \"1e6 1\" is farther"));
   CHECK_THAT(errors("<place name='1st' x='0' y='0'/>"),
              Catch::Contains("error W005: name: \"1st\" is not a name"));
 }
