@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # The build recipe for plugins. Anything less pins a library in memory or runs stale code after a swap:
 # see docs/adr/0004-plugin-recipe.md.
+set(ORCA_BUILD_ID ${PROJECT_VERSION})
 set(ORCA_PLUGIN_SUPPORT_DIR ${CMAKE_CURRENT_LIST_DIR}/plugin)
 
 # orca_add_component(NAME SOURCES... [LINK targets...])
@@ -19,6 +20,7 @@ function(orca_add_component name)
   if(NOT (CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND ORCA_SANITIZE))
     target_link_options(${name} PRIVATE -Wl,-z,defs)
   endif()
+  target_compile_definitions(${name} PRIVATE ORCA_BUILD_ID="${ORCA_BUILD_ID}")
   target_link_libraries(${name} PRIVATE orca::component orca::hw_api ${arg_LINK} orca_options)
   list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
   add_custom_command(TARGET ${name} POST_BUILD

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Added to every plugin by orca_add_component(): exports the table of the types that the plugin holds.
+#include "orca/component/manifest.hpp"
+
+extern "C" {
+// Set by the linker: the bounds of the section in which ORCA_COMPONENT and ORCA_HARDWARE gather their
+// entries.
+[[gnu::visibility("hidden")]] extern const orca::TypeEntry* const __start_orca_types[];
+[[gnu::visibility("hidden")]] extern const orca::TypeEntry* const __stop_orca_types[];
+
+[[gnu::visibility("default")]] extern const orca::Manifest orca_plugin_manifest;
+const orca::Manifest orca_plugin_manifest{
+    orca::kAbiVersion, sizeof(orca::Manifest), ORCA_BUILD_ID, __start_orca_types, __stop_orca_types};
+}

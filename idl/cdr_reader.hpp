@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "cdr_writer.hpp"
+#include "orca/base/result.hpp"
+#include "orca/idl/reflection.hpp"
+
+namespace orca::detail {
+
+/// The fewest bytes that a value takes in XCDR1. It bounds what a damaged length can make us allocate.
+template <class T>
+constexpr std::size_t min_wire_size() {
+  if constexpr (ReflectedStruct<T>) {
+    return Reflection<T>::min_wire_size;
+  } else if constexpr (WireNumber<T>) {
+    return sizeof(T);
+  } else {
+    return sizeof(std::uint32_t);  // The length of a text, or an enumerator.
+  }
+}
+
+/// Reads what CdrWriter wrote. The bytes are not trusted: the first thing that cannot be ends the reading,
+/// and status() says which field it was.
+///
+/// Thread contract: one thread.
+class CdrReader {
+ public:
+  explicit CdrReader(std::span<const std::byte> payload) : payload_(payload) {}
+
+  template <class T>
+  void field(const FieldInfo& info, T& value) {
+    if (failed()) return;
+    read(value);
+    if (failed()) note_field(info.name);
+  }
+
+  template <WireNumber T>
+  void read(T& value) {
+    read_numbers(std::span<T>(&value, 1));
+  }
+  void read(bool& value);
+  void read(std::string& text);
+
+  template <ReflectedEnum T>
+  void read(T& value) {
+    std::uint32_t number = 0;
+    read(number);
+    if (failed()) return;
+    if (number >= EnumReflection<T>::names.size()) {
+      fail_enumerator(EnumReflection<T>::name, number, EnumReflection<T>::names.size());
+      return;
+    }
+    value = static_cast<T>(number);
+  }
+  template <ReflectedStruct T>
+  void read(T& value) {
+    Reflection<T>::fields(value, *this);
+  }
+  template <class T>
+  void read(std::vector<T>& values) {
+    const std::size_t count = read_count(min_wire_size<T>());
+    if (failed()) return;
+    values.resize(count);
+    read_elements(std::span<T>(values));
+  }
+  template <class T, std::size_t N>
+  void read(std::array<T, N>& values) {
+    read_elements(std::span<T>(values));
+  }
+
+  /// How the reading went, once all fields are read.
+  [[nodiscard]] Status status(std::string_view type_name) const;
+
+ private:
+  template <class T>
+  void read_elements(std::span<T> values) {
+    if constexpr (WireNumber<T>) {
+      if (!values.empty()) read_numbers(values);
+    } else {
+      for (T& value : values) {
+        read(value);
+        if (failed()) return;
+      }
+    }
+  }
+
+  template <WireNumber T>
+  void read_numbers(std::span<T> numbers) {
+    at_ = (at_ + sizeof(T) - 1) / sizeof(T) * sizeof(T);
+    copy_out(std::as_writable_bytes(numbers));
+  }
+
+  [[nodiscard]] bool failed() const { return !problem_.empty(); }
+  [[nodiscard]] std::size_t remaining() const { return at_ < payload_.size() ? payload_.size() - at_ : 0; }
+  /// The length of a sequence, not more than the payload can hold.
+  std::size_t read_count(std::size_t element_size);
+  void copy_out(std::span<std::byte> to);
+  void note_field(std::string_view name);
+  void fail_enumerator(std::string_view name, std::uint32_t found, std::size_t count);
+
+  std::span<const std::byte> payload_;
+  std::size_t at_ = 0;
+  std::string problem_;
+  std::string path_;
+};
+
+}  // namespace orca::detail

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "orca/idl/reflection.hpp"
+
+namespace orca::detail {
+
+static_assert(std::endian::native == std::endian::little, "CDR is written as the machine holds it");
+
+/// A number as it stands on the wire: aligned to its own size, little-endian.
+template <class T>
+concept WireNumber = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
+
+/// Appends values in XCDR version 1, the encoding that Fast DDS uses; alignment counts from the first byte.
+///
+/// Thread contract: one thread.
+/// @source  OMG DDS-XTypes 1.3, 7.4.3 (plain CDR, version 1); CORBA 3.3 part 2, 9.3.
+class CdrWriter {
+ public:
+  explicit CdrWriter(std::vector<std::byte>& out) : out_(out), start_(out.size()) {}
+
+  template <class T>
+  void field(const FieldInfo&, const T& value) {
+    write(value);
+  }
+
+  template <WireNumber T>
+  void write(T value) {
+    write_numbers(std::span<const T>(&value, 1));
+  }
+  void write(bool value) { out_.push_back(static_cast<std::byte>(value)); }
+  void write(const std::string& text) {
+    const std::string_view visible(text.c_str());  // An IDL string holds no zero.
+    write(static_cast<std::uint32_t>(visible.size() + 1));
+    append(std::as_bytes(std::span(visible)));
+    out_.push_back(std::byte{0});
+  }
+  template <ReflectedEnum T>
+  void write(T value) {
+    write(static_cast<std::uint32_t>(value));
+  }
+  template <ReflectedStruct T>
+  void write(const T& value) {
+    Reflection<T>::fields(value, *this);
+  }
+  template <class T>
+  void write(const std::vector<T>& values) {
+    write(static_cast<std::uint32_t>(values.size()));
+    write_elements(std::span<const T>(values));
+  }
+  template <class T, std::size_t N>
+  void write(const std::array<T, N>& values) {
+    write_elements(std::span<const T>(values));
+  }
+
+ private:
+  template <class T>
+  void write_elements(std::span<const T> values) {
+    if constexpr (WireNumber<T>) {
+      if (!values.empty()) write_numbers(values);
+    } else {
+      for (const T& value : values) write(value);
+    }
+  }
+
+  template <WireNumber T>
+  void write_numbers(std::span<const T> numbers) {
+    const std::size_t used = out_.size() - start_;
+    out_.resize(start_ + (used + sizeof(T) - 1) / sizeof(T) * sizeof(T));
+    append(std::as_bytes(numbers));
+  }
+
+  void append(std::span<const std::byte> bytes) { out_.insert(out_.end(), bytes.begin(), bytes.end()); }
+
+  std::vector<std::byte>& out_;
+  std::size_t start_;
+};
+
+}  // namespace orca::detail

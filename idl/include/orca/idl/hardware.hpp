@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+/// @file
+/// Robot, Actuator, Drive, Sensor, SonarRing, LaserSensor (thesis 8.3). What each field means,
+/// its unit and frame, is said in idl/orca/hardware.idl.
+#pragma once
+
+#include "orca/idl/generated/hardware.h"
+#include "orca/idl/generated/hardware.types.hpp"
+#include "orca/idl/geometry.hpp"
+#include "orca/idl/object.hpp"

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+/// @file
+/// GoalPoint, Door, Arrived (thesis 8.3). What each field means, its unit and frame, is
+/// said in idl/orca/navigation.idl.
+#pragma once
+
+#include "orca/idl/generated/navigation.h"
+#include "orca/idl/generated/navigation.types.hpp"
+#include "orca/idl/geometry.hpp"
+#include "orca/idl/object.hpp"

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "orca/idl/generated/object.h"
+#include "orca/idl/object_type.hpp"
+
+namespace orca {
+
+namespace detail {
+
+/// What lies in front of each pooled object.
+struct Slot {
+  const ObjectType* type;
+  void* object;
+  std::atomic<std::uint32_t> references{0};
+  Slot* next_free = nullptr;
+};
+
+/// Both live in liborca_idl.so, so that no plugin's code or memory is needed to end the life of an object.
+[[nodiscard]] Slot* acquire_slot(const ObjectType& type) noexcept;
+void release_slot(Slot* slot) noexcept;
+
+struct LoanDeleter {
+  void operator()(Slot* slot) const noexcept { release_slot(slot); }
+};
+using SlotOwner = std::unique_ptr<Slot, LoanDeleter>;
+
+}  // namespace detail
+
+/// A shared view of an object that nobody can change any more, of whatever type; or nothing.
+///
+/// Copying it copies no object. The object returns to its pool when the last view goes; the pool is never
+/// unloaded, so views may outlive the plugin that made the object.
+///
+/// Thread contract: like std::shared_ptr. Views may be copied and dropped in any thread, one view belongs to
+/// one thread at a time; the object is immutable and may be read by all.
+class ObjectRef {
+ public:
+  ObjectRef() = default;
+  ObjectRef(const ObjectRef& other) noexcept : slot_(other.slot_) {
+    if (slot_ != nullptr) slot_->references.fetch_add(1, std::memory_order_relaxed);
+  }
+  ObjectRef(ObjectRef&& other) noexcept : slot_(std::exchange(other.slot_, nullptr)) {}
+  ObjectRef& operator=(ObjectRef other) noexcept {
+    std::swap(slot_, other.slot_);
+    return *this;
+  }
+  ~ObjectRef() {
+    if (slot_ != nullptr) detail::release_slot(slot_);
+  }
+
+  explicit operator bool() const { return slot_ != nullptr; }
+  /// Whether both are views of one object, or of nothing.
+  friend bool operator==(const ObjectRef&, const ObjectRef&) = default;
+
+  /// @pre  *this, for all four.
+  [[nodiscard]] const ObjectType& type() const { return *slot_->type; }
+  [[nodiscard]] const void* get() const { return slot_->object; }
+  [[nodiscard]] const idl::OrcaObject& header() const { return slot_->type->header(slot_->object); }
+  [[nodiscard]] std::string dump() const { return slot_->type->dump(slot_->object); }
+
+ private:
+  friend class ObjectLoan;
+  explicit ObjectRef(detail::Slot* slot) : slot_(slot) {}
+
+  detail::Slot* slot_ = nullptr;
+};
+
+/// An ObjectRef that knows its type: a shared view of an immutable T, or nothing.
+///
+/// Thread contract: as ObjectRef.
+template <class T>
+class ObjectPtr {
+ public:
+  ObjectPtr() = default;
+  ObjectPtr(std::nullptr_t) {}  // NOLINT(google-explicit-constructor)
+
+  explicit operator bool() const { return static_cast<bool>(ref_); }
+  friend bool operator==(const ObjectPtr&, const ObjectPtr&) = default;
+  friend bool operator==(const ObjectPtr& a, std::nullptr_t) { return !a.ref_; }
+
+  /// nullptr if it is a view of nothing.
+  [[nodiscard]] const T* get() const { return ref_ ? static_cast<const T*>(ref_.get()) : nullptr; }
+  /// @pre  *this
+  const T& operator*() const { return *get(); }
+  const T* operator->() const { return get(); }
+
+  [[nodiscard]] const ObjectRef& ref() const& { return ref_; }
+  [[nodiscard]] ObjectRef ref() && { return std::move(ref_); }
+  operator ObjectRef() const { return ref_; }  // NOLINT(google-explicit-constructor)
+
+ private:
+  template <class U>
+  friend ObjectPtr<U> object_cast(ObjectRef ref);
+  explicit ObjectPtr(ObjectRef ref) : ref_(std::move(ref)) {}
+
+  ObjectRef ref_;
+};
+
+/// The typed view of `ref`; nothing if ref is nothing or its object is not exactly a T.
+template <class T>
+[[nodiscard]] ObjectPtr<T> object_cast(ObjectRef ref) {
+  if (!ref || &ref.type() != &object_type<T>()) return {};
+  return ObjectPtr<T>(std::move(ref));
+}
+
+/// A pooled object that is still being filled, of whatever type: it has one owner, who may change it. Sealing
+/// it ends that and makes it shareable. Dropped without sealing, it returns to its pool.
+///
+/// Thread contract: one thread at a time. After a move it is empty and may only be assigned to or destroyed.
+class ObjectLoan {
+ public:
+  [[nodiscard]] const ObjectType& type() const { return *slot_->type; }
+  [[nodiscard]] void* get() { return slot_->object; }
+  [[nodiscard]] const void* get() const { return slot_->object; }
+  [[nodiscard]] idl::OrcaObject& header() { return slot_->type->header(slot_->object); }
+  explicit operator bool() const { return slot_ != nullptr; }
+
+  [[nodiscard]] ObjectRef seal() && { return ObjectRef(slot_.release()); }
+
+ private:
+  friend ObjectLoan make_object(const ObjectType& type);
+  explicit ObjectLoan(detail::Slot* slot) : slot_(slot) {}
+
+  detail::SlotOwner slot_;
+};
+
+/// An ObjectLoan that knows its type.
+///
+/// Thread contract: as ObjectLoan.
+template <class T>
+class Loan {
+ public:
+  [[nodiscard]] T* get() { return static_cast<T*>(loan_.get()); }
+  [[nodiscard]] const T* get() const { return static_cast<const T*>(loan_.get()); }
+  T& operator*() { return *get(); }
+  const T& operator*() const { return *get(); }
+  T* operator->() { return get(); }
+  const T* operator->() const { return get(); }
+  explicit operator bool() const { return static_cast<bool>(loan_); }
+
+  [[nodiscard]] ObjectPtr<T> seal() && { return object_cast<T>(std::move(loan_).seal()); }
+  operator ObjectPtr<T>() && { return std::move(*this).seal(); }  // NOLINT(google-explicit-constructor)
+  operator ObjectLoan() && { return std::move(loan_); }           // NOLINT(google-explicit-constructor)
+
+ private:
+  template <class U>
+  friend Loan<U> make_object();
+  explicit Loan(ObjectLoan loan) : loan_(std::move(loan)) {}
+
+  ObjectLoan loan_;
+};
+
+/// A default object from the pool of its type. Memory is taken from the heap only while the pool grows; texts
+/// and sequences keep the capacity that earlier objects in the same place gave them. Without memory the
+/// process ends.
+/// @thread  any.
+[[nodiscard]] ObjectLoan make_object(const ObjectType& type);
+
+template <class T>
+[[nodiscard]] Loan<T> make_object() {
+  return Loan<T>(make_object(object_type<T>()));
+}
+
+/// A pooled object with that value.
+template <class T>
+[[nodiscard]] Loan<T> make_object(const T& value) {
+  Loan<T> loan = make_object<T>();
+  *loan = value;
+  return loan;
+}
+
+/// A copy that may be changed (thesis 8.3); the original stays as it is.
+/// @pre  original
+[[nodiscard]] ObjectLoan copy_value(const ObjectRef& original);
+
+template <class T>
+[[nodiscard]] Loan<T> copy_value(const ObjectPtr<T>& original) {
+  return make_object<T>(*original);
+}
+
+/// How many objects of a type are alive, and how many the pool has places for. The capacity never shrinks.
+struct PoolStatistics {
+  std::size_t live = 0;
+  std::size_t capacity = 0;
+};
+
+/// @thread  any; a snapshot.
+[[nodiscard]] PoolStatistics pool_statistics(const ObjectType& type);
+
+}  // namespace orca

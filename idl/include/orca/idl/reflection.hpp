@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+
+namespace orca {
+
+/// What the IDL file says about a field. Both texts live as long as the program.
+struct FieldInfo {
+  std::string_view name;
+  std::string_view
+      unit;             ///< SI unit: "m", "rad/s", ...; "1" for a plain number, empty for what is no number.
+  bool header = false;  ///< One of OrcaObject's own fields, which the framework stamps.
+};
+
+/// The fields of an IDL struct, for code that must treat all types alike: CDR, dump, XML.
+///
+/// Specialised for each struct by idl/tools/generate.py:
+///   name           IDL name
+///   min_wire_size  [bytes] the fewest that a value takes in XCDR1, without padding
+///   fields(object, visitor)  calls visitor.field(FieldInfo, value) for each field, inherited ones first. The
+///                  value is a reference, or a copy of a number of a const object; writers take `const T&`,
+///                  readers `T&`.
+template <class T>
+struct Reflection;
+
+/// The enumerators of an IDL enum, 0 first: name, names. Specialised for each enum by idl/tools/generate.py.
+template <class T>
+struct EnumReflection;
+
+template <class T>
+concept ReflectedStruct = requires {
+  Reflection<std::remove_const_t<T>>::min_wire_size;
+};
+
+template <class T>
+concept ReflectedEnum = requires {
+  EnumReflection<T>::names;
+};
+
+/// The part of an object that it inherits from Base, as const as the object is.
+template <class Base, class Object>
+[[nodiscard]] auto& as_base(Object& object) {
+  return static_cast<std::conditional_t<std::is_const_v<Object>, const Base&, Base&>>(object);
+}
+
+}  // namespace orca

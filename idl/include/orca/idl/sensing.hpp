@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+/// @file
+/// RobotPose, Odometry, RangeReadings, SonarRangeReadings, LaserRangeReadings (thesis 8.3). What
+/// each field means, its unit and frame, is said in idl/orca/sensing.idl.
+#pragma once
+
+#include "orca/idl/generated/sensing.h"
+#include "orca/idl/generated/sensing.types.hpp"
+#include "orca/idl/geometry.hpp"
+#include "orca/idl/object.hpp"

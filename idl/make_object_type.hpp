@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <new>
+
+#include "cdr_reader.hpp"
+#include "cdr_writer.hpp"
+#include "dump_writer.hpp"
+#include "orca/idl/generated/object.h"
+#include "orca/idl/object_type.hpp"
+
+namespace orca::detail {
+
+/// The operations of a reflected type T, with its type erased.
+template <class T>
+struct Operations {
+  static const T& as(const void* object) { return *static_cast<const T*>(object); }
+  static T& as(void* object) { return *static_cast<T*>(object); }
+
+  static void construct(void* place) { new (place) T(); }
+  static void destroy(void* object) { std::destroy_at(&as(object)); }
+  static void assign(void* to, const void* from) { as(to) = as(from); }
+  static bool equal(const void* a, const void* b) { return as(a) == as(b); }
+  static idl::OrcaObject& header(void* object) { return as(object); }
+
+  static std::string dump(const void* object) {
+    DumpWriter writer(Reflection<T>::name);
+    Reflection<T>::fields(as(object), writer);
+    return std::move(writer).take();
+  }
+  static void serialize(const void* object, std::vector<std::byte>& out) {
+    CdrWriter writer(out);
+    Reflection<T>::fields(as(object), writer);
+  }
+  static Status deserialize(std::span<const std::byte> payload, void* object) {
+    CdrReader reader(payload);
+    Reflection<T>::fields(as(object), reader);
+    return reader.status(Reflection<T>::name);
+  }
+};
+
+template <class T>
+constexpr ObjectType make_object_type(std::string_view layout, std::uint64_t layout_hash, Pool& pool) {
+  using Do = Operations<T>;
+  return {.name = Reflection<T>::name,
+          .layout = layout,
+          .layout_hash = layout_hash,
+          .size = sizeof(T),
+          .align = alignof(T),
+          .construct = Do::construct,
+          .destroy = Do::destroy,
+          .assign = Do::assign,
+          .equal = Do::equal,
+          .header = Do::header,
+          .dump = Do::dump,
+          .serialize = Do::serialize,
+          .deserialize = Do::deserialize,
+          .pool = pool};
+}
+
+}  // namespace orca::detail

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "pool.hpp"
+
+#include <algorithm>
+#include <new>
+
+namespace orca {
+namespace detail {
+namespace {
+
+constexpr std::size_t kFirstSlab = 16;
+constexpr std::size_t kLargestSlab = 1024;
+
+constexpr std::size_t round_up(std::size_t size, std::size_t align) {
+  return (size + align - 1) / align * align;
+}
+
+std::size_t slot_align(const ObjectType& type) {
+  return std::max({type.align, alignof(Slot), alignof(std::max_align_t)});
+}
+
+std::size_t object_offset(const ObjectType& type) { return round_up(sizeof(Slot), type.align); }
+
+}  // namespace
+
+std::size_t Pool::stride() const { return round_up(object_offset(type_) + type_.size, slot_align(type_)); }
+
+void Pool::grow() {
+  // The first slab has one place more, for the blank object.
+  const bool first = slabs_ == nullptr;
+  const std::size_t places = std::clamp(count_.capacity, kFirstSlab, kLargestSlab);
+  const std::size_t head = round_up(sizeof(Slab), slot_align(type_));
+  const std::size_t bytes = head + (places + (first ? 1 : 0)) * stride();
+  auto* memory = static_cast<std::byte*>(::operator new (bytes, std::align_val_t{slot_align(type_)}));
+  slabs_ = new (memory) Slab{slabs_};
+  for (std::byte* place = memory + head; place != memory + bytes; place += stride()) {
+    void* object = place + object_offset(type_);
+    type_.construct(object);
+    if (blank_ == nullptr) {
+      blank_ = object;
+      continue;
+    }
+    free_ = new (place) Slot{.type = &type_, .object = object, .next_free = free_};
+  }
+  count_.capacity += places;
+}
+
+Slot* Pool::acquire() noexcept {
+  Slot* slot = nullptr;
+  const void* blank = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    if (free_ == nullptr) grow();
+    slot = free_;
+    free_ = slot->next_free;
+    blank = blank_;
+    ++count_.live;
+  }
+  type_.assign(slot->object, blank);
+  slot->references.store(1, std::memory_order_relaxed);
+  return slot;
+}
+
+void Pool::recycle(Slot* slot) noexcept {
+  const std::lock_guard lock(mutex_);
+  slot->next_free = free_;
+  free_ = slot;
+  --count_.live;
+}
+
+PoolStatistics Pool::statistics() {
+  const std::lock_guard lock(mutex_);
+  return count_;
+}
+
+Slot* acquire_slot(const ObjectType& type) noexcept { return type.pool.acquire(); }
+
+void release_slot(Slot* slot) noexcept {
+  // Release: what this view's owner read is done before the object can be reused; acquire: the last one waits
+  // for that of all others.
+  if (slot->references.fetch_sub(1, std::memory_order_acq_rel) == 1) slot->type->pool.recycle(slot);
+}
+
+}  // namespace detail
+
+ObjectLoan make_object(const ObjectType& type) { return ObjectLoan(detail::acquire_slot(type)); }
+
+ObjectLoan copy_value(const ObjectRef& original) {
+  ObjectLoan copy = make_object(original.type());
+  original.type().assign(copy.get(), original.get());
+  return copy;
+}
+
+PoolStatistics pool_statistics(const ObjectType& type) { return type.pool.statistics(); }
+
+}  // namespace orca

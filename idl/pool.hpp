@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+#include <type_traits>
+
+#include "orca/idl/object.hpp"
+
+namespace orca::detail {
+
+/// The memory of all objects of one type: slabs of slots, each larger than the one before, never given back.
+/// A recycled slot keeps its object constructed, so that texts and sequences keep their capacity.
+///
+/// Thread contract: any thread.
+class Pool {
+ public:
+  constexpr explicit Pool(const ObjectType& type) : type_(type) {}
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
+  /// A slot with one reference, whose object has its default value.
+  [[nodiscard]] Slot* acquire() noexcept;
+  void recycle(Slot* slot) noexcept;
+  [[nodiscard]] PoolStatistics statistics();
+
+ private:
+  struct Slab {
+    Slab* next;
+  };
+
+  void grow();
+  [[nodiscard]] std::size_t stride() const;
+
+  const ObjectType& type_;
+  std::mutex mutex_;
+  // Below: guarded by mutex_.
+  Slot* free_ = nullptr;
+  Slab* slabs_ = nullptr;        // Keeps the memory reachable, for leak checkers.
+  const void* blank_ = nullptr;  // A default object; constant once made.
+  PoolStatistics count_;
+};
+
+// Views may be dropped while the program's static objects are destroyed, so a pool must outlast them all.
+static_assert(std::is_trivially_destructible_v<Pool>);
+
+}  // namespace orca::detail

@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Reads the part of IDL that Orca uses, and refuses the rest with the line and the remedy.
+
+Allowed: include guards, #include "x.idl", module orca { module idl { ... }; };, enum, struct with single inheritance,
+and fields of the types in idl_model.PRIMITIVES, of enums and structs declared before, as sequence<T> or T name[N].
+Every type needs a `///` comment before it, every field a `///<` comment behind it; that of a double starts with its
+unit in brackets: `double speed;  ///< [m/s] forward positive`.
+"""
+
+import difflib
+import re
+from pathlib import Path
+
+from idl_model import PRIMITIVES, Enum, Field, IdlError, IdlFile, Struct
+
+TOKEN = re.compile(
+    r"(?P<space>[ \t\r]+)|(?P<newline>\n)|(?P<after>///<[^\n]*)|(?P<before>///[^\n]*)|(?P<comment>//[^\n]*)"
+    r"|(?P<directive>\#[^\n]*)|(?P<word>[A-Za-z_]\w*)|(?P<number>\d+)|(?P<sign>[{}<>;:,\[\]=()@/*.\"'-])"
+)
+HINTS = {
+    "float": "use double",
+    "short": "use long",
+    "char": "use octet or string",
+    "wstring": "use string",
+    "any": "name the type",
+    "union": "use a struct with an enum that says which fields count",
+    "typedef": "write the type out",
+    "const": "write the number out",
+    "map": "use two sequences",
+    "bitmask": "use booleans",
+}
+
+
+class Token:
+    def __init__(self, kind: str, text: str, line: int):
+        self.kind, self.text, self.line = kind, text, line
+
+
+def tokenize(text: str, name: str) -> list[Token]:
+    tokens, at, line = [], 0, 1
+    while at < len(text):
+        match = TOKEN.match(text, at)
+        if not match:
+            raise IdlError(f"{name}:{line}: unexpected character {text[at]!r}")
+        kind = match.lastgroup
+        if kind == "newline":
+            line += 1
+        elif kind not in ("space", "comment"):
+            tokens.append(Token(kind, match.group(), line))
+        at = match.end()
+    tokens.append(Token("end", "the end of the file", line))
+    return tokens
+
+
+class Parser:
+    """One file. `known` maps the names of types declared before to the types, and is extended."""
+
+    def __init__(self, text: str, name: str, known: dict, load):
+        self.name, self.known, self.load = name, known, load
+        self.tokens = tokenize(text, name)
+        self.at = 0
+        self.file = IdlFile(name, [], [], [])
+
+    # -- reading tokens
+
+    def error(self, message: str, token: Token = None) -> IdlError:
+        return IdlError(f"{self.name}:{(token or self.peek()).line}: {message}")
+
+    def peek(self) -> Token:
+        return self.tokens[self.at]
+
+    def next(self) -> Token:
+        token = self.tokens[self.at]
+        if token.kind != "end":
+            self.at += 1
+        return token
+
+    def accept(self, text: str) -> bool:
+        if self.peek().text != text:
+            return False
+        self.next()
+        return True
+
+    def expect(self, text: str) -> Token:
+        if self.peek().text != text:
+            raise self.error(f"found '{self.peek().text}', expected '{text}'")
+        return self.next()
+
+    def identifier(self, what: str, pattern: str, style: str) -> Token:
+        token = self.next()
+        if token.kind != "word":
+            raise self.error(f"found '{token.text}', expected the name of {what}", token)
+        if not re.fullmatch(pattern, token.text):
+            raise self.error(f"'{token.text}': the name of {what} is written {style}", token)
+        return token
+
+    def comment_before(self) -> str:
+        lines = []
+        while self.peek().kind == "before":
+            lines.append(self.next().text[3:].strip())
+        return " ".join(lines)
+
+    def comment_after(self) -> str:
+        lines = []
+        while self.peek().kind == "after":
+            lines.append(self.next().text[4:].strip())
+        return " ".join(lines)
+
+    # -- the grammar
+
+    def parse(self) -> IdlFile:
+        self.skip_guard()
+        while self.peek().kind == "directive":
+            self.directive()
+        self.open_module("orca")
+        self.open_module("idl")
+        while not self.accept("}"):
+            self.definition()
+        for sign in (";", "}", ";"):
+            self.expect(sign)
+        if self.next().text != "#endif" or self.peek().kind != "end":
+            raise self.error("nothing may follow the modules but the '#endif' of the include guard")
+        return self.file
+
+    def skip_guard(self):
+        guard = f"ORCA_{Path(self.name).stem.upper()}_IDL"
+        if self.next().text != f"#ifndef {guard}" or self.next().text != f"#define {guard}":
+            raise self.error(f"the file must start with its include guard: #ifndef {guard}, #define {guard}")
+
+    def directive(self):
+        token = self.next()
+        match = re.fullmatch(r'#include "(\w+\.idl)"', token.text)
+        if not match:
+            raise self.error(f"found '{token.text}', expected '#include \"name.idl\"'", token)
+        try:
+            self.file.includes.append(self.load(match.group(1)))
+        except FileNotFoundError:
+            raise self.error(f"there is no file '{match.group(1)}' beside this one", token) from None
+
+    def open_module(self, name: str):
+        for text in ("module", name, "{"):
+            self.expect(text)
+
+    def definition(self):
+        text = self.comment_before()
+        token = self.next()
+        readers = {"enum": self.enum, "struct": self.struct}
+        if token.text not in readers:
+            hint = HINTS.get(token.text)
+            raise self.error(f"found '{token.text}', expected 'enum' or 'struct'" + (f": {hint}" if hint else ""), token)
+        if not text:
+            raise self.error(f"this {token.text} needs a '///' comment before it that says what it means", token)
+        readers[token.text](text)
+
+    def type_name(self, what: str) -> Token:
+        token = self.identifier(what, r"[A-Z][A-Za-z0-9]*", "in PascalCase")
+        if token.text in self.known:
+            raise self.error(f"'{token.text}' is declared already", token)
+        return token
+
+    def enum(self, text: str):
+        name = self.type_name("an enum")
+        taken = {e: k.name for k in self.known.values() if isinstance(k, Enum) for e in k.enumerators}
+        enumerators = []
+        self.expect("{")
+        while not self.accept("}"):
+            token = self.identifier("an enumerator", r"[A-Z][A-Z0-9_]*", "in CAPITALS")
+            if token.text in taken or token.text in enumerators:
+                owner = taken.get(token.text, name.text)
+                raise self.error(f"'{token.text}' is an enumerator of {owner} already; they share one scope in C++", token)
+            enumerators.append(token.text)
+            comma = self.accept(",")
+            self.comment_after()
+            if not comma and self.peek().text != "}":
+                raise self.error(f"found '{self.peek().text}', expected ',' or '}}'")
+        self.expect(";")
+        if not enumerators:
+            raise self.error(f"enum {name.text} has no enumerators", name)
+        self.known[name.text] = Enum(name.text, enumerators, text)
+        self.file.enums.append(self.known[name.text])
+
+    def struct(self, text: str):
+        name = self.type_name("a struct")
+        base = None
+        if self.accept(":"):
+            token = self.next()
+            base = self.resolve(token.text, token)
+            if not isinstance(base, Struct):
+                raise self.error(f"'{token.text}' is no struct; only a struct can be inherited", token)
+        struct = Struct(name.text, base, text)
+        self.expect("{")
+        while not self.accept("}"):
+            self.field(struct)
+        self.expect(";")
+        if not struct.fields:
+            raise self.error(f"struct {name.text} needs a field of its own; fastddsgen cannot do without", name)
+        self.known[name.text] = struct
+        self.file.structs.append(struct)
+
+    def field(self, struct: Struct):
+        start = self.peek()
+        sequence = self.accept("sequence")
+        if sequence:
+            self.expect("<")
+        kind = self.field_type()
+        if sequence:
+            if self.accept(","):
+                raise self.error("bounded sequences are not supported: write sequence<T>", start)
+            self.expect(">")
+            if kind is PRIMITIVES["boolean"]:
+                raise self.error("sequence<boolean> is not supported: use sequence<octet>", start)
+        name = self.identifier("a field", r"[a-z][a-z0-9_]*", "in snake_case")
+        if any(f.name == name.text for f in struct.all_fields):
+            raise self.error(f"{struct.name} has a field '{name.text}' already, of its own or inherited", name)
+        array = self.array_size(sequence)
+        self.expect(";")
+        unit, text = self.field_comment(kind, name)
+        struct.fields.append(Field(name.text, kind, unit, text, sequence, array))
+
+    def array_size(self, sequence: bool):
+        if not self.accept("["):
+            return None
+        token = self.next()
+        if token.kind != "number" or int(token.text) == 0:
+            raise self.error(f"found '{token.text}', expected the number of elements, at least 1", token)
+        if sequence:
+            raise self.error("an array of sequences is not supported: put the sequence into a struct", token)
+        self.expect("]")
+        return int(token.text)
+
+    def field_type(self):
+        token = self.next()
+        words = token.text
+        if words == "unsigned":
+            words += " " + self.expect("long").text
+        if words in ("long", "unsigned long") and self.accept("long"):
+            words += " long"
+        if words == "sequence":
+            raise self.error("a sequence of sequences is not supported: put the inner one into a struct", token)
+        return self.resolve(words, token)
+
+    def resolve(self, name: str, token: Token):
+        found = PRIMITIVES.get(name) or self.known.get(name)
+        if found:
+            return found
+        if name in ("@", "/"):
+            raise self.error("annotations and block comments are not supported: write '///<' comments", token)
+        if name in HINTS:
+            raise self.error(f"'{name}' is not supported: {HINTS[name]}", token)
+        near = difflib.get_close_matches(name, [*PRIMITIVES, *self.known], 1)
+        hint = f"; did you mean '{near[0]}'?" if near else "; declare it before, or #include the file that does"
+        raise self.error(f"unknown type '{name}'{hint}", token)
+
+    def field_comment(self, kind, name: Token):
+        comment = self.comment_after()
+        match = re.match(r"\[([^\]]*)\]\s*(.*)", comment)
+        unit, text = match.groups() if match else ("", comment)
+        if kind is PRIMITIVES["double"] and not unit:
+            raise self.error(f"the number '{name.text}' needs its unit: '///< [m] ...', [1] for none", name)
+        if not unit and not text:
+            raise self.error(f"the field '{name.text}' needs a '///<' comment that says what it means", name)
+        return unit, text
+
+
+def load_files(paths: list[Path]) -> list[IdlFile]:
+    """Parses the files and what they include, which lies beside them; each file comes once, after its includes."""
+    loaded: dict[str, IdlFile] = {}
+    known: dict = {}
+    open_files: list[str] = []
+
+    def load(path: Path) -> IdlFile:
+        if path.name in open_files:
+            raise IdlError(f"{path.name}:1: the file includes itself: {' -> '.join([*open_files, path.name])}")
+        if path.name not in loaded:
+            text = path.read_text(encoding="ascii")
+            open_files.append(path.name)
+            parser = Parser(text, path.name, known, lambda name: load(path.parent / name))
+            loaded[path.name] = parser.parse()
+            open_files.pop()
+        return loaded[path.name]
+
+    for path in paths:
+        load(path)
+    return list(loaded.values())

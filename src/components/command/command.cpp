@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <poll.h>
+#include <unistd.h>
+
+#include <deque>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "goal_list.hpp"
+#include "orca/component.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/idl/time.hpp"
+
+namespace {
+
+using orca::command::Route;
+
+/// Takes goals from a parameter, a file or a prompt and has the robot drive to one after the other
+/// (thesis 11.1): sends the coordinates to Goto, subscribes to its arrivals, tells the fuser which behaviours
+/// to listen to, waits, and lets go of everything before the next. Done when there are no more goals.
+class Command final : public orca::Component {
+ public:
+  explicit Command(orca::ComponentHost& host) : Component(host) {}
+
+ private:
+  orca::Status configure() override {
+    stay_active(true);
+    for (const std::string& text : *goals_)
+      if (orca::Status added = add(text); !added.ok()) return added;
+    return goals_file_->empty() ? orca::ok() : read_file();
+  }
+
+  orca::Outcome work() override {
+    const std::optional<Route> route = next();
+    if (!route) return orca::done();
+    return drive(*route);
+  }
+
+  orca::Outcome drive(const Route& route) {
+    arrived_.subscribe();
+    for (const orca::command::Place& via : route.via)
+      if (orca::Status sent = send_point(route, via, true); !sent.ok()) return give_up(sent);
+    if (orca::Status sent = send_point(route, route.goal, false); !sent.ok()) return give_up(sent);
+    if (orca::Status sent = send_clients(*behaviours_); !sent.ok()) return give_up(sent);
+    const auto arrived = arrived_.get_update_wait_max(orca::from_seconds(*goal_timeout_));
+    if (!arrived)
+      return orca::failed("goal \"" + route.name + "\" was not reached within " +
+                          std::to_string(*goal_timeout_) + " s");
+    announce({"arrived", arrived->name(), arrived->x(), arrived->y(), orca::to_time_point(arrived->stamp())});
+    arrived_.unsubscribe();
+    if (orca::Status sent = send_clients({}); !sent.ok()) return give_up(sent);
+    return orca::again();
+  }
+
+  void stop() override {
+    if (const orca::Status sent = send_clients({}); !sent.ok()) log_debug(sent.error().text());
+  }
+
+  orca::Status send_point(const Route& route, const orca::command::Place& place, bool via) {
+    auto point = goto_.loan();
+    point->name() = route.name;
+    point->coordinate().point().x(place.x);
+    point->coordinate().point().y(place.y);
+    point->via(via);
+    point->reach_radius(via ? *via_radius_ : *reach_radius_);
+    point->use_orientation(!via && route.use_orientation);
+    point->orientation(route.orientation);
+    point->reach_angle(*reach_angle_);
+    return goto_.send(std::move(point));
+  }
+
+  orca::Status send_clients(const std::vector<std::string>& names) {
+    auto list = clients_.loan();
+    list->clients() = names;
+    return clients_.send(std::move(list));
+  }
+
+  static orca::Outcome give_up(const orca::Status& status) { return orca::failed(status.error().text()); }
+
+  std::optional<Route> next() {
+    while (waiting_.empty() && asks())
+      if (!ask()) return std::nullopt;
+    if (waiting_.empty()) return std::nullopt;
+    Route route = std::move(waiting_.front());
+    waiting_.pop_front();
+    return route;
+  }
+
+  // Without goals from elsewhere, the user is asked.
+  [[nodiscard]] bool asks() const { return goals_->empty() && goals_file_->empty(); }
+
+  // One line from the user; false when there will be no more.
+  bool ask() {
+    constexpr std::string_view kPrompt = "goal (name: x y > x y, empty line to end)? ";
+    if (write(STDERR_FILENO, kPrompt.data(), kPrompt.size()) < 0) return false;
+    std::string line;
+    if (!read_line(line) || line.empty()) return false;
+    if (const orca::Status added = add(line); !added.ok()) log_error(added.error().text());
+    return true;
+  }
+
+  // Reads stdin without ever blocking the strand in the system, so that the component can be stopped
+  // meanwhile.
+  bool read_line(std::string& line) {
+    for (;;) {
+      pollfd input{STDIN_FILENO, POLLIN, 0};
+      if (poll(&input, 1, 0) == 0) {
+        sleep(std::chrono::milliseconds(50));
+        continue;
+      }
+      char c = 0;
+      if (read(STDIN_FILENO, &c, 1) != 1) return !line.empty();
+      if (c == '\n') return true;
+      line += c;
+    }
+  }
+
+  orca::Status read_file() {
+    std::ifstream file(*goals_file_);
+    if (!file) return orca::fail(orca::Code::not_found, "cannot read the file of goals", *goals_file_);
+    int number = 0;
+    for (std::string line; std::getline(file, line);) {
+      ++number;
+      if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
+      const orca::Status added = add(line);
+      if (!added.ok())
+        return orca::fail(added.error().code, added.error().message,
+                          *goals_file_ + ":" + std::to_string(number) + ":1");
+    }
+    return orca::ok();
+  }
+
+  orca::Status add(const std::string& text) {
+    orca::Result<Route> route = orca::command::parse_route(text);
+    if (!route) return route.error();
+    waiting_.push_back(std::move(route).value());
+    return orca::ok();
+  }
+
+  orca::SendProxy<orca::idl::GoalPoint> goto_{*this, "goto", {.text = "Takes the coordinates: a Goto."}};
+  orca::SendProxy<orca::idl::ClientList> clients_{
+      *this, "clients", {.text = "Takes the list of behaviours: a fuser."}};
+  orca::PushProxy<orca::idl::Arrived> arrived_{
+      *this, "arrived", {.text = "Tells when a goal is reached.", .manual = true, .depth = 16}};
+
+  orca::Param<std::vector<std::string>> goals_{
+      *this, "goals", {}, {.text = "Goals, each \"name: x y > x y\" in metres: via points, last the goal."}};
+  orca::Param<std::string> goals_file_{
+      *this,
+      "goals_file",
+      "",
+      {.file = true, .text = "A file of goals, one a line; # starts a comment line."}};
+  orca::Param<std::vector<std::string>> behaviours_{
+      *this, "behaviours", {"goto", "avoid"}, {.text = "Whom the fuser shall listen to on the way."}};
+  orca::Param<double> reach_radius_{
+      *this, "reach_radius", 0.2, {.unit = "m", .min = 0.01, .text = "How near a goal counts as there."}};
+  orca::Param<double> via_radius_{
+      *this, "via_radius", 0.3, {.unit = "m", .min = 0.01, .text = "How near a via point counts as passed."}};
+  orca::Param<double> reach_angle_{
+      *this,
+      "reach_angle",
+      0.1,
+      {.unit = "rad", .min = 0.01, .text = "How exactly a direction at the goal is taken."}};
+  orca::Param<double> goal_timeout_{
+      *this,
+      "goal_timeout",
+      300.0,
+      {.unit = "s", .min = 1.0, .text = "Time for one goal, then it counts as failed."}};
+
+  std::deque<Route> waiting_;
+};
+
+}  // namespace
+
+ORCA_COMPONENT(Command, "orca.Command")

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "goal_list.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace orca::command {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\n";
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+Error bad(std::string_view text, const std::string& why) {
+  return fail(Code::invalid_argument,
+              "cannot read the goal \"" + std::string(text) + "\": " + why +
+                  "; a goal looks like \"kitchen: 3.1 2 > 5 4.5\" (name: via points > goal, in metres)");
+}
+
+bool is_name(std::string_view text) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  return !text.empty() && kLetters.find(text.front()) != std::string_view::npos &&
+         text.find_first_not_of(std::string(kLetters) + "0123456789_") == std::string_view::npos;
+}
+
+Result<double> parse_number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    return fail(Code::invalid_argument, "\"" + std::string(text) + "\" is not a number");
+  return value;
+}
+
+Result<Place> parse_place(std::string_view text) {
+  const std::string_view both = trim(text);
+  const auto gap = both.find_first_of(kBlank);
+  if (gap == std::string_view::npos)
+    return fail(Code::invalid_argument, "expected \"x y\", found \"" + std::string(both) + "\"");
+  const Result<double> x = parse_number(both.substr(0, gap));
+  const Result<double> y = parse_number(trim(both.substr(gap)));
+  if (!x) return x.error();
+  if (!y) return y.error();
+  return Place{*x, *y};
+}
+
+// Cuts `text` at the first `mark`: what is before it, and what is left in `text` after it.
+std::string_view cut(std::string_view& text, char mark) {
+  const auto at = text.find(mark);
+  const std::string_view before = text.substr(0, at);
+  text = at == std::string_view::npos ? std::string_view{} : text.substr(at + 1);
+  return before;
+}
+
+}  // namespace
+
+Result<Route> parse_route(std::string_view text) {
+  std::string_view rest = text;
+  if (rest.find(':') == std::string_view::npos) return bad(text, "there is no \":\" after a name");
+  Route route;
+  route.name = std::string(trim(cut(rest, ':')));
+  if (!is_name(route.name))
+    return bad(text, "\"" + route.name + "\" is no name: a letter, then letters, digits and _");
+  std::string_view places = cut(rest, '@');
+  if (const std::string_view angle = trim(rest); !angle.empty()) {
+    const Result<double> degrees = parse_number(angle);
+    if (!degrees) return bad(text, degrees.error().message);
+    route.use_orientation = true;
+    route.orientation = *degrees * std::numbers::pi / 180.0;
+  }
+  do {
+    const Result<Place> place = parse_place(cut(places, '>'));
+    if (!place) return bad(text, place.error().message);
+    route.via.push_back(*place);
+  } while (!trim(places).empty());
+  route.goal = route.via.back();
+  route.via.pop_back();
+  return route;
+}
+
+}  // namespace orca::command

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <utility>
+
+#include "orca/component.hpp"
+#include "orca/hw/server.hpp"
+#include "orca/idl/hardware.hpp"
+#include "orca/idl/system.hpp"
+
+namespace {
+
+/// Any robot base (thesis 11.1): all its sensors, its wheels, and its description by Query.
+class RobotBaseServer final : public orca::hw::HardwareServer {
+ public:
+  explicit RobotBaseServer(orca::ComponentHost& host) : HardwareServer(host, orca::hw::Source::sensor) {
+    offer_motion();
+  }
+
+ private:
+  orca::Result<orca::Loan<orca::idl::Robot>> on_describe(const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
+    return orca::make_object<orca::idl::Robot>(container()->description());
+  }
+
+  orca::QueryServer<orca::idl::Ask, orca::idl::Robot> description_{
+      *this, "RobotQuery", &RobotBaseServer::on_describe, {.text = "What the robot is and what it can do."}};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(RobotBaseServer, "orca.RobotBaseServer")

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/hw/endpoints.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orca::hw {
+
+void SensorEndpoint::set_sink(Sink sink) {
+  const std::lock_guard lock(mutex_);
+  sink_ = std::move(sink);
+}
+
+ObjectRef SensorEndpoint::latest() const {
+  const std::lock_guard lock(mutex_);
+  return latest_;
+}
+
+void SensorEndpoint::forget() {
+  const std::lock_guard lock(mutex_);
+  latest_ = ObjectRef{};
+}
+
+void SensorEndpoint::publish_loan(ObjectLoan reading) {
+  const std::lock_guard lock(mutex_);
+  latest_ = sink_ ? sink_(std::move(reading)) : std::move(reading).seal();
+}
+
+MotionHW::MotionHW(const DriveLimits& limits, Duration max_command_age)
+    : limits_(limits), max_command_age_(max_command_age) {}
+
+Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
+  if (command.kind() == idl::DONTCARE)
+    return fail(Code::invalid_argument,
+                "a base needs a crisp motion command, not DONTCARE; put a MotionCommandFuser in front of it");
+  if (!std::isfinite(command.speed()) || !std::isfinite(command.direction()) ||
+      !std::isfinite(command.turn_rate()))
+    return fail(Code::invalid_argument, "a motion command holds a number that is not finite");
+  const std::lock_guard lock(mutex_);
+  setpoint_ = command.kind() == idl::FULLSTOP ? DriveSetpoint{} : within_limits(command);
+  received_ = now;
+  return ok();
+}
+
+DriveSetpoint MotionHW::within_limits(const idl::MotionCommand& command) const {
+  DriveSetpoint setpoint;
+  setpoint.speed = std::clamp(command.speed(), -limits_.max_speed, limits_.max_speed);
+  if (command.steering() == idl::BY_TURN_RATE) {
+    setpoint.steer_speed = command.turn_rate();
+  } else {
+    setpoint.steer_speed = limits_.steer_gain * command.direction();
+    if (limits_.big_turn_angle > 0.0 && std::abs(command.direction()) > limits_.big_turn_angle)
+      setpoint.speed = std::clamp(setpoint.speed, -limits_.big_turn_speed, limits_.big_turn_speed);
+  }
+  setpoint.steer_speed = std::clamp(setpoint.steer_speed, -limits_.max_steer_speed, limits_.max_steer_speed);
+  return setpoint;
+}
+
+DriveSetpoint MotionHW::due(TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  if (setpoint_ != DriveSetpoint{} && now >= received_ + max_command_age_) {
+    ++expired_;
+    setpoint_ = DriveSetpoint{};
+  }
+  return setpoint_;
+}
+
+void MotionHW::halt() {
+  const std::lock_guard lock(mutex_);
+  setpoint_ = DriveSetpoint{};
+}
+
+TimePoint MotionHW::expiry() const {
+  const std::lock_guard lock(mutex_);
+  return setpoint_ == DriveSetpoint{} ? kForever : received_ + max_command_age_;
+}
+
+std::uint64_t MotionHW::expired_count() const {
+  const std::lock_guard lock(mutex_);
+  return expired_;
+}
+
+}  // namespace orca::hw

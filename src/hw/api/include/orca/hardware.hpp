@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+/// All that the author of a hardware plugin includes, besides the objects that the endpoints deliver.
+
+#include "orca/component/manifest.hpp"
+#include "orca/hw/container.hpp"
+
+/// Makes a class of this source file known as a hardware type. Once per file, at its end.
+#define ORCA_HARDWARE(Class, type_name)                                                                  \
+  ORCA_DETAIL_TYPE_ENTRY(                                                                                \
+      {::orca::PluginKind::hardware, type_name, nullptr, nullptr,                                        \
+       [](::orca::hw::HardwareHost& host) -> ::orca::hw::HardwareContainer* { return new Class(host); }, \
+       [](::orca::hw::HardwareContainer* container) { delete container; }})

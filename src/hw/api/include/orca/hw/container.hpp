@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/base/strand.hpp"
+#include "orca/component/host.hpp"
+#include "orca/component/param.hpp"
+#include "orca/hw/endpoints.hpp"
+#include "orca/hw/scene.hpp"
+#include "orca/idl/hardware.hpp"
+
+namespace orca::hw {
+
+/// The states of a container. Fault and Backoff belong to devices that can vanish and come back.
+enum class HardwareState { closed, opening, ready, active, fault };
+
+[[nodiscard]] constexpr const char* to_string(HardwareState state) {
+  switch (state) {
+    case HardwareState::closed: return "Closed";
+    case HardwareState::opening: return "Opening";
+    case HardwareState::ready: return "Ready";
+    case HardwareState::active: return "Active";
+    case HardwareState::fault: return "Fault";
+  }
+  return "?";
+}
+
+/// What a process offers to a hardware container.
+class HardwareHost : public PluginHost {
+ public:
+  /// The seed of the run, for what belongs to no single stream: the simulated world.
+  [[nodiscard]] virtual std::uint64_t run_seed() const = 0;
+  /// For traces: the container's state has changed.
+  virtual void state_changed(HardwareState state) = 0;
+  [[nodiscard]] virtual Executive& executive() = 0;
+};
+
+/// All hardware behind one port or bus: it opens, starts, stops and closes the device, and has sensor and
+/// motion endpoints (thesis 10.2, Fig. 10.1-10.2). A server component (RobotBaseServer, LaserServer) wraps
+/// it.
+///
+/// A driver overrides the protected functions; they run on the container's own strand and never overlap. The
+/// constructor only declares parameters; prepare() declares endpoints from them and opens nothing, so that a
+/// graph can be checked without the device.
+///
+/// Thread contract: the public functions from any strand.
+class HardwareContainer {
+ public:
+  explicit HardwareContainer(HardwareHost& host) : host_(host) {}
+  virtual ~HardwareContainer() = default;
+  HardwareContainer(const HardwareContainer&) = delete;
+  HardwareContainer& operator=(const HardwareContainer&) = delete;
+
+  void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
+
+  /// Reads what the parameters name, and declares the endpoints.
+  /// @return the errors found, each a line with file, line and column where there is one; empty: all is well.
+  virtual std::vector<std::string> prepare() = 0;
+
+  [[nodiscard]] const std::vector<SensorEndpoint*>& sensors() const { return sensors_; }
+  [[nodiscard]] MotionHW* motion() const { return motion_; }
+  /// What this hardware is, for whoever asks by Query.
+  [[nodiscard]] virtual idl::Robot description() const = 0;
+  /// Adds what can be drawn of it; nothing for real hardware.
+  /// @pre  the container's strand has ended.
+  virtual void draw(Scene& /*scene*/) {}
+
+  /// Starts the container's strand, which opens the device.
+  void run();
+  /// Stops the motors, closes the device and ends the strand.
+  void shut_down();
+  [[nodiscard]] bool join_until(TimePoint deadline) {
+    return strand_ == nullptr || strand_->join_until(deadline);
+  }
+
+  /// A user more or less: the device is started for the first and stopped after the last.
+  void acquire();
+  void release();
+
+  /// Takes a command for the motion endpoint, to be carried out at once.
+  /// @errors  failed_precondition without a motion endpoint, unavailable unless active, and
+  /// MotionHW::command()'s.
+  Status command(const idl::MotionCommand& command);
+
+  [[nodiscard]] HardwareState state() const { return state_.load(std::memory_order_acquire); }
+  /// Why the state is Fault.
+  [[nodiscard]] std::string fault() const;
+  /// Wakes `strand` at every change of state.
+  void watch(Strand& strand);
+
+ protected:
+  /// @pre  called from prepare(); the endpoints live as long as the container.
+  void add_sensor(SensorEndpoint& sensor) { sensors_.push_back(&sensor); }
+  void set_motion(MotionHW& motion) { motion_ = &motion; }
+
+  virtual Status open() { return ok(); }
+  virtual Status start() { return ok(); }
+  virtual void stop() {}
+  virtual void close() {}
+  /// Called at next_poll() while ready or active: read the device, publish readings.
+  virtual Status poll() = 0;
+  [[nodiscard]] virtual TimePoint next_poll() const = 0;
+  /// Carries out a set-point.
+  virtual Status drive(const DriveSetpoint& setpoint) = 0;
+
+  [[nodiscard]] HardwareHost& host() const { return host_; }
+
+ private:
+  void main();
+  void open_device();
+  void turn();
+  void follow_users();
+  void apply_motion();
+  void set_state(HardwareState state);
+  void fail_with(const std::string& reason);
+
+  HardwareHost& host_;
+  std::vector<SensorEndpoint*> sensors_;
+  MotionHW* motion_ = nullptr;
+  DriveSetpoint applied_;
+
+  std::unique_ptr<Strand> strand_;
+  std::atomic<HardwareState> state_{HardwareState::closed};
+  std::atomic<int> users_{0};
+  std::atomic<bool> shutting_down_{false};
+  mutable std::mutex mutex_;
+  std::string fault_;
+  std::vector<Strand*> watchers_;
+};
+
+}  // namespace orca::hw

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/idl/object.hpp"
+
+namespace orca::hw {
+
+/// What a sensor endpoint measures with: the robot's own senses, or the simulator's knowledge of the truth.
+enum class Source { sensor, truth };
+
+/// One kind of reading that a hardware container delivers, whatever its type (thesis 10.2, Fig. 10.5). The
+/// server that wraps the container turns it into a Push and a Query port named after the object type.
+///
+/// Thread contract: publish() from the container's strand; the rest from any.
+class SensorEndpoint {
+ public:
+  /// Pushes the reading on and returns what it sealed.
+  using Sink = std::function<ObjectRef(ObjectLoan)>;
+
+  SensorEndpoint(const ObjectType& type, Duration period, Source source)
+      : type_(type), period_(period), source_(source) {}
+  SensorEndpoint(const SensorEndpoint&) = delete;
+  SensorEndpoint& operator=(const SensorEndpoint&) = delete;
+
+  [[nodiscard]] const ObjectType& type() const { return type_; }
+  /// Time between two readings [s]; what subscribers may ask for is a multiple of it.
+  [[nodiscard]] Duration period() const { return period_; }
+  [[nodiscard]] Source source() const { return source_; }
+
+  /// Where readings go; null: nowhere.
+  void set_sink(Sink sink);
+
+  /// The last reading since the hardware was started, or null.
+  [[nodiscard]] ObjectRef latest() const;
+  /// Forgets it: called when the hardware stops, so that nobody takes an old reading for a new one.
+  void forget();
+
+ protected:
+  void publish_loan(ObjectLoan reading);
+
+ private:
+  const ObjectType& type_;
+  const Duration period_;
+  const Source source_;
+  mutable std::mutex mutex_;
+  Sink sink_;
+  ObjectRef latest_;
+};
+
+/// A sensor endpoint that delivers objects of type T.
+template <class T>
+class SensorHW final : public SensorEndpoint {
+ public:
+  explicit SensorHW(Duration period, Source source = Source::sensor)
+      : SensorEndpoint(object_type<T>(), period, source) {}
+
+  [[nodiscard]] Loan<T> loan() const { return make_object<T>(); }
+  void publish(Loan<T> reading) { publish_loan(std::move(reading)); }
+};
+
+/// What a base can do (thesis appendix A, <drive>).
+struct DriveLimits {
+  double max_speed = 0.0;        ///< [m/s]
+  double max_steer_speed = 0.0;  ///< [rad/s]
+  double steer_gain = 0.5;       ///< [1/s] turn rate per radian of direction asked for.
+  double big_turn_angle =
+      0.0;  ///< [rad] at larger directions the base drives at most `big_turn_speed`; 0: no such limit.
+  double big_turn_speed = 0.0;  ///< [m/s]
+};
+
+/// A crisp set-point for the motors of a differential or synchro base, robot frame.
+struct DriveSetpoint {
+  double speed = 0.0;        ///< [m/s] forward positive.
+  double steer_speed = 0.0;  ///< [rad/s] counter-clockwise positive.
+  friend bool operator==(const DriveSetpoint&, const DriveSetpoint&) = default;
+};
+
+/// The motion endpoint of a container (thesis 10.2, Fig. 10.6): takes crisp commands, keeps them within the
+/// limits, and lets none live longer than `max_command_age`.
+///
+/// Thread contract: command() from any strand; due() from the container's.
+class MotionHW {
+ public:
+  MotionHW(const DriveLimits& limits, Duration max_command_age);
+
+  /// Takes a command, to be carried out at the container's next turn.
+  /// @errors  invalid_argument for DONTCARE (fuse first), for a negative speed weight, and for values that
+  /// are not finite.
+  Status command(const idl::MotionCommand& command, TimePoint now);
+
+  /// The set-point that holds now: zero when the last command is older than max_command_age.
+  [[nodiscard]] DriveSetpoint due(TimePoint now);
+
+  /// Zero from now on until the next command.
+  void halt();
+
+  /// When the present command becomes too old; kForever when the base stands.
+  [[nodiscard]] TimePoint expiry() const;
+
+  [[nodiscard]] const DriveLimits& limits() const { return limits_; }
+  /// How often a command grew too old while the base was moving.
+  [[nodiscard]] std::uint64_t expired_count() const;
+
+ private:
+  [[nodiscard]] DriveSetpoint within_limits(const idl::MotionCommand& command) const;
+
+  const DriveLimits limits_;
+  const Duration max_command_age_;
+  mutable std::mutex mutex_;
+  DriveSetpoint setpoint_;
+  TimePoint received_{};
+  std::uint64_t expired_ = 0;
+};
+
+}  // namespace orca::hw

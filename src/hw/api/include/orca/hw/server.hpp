@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "orca/component/component.hpp"
+#include "orca/hw/container.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/patterns/push.hpp"
+#include "orca/patterns/query.hpp"
+#include "orca/patterns/send.hpp"
+
+namespace orca::hw {
+
+/// Wraps a hardware container in a component, whatever endpoints it has (thesis 10.2-10.3): each sensor of
+/// the chosen source becomes a Push and a Query port named after its object type (`OdometryPush`,
+/// `OdometryQuery`), the motion endpoint a Send port `MotionCommandSend`. A new sensor type needs no change
+/// here. RobotBaseServer, LaserServer and TruthLocalizer are this with a few lines of their own.
+///
+/// The hardware is active while somebody subscribes, for a moment after a motion command, and while a query
+/// waits.
+class HardwareServer : public Component {
+ public:
+  /// @param source  which of the container's sensors to offer.
+  HardwareServer(ComponentHost& host, Source source);
+  ~HardwareServer() override;
+
+  Status configure() override;
+  Status start() override;
+  Outcome work() override;
+  void stop() override;
+
+ protected:
+  /// The container that the graph binds to this component; null while a type is described without hardware.
+  [[nodiscard]] HardwareContainer* container() const { return container_; }
+  /// Offers the motion endpoint, if the container has one.
+  void offer_motion();
+
+ private:
+  class SensorPorts;
+
+  Status on_motion(const ObjectPtr<idl::MotionCommand>& command);
+  void release_idle_motion();
+
+  HardwareContainer* const container_;
+  std::vector<std::unique_ptr<SensorPorts>> sensors_;
+  std::unique_ptr<SendServer<idl::MotionCommand>> motion_;
+  ObjectPtr<idl::MotionCommand> waiting_command_;  // came while the hardware was idle
+  TimePoint last_command_{};
+};
+
+}  // namespace orca::hw

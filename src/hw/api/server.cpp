@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/hw/server.hpp"
+
+#include <utility>
+
+#include "orca/idl/system.hpp"
+
+namespace orca::hw {
+namespace {
+
+constexpr Duration kWatchPeriod = 100ms;     // how often the hardware's state is looked at
+constexpr Duration kStartLimit = 5s;         // for a device to start
+constexpr Duration kFirstReadingLimit = 2s;  // for a query to an idle device
+constexpr Duration kMotionHold = 500ms;      // a base stays active this long after the last motion command
+
+// Keeps the hardware active as long as it lives, also when a wait is interrupted.
+class Use {
+ public:
+  explicit Use(HardwareContainer& container) : container_(container) { container_.acquire(); }
+  ~Use() { container_.release(); }
+  Use(const Use&) = delete;
+  Use& operator=(const Use&) = delete;
+
+ private:
+  HardwareContainer& container_;
+};
+
+}  // namespace
+
+// The Push and the Query port of one sensor, whatever its object type.
+class HardwareServer::SensorPorts {
+ public:
+  SensorPorts(HardwareServer& server, SensorEndpoint& sensor)
+      : server_(server),
+        sensor_(sensor),
+        push_(server, std::string(sensor.type().name) + "Push", type_id(sensor.type())),
+        query_(server, std::string(sensor.type().name) + "Query", type_id(object_type<idl::Ask>()),
+               type_id(sensor.type()), [this](const ObjectRef&) { return answer(); }, {}) {}
+  ~SensorPorts() { sensor_.set_sink(nullptr); }
+  SensorPorts(const SensorPorts&) = delete;
+  SensorPorts& operator=(const SensorPorts&) = delete;
+
+  void connect() {
+    sensor_.set_sink([this](ObjectLoan reading) {
+      ObjectRef pushed = push_.push(std::move(reading));
+      server_.host().strand().wake();  // a query may wait for it
+      return pushed;
+    });
+  }
+
+ private:
+  class Push final : public PushServerHandle {
+   public:
+    Push(PortOwner& owner, std::string name, TypeId type)
+        : PushServerHandle(owner, std::move(name), std::move(type), {}) {}
+    // From the container's strand, so without the provenance of what the component handles at the moment.
+    ObjectRef push(ObjectLoan reading) { return endpoint().push(std::move(reading), nullptr); }
+  };
+
+  // The latest reading; of idle hardware, the first after starting it.
+  Result<ObjectLoan> answer() {
+    const Use use(*server_.container());
+    const bool there = server_.host().strand().wait_for(
+        server_.now() + kFirstReadingLimit, [this] { return static_cast<bool>(sensor_.latest()); });
+    const ObjectRef reading = sensor_.latest();
+    if (!there || !reading) return fail(Code::deadline_exceeded, "the hardware gave no reading within 2 s");
+    return copy_value(reading);
+  }
+
+  HardwareServer& server_;
+  SensorEndpoint& sensor_;
+  Push push_;
+  QueryServerHandle query_;
+};
+
+HardwareServer::HardwareServer(ComponentHost& host, Source source)
+    : Component(host), container_(host.hardware()) {
+  lap_every(kWatchPeriod);
+  if (container_ == nullptr) return;
+  for (SensorEndpoint* sensor : container_->sensors())
+    if (sensor->source() == source) sensors_.push_back(std::make_unique<SensorPorts>(*this, *sensor));
+}
+
+HardwareServer::~HardwareServer() = default;
+
+void HardwareServer::offer_motion() {
+  if (container_ == nullptr || container_->motion() == nullptr) return;
+  motion_ = std::make_unique<SendServer<idl::MotionCommand>>(*this, "MotionCommandSend",
+                                                             &HardwareServer::on_motion);
+}
+
+Status HardwareServer::configure() {
+  if (container_ == nullptr) return fail(Code::failed_precondition, "the graph binds no hardware to it");
+  container_->watch(host().strand());
+  for (const auto& sensor : sensors_) sensor->connect();
+  return ok();
+}
+
+Status HardwareServer::start() {
+  container_->acquire();
+  host().strand().wait_for(now() + kStartLimit, [this] {
+    return container_->state() == HardwareState::active || container_->state() == HardwareState::fault;
+  });
+  if (container_->state() != HardwareState::active)
+    return fail(Code::unavailable, "the hardware does not start: " + container_->fault());
+  last_command_ = now();
+  if (const ObjectPtr<idl::MotionCommand> command = std::exchange(waiting_command_, nullptr))
+    return container_->command(*command);
+  return ok();
+}
+
+Outcome HardwareServer::work() {
+  if (container_->state() == HardwareState::fault)
+    return failed("the hardware failed: " + container_->fault());
+  release_idle_motion();
+  return again();
+}
+
+void HardwareServer::stop() { container_->release(); }
+
+Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {
+  last_command_ = now();
+  const bool stands = command->kind() == idl::FULLSTOP;
+  if (container_->state() == HardwareState::active) {
+    stay_active(!stands);
+    return container_->command(*command);
+  }
+  if (stands) return ok();  // idle hardware stands already
+  waiting_command_ = command;
+  stay_active(true);
+  return ok();
+}
+
+void HardwareServer::release_idle_motion() {
+  if (now() - last_command_ > kMotionHold) stay_active(false);
+}
+
+}  // namespace orca::hw

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <utility>
+
+#include "orca/patterns/push.hpp"
+#include "orca/patterns/query.hpp"
+#include "orca/patterns/send.hpp"
+
+namespace orca {
+namespace {
+
+std::uint32_t default_depth(Pattern pattern) { return pattern == Pattern::push ? 1 : 16; }
+
+}  // namespace
+
+PortDeclaration make_declaration(std::string name, Pattern pattern, Role role, TypeId type,
+                                 const PortOptions& options) {
+  PortDeclaration declaration;
+  declaration.contract.name = std::move(name);
+  declaration.contract.pattern = pattern;
+  declaration.contract.role = role;
+  declaration.contract.type = std::move(type);
+  declaration.contract.required = role == Role::proxy && !options.optional;
+  declaration.contract.queue.depth = options.depth > 0 ? options.depth : default_depth(pattern);
+  declaration.contract.text = options.text;
+  declaration.manual = options.manual;
+  return declaration;
+}
+
+PushServerHandle::PushServerHandle(PortOwner& owner, std::string name, TypeId type,
+                                   const PortOptions& options) {
+  PortDeclaration declaration =
+      make_declaration(std::move(name), Pattern::push, Role::server, std::move(type), options);
+  declaration.slot = &endpoint_;
+  owner.declare_port(std::move(declaration));
+}
+
+void PushServerHandle::push_loan(ObjectLoan loan) {
+  endpoint().push(std::move(loan), &endpoint().home().provenance);
+}
+
+PushProxyHandle::PushProxyHandle(PortOwner& owner, std::string name, TypeId type,
+                                 const PortOptions& options) {
+  PortDeclaration declaration =
+      make_declaration(std::move(name), Pattern::push, Role::proxy, std::move(type), options);
+  declaration.slot = &endpoint_;
+  owner.declare_port(std::move(declaration));
+}
+
+ObjectRef PushProxyHandle::take() {
+  if (!endpoint().connected()) return {};
+  ObjectRef object = endpoint().edges().front()->take();
+  if (object) {
+    endpoint().home().provenance.note(object.header());
+    last_ = object;
+  }
+  return object;
+}
+
+ObjectRef PushProxyHandle::get_update_ref() {
+  if (take() || last_) return last_;
+  return get_update_wait_ref(kForever);
+}
+
+ObjectRef PushProxyHandle::get_update_wait_ref(TimePoint deadline) {
+  ObjectRef object;
+  endpoint().home().strand.wait_for(deadline, [&] {
+    object = take();
+    return static_cast<bool>(object);
+  });
+  return object;
+}
+
+ObjectRef PushProxyHandle::latest_ref() const {
+  return endpoint().connected() ? endpoint().edges().front()->latest() : ObjectRef{};
+}
+
+TimePoint PushProxyHandle::deadline_in(Duration limit) const {
+  return saturating_add(endpoint().home().strand.executive().now(), limit);
+}
+
+SendServerHandle::SendServerHandle(PortOwner& owner, std::string name, TypeId type,
+                                   SendServerEndpoint::Handler handler, const PortOptions& options) {
+  PortDeclaration declaration =
+      make_declaration(std::move(name), Pattern::send, Role::server, std::move(type), options);
+  declaration.slot = &endpoint_;
+  declaration.on_object = std::move(handler);
+  owner.declare_port(std::move(declaration));
+}
+
+SendProxyHandle::SendProxyHandle(PortOwner& owner, std::string name, TypeId type,
+                                 const PortOptions& options) {
+  PortDeclaration declaration =
+      make_declaration(std::move(name), Pattern::send, Role::proxy, std::move(type), options);
+  declaration.slot = &endpoint_;
+  owner.declare_port(std::move(declaration));
+}
+
+Status SendProxyHandle::send_loan(ObjectLoan loan) {
+  return endpoint().send(std::move(loan), &endpoint().home().provenance);
+}
+
+QueryServerHandle::QueryServerHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply,
+                                     QueryServerEndpoint::Handler handler, const PortOptions& options) {
+  PortDeclaration declaration =
+      make_declaration(std::move(name), Pattern::query, Role::server, std::move(request), options);
+  declaration.contract.reply = std::move(reply);
+  declaration.slot = &endpoint_;
+  declaration.on_request = std::move(handler);
+  owner.declare_port(std::move(declaration));
+}
+
+QueryProxyHandle::QueryProxyHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply,
+                                   const PortOptions& options) {
+  PortDeclaration declaration =
+      make_declaration(std::move(name), Pattern::query, Role::proxy, std::move(request), options);
+  declaration.contract.reply = std::move(reply);
+  declaration.slot = &endpoint_;
+  owner.declare_port(std::move(declaration));
+}
+
+Result<QueryId> QueryProxyHandle::request_loan(ObjectLoan loan) {
+  return endpoint().request(std::move(loan), &endpoint().home().provenance);
+}
+
+TimePoint QueryProxyHandle::deadline_in(Duration limit) const {
+  return saturating_add(endpoint().home().strand.executive().now(), limit);
+}
+
+}  // namespace orca

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "orca/patterns/push_endpoint.hpp"
+#include "orca/patterns/query_endpoint.hpp"
+#include "orca/patterns/send_endpoint.hpp"
+
+namespace orca {
+
+/// What an author may say about a port when declaring it.
+struct PortOptions {
+  std::string text{};     ///< One sentence for people.
+  bool optional = false;  ///< A proxy that may stay unconnected.
+  /// A PushProxy whose subscription the component makes itself; otherwise it lasts as long as the component
+  /// works.
+  bool manual = false;
+  /// Objects kept per edge (Push) or waiting to be handled (Send and Query servers); 0: the pattern's
+  /// default.
+  std::uint32_t depth = 0;
+};
+
+/// A port as declared by a member of a component.
+struct PortDeclaration {
+  PortContract contract;
+  bool manual = false;
+  /// Where the handle wants the address of its endpoint; filled by the host before configure().
+  Endpoint** slot = nullptr;
+  SendServerEndpoint::Handler on_object;    ///< Send servers only.
+  QueryServerEndpoint::Handler on_request;  ///< Query servers only.
+};
+
+/// Whoever has ports: a component.
+class PortOwner {
+ public:
+  virtual ~PortOwner() = default;
+  /// @pre  called from the owner's constructor.
+  virtual void declare_port(PortDeclaration declaration) = 0;
+};
+
+/// Builds a declaration from an author's words.
+[[nodiscard]] PortDeclaration make_declaration(std::string name, Pattern pattern, Role role, TypeId type,
+                                               const PortOptions& options);
+
+}  // namespace orca

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "orca/patterns/port_owner.hpp"
+
+namespace orca {
+
+/// The untyped part of QueryServer.
+class QueryServerHandle {
+ public:
+  QueryServerHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply,
+                    QueryServerEndpoint::Handler handler, const PortOptions& options);
+  QueryServerHandle(const QueryServerHandle&) = delete;
+  QueryServerHandle& operator=(const QueryServerHandle&) = delete;
+
+ private:
+  Endpoint* endpoint_ = nullptr;
+};
+
+/// Answers requests of type Q with objects of type A (thesis 7.3, Fig. 7.4). The handler is a member function
+/// `Result<Loan<A>> on_ask(const ObjectPtr<Q>&)`; it runs on the component's strand between two laps.
+template <class Q, class A>
+class QueryServer : public QueryServerHandle {
+ public:
+  template <class C>
+  QueryServer(C& owner, std::string name, Result<Loan<A>> (C::*handler)(const ObjectPtr<Q>&),
+              const PortOptions& options = {})
+      : QueryServerHandle(
+            owner, std::move(name), type_id(object_type<Q>()), type_id(object_type<A>()),
+            [&owner, handler](const ObjectRef& request) -> Result<ObjectLoan> {
+              Result<Loan<A>> answer = (owner.*handler)(object_cast<Q>(request));
+              if (!answer) return answer.error();
+              return ObjectLoan(std::move(answer).value());
+            },
+            options) {}
+};
+
+/// The untyped part of QueryProxy.
+class QueryProxyHandle {
+ public:
+  QueryProxyHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply,
+                   const PortOptions& options);
+  QueryProxyHandle(const QueryProxyHandle&) = delete;
+  QueryProxyHandle& operator=(const QueryProxyHandle&) = delete;
+
+  [[nodiscard]] bool connected() const { return endpoint().connected(); }
+
+ protected:
+  Result<QueryId> request_loan(ObjectLoan loan);
+  [[nodiscard]] TimePoint deadline_in(Duration limit) const;
+  [[nodiscard]] QueryClientEndpoint& endpoint() const {
+    return static_cast<QueryClientEndpoint&>(*endpoint_);
+  }
+
+ private:
+  Endpoint* endpoint_ = nullptr;
+};
+
+/// Asks one QueryServer (thesis 7.3, Fig. 7.5): blocking with query(), or in two steps with query_request()
+/// and query_receive() or query_receive_wait().
+///
+/// Thread contract: the component's strand.
+template <class Q, class A>
+class QueryProxy : public QueryProxyHandle {
+ public:
+  QueryProxy(PortOwner& owner, std::string name, const PortOptions& options = {})
+      : QueryProxyHandle(owner, std::move(name), type_id(object_type<Q>()), type_id(object_type<A>()),
+                         options) {}
+
+  [[nodiscard]] Loan<Q> loan() const { return make_object<Q>(); }
+
+  /// Asks and waits for the answer.
+  /// @errors  failed_precondition if not connected, unavailable if refused, deadline_exceeded, or the
+  /// server's own.
+  Result<ObjectPtr<A>> query(Loan<Q> request, Duration timeout = 1s) {
+    const Result<QueryId> id = query_request(std::move(request));
+    if (!id) return id.error();
+    return query_receive_wait(*id, timeout);
+  }
+
+  Result<QueryId> query_request(Loan<Q> request) { return request_loan(std::move(request)); }
+
+  /// The answer if it is there; nothing while it is not.
+  std::optional<Result<ObjectPtr<A>>> query_receive(QueryId id) {
+    std::optional<Result<ObjectRef>> answer = endpoint().receive(id);
+    if (!answer) return std::nullopt;
+    return typed(std::move(*answer));
+  }
+
+  Result<ObjectPtr<A>> query_receive_wait(QueryId id, Duration timeout = 1s) {
+    return typed(endpoint().receive_until(id, deadline_in(timeout)));
+  }
+
+ private:
+  static Result<ObjectPtr<A>> typed(Result<ObjectRef> answer) {
+    if (!answer) return answer.error();
+    return object_cast<A>(std::move(answer).value());
+  }
+};
+
+}  // namespace orca

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "cooperative.hpp"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <cassert>
+#include <ctime>
+#include <utility>
+
+#include "steady_time.hpp"
+
+namespace orca::detail {
+
+// The executive whose tasks run on this thread, if any: tells notifications from inside from those of
+// strangers.
+static thread_local const CooperativeExecutive* t_inside = nullptr;
+
+struct CooperativeExecutive::Fiber {
+  std::string name;
+  int priority = 0;
+  std::unique_ptr<Context> context;
+  std::unique_ptr<Event> ended_event;
+  bool ended = false;
+  std::optional<Key> timer;
+  std::optional<Key> ready;
+  std::atomic<pthread_t> thread{};
+};
+
+class CooperativeEvent final : public Event {
+ public:
+  explicit CooperativeEvent(CooperativeExecutive& executive) : executive_(executive) {}
+  ~CooperativeEvent() override { executive_.forget_notifications(*this); }
+
+  void notify() override {
+    if (executive_.called_from_inside()) {
+      notify_inside();
+    } else {
+      executive_.post_notification(*this);
+    }
+  }
+
+  void notify_inside() {
+    notified_ = true;
+    if (waiter_ != nullptr) executive_.make_ready(*waiter_);
+  }
+
+  bool wait_until(TimePoint deadline) override {
+    if (!notified_ && deadline > executive_.now()) {
+      waiter_ = executive_.current();
+      executive_.block_until(deadline);
+      waiter_ = nullptr;
+    }
+    return std::exchange(notified_, false);
+  }
+
+ private:
+  CooperativeExecutive& executive_;
+  CooperativeExecutive::Fiber* waiter_ = nullptr;
+  bool notified_ = false;
+};
+
+namespace {
+
+class CooperativeTask final : public Task {
+ public:
+  CooperativeTask(CooperativeExecutive& executive, std::unique_ptr<CooperativeExecutive::Fiber> fiber)
+      : executive_(executive), fiber_(std::move(fiber)) {}
+  ~CooperativeTask() override {
+    join_until(kForever);
+    executive_.destroy(std::move(fiber_));
+  }
+
+  bool join_until(TimePoint deadline) override {
+    while (!fiber_->ended && fiber_->ended_event->wait_until(deadline)) {
+    }
+    return fiber_->ended;
+  }
+
+ private:
+  CooperativeExecutive& executive_;
+  std::unique_ptr<CooperativeExecutive::Fiber> fiber_;
+};
+
+Duration cpu_time_of(pthread_t thread) {
+  clockid_t clock{};
+  timespec time{};
+  if (pthread_getcpuclockid(thread, &clock) != 0 || clock_gettime(clock, &time) != 0) return Duration{0};
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+}  // namespace
+
+CooperativeExecutive::CooperativeExecutive(ClockKind clock, ContextFactory make_context)
+    : clock_(clock), make_context_(make_context) {}
+
+CooperativeExecutive::~CooperativeExecutive() = default;
+
+TimePoint CooperativeExecutive::now() const {
+  return is_virtual() ? TimePoint(Duration(virtual_now_ns_.load(std::memory_order_relaxed))) : steady_now();
+}
+
+std::unique_ptr<Event> CooperativeExecutive::make_event() {
+  return std::make_unique<CooperativeEvent>(*this);
+}
+
+std::unique_ptr<CooperativeExecutive::Fiber> CooperativeExecutive::make_fiber(TaskOptions options,
+                                                                              std::function<void()> body) {
+  auto fiber = std::make_unique<Fiber>();
+  fiber->name = std::move(options.name);
+  fiber->priority = options.priority;
+  fiber->ended_event = make_event();
+  fiber->context = make_context_([this, self = fiber.get(), run = std::move(body)] {
+    t_inside = this;
+    self->thread = pthread_self();
+    run();
+    self->ended = true;
+    self->ended_event->notify();
+  });
+  return fiber;
+}
+
+std::unique_ptr<Task> CooperativeExecutive::spawn(TaskOptions options, std::function<void()> body) {
+  auto fiber = make_fiber(std::move(options), std::move(body));
+  make_ready(*fiber);
+  return std::make_unique<CooperativeTask>(*this, std::move(fiber));
+}
+
+void CooperativeExecutive::destroy(std::unique_ptr<Fiber> fiber) {
+  assert(fiber->ended && !fiber->ready && !fiber->timer);
+  const std::lock_guard lock(monitor_mutex_);
+  fiber.reset();
+}
+
+void CooperativeExecutive::run(std::function<void()> main) {
+  const CooperativeExecutive* const outer = std::exchange(t_inside, this);
+  auto fiber = make_fiber({"main", 0}, std::move(main));
+  main_ = fiber.get();
+  make_ready(*fiber);
+  while (!fiber->ended) {
+    take_notifications();
+    if (!is_virtual()) fire_timers();
+    if (!ready_.empty()) {
+      run_one();
+    } else if (is_virtual()) {
+      advance_virtual_time();
+    } else {
+      wait_for_work();
+    }
+  }
+  main_ = nullptr;
+  destroy(std::move(fiber));
+  t_inside = outer;
+}
+
+void CooperativeExecutive::run_one() {
+  Fiber& fiber = *std::get<Fiber*>(*ready_.begin());
+  ready_.erase(ready_.begin());
+  fiber.ready.reset();
+  current_ = &fiber;
+  running_.store(&fiber, std::memory_order_release);
+  switches_.fetch_add(1, std::memory_order_release);
+  fiber.context->resume();
+  running_.store(nullptr, std::memory_order_release);
+  current_ = nullptr;
+}
+
+void CooperativeExecutive::make_ready(Fiber& fiber) {
+  if (fiber.ready) return;
+  if (fiber.timer) {
+    timers_.erase(*fiber.timer);
+    fiber.timer.reset();
+  }
+  fiber.ready = Key{now(), -fiber.priority, sequence_++, &fiber};
+  ready_.insert(*fiber.ready);
+}
+
+void CooperativeExecutive::block_until(TimePoint deadline) {
+  Fiber& fiber = *current_;
+  if (deadline != kForever) {
+    fiber.timer = Key{deadline, -fiber.priority, sequence_++, &fiber};
+    timers_.insert(*fiber.timer);
+  }
+  fiber.context->suspend();
+}
+
+void CooperativeExecutive::fire_timers() {
+  const TimePoint time = now();
+  while (!timers_.empty() && std::get<TimePoint>(*timers_.begin()) <= time) {
+    make_ready(*std::get<Fiber*>(*timers_.begin()));
+  }
+}
+
+void CooperativeExecutive::advance_virtual_time() {
+  if (timers_.empty()) {
+    make_ready(*main_);  // nothing can ever happen again: main's wait ends
+    return;
+  }
+  virtual_now_ns_.store(std::get<TimePoint>(*timers_.begin()).time_since_epoch().count(),
+                        std::memory_order_relaxed);
+  fire_timers();
+}
+
+void CooperativeExecutive::wait_for_work() {
+  std::unique_lock lock(inbox_mutex_);
+  const auto filled = [this] { return !inbox_.empty(); };
+  if (timers_.empty()) {
+    inbox_changed_.wait(lock, filled);
+  } else {
+    inbox_changed_.wait_until(lock, to_steady(std::get<TimePoint>(*timers_.begin())), filled);
+  }
+}
+
+bool CooperativeExecutive::called_from_inside() const { return t_inside == this; }
+
+void CooperativeExecutive::post_notification(CooperativeEvent& event) {
+  const std::lock_guard lock(inbox_mutex_);
+  inbox_.push_back(&event);
+  inbox_filled_.store(true, std::memory_order_release);
+  inbox_changed_.notify_one();
+}
+
+void CooperativeExecutive::forget_notifications(CooperativeEvent& event) {
+  const std::lock_guard lock(inbox_mutex_);
+  std::erase(inbox_, &event);
+}
+
+void CooperativeExecutive::take_notifications() {
+  if (!inbox_filled_.load(std::memory_order_acquire)) return;
+  const std::lock_guard lock(inbox_mutex_);
+  for (CooperativeEvent* event : inbox_) event->notify_inside();
+  inbox_.clear();
+  inbox_filled_.store(false, std::memory_order_release);
+}
+
+std::optional<StuckTask> CooperativeExecutive::stuck_task(Duration limit) {
+  const std::lock_guard lock(monitor_mutex_);
+  const std::uint64_t switches = switches_.load(std::memory_order_acquire);
+  const Fiber* const fiber = running_.load(std::memory_order_acquire);
+  if (fiber == nullptr || fiber->thread == pthread_t{}) return std::nullopt;
+  const Duration cpu = cpu_time_of(fiber->thread);
+  if (switches != observed_switches_) {
+    observed_switches_ = switches;
+    cpu_at_observation_ = cpu;
+    return std::nullopt;
+  }
+  const Duration used = cpu - cpu_at_observation_;
+  if (used <= limit) return std::nullopt;
+  return StuckTask{fiber->name, used};
+}
+
+}  // namespace orca::detail

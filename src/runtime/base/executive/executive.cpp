@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/base/executive.hpp"
+
+#include "cooperative.hpp"
+#include "thread_executive.hpp"
+
+namespace orca {
+
+void Executive::sleep_until(TimePoint time) {
+  const std::unique_ptr<Event> alarm = make_event();
+  while (now() < time) alarm->wait_until(time);
+}
+
+Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& options) {
+  if (options.backend == Backend::thread) {
+    if (options.clock == ClockKind::virtual_time)
+      return fail(
+          Code::invalid_argument,
+          "the thread executor cannot run in virtual time, because its order is the operating system's; "
+          "take --executor fiber or baton");
+    return std::unique_ptr<Executive>(std::make_unique<detail::ThreadExecutive>());
+  }
+  const auto factory =
+      options.backend == Backend::fiber ? detail::make_fiber_context : detail::make_baton_context;
+  return std::unique_ptr<Executive>(std::make_unique<detail::CooperativeExecutive>(options.clock, factory));
+}
+
+}  // namespace orca

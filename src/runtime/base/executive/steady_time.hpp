@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+
+#include "orca/base/time.hpp"
+
+namespace orca::detail {
+
+/// The steady clock, shifted once so that it reads as ns since the Unix epoch.
+TimePoint steady_now();
+
+/// The std::chrono instant of a TimePoint of steady_now().
+std::chrono::steady_clock::time_point to_steady(TimePoint time);
+
+}  // namespace orca::detail

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/base/strand.hpp"
+
+#include <utility>
+
+namespace orca {
+
+Strand::Strand(Executive& executive, TaskOptions options)
+    : executive_(executive), options_(std::move(options)), event_(executive.make_event()) {}
+
+void Strand::start(std::function<void()> body) { task_ = executive_.spawn(options_, std::move(body)); }
+
+}  // namespace orca

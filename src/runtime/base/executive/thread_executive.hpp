@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "orca/base/executive.hpp"
+
+namespace orca::detail {
+
+/// One std::thread per task on the steady clock.
+class ThreadExecutive final : public Executive {
+ public:
+  [[nodiscard]] TimePoint now() const override;
+  [[nodiscard]] bool is_virtual() const override { return false; }
+  [[nodiscard]] std::unique_ptr<Event> make_event() override;
+  [[nodiscard]] std::unique_ptr<Task> spawn(TaskOptions options, std::function<void()> body) override;
+  void run(std::function<void()> main) override;
+  [[nodiscard]] std::optional<StuckTask> stuck_task(Duration limit) override;
+};
+
+}  // namespace orca::detail

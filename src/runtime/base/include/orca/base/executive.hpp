@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+
+namespace orca {
+
+/// The one primitive on which everything that blocks is built: a flag that one task waits for.
+///
+/// A notification is remembered until it is consumed by a wait; several notifications before that count as
+/// one.
+///
+/// Thread contract: notify() from any task or thread, also from threads that the executive does not know;
+/// wait_until() from one task at a time.
+class Event {
+ public:
+  virtual ~Event() = default;
+  Event() = default;
+  Event(const Event&) = delete;
+  Event& operator=(const Event&) = delete;
+
+  virtual void notify() = 0;
+
+  /// Blocks the calling task until notified or until the deadline.
+  ///
+  /// @return true if notified (the flag is cleared), false at the deadline.
+  virtual bool wait_until(TimePoint deadline) = 0;
+};
+
+struct TaskOptions {
+  std::string name;  ///< For people: the component's name.
+  int priority = 0;  ///< Among tasks that are ready at the same time the larger runs first (fiber and baton).
+};
+
+/// A running function of its own: one strand of execution.
+class Task {
+ public:
+  /// Joins, like std::jthread; the owner has told the task to end before.
+  virtual ~Task() = default;
+  Task() = default;
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
+
+  /// Blocks the calling task until this one has ended, or until the deadline.
+  ///
+  /// @return true if it has ended.
+  virtual bool join_until(TimePoint deadline) = 0;
+};
+
+/// A task that has used the processor for longer than allowed without waiting for anything.
+struct StuckTask {
+  std::string name;
+  Duration cpu_time{0};  ///< CPU time since it was last switched to [ns].
+};
+
+/// Runs tasks by one of three back ends and owns the clock that they see.
+///
+/// * thread: a thread per task, steady clock.
+/// * fiber: all tasks on the thread that called run(), steady or virtual clock.
+/// * baton: a thread per task of which only one runs at a time, scheduled exactly as fibers are; virtual
+/// clock.
+///
+/// With fibers and batons the order is (time at which the task became ready, priority, sequence), and virtual
+/// time advances only when no task is ready: the same program gives the same order, whatever the load of the
+/// machine.
+///
+/// Thread contract: now() and Event::notify() from anywhere; the rest from tasks of this executive.
+class Executive {
+ public:
+  virtual ~Executive() = default;
+  Executive() = default;
+  Executive(const Executive&) = delete;
+  Executive& operator=(const Executive&) = delete;
+
+  [[nodiscard]] virtual TimePoint now() const = 0;
+  [[nodiscard]] virtual bool is_virtual() const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Event> make_event() = 0;
+
+  /// Starts a task. `body` must not throw.
+  [[nodiscard]] virtual std::unique_ptr<Task> spawn(TaskOptions options, std::function<void()> body) = 0;
+
+  /// Runs `main` as a task and returns when it has ended. All other tasks must have ended by then.
+  ///
+  /// In virtual time, when no task can ever run again, a wait of `main` ends as if its deadline had come.
+  virtual void run(std::function<void()> main) = 0;
+
+  /// The task that now holds the processor, if it has not waited for anything during `limit` of its CPU time.
+  /// Fiber and baton only: the thread back end schedules nothing and returns nothing.
+  ///
+  /// @thread  a monitoring thread outside the executive.
+  [[nodiscard]] virtual std::optional<StuckTask> stuck_task(Duration limit) = 0;
+
+  /// Blocks the calling task until the given time.
+  void sleep_until(TimePoint time);
+};
+
+enum class ClockKind { steady, virtual_time };
+enum class Backend { thread, fiber, baton };
+
+struct ExecutiveOptions {
+  ClockKind clock = ClockKind::steady;
+  Backend backend = Backend::thread;
+};
+
+/// @errors  invalid_argument for a combination that cannot work (virtual clock on free-running threads).
+[[nodiscard]] Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& options);
+
+}  // namespace orca

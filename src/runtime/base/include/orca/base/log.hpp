@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+
+namespace orca::log {
+
+enum class Level { debug, info, warning, error, off };
+
+/// Reads "debug", "info", "warning", "error" or "off".
+[[nodiscard]] Result<Level> parse_level(std::string_view text);
+
+/// Lines below this level are not written. Default: info.
+void set_level(Level level);
+
+/// Where the time in front of each line comes from; without it lines carry no time. Null takes it away again.
+void set_clock(std::function<TimePoint()> now);
+
+/// Writes one line to stderr: time [s], level, who, text.
+///
+/// @thread  any; lines are not mixed.
+void write(Level level, std::string_view who, std::string_view text);
+
+inline void debug(std::string_view who, std::string_view text) { write(Level::debug, who, text); }
+inline void info(std::string_view who, std::string_view text) { write(Level::info, who, text); }
+inline void warning(std::string_view who, std::string_view text) { write(Level::warning, who, text); }
+inline void error(std::string_view who, std::string_view text) { write(Level::error, who, text); }
+
+}  // namespace orca::log

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "orca/base/executive.hpp"
+
+namespace orca {
+
+/// Thrown out of a wait inside a component when its strand is told to leave its lap: at stop, suspend, or
+/// when the last client has gone. Not a std::exception, so that a component's `catch (const std::exception&)`
+/// lets it pass.
+struct Interrupted {};
+
+/// The one strand on which everything of a component runs: laps, handlers, parameter changes and state hooks.
+/// Because it is one task they never overlap, and authors need no locks.
+///
+/// Thread contract: wake() from anywhere; the waits only from the strand's own task.
+class Strand {
+ public:
+  Strand(Executive& executive, TaskOptions options);
+
+  /// Starts the task. `body` must not throw.
+  void start(std::function<void()> body);
+
+  /// Something that the strand may be waiting for has changed.
+  void wake() { event_->notify(); }
+
+  /// What makes a wait_for() throw Interrupted: asked by the strand itself, each time it is woken. Set before
+  /// start().
+  void set_leave_condition(std::function<bool()> leave) { leave_ = std::move(leave); }
+
+  /// Blocks until `condition` holds or the deadline comes. For waits inside a component's own code.
+  ///
+  /// @return whether the condition holds.
+  /// @errors  throws Interrupted.
+  template <class Condition>
+  bool wait_for(TimePoint deadline, Condition&& condition) {
+    while (!condition()) {
+      if (leave_ && leave_()) throw Interrupted{};
+      if (!event_->wait_until(deadline) && executive_.now() >= deadline) return condition();
+    }
+    return true;
+  }
+
+  /// The same for the runtime's own loop, which is not interrupted: returns when woken or at the deadline.
+  void pause_until(TimePoint deadline) { event_->wait_until(deadline); }
+
+  /// @return true if the task has ended by the deadline.
+  bool join_until(TimePoint deadline) { return task_ == nullptr || task_->join_until(deadline); }
+
+  [[nodiscard]] Executive& executive() const { return executive_; }
+  [[nodiscard]] const std::string& name() const { return options_.name; }
+
+ private:
+  Executive& executive_;
+  TaskOptions options_;
+  std::unique_ptr<Event> event_;
+  std::function<bool()> leave_;
+  std::unique_ptr<Task> task_;
+};
+
+}  // namespace orca

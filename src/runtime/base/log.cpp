@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/base/log.hpp"
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <mutex>
+
+namespace orca::log {
+namespace {
+
+struct State {
+  std::mutex mutex;
+  std::function<TimePoint()> now;
+  std::shared_ptr<spdlog::logger> logger;
+
+  State()
+      : logger(std::make_shared<spdlog::logger>("orca", std::make_shared<spdlog::sinks::stderr_sink_mt>())) {
+    logger->set_pattern("%v");
+    logger->flush_on(spdlog::level::debug);
+  }
+};
+
+// Never destroyed: threads may log while the process ends.
+State& state() {
+  static State* const instance = new State;
+  return *instance;
+}
+
+spdlog::level::level_enum to_spdlog(Level level) {
+  switch (level) {
+    case Level::debug: return spdlog::level::debug;
+    case Level::info: return spdlog::level::info;
+    case Level::warning: return spdlog::level::warn;
+    case Level::error: return spdlog::level::err;
+    case Level::off: break;
+  }
+  return spdlog::level::off;
+}
+
+std::string_view name(Level level) {
+  constexpr std::string_view kNames[] = {"debug", "info", "warning", "error", "off"};
+  return kNames[static_cast<int>(level)];
+}
+
+}  // namespace
+
+Result<Level> parse_level(std::string_view text) {
+  for (const Level level : {Level::debug, Level::info, Level::warning, Level::error, Level::off})
+    if (text == name(level)) return level;
+  return fail(Code::invalid_argument,
+              "unknown log level '" + std::string(text) + "'; it is one of debug, info, warning, error, off");
+}
+
+void set_level(Level level) { state().logger->set_level(to_spdlog(level)); }
+
+void set_clock(std::function<TimePoint()> now) {
+  const std::lock_guard lock(state().mutex);
+  state().now = std::move(now);
+}
+
+void write(Level level, std::string_view who, std::string_view text) {
+  State& s = state();
+  if (!s.logger->should_log(to_spdlog(level))) return;
+  const std::lock_guard lock(s.mutex);
+  if (s.now) {
+    s.logger->log(to_spdlog(level), "[{:10.3f}] {:<7} {}: {}", to_seconds(s.now()), name(level), who, text);
+  } else {
+    s.logger->log(to_spdlog(level), "{}: {}: {}", name(level), who, text);
+  }
+}
+
+}  // namespace orca::log

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/component/component.hpp"
+
+namespace orca {
+
+void Component::sleep(Duration time) {
+  host_.strand().wait_for(saturating_add(now(), time), [] { return false; });
+}
+
+}  // namespace orca

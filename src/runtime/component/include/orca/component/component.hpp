@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "orca/base/result.hpp"
+#include "orca/component/host.hpp"
+#include "orca/component/outcome.hpp"
+#include "orca/component/param.hpp"
+#include "orca/patterns/port_owner.hpp"
+
+namespace orca {
+
+/// The base of every component (thesis 9.3): an equal peer that talks through ports only.
+///
+/// The state machine (thesis 9.4) calls the hooks: INIT configure(), CONNECT start(), WORK work() lap by lap,
+/// and stop() on the way back to IDLE. A component works while somebody subscribes to one of its PushServers,
+/// or while it has asked for it with stay_active(); the graph may say `autonomous`.
+///
+/// Two rules make this sound. The constructor only declares: ports and parameters are members, and nothing is
+/// opened or started, so that a process may construct a component only to describe it. And all hooks, laps
+/// and handlers run on one strand: they never overlap, no locks are needed.
+///
+/// Thread contract: everything on the component's strand.
+class Component : public PortOwner {
+ public:
+  explicit Component(ComponentHost& host) : host_(host) {}
+  Component(const Component&) = delete;
+  Component& operator=(const Component&) = delete;
+
+  /// INIT, once, after the parameters are set: check them, allocate. An error keeps the whole system from
+  /// starting.
+  virtual Status configure() { return ok(); }
+
+  /// CONNECT, each time a first client comes, after the component's own providers have been subscribed to. An
+  /// error leads to WORK_FAILED.
+  virtual Status start() { return ok(); }
+
+  /// WORK: one lap. Blocking calls on ports are welcome.
+  virtual Outcome work() = 0;
+
+  /// After the last lap, when nobody uses the component any more, before its providers are let go.
+  virtual void stop() {}
+
+  // For the handles that are members of a component.
+  void declare_port(PortDeclaration declaration) final { host_.declare_port(std::move(declaration)); }
+  void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
+
+ protected:
+  /// What starts a lap unless the graph says otherwise; without these, the next lap follows at once.
+  /// @pre  called from the constructor or from configure().
+  void lap_every(Duration period) { host_.set_default_trigger({Trigger::Kind::period, period, {}}); }
+  void lap_on(std::string port) {
+    host_.set_default_trigger({Trigger::Kind::on_port, Duration{0}, std::move(port)});
+  }
+
+  [[nodiscard]] const std::string& name() const { return host_.name(); }
+  [[nodiscard]] TimePoint now() const { return host_.now(); }
+  [[nodiscard]] RandomStream random(std::string_view stream) const { return host_.random(stream); }
+
+  /// Blocks this component for a while.
+  /// @errors  throws Interrupted.
+  void sleep(Duration time);
+
+  void log_debug(std::string_view text) const { host_.write_log(log::Level::debug, text); }
+  void log_info(std::string_view text) const { host_.write_log(log::Level::info, text); }
+  void log_warning(std::string_view text) const { host_.write_log(log::Level::warning, text); }
+  void log_error(std::string_view text) const { host_.write_log(log::Level::error, text); }
+
+  /// A line on stdout for whoever runs the system.
+  void announce(const Announcement& announcement) { host_.announce(announcement); }
+
+  /// Work also without subscribers, from now on or no longer.
+  void stay_active(bool active) { host_.stay_active(active); }
+
+  [[nodiscard]] ComponentHost& host() const { return host_; }
+
+ private:
+  ComponentHost& host_;
+};
+
+}  // namespace orca

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "orca/base/contract.hpp"
+
+namespace orca {
+
+class Component;
+class ComponentHost;
+class PluginHost;
+namespace hw {
+class HardwareContainer;
+class HardwareHost;
+}  // namespace hw
+
+/// Counts up whenever the layout or meaning of anything that crosses the plugin boundary changes.
+inline constexpr std::uint32_t kAbiVersion = 1;
+
+/// One type that a plugin holds.
+struct TypeEntry {
+  PluginKind kind;
+  const char* type;  ///< e.g. "orca.SonarAvoid".
+  Component* (*create_component)(ComponentHost&);
+  void (*destroy_component)(Component*);
+  hw::HardwareContainer* (*create_hardware)(hw::HardwareHost&);
+  void (*destroy_hardware)(hw::HardwareContainer*);
+};
+
+/// The one symbol that a plugin exports, `orca_plugin_manifest`. Plain data: it can be checked before any of
+/// the plugin's code has run. Compatibility is decided by abi_version, size and the objects' type hashes;
+/// build_id is for people.
+struct Manifest {
+  std::uint32_t abi_version;
+  std::uint32_t size;  ///< sizeof(Manifest) when the plugin was built.
+  const char* build_id;
+  const TypeEntry* const* first_type;
+  const TypeEntry* const* end_of_types;
+};
+
+}  // namespace orca
+
+// Entries gather in a section of their own; plugin_entry.cpp, which orca_add_component() adds, exports its
+// bounds.
+#define ORCA_DETAIL_TYPE_ENTRY(...)                                                          \
+  namespace {                                                                                \
+  constexpr ::orca::TypeEntry orca_type_entry __VA_ARGS__;                                   \
+  [[gnu::section("orca_types"), gnu::used,                                                   \
+    gnu::retain]] const ::orca::TypeEntry* const orca_type_entry_pointer = &orca_type_entry; \
+  }
+
+/// Makes a class of this source file known as a component type. Once per file, at its end.
+#define ORCA_COMPONENT(Class, type_name)                                                                     \
+  ORCA_DETAIL_TYPE_ENTRY({::orca::PluginKind::component, type_name,                                          \
+                          [](::orca::ComponentHost& host) -> ::orca::Component* { return new Class(host); }, \
+                          [](::orca::Component* component) { delete component; }, nullptr, nullptr})

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "orca/component/host.hpp"
+
+namespace orca {
+
+/// What an author may say about a parameter: the one place where it is documented.
+struct ParamOptions {
+  std::string unit{};                  ///< SI unit of the value; empty: none.
+  std::optional<double> min{};         ///< In that unit.
+  std::optional<double> max{};         ///< In that unit.
+  std::vector<std::string> choices{};  ///< Allowed texts; empty: any.
+  bool file = false;                   ///< The text names a file.
+  std::string text{};                  ///< One sentence for people.
+};
+
+/// A parameter of a component: declared as a member, set by the graph before configure(), read with `*`.
+///
+/// @tparam T  bool, std::int64_t, double, std::string or std::vector<std::string>. Numbers are in SI units.
+/// Thread contract: the component's strand.
+template <class T>
+class Param {
+ public:
+  template <class Owner>
+  Param(Owner& owner, std::string name, T default_value, ParamOptions options = {}) : value_(default_value) {
+    ParamContract contract;
+    contract.name = std::move(name);
+    contract.type = type();
+    contract.unit = std::move(options.unit);
+    contract.min = options.min;
+    contract.max = options.max;
+    contract.choices = std::move(options.choices);
+    contract.file = options.file;
+    contract.default_value = ParamValue(std::move(default_value));
+    contract.text = std::move(options.text);
+    owner.declare_param(
+        {std::move(contract), [this](const ParamValue& value) { value_ = std::get<T>(value); }});
+  }
+  Param(const Param&) = delete;
+  Param& operator=(const Param&) = delete;
+
+  [[nodiscard]] const T& operator*() const { return value_; }
+  [[nodiscard]] const T* operator->() const { return &value_; }
+
+ private:
+  static constexpr ParamType type() {
+    if constexpr (std::is_same_v<T, bool>) return ParamType::boolean;
+    if constexpr (std::is_same_v<T, std::int64_t>) return ParamType::integer;
+    if constexpr (std::is_same_v<T, double>) return ParamType::real;
+    if constexpr (std::is_same_v<T, std::string>) return ParamType::text;
+    if constexpr (std::is_same_v<T, std::vector<std::string>>) return ParamType::text_list;
+  }
+
+  T value_;
+};
+
+}  // namespace orca

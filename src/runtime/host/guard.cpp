@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "guard.hpp"
+
+#include <cxxabi.h>
+
+#include <cstdlib>
+#include <typeinfo>
+
+namespace orca {
+namespace {
+
+std::string current_type_name() {
+  const std::type_info* const type = abi::__cxa_current_exception_type();
+  if (type == nullptr) return "something unknown";
+  int status = 0;
+  char* const text = abi::__cxa_demangle(type->name(), nullptr, nullptr, &status);
+  const std::string name = status == 0 ? text : type->name();
+  std::free(text);
+  return name;
+}
+
+}  // namespace
+
+std::string describe_current_exception() {
+  const std::string type = current_type_name();
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    return "threw " + type + ": " + error.what();
+  } catch (int value) {
+    return "threw the int " + std::to_string(value);
+  } catch (const char* text) {
+    return std::string("threw the text \"") + text + "\"";
+  } catch (const std::string& text) {
+    return "threw the text \"" + text + "\"";
+  } catch (...) {
+    return "threw an object of type " + type;
+  }
+}
+
+}  // namespace orca

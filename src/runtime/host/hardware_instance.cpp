@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "hardware_instance.hpp"
+
+#include <utility>
+
+#include "guard.hpp"
+
+namespace orca {
+
+HardwareInstance::HardwareInstance(RunContext& run, std::string name, const TypeEntry& type)
+    : run_(run), name_(std::move(name)), type_(type), container_(nullptr, type.destroy_hardware) {}
+
+Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
+  std::vector<std::string> errors;
+  const auto fault = guarded_call([&] {
+    container_.reset(type_.create_hardware(*this));
+    for (const ParamDeclaration& param : params_)
+      if (const auto value = params.find(param.contract.name); value != params.end())
+        param.set(value->second);
+    errors = container_->prepare();
+  });
+  if (fault) return fail(Code::internal, "its constructor " + fault->text, name_);
+  if (!errors.empty()) return fail(Code::invalid_argument, errors.front(), name_);
+  return ok();
+}
+
+void HardwareInstance::state_changed(hw::HardwareState state) {
+  run_.trace.state_changed(name_, to_string(traced_), to_string(state));
+  traced_ = state;
+  run_.changed();
+}
+
+}  // namespace orca

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace orca {
+
+/// Turns SIGINT and SIGTERM into a request to stop. A second signal ends the process after 0.4 s, whatever it
+/// is doing.
+///
+/// Thread contract: construct before any other thread exists, so that all inherit the blocked signals;
+/// requested() and on_request() from anywhere.
+class StopSignal {
+ public:
+  StopSignal();
+  ~StopSignal();
+  StopSignal(const StopSignal&) = delete;
+  StopSignal& operator=(const StopSignal&) = delete;
+
+  [[nodiscard]] bool requested() const { return requested_.load(std::memory_order_acquire); }
+
+  /// Calls `action` at the request, or at once if it has been made; null: no longer.
+  void on_request(std::function<void()> action);
+
+ private:
+  void watch();
+
+  std::atomic<bool> requested_{false};
+  std::mutex mutex_;
+  std::function<void()> action_;
+  int wake_fd_;
+  int signal_fd_;
+  std::thread watcher_;
+};
+
+}  // namespace orca

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "stall_monitor.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "orca/base/log.hpp"
+
+namespace orca {
+namespace {
+
+constexpr Duration kLimit = 2s;
+
+}  // namespace
+
+StallMonitor::StallMonitor(Executive& executive) : executive_(executive), watcher_([this] { watch(); }) {}
+
+StallMonitor::~StallMonitor() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  ended_.notify_one();
+  watcher_.join();
+}
+
+void StallMonitor::watch() {
+  std::unique_lock lock(mutex_);
+  while (!ended_.wait_for(lock, std::chrono::milliseconds(100), [this] { return ending_; })) {
+    const auto stuck = executive_.stuck_task(kLimit);
+    if (!stuck) continue;
+    log::error(stuck->name,
+               "has computed for more than 2 s without waiting for anything, and holds up all others; "
+               "let its work() return or call a blocking port function");
+    std::fflush(nullptr);
+    std::_Exit(1);
+  }
+}
+
+}  // namespace orca

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "system.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "orca/patterns/local/local_link.hpp"
+
+namespace orca {
+namespace {
+
+// Calls `done` each time something changes, until it holds or the deadline comes.
+template <class Done>
+bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline, Done&& done) {
+  while (!done()) {
+    if (executive.now() >= deadline) return false;
+    changed.wait_until(deadline);
+  }
+  return true;
+}
+
+}  // namespace
+
+Status System::build(PluginCatalogue& catalogue) {
+  if (Status built = build_hardware(catalogue); !built.ok()) return built;
+  if (Status built = build_components(catalogue); !built.ok()) return built;
+  return connect();
+}
+
+Status System::build_hardware(PluginCatalogue& catalogue) {
+  for (const graph::HardwareNode& node : graph_.hardware) {
+    const Result<const TypeEntry*> type = catalogue.find(PluginKind::hardware, node.type);
+    if (!type) return type.error();
+    auto instance = std::make_unique<HardwareInstance>(run_, node.name, **type);
+    if (Status made = instance->construct(node.params); !made.ok()) return made;
+    hardware_.push_back(std::move(instance));
+  }
+  return ok();
+}
+
+Status System::build_components(PluginCatalogue& catalogue) {
+  for (const graph::ComponentNode& node : graph_.components) {
+    const Result<const TypeEntry*> type = catalogue.find(PluginKind::component, node.type);
+    if (!type) return type.error();
+    ComponentSettings settings{node.name, node.priority, node.autonomous, node.trigger, node.params};
+    auto instance =
+        std::make_unique<ComponentInstance>(run_, std::move(settings), **type, container(node.hardware));
+    if (Status made = instance->construct(); !made.ok()) return made;
+    components_.push_back(std::move(instance));
+  }
+  return ok();
+}
+
+Status System::connect() {
+  for (const graph::Edge& edge : graph_.edges) {
+    Endpoint* const from = find(edge.from.component)->endpoint(edge.from.port);
+    Endpoint* const to = find(edge.to.component)->endpoint(edge.to.port);
+    if (from == nullptr || to == nullptr)
+      return fail(Code::internal, "a port that was there when the graph was checked is not there now",
+                  edge.position.text());
+    QueuePolicy policy = edge.queue;
+    policy.min_interval = edge.interval;
+    if (Status connected = connect_locally(*from, *to, policy); !connected.ok()) return connected;
+  }
+  return ok();
+}
+
+Status System::bring_up(Event& changed, TimePoint deadline) {
+  if (Status opened = open_hardware(changed, deadline); !opened.ok()) return opened;
+  for (ComponentInstance* component : start_order())
+    if (Status configured = configure(*component, changed, deadline); !configured.ok()) return configured;
+  return ok();
+}
+
+Status System::open_hardware(Event& changed, TimePoint deadline) {
+  for (const auto& hardware : hardware_) hardware->container().run();
+  for (const auto& hardware : hardware_) {
+    hw::HardwareContainer& device = hardware->container();
+    wait_until_holds(run_.executive, changed, deadline, [&] {
+      return give_up_() || device.state() == hw::HardwareState::ready ||
+             device.state() == hw::HardwareState::fault;
+    });
+    if (device.state() == hw::HardwareState::fault)
+      return fail(Code::unavailable, "the hardware cannot be opened: " + device.fault(), hardware->name());
+    if (device.state() != hw::HardwareState::ready)
+      return fail(Code::deadline_exceeded, "the hardware did not open in time", hardware->name());
+  }
+  return ok();
+}
+
+Status System::configure(ComponentInstance& component, Event& changed, TimePoint deadline) {
+  component.start();
+  wait_until_holds(run_.executive, changed, deadline,
+                   [&] { return give_up_() || component.state() != ComponentState::init; });
+  if (component.state() == ComponentState::init)
+    return fail(Code::deadline_exceeded, "configure() did not return in time", component.name());
+  if (component.state() == ComponentState::work_failed)
+    return fail(Code::failed_precondition, component.failure(), component.name());
+  return ok();
+}
+
+std::vector<ComponentInstance*> System::start_order() const {
+  std::vector<ComponentInstance*> order;
+  std::vector<const graph::ComponentNode*> left;
+  for (const graph::ComponentNode& node : graph_.components) left.push_back(&node);
+  const auto is_up = [&](const std::string& name) {
+    return std::any_of(order.begin(), order.end(), [&](const auto* up) { return up->name() == name; });
+  };
+  while (!left.empty()) {  // the checker has refused cycles
+    const auto next = std::find_if(left.begin(), left.end(), [&](const graph::ComponentNode* node) {
+      return std::all_of(node->start_after.begin(), node->start_after.end(), is_up);
+    });
+    order.push_back(find((*next)->name));
+    left.erase(next);
+  }
+  return order;
+}
+
+void System::open_gates() {
+  for (const auto& component : components_) component->open_gate();
+}
+
+bool System::at_rest() const {
+  return std::all_of(components_.begin(), components_.end(), [](const auto& c) { return c->at_rest(); }) &&
+         std::all_of(hardware_.begin(), hardware_.end(),
+                     [](const auto& h) { return h->container().state() != hw::HardwareState::active; });
+}
+
+std::vector<std::string> System::take_down(TimePoint deadline) {
+  for (const auto& hardware : hardware_) hardware->container().shut_down();
+  for (const auto& component : components_) component->request_exit();
+  std::vector<std::string> stuck;
+  for (const auto& component : components_) {
+    if (component->join_until(deadline)) continue;
+    const std::string hook = component->current_hook();
+    stuck.push_back(component->name() + (hook.empty() ? "" : " (in " + hook + "())"));
+  }
+  for (const auto& hardware : hardware_)
+    if (!hardware->container().join_until(deadline)) stuck.push_back(hardware->name());
+  return stuck;
+}
+
+ComponentInstance* System::find(const std::string& name) const {
+  for (const auto& component : components_)
+    if (component->name() == name) return component.get();
+  return nullptr;
+}
+
+const ComponentInstance* System::component(const std::string& name) const { return find(name); }
+
+hw::HardwareContainer* System::container(const std::string& name) const {
+  for (const auto& hardware : hardware_)
+    if (hardware->name() == name) return &hardware->container();
+  return nullptr;
+}
+
+void System::draw(Scene& scene) {
+  for (const auto& hardware : hardware_) hardware->container().draw(scene);
+}
+
+}  // namespace orca

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/plugin/describe.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "orca/component/component.hpp"
+#include "orca/hw/container.hpp"
+
+namespace orca {
+namespace {
+
+// Takes declarations and refuses every service: a constructor has no business with them.
+template <class Base>
+class Describer : public Base {
+ public:
+  Describer(PluginKind kind, const TypeEntry& type, const std::string& library, std::string name)
+      : name_(std::move(name)) {
+    contract_.kind = kind;
+    contract_.type = type.type;
+    contract_.library = std::filesystem::path(library).filename().string();
+  }
+
+  void declare_param(ParamDeclaration declaration) override {
+    contract_.params.push_back(declaration.contract);
+    setters_[declaration.contract.name] = std::move(declaration.set);
+  }
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] TimePoint now() const override { refuse("asked for the time"); }
+  [[nodiscard]] RandomStream random(std::string_view /*stream*/) const override {
+    refuse("drew random numbers");
+  }
+  void write_log(log::Level level, std::string_view text) const override { log::write(level, name_, text); }
+  void announce(const Announcement& /*announcement*/) override { refuse("made an announcement"); }
+
+  [[noreturn]] static void refuse(const std::string& what) {
+    throw std::logic_error("its constructor " + what + ", but may only declare ports and parameters");
+  }
+
+  Contract contract_;
+  std::map<std::string, std::function<void(const ParamValue&)>> setters_;
+
+ private:
+  std::string name_;
+};
+
+class ComponentDescriber final : public Describer<ComponentHost> {
+ public:
+  ComponentDescriber(const TypeEntry& type, const std::string& library, hw::HardwareContainer* hardware)
+      : Describer(PluginKind::component, type, library, type.type), hardware_(hardware) {}
+
+  void declare_port(PortDeclaration declaration) override {
+    contract_.ports.push_back(std::move(declaration.contract));
+  }
+  void set_default_trigger(const Trigger& trigger) override { contract_.default_trigger = trigger; }
+  [[nodiscard]] hw::HardwareContainer* hardware() override {
+    contract_.needs_hardware = true;
+    return hardware_;
+  }
+  void stay_active(bool /*active*/) override { refuse("called stay_active()"); }
+  [[nodiscard]] Strand& strand() override { refuse("blocked"); }
+
+ private:
+  hw::HardwareContainer* hardware_;
+};
+
+class HardwareDescriber final : public Describer<hw::HardwareHost>, public DescribedHardware {
+ public:
+  HardwareDescriber(const TypeEntry& type, const std::string& library, const std::string& name)
+      : Describer(PluginKind::hardware, type, library, name),
+        container_(type.create_hardware(*this), type.destroy_hardware) {}
+
+  [[nodiscard]] const Contract& contract() const override { return contract_; }
+  std::vector<std::string> prepare(const std::map<std::string, ParamValue>& params) override {
+    for (const auto& [name, value] : params)
+      if (const auto setter = setters_.find(name); setter != setters_.end()) setter->second(value);
+    return container_->prepare();
+  }
+  [[nodiscard]] hw::HardwareContainer& container() override { return *container_; }
+
+  [[nodiscard]] std::uint64_t run_seed() const override { refuse("asked for the seed"); }
+  void state_changed(hw::HardwareState /*state*/) override { refuse("changed its state"); }
+  [[nodiscard]] Executive& executive() override { refuse("asked for the executive"); }
+
+ private:
+  std::unique_ptr<hw::HardwareContainer, void (*)(hw::HardwareContainer*)> container_;
+};
+
+Error constructor_threw(const TypeEntry& type, const std::string& what) {
+  return fail(Code::internal, std::string("the type ") + type.type + " cannot be described: " + what);
+}
+
+template <class Make>
+auto guarded(const TypeEntry& type, Make&& make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const std::exception& error) {
+    return constructor_threw(type, error.what());
+  } catch (...) {
+    return constructor_threw(type, "its constructor threw something that is not a std::exception");
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& type,
+                                                             const std::string& library,
+                                                             const std::string& name) {
+  return guarded(type, [&]() -> Result<std::unique_ptr<DescribedHardware>> {
+    return std::unique_ptr<DescribedHardware>(std::make_unique<HardwareDescriber>(type, library, name));
+  });
+}
+
+Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
+                                    hw::HardwareContainer* hardware) {
+  return guarded(type, [&]() -> Result<Contract> {
+    ComponentDescriber describer(type, library, hardware);
+    type.destroy_component(type.create_component(describer));
+    return describer.contract_;
+  });
+}
+
+}  // namespace orca

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "orca/base/contract.hpp"
+#include "orca/base/result.hpp"
+#include "orca/component/manifest.hpp"
+
+namespace orca {
+
+/// A hardware container that was constructed and prepared, but opens nothing: for contracts that depend on
+/// it.
+class DescribedHardware {
+ public:
+  virtual ~DescribedHardware() = default;
+  [[nodiscard]] virtual const Contract& contract() const = 0;
+  /// Sets the parameters and declares the endpoints; what is wrong with the files that they name, ready to
+  /// print.
+  virtual std::vector<std::string> prepare(const std::map<std::string, ParamValue>& params) = 0;
+  [[nodiscard]] virtual hw::HardwareContainer& container() = 0;
+};
+
+/// Constructs a container only to describe it.
+/// @param name  of the hardware in the graph.
+/// @errors  internal if its constructor throws or does more than declare.
+Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& type,
+                                                             const std::string& library,
+                                                             const std::string& name);
+
+/// Constructs a component only to describe it, and destroys it again.
+/// @param hardware  what the graph binds to it, prepared; null: nothing.
+/// @errors  internal if its constructor throws or does more than declare.
+Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
+                                    hw::HardwareContainer* hardware);
+
+}  // namespace orca

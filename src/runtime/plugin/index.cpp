@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/plugin/index.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace orca {
+
+namespace fs = std::filesystem;
+
+void PluginIndex::add(const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders) read_folder(folder);
+}
+
+void PluginIndex::read_folder(const std::string& folder) {
+  std::error_code error;
+  std::vector<fs::path> lists;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".types") lists.push_back(entry.path());
+  searched_.push_back(folder + (error ? " (no such folder)" : ""));
+  std::sort(lists.begin(), lists.end());
+  for (fs::path list : lists) {
+    std::ifstream lines(list);
+    for (std::string type; std::getline(lines, type);)
+      if (!type.empty()) file_by_type_.emplace(type, fs::path(list).replace_extension(".so").string());
+  }
+}
+
+Result<std::string> PluginIndex::file_of(const std::string& type) const {
+  const auto found = file_by_type_.find(type);
+  if (found != file_by_type_.end()) return found->second;
+  std::string places;
+  for (const std::string& place : searched_) places += (places.empty() ? "" : ", ") + place;
+  return fail(Code::not_found, "no plugin holds the type \"" + type + "\"; searched: " + places);
+}
+
+std::vector<std::string> PluginIndex::types() const {
+  std::vector<std::string> names;
+  for (const auto& [type, file] : file_by_type_) names.push_back(type);
+  return names;
+}
+
+}  // namespace orca

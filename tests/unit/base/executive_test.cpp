@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One contract for all back ends of the executive.
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <regex>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "orca/base/executive.hpp"
+#include "orca/base/strand.hpp"
+
+using namespace orca;
+
+namespace {
+
+#if defined(__SANITIZE_THREAD__)
+constexpr bool kFibersWork = false;  // TSan does not follow fibers; batons take their place
+#else
+constexpr bool kFibersWork = true;
+#endif
+
+std::vector<ExecutiveOptions> all_kinds() {
+  std::vector<ExecutiveOptions> kinds{{ClockKind::steady, Backend::thread},
+                                      {ClockKind::steady, Backend::baton},
+                                      {ClockKind::virtual_time, Backend::baton}};
+  if (kFibersWork) {
+    kinds.push_back({ClockKind::steady, Backend::fiber});
+    kinds.push_back({ClockKind::virtual_time, Backend::fiber});
+  }
+  return kinds;
+}
+
+std::vector<ExecutiveOptions> virtual_kinds() {
+  std::vector<ExecutiveOptions> kinds{{ClockKind::virtual_time, Backend::baton}};
+  if (kFibersWork) kinds.push_back({ClockKind::virtual_time, Backend::fiber});
+  return kinds;
+}
+
+std::unique_ptr<Executive> make(const ExecutiveOptions& options) { return make_executive(options).value(); }
+
+}  // namespace
+
+TEST_CASE("free-running threads in virtual time are refused with a way out", "[base][executive]") {
+  const auto refused = make_executive({ClockKind::virtual_time, Backend::thread});
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(refused.error().code == Code::invalid_argument);
+  CHECK(refused.error().message.find("--executor fiber or baton") != std::string::npos);
+}
+
+TEST_CASE("a notification before the wait is remembered, once", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      const auto event = executive->make_event();
+      event->notify();
+      event->notify();
+      CHECK(event->wait_until(executive->now() + 1s));
+      CHECK_FALSE(event->wait_until(executive->now() + 1ms));
+    });
+  }
+}
+
+TEST_CASE("a wait that is not notified ends at its deadline", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      const auto event = executive->make_event();
+      const TimePoint deadline = executive->now() + 20ms;
+      CHECK_FALSE(event->wait_until(deadline));
+      CHECK(executive->now() >= deadline);
+    });
+  }
+}
+
+TEST_CASE("tasks hand over to each other through events and are joined", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    std::atomic<int> laps{0};
+    executive->run([&] {
+      const auto ping = executive->make_event();
+      const auto pong = executive->make_event();
+      const auto task = executive->spawn({"pong", 0}, [&] {
+        for (int i = 0; i < 100; ++i) {
+          ping->wait_until(kForever);
+          ++laps;
+          pong->notify();
+        }
+      });
+      for (int i = 0; i < 100; ++i) {
+        ping->notify();
+        REQUIRE(pong->wait_until(kForever));
+      }
+      CHECK(task->join_until(kForever));
+    });
+    CHECK(laps == 100);
+  }
+}
+
+TEST_CASE("a thread that the executive does not know may notify", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    if (kind.clock == ClockKind::virtual_time) continue;
+    const auto executive = make(kind);
+    executive->run([&] {
+      const auto event = executive->make_event();
+      std::thread stranger([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        event->notify();
+      });
+      CHECK(event->wait_until(executive->now() + 10s));
+      stranger.join();
+    });
+  }
+}
+
+TEST_CASE("virtual time stands still while tasks run and jumps when they all wait", "[base][executive]") {
+  for (const auto& kind : virtual_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      CHECK(to_seconds(executive->now()) == 0.0);
+      std::vector<std::pair<char, double>> seen;
+      const auto sleeper = [&](char name, Duration step) {
+        return [&, name, step] {
+          for (int i = 1; i <= 3; ++i) {
+            executive->sleep_until(TimePoint(step * i));
+            seen.emplace_back(name, to_seconds(executive->now()));
+          }
+        };
+      };
+      const auto a = executive->spawn({"a", 0}, sleeper('a', 2s));
+      const auto b = executive->spawn({"b", 0}, sleeper('b', 3s));
+      CHECK(a->join_until(kForever));
+      CHECK(b->join_until(kForever));
+      // At 6 s both are due: b went to sleep first (at 3 s, a at 4 s), so its timer has the lower sequence.
+      const std::vector<std::pair<char, double>> expected{{'a', 2}, {'b', 3}, {'a', 4},
+                                                          {'b', 6}, {'a', 6}, {'b', 9}};
+      CHECK(seen == expected);
+    });
+  }
+}
+
+TEST_CASE("of the tasks ready at one time the one with the higher priority runs first", "[base][executive]") {
+  for (const auto& kind : virtual_kinds()) {
+    const auto executive = make(kind);
+    std::string order;
+    executive->run([&] {
+      const auto low = executive->spawn({"low", -1}, [&] { order += 'l'; });
+      const auto normal = executive->spawn({"normal", 0}, [&] { order += 'n'; });
+      const auto high = executive->spawn({"high", 5}, [&] { order += 'h'; });
+      low->join_until(kForever);
+    });
+    CHECK(order == "hnl");
+  }
+}
+
+TEST_CASE("when nothing can ever happen in virtual time, main's wait ends", "[base][executive]") {
+  for (const auto& kind : virtual_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      const auto event = executive->make_event();
+      CHECK_FALSE(event->wait_until(kForever));
+    });
+  }
+}
+
+TEST_CASE("an exception can be rethrown after a switch inside its handler", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      std::atomic<int> right{0};
+      const auto thrower = [&](const char* text) {
+        return [&, text] {
+          try {
+            throw std::runtime_error(text);
+          } catch (...) {
+            executive->sleep_until(executive->now() + 1ms);
+            try {
+              throw;
+            } catch (const std::runtime_error& error) {
+              if (error.what() == std::string(text)) ++right;
+            }
+          }
+        };
+      };
+      const auto a = executive->spawn({"a", 0}, thrower("a"));
+      const auto b = executive->spawn({"b", 0}, thrower("b"));
+      a->join_until(kForever);
+      b->join_until(kForever);
+      CHECK(right == 2);
+    });
+  }
+}
+
+TEST_CASE("a task has stack enough for std::regex on a long text", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      bool matched = false;
+      const auto task = executive->spawn(
+          {"regex", 0}, [&] { matched = std::regex_match(std::string(1000, 'a'), std::regex("(a|b)*")); });
+      task->join_until(kForever);
+      CHECK(matched);
+    });
+  }
+}
+
+TEST_CASE("a task that computes without waiting is named", "[base][executive]") {
+  for (const auto& kind : virtual_kinds()) {
+    const auto executive = make(kind);
+    std::atomic<bool> found{false};
+    std::thread monitor([&] {
+      while (!found) {
+        if (const auto stuck = executive->stuck_task(50ms); stuck && stuck->name == "spinner") found = true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+    });
+    executive->run([&] {
+      const auto spinner = executive->spawn({"spinner", 0}, [&] {
+        while (!found) {
+        }
+      });
+      spinner->join_until(kForever);
+    });
+    monitor.join();
+    CHECK(found);
+  }
+}
+
+TEST_CASE("a strand's wait sees a condition, a deadline or an interruption", "[base][strand]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      Strand strand(*executive, {"strand", 0});
+      std::atomic<int> step{0};
+      bool interrupted = false;
+      std::atomic<bool> leave{false};
+      strand.set_leave_condition([&] { return leave.load(); });
+      strand.start([&] {
+        CHECK(strand.wait_for(kForever, [&] { return step == 1; }));
+        CHECK_FALSE(strand.wait_for(executive->now() + 5ms, [] { return false; }));
+        step = 2;
+        try {
+          strand.wait_for(kForever, [] { return false; });
+        } catch (const Interrupted&) {
+          interrupted = true;
+        }
+      });
+      step = 1;
+      strand.wake();
+      while (step != 2) executive->sleep_until(executive->now() + 1ms);
+      leave = true;
+      strand.wake();
+      CHECK(strand.join_until(kForever));
+      CHECK(interrupted);
+    });
+  }
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "all_objects.hpp"
+
+using orca::object_type;
+
+namespace {
+
+template <class T>
+std::string dump(const T& object) {
+  return object_type<T>().dump(&object);
+}
+
+}  // namespace
+
+TEST_CASE("dump shows each field on a line with its unit, enums by name and times in seconds",
+          "[idl][dump]") {
+  orca::idl::MotionCommand command;
+  command.creation_time().ns(12'050'000'000);
+  command.origin("goto");
+  command.seq(17);
+  command.mission(3);
+  command.cause().origin("sonar");
+  command.cause().seq(5);
+  command.kind(orca::idl::FULLSTOP);
+  command.steering(orca::idl::BY_TURN_RATE);
+  command.turn_rate(-0.25);
+  command.speed(1e-7);
+  command.weight(2.0);
+  CHECK(dump(command) ==
+        "MotionCommand\n"
+        "  creation_time: 12.050000000 s\n"
+        "  origin: \"goto\"\n"
+        "  seq: 17\n"
+        "  mission: 3\n"
+        "  cause: {origin: \"sonar\", seq: 5}\n"
+        "  kind: FULLSTOP\n"
+        "  steering: BY_TURN_RATE\n"
+        "  direction: 0 rad\n"
+        "  turn_rate: -0.25 rad/s\n"
+        "  speed: 1e-07 m/s\n"
+        "  weight: 2");
+}
+
+TEST_CASE("dump shows numbers in one list and structs one per line", "[idl][dump]") {
+  orca::idl::SonarRangeReadings sonar;
+  sonar.ranges({1.5, 0.25});
+  sonar.stamps().resize(2);
+  sonar.stamps()[0].ns(-1'500'000'000);
+  sonar.poses().resize(2);
+  sonar.poses()[1].rotation().yaw(0.5);
+  const std::string text = dump(sonar);
+  CHECK_THAT(text, Catch::Contains("\n  ranges: [1.5, 0.25] m\n"));
+  CHECK_THAT(text, Catch::Contains("\n  stamps: [-1.500000000 s, 0.000000000 s]\n"));
+  CHECK_THAT(text, Catch::Contains("\n    1: {position: {x: 0 m, y: 0 m, z: 0 m}, "
+                                   "rotation: {roll: 0 rad, pitch: 0 rad, yaw: 0.5 rad}}]\n"));
+}
+
+TEST_CASE("dump leaves out the header of objects within objects, which nobody stamps", "[idl][dump]") {
+  orca::idl::Robot robot;
+  robot.drives().resize(1);
+  robot.drives()[0].name("wheels");
+  robot.drives()[0].type(orca::idl::SYNCHRO);
+  robot.drives()[0].steer_gain(1.5);
+  const std::string text = dump(robot);
+  CHECK_THAT(text, Catch::Contains("\n    0: {name: \"wheels\", vendor: \"\""));
+  CHECK_THAT(text, Catch::Contains("type: SYNCHRO"));
+  CHECK_THAT(text, Catch::Contains("steer_gain: 1.5 1/s"));
+}
+
+TEST_CASE("dump keeps a text on its line and marks its quotes", "[idl][dump]") {
+  orca::idl::Ask ask;
+  ask.about("a \"b\"\nc\\");
+  CHECK_THAT(dump(ask), Catch::EndsWith("\n  about: \"a \\\"b\\\" c\\\\\""));
+}
+
+TEST_CASE("dump tells an enumerator that does not exist", "[idl][dump]") {
+  orca::idl::MotionCommand command;
+  command.kind(static_cast<orca::idl::MotionKind>(9));
+  CHECK_THAT(dump(command), Catch::Contains("kind: unknown 9\n"));
+}

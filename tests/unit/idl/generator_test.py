@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the IDL generator accepts, refuses, and takes for the same type."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, sys.argv.pop(1))
+
+from emit_cpp import reflection_header, type_table  # noqa: E402
+from idl_model import IdlError, layout_hash  # noqa: E402
+from idl_parser import load_files  # noqa: E402
+
+STRUCT = """
+/// Where it is.
+struct Spot {
+  double x;  ///< [m] forward
+  long n;    ///< how many
+};
+"""
+ENUM = "/// A choice.\nenum Kind {\n  RED,\n  BLUE\n};\n"
+
+
+def idl(body: str, name: str = "test", includes: str = "") -> str:
+    guard = f"ORCA_{name.upper()}_IDL"
+    return (f"// SPDX\n#ifndef {guard}\n#define {guard}\n{includes}"
+            f"module orca {{ module idl {{\n{body}\n}}; }};\n#endif\n")
+
+
+def load(**texts: str):
+    """Parses the files name.idl with these texts; the first one is asked for."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in texts.items():
+            (Path(folder) / f"{name}.idl").write_text(text)
+        return load_files([Path(folder) / f"{next(iter(texts))}.idl"])
+
+
+def parse(body: str):
+    return load(test=idl(body))[-1]
+
+
+def hash_of(body: str) -> int:
+    return layout_hash(parse(body).structs[-1].layout)
+
+
+class Refusals(unittest.TestCase):
+    def refuses(self, body: str, *expected: str):
+        self.refuses_text(idl(body), *expected)
+
+    def refuses_text(self, text: str, *expected: str):
+        with self.assertRaises(IdlError) as caught:
+            load(test=text)
+        for part in expected:
+            self.assertIn(part, str(caught.exception))
+
+    def field(self, line: str) -> str:
+        return f"/// Text.\nstruct Spot {{\n{line}\n}};"
+
+    def test_a_misspelt_type_is_named_with_its_line_and_the_nearest_one(self):
+        self.refuses(self.field("duoble x;  ///< [m] forward"), "test.idl:7: unknown type 'duoble'; did you mean 'double'?")
+
+    def test_what_is_not_supported_comes_with_the_remedy(self):
+        self.refuses(self.field("float x;  ///< [m]"), "'float' is not supported: use double")
+        self.refuses(self.field("@optional double x;  ///< [m]"), "annotations and block comments are not supported")
+        self.refuses(self.field("sequence<boolean> x;  ///< text"), "use sequence<octet>")
+        self.refuses(self.field("sequence<double, 3> x;  ///< [m]"), "write sequence<T>")
+        self.refuses(self.field("sequence<sequence<double> > x;  ///< [m]"), "put the inner one into a struct")
+        self.refuses(self.field("sequence<double> x[3];  ///< [m]"), "put the sequence into a struct")
+        self.refuses("/// Text.\ntypedef double Angle;", "expected 'enum' or 'struct': write the type out")
+
+    def test_a_number_needs_its_unit(self):
+        self.refuses(self.field("double x;  ///< forward"), "test.idl:7: the number 'x' needs its unit")
+        self.refuses(self.field("double x;"), "the number 'x' needs its unit")
+
+    def test_types_and_fields_need_their_comment(self):
+        self.refuses("struct Spot {\n  long n;  ///< how many\n};", "this struct needs a '///' comment")
+        self.refuses(self.field("long n;"), "the field 'n' needs a '///<' comment")
+
+    def test_names_follow_the_style(self):
+        self.refuses(self.field("double reachRadius;  ///< [m]"), "'reachRadius': the name of a field is written in snake_case")
+        self.refuses(STRUCT.replace("Spot", "spot"), "written in PascalCase")
+        self.refuses(ENUM.replace("RED", "Red"), "written in CAPITALS")
+
+    def test_a_name_is_used_once(self):
+        self.refuses(STRUCT + STRUCT, "'Spot' is declared already")
+        self.refuses(STRUCT + "/// More.\nstruct More : Spot {\n  long x;  ///< again\n};", "has a field 'x' already, of its own or inherited")
+        self.refuses(ENUM + ENUM.replace("Kind", "Other"), "'RED' is an enumerator of Kind already")
+        self.refuses(ENUM.replace("BLUE", "RED"), "'RED' is an enumerator of Kind already")
+
+    def test_empty_types_and_arrays_are_refused(self):
+        self.refuses("/// Text.\nstruct Nothing {\n};", "needs a field of its own")
+        self.refuses("/// Text.\nenum Nothing {\n};", "has no enumerators")
+        self.refuses(self.field("double x[0];  ///< [m]"), "expected the number of elements, at least 1")
+
+    def test_only_a_struct_is_inherited(self):
+        self.refuses(ENUM + "/// More.\nstruct More : Kind {\n  long x;  ///< text\n};", "'Kind' is no struct")
+
+    def test_broken_syntax_is_named_with_its_line(self):
+        self.refuses(self.field("long n  ///< how many"), "found '///< how many', expected ';'")
+        self.refuses("/// A choice.\nenum Kind {\n  RED\n  BLUE\n};", "test.idl:8: found 'BLUE', expected ',' or '}'")
+        self.refuses_text(idl(STRUCT).replace("#endif", ""), "nothing may follow")
+        self.refuses_text(idl(STRUCT)[:90], "the end of the file")
+        self.refuses_text(idl(STRUCT).replace("ORCA_TEST_IDL", "TEST"), "must start with its include guard")
+        self.refuses(STRUCT + "$", "unexpected character '$'")
+
+    def test_an_include_that_is_missing_or_goes_round_is_named(self):
+        with self.assertRaisesRegex(IdlError, "test.idl:4: there is no file 'gone.idl'"):
+            load(test=idl(STRUCT, includes='#include "gone.idl"\n'))
+        with self.assertRaisesRegex(IdlError, "a.idl -> b.idl -> a.idl"):
+            load(a=idl(STRUCT, "a", '#include "b.idl"\n'), b=idl(ENUM, "b", '#include "a.idl"\n'))
+
+
+class TypeHash(unittest.TestCase):
+    def test_it_is_stable(self):
+        self.assertEqual(parse(STRUCT).structs[0].layout, "Spot{x:double {m},n:int32}")
+        self.assertEqual(f"{hash_of(STRUCT):016x}", "1bb341b65c06df17")
+
+    def test_comments_and_spaces_do_not_change_it(self):
+        self.assertEqual(hash_of(STRUCT), hash_of(STRUCT.replace("forward", "to the front").replace("  ", "    ")))
+
+    def test_every_difference_between_fields_changes_it(self):
+        changes = {
+            "name": ("double x", "double y"),
+            "type": ("long n", "long long n"),
+            "sign": ("long n", "unsigned long n"),
+            "unit": ("[m]", "[rad]"),
+            "array": ("double x;", "double x[2];"),
+            "sequence": ("double x", "sequence<double> x"),
+            "type name": ("Spot", "Place"),
+        }
+        hashes = {hash_of(STRUCT)}
+        for before, after in changes.values():
+            hashes.add(hash_of(STRUCT.replace(before, after)))
+        self.assertEqual(len(hashes), 1 + len(changes))
+
+    def test_order_additional_and_missing_fields_change_it(self):
+        first, second = "  double x;  ///< [m] forward\n", "  long n;    ///< how many\n"
+        third = "  boolean b;  ///< whether\n"
+        bodies = (first + second, second + first, first, second, first + second + third)
+        hashes = {hash_of(f"/// Text.\nstruct Spot {{\n{body}}};") for body in bodies}
+        self.assertEqual(len(hashes), len(bodies))
+
+    def test_nested_structs_enumerators_and_inherited_fields_belong_to_it(self):
+        outer = "/// Text.\nstruct Outer : Spot {\n  Kind kind;  ///< which\n  Spot spot;  ///< where\n};"
+        whole = STRUCT + ENUM + outer
+        variants = (whole, whole.replace("RED", "GREEN"), whole.replace("BLUE", "BLUE,\n  WHITE"),
+                    whole.replace("long n", "octet n"), whole.replace("Kind", "Sort"))
+        self.assertEqual(len({hash_of(v) for v in variants}), len(variants))
+        self.assertEqual(
+            parse(whole).structs[-1].layout,
+            "Outer{x:double {m},n:int32,kind:Kind(RED,BLUE),spot:Spot{x:double {m},n:int32}}")
+
+
+class Output(unittest.TestCase):
+    def test_a_file_and_what_it_includes_come_once_and_in_order(self):
+        files = load(top=idl("/// T.\nstruct Top {\n  Spot s;  ///< where\n  Kind k;  ///< which\n};", "top",
+                             '#include "spot.idl"\n#include "kind.idl"\n'),
+                     spot=idl(STRUCT, "spot", '#include "kind.idl"\n'), kind=idl(ENUM, "kind"))
+        self.assertEqual([f.name for f in files], ["kind.idl", "spot.idl", "top.idl"])
+
+    def test_reflection_visits_inherited_fields_first(self):
+        header = reflection_header(parse(STRUCT + "/// T.\nstruct Top : Spot {\n  string s;  ///< text\n};"))
+        top = header[header.index("Reflection<idl::Top>"):]
+        self.assertLess(top.index("Reflection<idl::Spot>::fields("), top.index('FieldInfo{"s", ""}, object.s()'))
+
+    def test_only_what_derives_from_orca_object_is_an_object_type(self):
+        root = STRUCT.replace("Spot", "OrcaObject")
+        table = type_table([parse(root + "/// T.\nstruct Top : OrcaObject {\n  string s;  ///< text\n};"
+                                  + "/// P.\nstruct Part {\n  string s;  ///< text\n};")])
+        self.assertIn("object_type<idl::Top>()", table)
+        self.assertNotIn("Part", table)
+        self.assertNotIn("object_type<idl::OrcaObject>", table)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <memory>
+#include <new>
+#include <set>
+
+#include "all_objects.hpp"
+#include "orca/base/hash.hpp"
+#include "random_object.hpp"
+
+using orca::find_object_type;
+using orca::object_type;
+using orca::object_types;
+using orca::ObjectType;
+
+TEMPLATE_LIST_TEST_CASE("an object type is found by its name", "[idl][type]", orca::test::AllObjects) {
+  CHECK(find_object_type(orca::Reflection<TestType>::name) == &object_type<TestType>());
+}
+
+TEST_CASE("there is no object type by a name that the IDL files do not hold", "[idl][type]") {
+  CHECK(find_object_type("SonarRangeReading") == nullptr);
+  CHECK(find_object_type("") == nullptr);
+  CHECK(find_object_type("zzz") == nullptr);
+  CHECK(find_object_type("Point") == nullptr);  // A part of objects, but no object itself.
+}
+
+TEST_CASE("these tests cover every object type", "[idl][type]") {
+  CHECK(object_types().size() == std::tuple_size_v<orca::test::AllObjects>);
+}
+
+TEST_CASE("the type hash is FNV-1a of the flattened layout, and no two types share one", "[idl][type]") {
+  std::set<std::uint64_t> hashes;
+  for (const ObjectType* type : object_types()) {
+    orca::Fnv1a hash;
+    hash.add_text(type->layout);
+    CHECK(type->layout_hash == hash.value());
+    hashes.insert(type->layout_hash);
+    CHECK(orca::type_id(*type) == orca::TypeId{std::string(type->name), hash.value()});
+  }
+  CHECK(hashes.size() == object_types().size());
+}
+
+// A failure here means that programs built before and after the change cannot exchange motion commands. If
+// that is meant, write the new layout here.
+TEST_CASE("the layout of a MotionCommand is the one that other programs know", "[idl][type]") {
+  CHECK(object_type<orca::idl::MotionCommand>().layout ==
+        "MotionCommand{creation_time:TimeValue{ns:int64 {ns}},origin:string,seq:uint64,mission:uint64,"
+        "cause:Cause{origin:string,seq:uint64},kind:MotionKind(NORMAL,DONTCARE,FULLSTOP),"
+        "steering:MotionSteering(BY_DIRECTION,BY_TURN_RATE),direction:double {rad},turn_rate:double {rad/s},"
+        "speed:double {m/s},weight:double {1}}");
+}
+
+TEMPLATE_LIST_TEST_CASE("the erased operations are those of the type", "[idl][type]",
+                        orca::test::AllObjects) {
+  const ObjectType& type = object_type<TestType>();
+  REQUIRE(type.size == sizeof(TestType));
+  REQUIRE(type.align == alignof(TestType));
+  const auto original = orca::test::random_object<TestType>(5);
+  alignas(TestType) std::byte place[sizeof(TestType)];
+  type.construct(place);
+  const TestType blank;
+  CHECK(type.equal(place, &blank));
+  type.assign(place, &original);
+  CHECK(type.equal(place, &original));
+  CHECK_FALSE(type.equal(place, &blank));
+  CHECK(&type.header(place) ==
+        static_cast<orca::idl::OrcaObject*>(std::launder(reinterpret_cast<TestType*>(place))));
+  type.destroy(place);
+}
