@@ -34,7 +34,7 @@ LAYERS = (
           ("fastdds", "fastcdr", "fmt")),
     Layer("component", ("src/runtime/component", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
           ("patterns", "idl", "base"), ("fmt",)),
-    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hw.hpp"), COMPONENT, ("fmt",)),
+    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), COMPONENT, ("fmt",)),
     Layer("graph", ("src/runtime/graph",), ("orca/graph/",), ("xml", "base"), ("fmt",)),
     Layer("plugin", ("src/runtime/plugin",), ("orca/plugin/",), DEVICE, ("fmt",)),
     Layer("device", ("src/hw",), (), DEVICE, ("fmt",), siblings=False),
