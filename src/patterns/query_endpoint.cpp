@@ -72,7 +72,9 @@ bool QueryServerEndpoint::handle_one() {
 void QueryServerEndpoint::answer(const Question& question, Result<ObjectLoan> answer) {
   if (answer) {
     ObjectLoan loan = std::move(answer).value();
-    stamp(loan, &home().provenance);
+    Provenance of_question;  // not home().provenance: the handler may have taken other objects meanwhile
+    of_question.note(question.request.header());
+    stamp(loan, &of_question);
     question.reply_to->reply(question.id, std::move(loan).seal());
     return;
   }
