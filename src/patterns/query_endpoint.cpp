@@ -106,8 +106,7 @@ Result<QueryId> QueryClientEndpoint::request(ObjectLoan loan, const Provenance* 
   }
   const Status accepted = target_->ask(std::move(loan).seal(), *this, id);
   if (accepted.ok()) return id;
-  const std::lock_guard lock(mutex_);
-  pending_.erase(id);
+  forget(id);
   return accepted.error();
 }
 
@@ -126,9 +125,13 @@ std::optional<Result<ObjectRef>> QueryClientEndpoint::receive(QueryId id) {
 Result<ObjectRef> QueryClientEndpoint::receive_until(QueryId id, TimePoint deadline) {
   home().strand.wait_for(deadline, [&] { return answered(id); });
   if (std::optional<Result<ObjectRef>> answer = receive(id)) return std::move(*answer);
-  const std::lock_guard lock(mutex_);
-  pending_.erase(id);  // a late answer is thrown away
+  forget(id);
   return fail(Code::deadline_exceeded, target_->path() + " did not answer " + path() + " in time");
+}
+
+void QueryClientEndpoint::forget(QueryId id) {
+  const std::lock_guard lock(mutex_);
+  pending_.erase(id);
 }
 
 bool QueryClientEndpoint::answered(QueryId id) const {
