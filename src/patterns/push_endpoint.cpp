@@ -58,12 +58,14 @@ void PushEdge::unsubscribe() {
   const std::lock_guard lock(mutex_);
   std::fill(ring_.begin(), ring_.end(), ObjectRef{});
   count_ = 0;
+  last_made_.reset();
   newest_ = ObjectRef{};  // what was true before is not news to the next subscription
 }
 
 void PushEdge::deliver(const ObjectRef& object) {
   {
     const std::lock_guard lock(mutex_);
+    if (!interval_has_passed(object)) return;
     if (count_ == ring_.size()) {
       ++counters_.dropped;
       if (policy_.overflow == QueuePolicy::Overflow::drop_newest) return;
@@ -77,6 +79,14 @@ void PushEdge::deliver(const ObjectRef& object) {
   }
   observe_(object);
   client_.home().strand.wake();
+}
+
+bool PushEdge::interval_has_passed(const ObjectRef& object) {
+  if (policy_.min_interval <= Duration{0}) return true;
+  const Duration made(object.header().creation_time().ns());
+  if (last_made_ && made < *last_made_ + policy_.min_interval) return false;
+  last_made_ = made;
+  return true;
 }
 
 ObjectRef PushEdge::take() {

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "announcer.hpp"
+#include "orca/host/stop_signal.hpp"
 #include "orca/host/system.hpp"
 #include "picture.hpp"
 #include "stall_monitor.hpp"
-#include "stop_signal.hpp"
 #include "system.hpp"
 
 namespace orca {
@@ -98,7 +98,7 @@ class Run {
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
       log::error("deployer", name + " does not end; the process is ended without it");
-    finish_output();
+    if (executive_.is_virtual()) announcer_.print_trace_hash(trace_.hash());
     std::fflush(nullptr);
     std::_Exit(static_cast<int>(ExitCode::failed_running));  // its thread cannot be ended in any other way
   }
@@ -124,7 +124,7 @@ class Run {
   Trace trace_;
   Announcer announcer_;
   std::unique_ptr<Event> changed_ = executive_.make_event();
-  RunContext context_{executive_, trace_, options_.seed,
+  RunContext context_{executive_, trace_, options_.seed.value_or(graph_.seed.value_or(1)),
                       [this](const Announcement& a) { announcer_.announce(a); },
                       [this] { changed_->notify(); }};
   System system_{graph_, context_, [this] { return stop_.requested(); }};
@@ -133,8 +133,8 @@ class Run {
 
 }  // namespace
 
-ExitCode run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options) {
-  StopSignal stop;
+ExitCode run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options,
+                    StopSignal& stop) {
   Result<std::unique_ptr<Executive>> executive = make_executive(options.executive);
   if (!executive) {
     log::error("deployer", executive.error().text());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "stop_signal.hpp"
+#include "orca/host/stop_signal.hpp"
 
 #include <poll.h>
 #include <signal.h>

@@ -58,7 +58,9 @@ Status System::connect() {
     if (from == nullptr || to == nullptr)
       return fail(Code::internal, "a port that was there when the graph was checked is not there now",
                   edge.position.text());
-    if (Status connected = connect_locally(*from, *to, edge.queue); !connected.ok()) return connected;
+    QueuePolicy policy = edge.queue;
+    policy.min_interval = edge.interval;
+    if (Status connected = connect_locally(*from, *to, policy); !connected.ok()) return connected;
   }
   return ok();
 }

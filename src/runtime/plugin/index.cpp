@@ -9,7 +9,7 @@ namespace orca {
 
 namespace fs = std::filesystem;
 
-PluginIndex::PluginIndex(std::vector<std::string> folders) {
+void PluginIndex::add(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) read_folder(folder);
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "orca/patterns/endpoint.hpp"
@@ -94,6 +95,8 @@ class PushEdge final : public PushSink {
   [[nodiscard]] std::string source_path() const { return source_.path(); }
 
  private:
+  bool interval_has_passed(const ObjectRef& object);
+
   Endpoint& client_;
   PushSource& source_;
   const QueuePolicy policy_;
@@ -105,6 +108,7 @@ class PushEdge final : public PushSink {
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   ObjectRef newest_;
+  std::optional<Duration> last_made_;  // of the object delivered last
   EdgeCounters counters_;
 };
 

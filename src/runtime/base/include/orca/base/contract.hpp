@@ -34,6 +34,7 @@ struct QueuePolicy {
   enum class Overflow { drop_oldest, drop_newest };
   std::uint32_t depth = 1;  ///< Objects kept, at least 1; depth 1 with drop_oldest means "the latest".
   Overflow overflow = Overflow::drop_oldest;
+  Duration min_interval{0};  ///< Deliver at most one object per interval [s]; 0: every one.
   friend bool operator==(const QueuePolicy&, const QueuePolicy&) = default;
 };
 
@@ -87,6 +88,7 @@ struct Trigger {
   Kind kind = Kind::free_running;
   Duration period{0};
   std::string port;
+  friend bool operator==(const Trigger&, const Trigger&) = default;
 };
 
 enum class PluginKind { component, hardware };

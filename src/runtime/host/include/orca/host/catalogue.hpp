@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "orca/graph/catalogue.hpp"
+#include "orca/graph/loader.hpp"
 #include "orca/plugin/describe.hpp"
 #include "orca/plugin/index.hpp"
 #include "orca/plugin/library.hpp"
@@ -21,6 +21,7 @@ class PluginCatalogue final : public graph::Catalogue {
   explicit PluginCatalogue(PluginIndex index);
   ~PluginCatalogue() override;
 
+  void add_folders(const std::vector<std::string>& folders) override { index_.add(folders); }
   Result<Contract> hardware(const std::string& type) override;
   std::vector<std::string> validate_hardware(const graph::HardwareUse& use) override;
   Result<Contract> component(const std::string& type, const graph::HardwareUse* hardware) override;

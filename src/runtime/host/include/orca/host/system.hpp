@@ -8,16 +8,17 @@
 #include "orca/base/executive.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/host/stop_signal.hpp"
 
 namespace orca {
 
 /// How to run a system.
 struct RunOptions {
   ExecutiveOptions executive;
-  std::uint64_t seed = 1;
-  std::optional<Duration> until;  ///< End then [s of the run's clock]; none: no such limit.
-  std::string trace_file;         ///< Empty: none.
-  std::string picture_file;       ///< Ends in .svg or .png; empty: none.
+  std::optional<std::uint64_t> seed;  ///< None: the graph's, else 1.
+  std::optional<Duration> until;      ///< End then [s of the run's clock]; none: no such limit.
+  std::string trace_file;             ///< Empty: none.
+  std::string picture_file;           ///< Ends in .svg or .png; empty: none.
 };
 
 /// Exit codes of the deployer (DESIGN 15).
@@ -27,9 +28,9 @@ enum class ExitCode { finished = 0, failed_running = 1, bad_input = 2, could_not
 /// the robot, takes down. Prints announcements and, in virtual time, the trace hash on stdout; the rest on
 /// stderr.
 ///
-/// SIGINT and SIGTERM end the run with `finished`.
-///
-/// Thread contract: call from the main thread, before other threads exist.
-ExitCode run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options);
+/// @param stop  a request ends the run with `finished`.
+/// @thread  the main thread.
+ExitCode run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options,
+                    StopSignal& stop);
 
 }  // namespace orca

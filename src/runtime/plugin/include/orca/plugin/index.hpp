@@ -17,7 +17,10 @@ class PluginIndex {
   /// @param folders  searched in this order; the first that knows a type wins. Missing folders are remembered
   /// for
   ///                 error texts.
-  explicit PluginIndex(std::vector<std::string> folders);
+  explicit PluginIndex(const std::vector<std::string>& folders) { add(folders); }
+
+  /// More folders, searched after those there are.
+  void add(const std::vector<std::string>& folders);
 
   /// The plugin file that holds a type.
   /// @errors  not_found, naming the places searched.

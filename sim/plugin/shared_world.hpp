@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/sim/world.hpp"
+
+namespace orca::sim {
+
+/// The world that the simulated robots of one run share, tied to the run's clock.
+///
+/// Whoever of them polls first advances it; what happened to each robot meanwhile waits in its Inbox.
+///
+/// Thread contract: any strand; synchronised.
+class SharedWorld {
+ public:
+  /// What one robot sensed and felt since it looked last.
+  struct Inbox {
+    struct Truth {
+      TimePoint stamp;
+      Pose2 pose;
+      Velocity velocity;
+    };
+    std::vector<std::pair<std::size_t, SonarScan>> sonar;  ///< Ring number and round.
+    std::vector<OdometryReading> odometry;
+    std::vector<Truth> truth;
+    struct Contact {
+      ContactEvent event;
+      Pose2 robot;  ///< Where the robot was.
+    };
+    std::vector<Contact> contacts;
+  };
+
+  /// The world of that key, made by `make` if nobody holds it yet. The key names the run and the world's
+  /// file.
+  static std::shared_ptr<SharedWorld> join(const std::string& key, TimePoint now,
+                                           const std::function<World()>& make);
+
+  SharedWorld(World world, TimePoint now) : world_(std::move(world)), epoch_(now - TimePoint{}) {}
+
+  /// @param truth_period  time between two entries of Inbox::truth.
+  /// @errors  as World::add_robot().
+  Result<RobotId> add_robot(const std::string& name, const RobotModel& model, const Pose2& X_WB,
+                            Duration truth_period);
+
+  Status command(RobotId robot, double forward, double turn);
+
+  /// Simulates up to `now` [run's clock] and returns what the robot has sensed; its stamps are of the run's
+  /// clock.
+  ///
+  /// A world that has fallen far behind, because the process was stopped or the machine is too slow, does not
+  /// catch up: its clock stands still meanwhile, so that no robot runs on with an old command.
+  Inbox advance(RobotId robot, TimePoint now);
+
+  /// When the next tick is due [run's clock].
+  [[nodiscard]] TimePoint next_tick() const;
+  [[nodiscard]] Scene scene() const;
+
+ private:
+  struct Member {
+    RobotId robot;
+    std::string name;
+    Duration truth_period{0};
+    TimePoint next_truth;
+    Inbox inbox;
+  };
+
+  void step();
+  void collect(Member& member);
+  [[nodiscard]] TimePoint on_run_clock(TimePoint time) const { return time + epoch_; }
+
+  mutable std::mutex mutex_;
+  World world_;
+  Duration epoch_;  // run's clock when the world's clock was zero
+  std::vector<Member> members_;
+};
+
+}  // namespace orca::sim

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "objects.hpp"
+#include "orca/hardware.hpp"
+#include "orca/sim/bitmap.hpp"
+#include "orca/sim/robot_file.hpp"
+#include "orca/sim/world_file.hpp"
+#include "shared_world.hpp"
+
+namespace {
+
+using namespace orca::sim;
+using orca::Status;
+using orca::TimePoint;
+
+// Longest time that a motion command holds (DESIGN 11).
+constexpr orca::Duration kMaxCommandAge = std::chrono::milliseconds(200);
+constexpr orca::Duration kTruthPeriod = std::chrono::milliseconds(100);
+
+/// A robot in the simulated world: behind the same container as real hardware. Robots whose graph entries
+/// name the same world file share one world.
+class SimHardware final : public orca::hw::HardwareContainer {
+ public:
+  using HardwareContainer::HardwareContainer;
+
+ private:
+  std::vector<std::string> prepare() override {
+    std::vector<std::string> errors;
+    world_ = read_world_file(errors);
+    robot_ = read_robot_file(errors);
+    if (!world_ || !robot_) return errors;
+    find_start(errors);
+    declare_endpoints();
+    return errors;
+  }
+
+  std::optional<WorldModel> read_world_file(std::vector<std::string>& errors) const {
+    if (std::filesystem::path(*world_file_).extension() != ".xml") {
+      orca::Result<WorldModel> map = read_bitmap_world(*world_file_, {*map_width_, std::nullopt});
+      if (map) return std::move(map).value();
+      errors.push_back(*world_file_ + ": error: " + map.error().message);
+      return std::nullopt;
+    }
+    orca::xml::Diagnostics diagnostics;
+    std::optional<WorldModel> world = read_world(*world_file_, diagnostics);
+    append(diagnostics, errors);
+    return diagnostics.has_errors() ? std::nullopt : std::move(world);
+  }
+
+  std::optional<RobotModel> read_robot_file(std::vector<std::string>& errors) const {
+    orca::xml::Diagnostics diagnostics;
+    std::optional<RobotModel> robot = read_robot(*robot_file_, diagnostics);
+    append(diagnostics, errors);
+    return diagnostics.has_errors() ? std::nullopt : std::move(robot);
+  }
+
+  static void append(const orca::xml::Diagnostics& diagnostics, std::vector<std::string>& errors) {
+    for (const auto& diagnostic : diagnostics.sorted()) errors.push_back(diagnostic.text());
+  }
+
+  void find_start(std::vector<std::string>& errors) {
+    start_ = {*x_, *y_, *heading_};
+    if (!place_->empty()) {
+      const Place* const place = world_->place(*place_);
+      if (place == nullptr) {
+        errors.push_back(*world_file_ + ": error: there is no place \"" + *place_ +
+                         "\" to start from; places: " + place_names());
+        return;
+      }
+      start_ = place->pose;
+    }
+    if (const Obstacle* hit = world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom))
+      errors.push_back(*world_file_ + ": error: the robot \"" + *name_ + "\" would start inside \"" +
+                       hit->name + "\" at x " + std::to_string(start_.x) + " m, y " +
+                       std::to_string(start_.y) + " m; choose a free place");
+  }
+
+  [[nodiscard]] std::string place_names() const {
+    std::string names;
+    for (const Place& place : world_->places) names += (names.empty() ? "" : ", ") + place.name;
+    return names.empty() ? "none" : names;
+  }
+
+  void declare_endpoints() {
+    for (const SonarRing& ring : robot_->sonars) {
+      sonars_.push_back(std::make_unique<orca::hw::SensorHW<orca::idl::SonarRangeReadings>>(ring.period));
+      add_sensor(*sonars_.back());
+    }
+    if (robot_->odometer) {
+      odometry_ = std::make_unique<orca::hw::SensorHW<orca::idl::Odometry>>(robot_->odometer->period);
+      add_sensor(*odometry_);
+    }
+    add_sensor(truth_);
+    const Drive& drive = robot_->drive;
+    motion_ = std::make_unique<orca::hw::MotionHW>(
+        orca::hw::DriveLimits{drive.max_speed, drive.max_steer_speed, drive.steer_gain, drive.big_turn_angle,
+                              drive.big_turn_speed},
+        kMaxCommandAge);
+    set_motion(*motion_);
+  }
+
+  [[nodiscard]] orca::idl::Robot description() const override { return describe(*robot_, *name_); }
+
+  void draw(orca::Scene& scene) override {
+    if (shared_ != nullptr) orca::sim::draw(shared_->scene(), *name_, robot_->radius, scene);
+  }
+
+  Status open() override {
+    // One world per run: two systems in one process do not meet.
+    const std::string key =
+        std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
+    shared_ = SharedWorld::join(key, host().now(), [this] {
+      return World(*world_, {host().run_seed(), realism_from(*realism_).value_or(Realism::nominal)});
+    });
+    const orca::Result<RobotId> added = shared_->add_robot(*name_, *robot_, start_, kTruthPeriod);
+    if (!added) return added.error();
+    id_ = *added;
+    return orca::ok();
+  }
+
+  Status drive(const orca::hw::DriveSetpoint& setpoint) override {
+    return shared_->command(id_, setpoint.speed, setpoint.steer_speed);
+  }
+
+  [[nodiscard]] TimePoint next_poll() const override { return shared_->next_tick(); }
+
+  // The world goes on also while nobody listens.
+  Status poll() override {
+    const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
+    for (const auto& contact : inbox.contacts) report(contact);
+    if (state() != orca::hw::HardwareState::active) return orca::ok();
+    for (const auto& [ring, scan] : inbox.sonar) publish(*sonars_[ring], scan, robot_->sonars[ring]);
+    for (const OdometryReading& reading : inbox.odometry) publish(*odometry_, reading);
+    for (const auto& truth : inbox.truth) publish(truth_, truth);
+    return orca::ok();
+  }
+
+  template <class T, class... Readings>
+  static void publish(orca::hw::SensorHW<T>& sensor, const Readings&... readings) {
+    orca::Loan<T> object = sensor.loan();
+    fill(*object, readings...);
+    sensor.publish(std::move(object));
+  }
+
+  void report(const SharedWorld::Inbox::Contact& contact) {
+    host().write_log(orca::log::Level::warning, contact.event.robot + " touches " + contact.event.other);
+    host().announce({"contact", contact.event.robot, contact.robot.x, contact.robot.y, contact.event.time});
+  }
+
+  orca::Param<std::string> world_file_{
+      *this, "world", "", {.file = true, .text = "World (.xml) or occupancy bitmap (.png, .pgm)."}};
+  orca::Param<double> map_width_{
+      *this,
+      "map_width",
+      140.0,
+      {.unit = "m", .min = 0.1, .text = "Width of the whole picture, if the world is a bitmap."}};
+  orca::Param<std::string> robot_file_{
+      *this, "robot", "", {.file = true, .text = "The robot (URDF with <orca>)."}};
+  orca::Param<std::string> name_{
+      *this, "name", "Dewey", {.text = "Of this robot; each in a world has its own."}};
+  orca::Param<std::string> place_{
+      *this, "place", "", {.text = "Start at this place of the world instead of x, y, heading."}};
+  orca::Param<double> x_{*this, "x", 0.0, {.unit = "m", .text = "Where the robot starts."}};
+  orca::Param<double> y_{*this, "y", 0.0, {.unit = "m", .text = "Where the robot starts."}};
+  orca::Param<double> heading_{
+      *this,
+      "heading",
+      0.0,
+      {.unit = "rad", .text = "Where it looks at the start, counter-clockwise from the world's x axis."}};
+  orca::Param<std::string> realism_{
+      *this,
+      "realism",
+      "nominal",
+      {.choices = {"ideal", "nominal", "harsh"}, .text = "How unkind sensors, motors and odometry are."}};
+
+  std::optional<WorldModel> world_;
+  std::optional<RobotModel> robot_;
+  Pose2 start_;
+  std::vector<std::unique_ptr<orca::hw::SensorHW<orca::idl::SonarRangeReadings>>> sonars_;
+  std::unique_ptr<orca::hw::SensorHW<orca::idl::Odometry>> odometry_;
+  orca::hw::SensorHW<orca::idl::RobotPose> truth_{kTruthPeriod, orca::hw::Source::truth};
+  std::unique_ptr<orca::hw::MotionHW> motion_;
+  std::shared_ptr<SharedWorld> shared_;
+  RobotId id_{};
+};
+
+}  // namespace
+
+ORCA_HARDWARE(SimHardware, "orca.hw.Sim")

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/sim/bitmap.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+namespace orca::sim {
+namespace {
+
+constexpr std::uint8_t kOccupiedBelow = 128;
+
+// The picture as a plan: column to the right, row UP; everything outside is free.
+class Plan {
+ public:
+  explicit Plan(const GreyImage& image) : image_(image) {}
+  [[nodiscard]] std::int64_t columns() const { return static_cast<std::int64_t>(image_.width); }
+  [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(image_.height); }
+  [[nodiscard]] bool occupied(std::int64_t column, std::int64_t row) const {
+    if (column < 0 || row < 0 || column >= columns() || row >= rows()) return false;
+    const std::int64_t from_top = rows() - 1 - row;
+    return image_.grey[static_cast<std::size_t>(from_top * columns() + column)] < kOccupiedBelow;
+  }
+
+ private:
+  const GreyImage& image_;
+};
+
+// What a boundary between two neighbouring cells is: none, or solid on the one or the other side.
+enum class Border { none, solid_after, solid_before };
+
+Border border(bool before, bool after) {
+  if (before == after) return Border::none;
+  return after ? Border::solid_after : Border::solid_before;
+}
+
+// Merges equal neighbours along one line of the lattice; `at(i)` is the border at place i of the line.
+template <class At, class Emit>
+void merge_runs(std::int64_t length, const At& at, const Emit& emit) {
+  std::int64_t start = 0;
+  Border run = Border::none;
+  for (std::int64_t i = 0; i <= length; ++i) {
+    const Border here = i < length ? at(i) : Border::none;
+    if (here == run) continue;
+    if (run != Border::none) emit(start, i, run);
+    start = i;
+    run = here;
+  }
+}
+
+void add_edge(Outline& out, Vec2 from, Vec2 to, bool forward) {
+  out.edges.push_back(forward ? Segment{from, to} : Segment{to, from});
+}
+
+void horizontal_edges(const Plan& plan, double pixel, Outline& out) {
+  for (std::int64_t line = 0; line <= plan.rows(); ++line) {
+    const double y = static_cast<double>(line) * pixel;
+    merge_runs(
+        plan.columns(),
+        [&](std::int64_t c) { return border(plan.occupied(c, line - 1), plan.occupied(c, line)); },
+        [&](std::int64_t from, std::int64_t to, Border kind) {
+          add_edge(out, {static_cast<double>(from) * pixel, y}, {static_cast<double>(to) * pixel, y},
+                   kind == Border::solid_after);
+        });
+  }
+}
+
+void vertical_edges(const Plan& plan, double pixel, Outline& out) {
+  for (std::int64_t line = 0; line <= plan.columns(); ++line) {
+    const double x = static_cast<double>(line) * pixel;
+    merge_runs(
+        plan.rows(),
+        [&](std::int64_t r) { return border(plan.occupied(line - 1, r), plan.occupied(line, r)); },
+        [&](std::int64_t from, std::int64_t to, Border kind) {
+          add_edge(out, {x, static_cast<double>(from) * pixel}, {x, static_cast<double>(to) * pixel},
+                   kind == Border::solid_before);
+        });
+  }
+}
+
+Result<double> pixel_size(const BitmapScale& scale, std::size_t width) {
+  if (scale.map_width.has_value() == scale.resolution.has_value())
+    return fail(Code::invalid_argument,
+                scale.map_width ? "both map_width and resolution are given; give one of them"
+                                : "a bitmap has no size of its own: give map_width, the width of the whole "
+                                  "picture, e.g. \"140 m\"");
+  const double value = scale.map_width ? *scale.map_width : *scale.resolution;
+  if (!(value > 0.0) || !std::isfinite(value))
+    return fail(Code::invalid_argument, std::string(scale.map_width ? "map_width" : "resolution") + " is " +
+                                            std::to_string(value) + " m; it must be more than 0 m");
+  return scale.map_width ? value / static_cast<double>(width) : value;
+}
+
+}  // namespace
+
+Outline outline_of(const GreyImage& image, double pixel) {
+  const Plan plan(image);
+  Outline outline;
+  horizontal_edges(plan, pixel, outline);
+  vertical_edges(plan, pixel, outline);
+  return outline;
+}
+
+Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale, double height) {
+  const Result<GreyImage> image = read_image(path);
+  if (!image) return image.error();
+  const Result<double> pixel = pixel_size(scale, image->width);
+  if (!pixel) return fail(pixel.error().code, pixel.error().message, path);
+  WorldModel world;
+  world.name = std::filesystem::path(path).stem().string();
+  world.obstacles.push_back({"map", outline_of(*image, *pixel), height});
+  return world;
+}
+
+}  // namespace orca::sim

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "bullet_shapes.hpp"
+
+namespace orca::sim::detail {
+namespace {
+
+// The boundary as upright rectangles of two triangles each. It is hollow, which does no harm: robots start
+// outside.
+OwnedShape extruded(const Outline& outline, double height) {
+  OwnedShape owned;
+  owned.mesh = std::make_unique<btTriangleMesh>();
+  for (const Segment& e : outline.edges) {
+    const btVector3 a(e.a.x, e.a.y, 0);
+    const btVector3 b(e.b.x, e.b.y, 0);
+    const btVector3 up(0, 0, height);
+    owned.mesh->addTriangle(a, b, b + up);
+    owned.mesh->addTriangle(a, b + up, a + up);
+  }
+  owned.shape = std::make_unique<btBvhTriangleMeshShape>(owned.mesh.get(), true);
+  owned.shape->setMargin(0);
+  return owned;
+}
+
+std::unique_ptr<btCollisionShape> part_shape(const Part& part) {
+  if (const auto* block = std::get_if<Part::Block>(&part.form))
+    return std::make_unique<btBoxShape>(btVector3(0.5 * block->x, 0.5 * block->y, 0.5 * block->z));
+  if (const auto* c = std::get_if<Part::Cylinder>(&part.form))
+    return std::make_unique<btCylinderShapeZ>(btVector3(c->radius, c->radius, 0.5 * c->length));
+  return std::make_unique<btSphereShape>(std::get<Part::Ball>(part.form).radius);
+}
+
+}  // namespace
+
+btTransform upright(const Pose2& pose, double z) {
+  return btTransform(btQuaternion(btVector3(0, 0, 1), pose.yaw), btVector3(pose.x, pose.y, z));
+}
+
+OwnedShape obstacle_shape(const Obstacle& obstacle, btTransform& X) {
+  const double half_height = 0.5 * obstacle.height;
+  OwnedShape owned;
+  if (const auto* box = std::get_if<Box>(&obstacle.shape)) {
+    X = upright(box->pose, half_height);
+    owned.shape = std::make_unique<btBoxShape>(btVector3(box->half.x, box->half.y, half_height));
+  } else if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) {
+    X = upright({circle->center.x, circle->center.y, 0.0}, half_height);
+    owned.shape = std::make_unique<btCylinderShapeZ>(btVector3(circle->radius, circle->radius, half_height));
+  } else {
+    X = btTransform::getIdentity();
+    owned = extruded(std::get<Outline>(obstacle.shape), obstacle.height);
+  }
+  return owned;
+}
+
+OwnedShape robot_shape(const RobotModel& model) {
+  OwnedShape owned;
+  auto compound = std::make_unique<btCompoundShape>();
+  for (const Part& part : model.parts) {
+    const Pose3& X = part.X_BP;
+    owned.children.push_back(part_shape(part));
+    compound->addChildShape(btTransform(btQuaternion(X.qx, X.qy, X.qz, X.qw), btVector3(X.x, X.y, X.z)),
+                            owned.children.back().get());
+  }
+  owned.shape = std::move(compound);
+  return owned;
+}
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "orca/sim/robot_model.hpp"
+
+namespace orca::sim {
+namespace {
+
+constexpr double kOnAxis = 1e-9;
+constexpr int kCorners = 24;
+
+struct Point3 {
+  double x, y, z;
+};
+
+// The columns of the rotation, that is: the part's axes in the base frame.
+std::array<Point3, 3> axes_of(const Pose3& q) {
+  const double x = q.qx, y = q.qy, z = q.qz, w = q.qw;
+  return {Point3{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+          Point3{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+          Point3{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+}
+
+Point3 in_base(const Pose3& X, const std::array<Point3, 3>& axes, Point3 p) {
+  return {X.x + axes[0].x * p.x + axes[1].x * p.y + axes[2].x * p.z,
+          X.y + axes[0].y * p.x + axes[1].y * p.y + axes[2].y * p.z,
+          X.z + axes[0].z * p.x + axes[1].z * p.y + axes[2].z * p.z};
+}
+
+// Corners of a regular polygon drawn around, not inside, the circle.
+Vec2 around_circle(double radius, int i) {
+  const double outer = radius / std::cos(std::numbers::pi / kCorners);
+  return outer * direction(2.0 * std::numbers::pi * i / kCorners);
+}
+
+std::vector<Point3> own_points(const Part& part) {
+  std::vector<Point3> points;
+  if (const auto* b = std::get_if<Part::Block>(&part.form)) {
+    for (int i = 0; i < 8; ++i)
+      points.push_back(
+          {(i & 1 ? 0.5 : -0.5) * b->x, (i & 2 ? 0.5 : -0.5) * b->y, (i & 4 ? 0.5 : -0.5) * b->z});
+  } else if (const auto* c = std::get_if<Part::Cylinder>(&part.form)) {
+    for (int i = 0; i < kCorners; ++i) {
+      const Vec2 p = around_circle(c->radius, i);
+      points.push_back({p.x, p.y, -0.5 * c->length});
+      points.push_back({p.x, p.y, 0.5 * c->length});
+    }
+  }
+  return points;
+}
+
+void add_plan(const Part& part, std::vector<Vec2>& plan) {
+  if (const auto* ball = std::get_if<Part::Ball>(&part.form))
+    for (int i = 0; i < kCorners; ++i)
+      plan.push_back(Vec2{part.X_BP.x, part.X_BP.y} + around_circle(ball->radius, i));
+  const auto axes = axes_of(part.X_BP);
+  for (const Point3& p : own_points(part)) {
+    const Point3 b = in_base(part.X_BP, axes, p);
+    plan.push_back({b.x, b.y});
+  }
+}
+
+// The radius of a part that looks round from above and is centred on the base's z axis; negative if it is
+// not.
+double round_radius(const Part& part) {
+  const Pose3& X = part.X_BP;
+  if (std::hypot(X.x, X.y) > kOnAxis) return -1.0;
+  if (const auto* ball = std::get_if<Part::Ball>(&part.form)) return ball->radius;
+  const auto* cylinder = std::get_if<Part::Cylinder>(&part.form);
+  const bool upright = std::hypot(X.qx, X.qy) < kOnAxis || std::hypot(X.qz, X.qw) < kOnAxis;
+  return cylinder != nullptr && upright ? cylinder->radius : -1.0;
+}
+
+// Convex hull, counter-clockwise: Andrew's monotone chain (Inf. Proc. Letters 9(5), 1979).
+std::vector<Vec2> hull_of(std::vector<Vec2> points) {
+  std::ranges::sort(points, [](Vec2 a, Vec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
+  std::vector<Vec2> hull;
+  const auto half = [&hull](const auto& range) {
+    const std::size_t base = hull.size();
+    for (const Vec2& p : range) {
+      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 1e-15)
+        hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+  };
+  half(points);
+  std::ranges::reverse(points);
+  half(points);
+  return hull;
+}
+
+std::pair<double, double> part_heights(const Part& part) {
+  const auto axes = axes_of(part.X_BP);
+  double reach = 0.0;
+  if (const auto* b = std::get_if<Part::Block>(&part.form))
+    reach = 0.5 * (std::fabs(axes[0].z) * b->x + std::fabs(axes[1].z) * b->y + std::fabs(axes[2].z) * b->z);
+  if (const auto* c = std::get_if<Part::Cylinder>(&part.form))
+    reach = 0.5 * c->length * std::fabs(axes[2].z) + c->radius * std::hypot(axes[0].z, axes[1].z);
+  if (const auto* ball = std::get_if<Part::Ball>(&part.form)) reach = ball->radius;
+  return {part.X_BP.z - reach, part.X_BP.z + reach};
+}
+
+}  // namespace
+
+Shape footprint_of(const std::vector<Part>& parts) {
+  const bool round = std::ranges::all_of(parts, [](const Part& p) { return round_radius(p) >= 0.0; });
+  if (round) {
+    double radius = 0.0;
+    for (const Part& p : parts) radius = std::max(radius, round_radius(p));
+    return Circle{{0.0, 0.0}, radius};
+  }
+  std::vector<Vec2> plan;
+  for (const Part& p : parts) add_plan(p, plan);
+  return outline_of(hull_of(std::move(plan)));
+}
+
+std::pair<double, double> height_range_of(const std::vector<Part>& parts) {
+  std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0.0};
+  for (const Part& p : parts) {
+    const auto [low, high] = part_heights(p);
+    range = {std::min(range.first, low), std::max(range.second, high)};
+  }
+  return range;
+}
+
+Pose2 SonarRing::transducer(std::size_t k) const {
+  const double angle = first_angle + static_cast<double>(k) * pitch;
+  const Vec2 p = radius * direction(angle);
+  return center * Pose2{p.x, p.y, angle};
+}
+
+const SonarRing* RobotModel::sonar(std::string_view ring) const {
+  const auto found = std::ranges::find(sonars, ring, &SonarRing::name);
+  return found == sonars.end() ? nullptr : &*found;
+}
+
+}  // namespace orca::sim

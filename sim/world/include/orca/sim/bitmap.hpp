@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/sim/world_model.hpp"
+
+namespace orca::sim {
+
+/// A grey image; `grey` holds rows from the top of the picture down, 0 black to 255 white.
+struct GreyImage {
+  std::size_t width = 0;   ///< [pixels]
+  std::size_t height = 0;  ///< [pixels]
+  std::vector<std::uint8_t> grey;
+};
+
+/// How large an occupancy bitmap is. Exactly one of the two is to be set.
+struct BitmapScale {
+  std::optional<double> map_width;   ///< [m] Width of the whole picture, > 0.
+  std::optional<double> resolution;  ///< [m] Side of one pixel, > 0.
+};
+
+/// Reads a PNG or PGM (P2, P5) file, told apart by its first bytes. Transparent pixels count as white.
+///
+/// @errors  not_found if the file cannot be opened; data_loss if it is damaged; invalid_argument if it is
+///          neither format or larger than 100 million pixels.
+[[nodiscard]] Result<GreyImage> read_image(const std::string& path);
+
+/// The boundary of everything dark as exact axis-aligned edges, neighbours merged to runs.
+///
+/// Grey below 128 is occupied. The lower left corner of the picture is the origin, so the first row of the
+/// image lies at the largest y. @param pixel [m] side of one pixel.
+[[nodiscard]] Outline outline_of(const GreyImage& image, double pixel);
+
+/// An occupancy bitmap as a world with one obstacle, "map", of the given height, and no places.
+///
+/// @param height [m]  how tall everything dark stands, > 0.
+/// @errors  those of read_image; invalid_argument if the scale is missing, given twice or not positive.
+[[nodiscard]] Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale,
+                                                   double height = 2.5);
+
+}  // namespace orca::sim

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <variant>
+
+#include "orca/sim/world_model.hpp"
+
+namespace orca::sim {
+
+/// A ray in the horizontal plane at a certain height above the floor.
+struct Ray {
+  Vec2 origin;
+  Vec2 direction;              ///< Of length 1.
+  double max_range = 0.0;      ///< [m] Nothing farther is reported.
+  double sensor_height = 0.0;  ///< [m] Obstacles that are not taller than this are not seen.
+  std::size_t ignore_body =
+      static_cast<std::size_t>(-1);  ///< A moving body that is not seen: the sensor's own.
+};
+
+/// The boundary element a ray met: nothing, an edge or a circle, as it lies in the world now.
+using Surface = std::variant<std::monostate, Segment, Circle>;
+
+/// What a ray met first.
+struct Hit {
+  double range = 0.0;      ///< [m] Distance along the ray; max_range if nothing was met.
+  double incidence = 0.0;  ///< [rad] Angle between ray and surface normal, 0 (head on) to pi/2 (grazing).
+  Surface surface;
+  [[nodiscard]] bool found() const { return surface.index() != 0; }
+};
+
+/// Something that moves and can be seen.
+struct Body {
+  Shape shape;          ///< In the world frame, at its present pose.
+  double bottom = 0.0;  ///< [m] Lowest point above the floor.
+  double top = 0.0;     ///< [m] Highest point above the floor.
+};
+
+/// Exact ray casting against a world and the bodies in it, in closed form on a uniform grid.
+///
+/// A boundary is met from either side. It catches rays that pass an end of an edge, or start beyond it,
+/// by less than 1 nm, so that no ray slips through a corner that two edges share; the edges of solids are
+/// closed, so an edge parallel to the ray may be left to its neighbours. (Bullet's own ray test is off by
+/// more than 1 cm for some 4 % of rays on boxes and is not used.)
+///
+/// Thread contract: cast() from many threads; add_body and move_body need exclusive access.
+class Caster {
+ public:
+  explicit Caster(const WorldModel& world);
+  ~Caster();
+  Caster(Caster&&) noexcept;
+  Caster& operator=(Caster&&) noexcept;
+
+  /// @return  the number of the new body, counting from 0.
+  std::size_t add_body(Body body);
+
+  /// @pre  `number` came from add_body.
+  void move_body(std::size_t number, Shape shape);
+
+  /// The first thing on the ray's way.
+  [[nodiscard]] Hit cast(const Ray& ray) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace orca::sim

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "orca/sim/geometry.hpp"
+
+namespace orca::sim {
+
+/// A rectangle with a centre and a heading; `half` holds half its lengths along its own axes [m].
+struct Box {
+  Pose2 pose;
+  Vec2 half;
+};
+
+/// An area given by its closed boundary: edges with the solid to their left, in any order. Holes and several
+/// pieces are allowed; a point is inside if a ray from it crosses an odd number of edges.
+struct Outline {
+  std::vector<Segment> edges;
+};
+
+/// A solid area of the plane. A plain value.
+using Shape = std::variant<Circle, Box, Outline>;
+
+/// The outline through `corners`, closed by itself and turned counter-clockwise.
+[[nodiscard]] Outline outline_of(std::vector<Vec2> corners);
+
+/// The boundary as edges; none for a circle, which is not made of edges.
+[[nodiscard]] std::vector<Segment> edges_of(const Shape& shape);
+
+/// `shape`, given in a body's frame, where that body is at `X_WB`.
+[[nodiscard]] Shape placed(const Shape& shape, const Pose2& X_WB);
+
+[[nodiscard]] Bounds bounds_of(const Shape& shape);
+
+/// True if `p` lies inside; on the boundary the answer is either.
+[[nodiscard]] bool contains(const Shape& shape, Vec2 p);
+
+/// Distance from `p` to the shape [m]; 0 inside.
+[[nodiscard]] double distance(const Shape& shape, Vec2 p);
+
+/// The point of the segment nearest to `p`.
+[[nodiscard]] Vec2 nearest_point(const Segment& segment, Vec2 p);
+
+/// True if the two solids share a point.
+[[nodiscard]] bool overlap(const Shape& one, const Shape& other);
+
+}  // namespace orca::sim

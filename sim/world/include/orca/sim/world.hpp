@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/sim/caster.hpp"
+#include "orca/sim/readings.hpp"
+#include "orca/sim/realism.hpp"
+#include "orca/sim/robot_model.hpp"
+#include "orca/sim/scene.hpp"
+#include "orca/sim/world_model.hpp"
+
+namespace orca::sim {
+
+/// Names a robot of one World; comes from add_robot.
+enum class RobotId : std::size_t {};
+
+/// A running simulation: a world, robots in it, and time that advances by step() and by nothing else.
+///
+/// Two worlds that are built and used alike with the same options are bit-identical at each tick. A World
+/// cannot be reset: build a new one for each run. It drives, measures and reports contacts; it does not
+/// steer, and a command holds until the next one (a watchdog belongs to the driver).
+///
+/// Thread contract: not synchronised; one strand.
+class World {
+ public:
+  struct Options {
+    std::uint64_t seed = 1;
+    Realism realism = Realism::nominal;
+  };
+  static constexpr Duration kTick = std::chrono::milliseconds{10};
+
+  World(WorldModel model, Options options);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  /// Sets a robot down, at rest. Its sensors and odometry start now.
+  ///
+  /// @param name  not empty; the robot's random streams are keyed by it.
+  /// @param X_WB  pose of its base frame in the world.
+  /// @errors  already_exists: the name is taken. invalid_argument: the name is empty or the pose not finite.
+  ///          failed_precondition: something stands there already, and what.
+  [[nodiscard]] Result<RobotId> add_robot(const std::string& name, const RobotModel& model,
+                                          const Pose2& X_WB);
+
+  /// The robot of that name, if there is one.
+  [[nodiscard]] std::optional<RobotId> find(std::string_view name) const;
+
+  /// What the base shall do from now on; the drive's limits, lag and dead time apply.
+  ///
+  /// @param forward [m/s]    along the robot's x axis.
+  /// @param turn    [rad/s]  counter-clockwise.
+  /// @errors  invalid_argument if a number is not finite; the former command stays.
+  Status set_velocity_command(RobotId robot, double forward, double turn);
+
+  /// Advances the time by exactly one tick.
+  void step();
+
+  /// Time since the world was made: ticks times kTick.
+  [[nodiscard]] TimePoint time() const;
+
+  /// True pose of the base frame in the world.
+  [[nodiscard]] Pose2 pose(RobotId robot) const;
+  /// True velocity in the last tick, in the base frame.
+  [[nodiscard]] Velocity velocity(RobotId robot) const;
+
+  /// Contacts that began in the last tick: one for each touch, until the two have come apart again. If two
+  /// robots collide both report it.
+  [[nodiscard]] const std::vector<ContactEvent>& contacts() const;
+
+  /// The round that the robot's sonar ring number `ring` completed in the last tick, if it did.
+  [[nodiscard]] const std::optional<SonarScan>& sonar(RobotId robot, std::size_t ring = 0) const;
+
+  /// The odometry if it became due in the last tick. Never for a robot without odometer.
+  [[nodiscard]] const std::optional<OdometryReading>& odometry(RobotId robot) const;
+
+  [[nodiscard]] const WorldModel& model() const;
+  [[nodiscard]] const RobotModel& robot_model(RobotId robot) const;
+  /// For further sensors: casts see the robots where they are now; body number = the RobotId's value.
+  [[nodiscard]] const Caster& caster() const;
+  /// What to draw, with the way each robot has come.
+  [[nodiscard]] Scene scene() const;
+
+  /// FNV-1a over time, poses, velocities and odometry, bit by bit: equal for equal runs.
+  [[nodiscard]] std::uint64_t state_hash() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace orca::sim

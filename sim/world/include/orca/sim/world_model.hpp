@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/sim/shape.hpp"
+
+namespace orca::sim {
+
+/// Something solid that stands on the floor and never moves.
+struct Obstacle {
+  std::string name;     ///< For people, e.g. "wall" or "desk_2"; need not be unique.
+  Shape shape;          ///< Its plan, in the world frame.
+  double height = 0.0;  ///< [m] A sensor mounted higher does not see it.
+};
+
+/// A named pose, e.g. where a robot starts or is to go.
+struct Place {
+  std::string name;
+  Pose2 pose;
+};
+
+/// A world without robots: a plan with heights (2.5-D), and named places. A plain value.
+struct WorldModel {
+  std::string name;
+  std::vector<Obstacle> obstacles;
+  std::vector<Place> places;
+
+  /// The place of that name, or null.
+  [[nodiscard]] const Place* place(std::string_view name) const;
+
+  /// The rectangle that holds all obstacles and places.
+  [[nodiscard]] Bounds bounds() const;
+
+  /// The first obstacle that overlaps `body` and is taller than `bottom` [m], or null.
+  [[nodiscard]] const Obstacle* obstacle_at(const Shape& body, double bottom) const;
+};
+
+}  // namespace orca::sim

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "physics.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "bullet_shapes.hpp"
+
+namespace orca::sim::detail {
+namespace {
+
+constexpr double kFriction = 0.4;
+
+struct Body {
+  OwnedShape shape;
+  std::unique_ptr<btRigidBody> body;
+  // Kept beside Bullet's rotation, which loses some bits each step.
+  double yaw = 0.0;
+};
+
+// Which kind of thing a Bullet body is stands in its second user index.
+constexpr int kRobot = 1;
+constexpr int kObstacle = 0;
+
+Body make_body(OwnedShape shape, double mass, const btVector3& inertia, const btTransform& X) {
+  Body made{std::move(shape), nullptr};
+  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, made.shape.shape.get(), inertia);
+  info.m_startWorldTransform = X;
+  info.m_friction = kFriction;
+  made.body = std::make_unique<btRigidBody>(info);
+  return made;
+}
+
+Pair pair_of(const btCollisionObject& robot, const btCollisionObject& other) {
+  return {static_cast<std::size_t>(robot.getUserIndex()), other.getUserIndex2() == kRobot,
+          static_cast<std::size_t>(other.getUserIndex())};
+}
+
+void note(std::map<Pair, double>& pairs, const Pair& pair, double distance) {
+  const auto [found, is_new] = pairs.emplace(pair, distance);
+  if (!is_new) found->second = std::min(found->second, distance);
+}
+
+}  // namespace
+
+struct Physics::Impl {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  std::vector<Body> obstacles;
+  std::vector<Body> robots;
+
+  void insert(std::vector<Body>& list, Body body, int kind) {
+    body.body->setUserIndex(static_cast<int>(list.size()));
+    body.body->setUserIndex2(kind);
+    list.push_back(std::move(body));
+    world.addRigidBody(list.back().body.get());
+  }
+};
+
+Physics::Physics(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
+  impl_->world.setGravity(btVector3(0, 0, 0));
+  for (const Obstacle& o : world.obstacles) {
+    btTransform X;
+    OwnedShape shape = obstacle_shape(o, X);
+    impl_->insert(impl_->obstacles, make_body(std::move(shape), 0, btVector3(0, 0, 0), X), kObstacle);
+  }
+}
+
+Physics::~Physics() {
+  for (auto* list : {&impl_->robots, &impl_->obstacles})
+    for (const Body& b : *list) impl_->world.removeRigidBody(b.body.get());
+}
+
+std::size_t Physics::add_robot(const RobotModel& model, const Pose2& X_WB) {
+  // Only the inertia about z matters: the body cannot tilt.
+  const btVector3 inertia(model.yaw_inertia, model.yaw_inertia, model.yaw_inertia);
+  Body robot = make_body(robot_shape(model), model.mass, inertia, upright(X_WB, 0));
+  robot.yaw = X_WB.yaw;
+  robot.body->setLinearFactor(btVector3(1, 1, 0));
+  robot.body->setAngularFactor(btVector3(0, 0, 1));
+  robot.body->setActivationState(DISABLE_DEACTIVATION);
+  impl_->insert(impl_->robots, std::move(robot), kRobot);
+  return impl_->robots.size() - 1;
+}
+
+void Physics::set_velocity(std::size_t robot, Vec2 linear, double turn) {
+  btRigidBody& body = *impl_->robots[robot].body;
+  body.setLinearVelocity(btVector3(linear.x, linear.y, 0));
+  body.setAngularVelocity(btVector3(0, 0, turn));
+}
+
+void Physics::step(double seconds) {
+  impl_->world.stepSimulation(seconds, 0);
+  for (Body& r : impl_->robots) {
+    r.yaw = wrapped(r.yaw + r.body->getAngularVelocity().z() * seconds);
+    const btVector3& p = r.body->getWorldTransform().getOrigin();
+    r.body->setCenterOfMassTransform(upright({p.x(), p.y(), r.yaw}, 0));
+  }
+}
+
+Pose2 Physics::pose(std::size_t robot) const {
+  const Body& r = impl_->robots[robot];
+  const btVector3& p = r.body->getWorldTransform().getOrigin();
+  return {p.x(), p.y(), r.yaw};
+}
+
+std::map<Pair, double> Physics::near_pairs() const {
+  std::map<Pair, double> pairs;
+  const btDispatcher& dispatcher = impl_->dispatcher;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& m = *impl_->dispatcher.getManifoldByIndexInternal(i);
+    const btCollisionObject& a = *m.getBody0();
+    const btCollisionObject& b = *m.getBody1();
+    for (int k = 0; k < m.getNumContacts(); ++k) {
+      const double distance = m.getContactPoint(k).getDistance();
+      if (a.getUserIndex2() == kRobot) note(pairs, pair_of(a, b), distance);
+      if (b.getUserIndex2() == kRobot) note(pairs, pair_of(b, a), distance);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace orca::sim::detail

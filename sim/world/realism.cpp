@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/sim/realism.hpp"
+
+namespace orca::sim {
+
+std::string_view to_string(Realism realism) {
+  switch (realism) {
+    case Realism::ideal: return "ideal";
+    case Realism::nominal: return "nominal";
+    case Realism::harsh: return "harsh";
+  }
+  return "unknown";
+}
+
+std::optional<Realism> realism_from(std::string_view word) {
+  for (const Realism r : {Realism::ideal, Realism::nominal, Realism::harsh})
+    if (word == to_string(r)) return r;
+  return std::nullopt;
+}
+
+ErrorLevels error_levels(Realism realism) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  switch (realism) {
+    case Realism::ideal: return {};
+    case Realism::nominal:
+      return {.wheel_mismatch = 0.005,
+              .track_error = 0.01,
+              .slip = 0.003,
+              .delay_scale = 1.0,
+              .sonar_noise = 0.01,
+              .sonar_outliers = 0.01,
+              .critical_angle = 25.0 * kDegree,
+              .quantised = true};
+    case Realism::harsh:
+      return {.wheel_mismatch = 0.01,
+              .track_error = 0.02,
+              .slip = 0.01,
+              .delay_scale = 1.5,
+              .sonar_noise = 0.02,
+              .sonar_outliers = 0.05,
+              .critical_angle = 20.0 * kDegree,
+              .quantised = true};
+  }
+  return {};
+}
+
+}  // namespace orca::sim

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <vector>
+
+#include "sonar_model.hpp"
+
+namespace orca::sim::detail {
+namespace {
+
+constexpr int kRays = 9;
+// An edge scatters a part of the sound only, so it is heard in the middle of the beam only.
+constexpr double kEdgeStrength = 0.3;
+// Of the strength on the axis. A smooth wall is just heard at the rim of the lobe, exp(-2) = 0.135.
+constexpr double kThreshold = 0.1;
+// [m] A point of a surface is seen if the ray to it ends this close to it.
+constexpr double kSeen = 1e-6;
+
+// Collects the echoes of one cone and keeps the nearest that is strong enough.
+class Listener {
+ public:
+  Listener(const Caster& caster, const Beam& beam, double critical_angle)
+      : caster_(caster), beam_(beam), critical_angle_(critical_angle) {}
+
+  // A ray of the fan: a surface met steeply enough answers; its nearest and end points are looked at
+  // afterwards.
+  void probe(double off_axis) {
+    const Hit hit = caster_.cast(ray(beam_.sensor.yaw + off_axis));
+    if (!hit.found()) return;
+    if (hit.incidence <= critical_angle_) offer(hit.range, off_axis, 1.0);
+    if (std::ranges::find(surfaces_, hit.surface) == surfaces_.end()) surfaces_.push_back(hit.surface);
+  }
+
+  void probe_surfaces() {
+    const Vec2 from = beam_.sensor.position();
+    for (const Surface& s : surfaces_) {
+      if (const auto* circle = std::get_if<Circle>(&s)) {
+        const Vec2 to_center = circle->center - from;
+        probe_point(from + (1.0 - circle->radius / norm(to_center)) * to_center, 1.0);
+      } else if (const auto* edge = std::get_if<Segment>(&s)) {
+        probe_foot(*edge, from);
+        probe_point(edge->a, kEdgeStrength);
+        probe_point(edge->b, kEdgeStrength);
+      }
+    }
+  }
+
+  [[nodiscard]] std::optional<double> nearest() const { return nearest_; }
+
+ private:
+  [[nodiscard]] Ray ray(double angle) const {
+    return {beam_.sensor.position(), direction(angle), beam_.max_range, beam_.height, beam_.own_body};
+  }
+  // Where the surface faces the sensor, if that point is not an end: sound comes straight back from there.
+  void probe_foot(const Segment& edge, Vec2 from) {
+    const Vec2 foot = nearest_point(edge, from);
+    if (!(foot == edge.a) && !(foot == edge.b)) probe_point(foot, 1.0);
+  }
+  void probe_point(Vec2 point, double strength) {
+    const Vec2 w = point - beam_.sensor.position();
+    const double angle = std::atan2(w.y, w.x);
+    const double off_axis = wrapped(angle - beam_.sensor.yaw);
+    if (std::fabs(off_axis) > beam_.half_lobe || norm(w) > beam_.max_range) return;
+    if (caster_.cast(ray(angle)).range >= norm(w) - kSeen) offer(norm(w), off_axis, strength);
+  }
+  // A Gaussian beam whose deviation is half the half lobe.
+  void offer(double range, double off_axis, double strength) {
+    const double deviations = 2.0 * off_axis / beam_.half_lobe;
+    if (strength * std::exp(-0.5 * deviations * deviations) < kThreshold) return;
+    if (!nearest_ || range < *nearest_) nearest_ = range;
+  }
+
+  const Caster& caster_;
+  const Beam& beam_;
+  double critical_angle_;
+  std::vector<Surface> surfaces_;
+  std::optional<double> nearest_;
+};
+
+}  // namespace
+
+std::optional<double> first_echo(const Caster& caster, const Beam& beam, double critical_angle) {
+  Listener listener(caster, beam, critical_angle);
+  for (int i = 0; i < kRays; ++i) listener.probe(beam.half_lobe * (2.0 * i / (kRays - 1) - 1.0));
+  listener.probe_surfaces();
+  return listener.nearest();
+}
+
+}  // namespace orca::sim::detail

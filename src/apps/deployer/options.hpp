@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orca/base/log.hpp"
+#include "orca/base/result.hpp"
+#include "orca/host/system.hpp"
+
+namespace orca::deployer {
+
+/// What the command line asks for.
+struct Options {
+  enum class Action { run, check, print, describe, help, version };
+  Action action = Action::run;
+  std::string file;  ///< The graph, or the plugin to describe.
+  std::vector<std::string> profiles;
+  std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
+  RunOptions run;
+  log::Level log_level = log::Level::info;
+};
+
+/// @errors  invalid_argument with what was found, what was expected and the nearest option.
+[[nodiscard]] Result<Options> parse_options(const std::vector<std::string>& words);
+
+/// The text of --help.
+[[nodiscard]] const char* help_text();
+
+}  // namespace orca::deployer

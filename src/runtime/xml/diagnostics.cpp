@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/xml/diagnostics.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace orca::xml {
+
+std::string Position::text() const {
+  if (line == 0) return file;
+  return file + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+std::string Diagnostic::text() const {
+  if (code.empty()) return message;
+  const char* kind = severity == Severity::error ? ": error " : ": warning ";
+  return position.text() + kind + code + ": " + message;
+}
+
+void Diagnostics::error(std::string code, Position position, std::string message) {
+  items_.push_back({Severity::error, std::move(code), std::move(position), std::move(message)});
+  ++errors_;
+}
+
+void Diagnostics::warning(std::string code, Position position, std::string message) {
+  items_.push_back({Severity::warning, std::move(code), std::move(position), std::move(message)});
+}
+
+void Diagnostics::line(Position position, std::string finished_line) {
+  error({}, std::move(position), std::move(finished_line));
+}
+
+std::vector<Diagnostic> Diagnostics::sorted() const {
+  std::vector<Diagnostic> result = items_;
+  const auto key = [](const Diagnostic& d) {
+    return std::tie(d.position.file, d.position.line, d.position.column);
+  };
+  std::stable_sort(result.begin(), result.end(),
+                   [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
+  return result;
+}
+
+std::string Diagnostics::text() const {
+  const std::vector<Diagnostic> all = sorted();
+  std::string result;
+  for (std::size_t i = 0; i < std::min(all.size(), kPrinted); ++i) result += all[i].text() + "\n";
+  if (all.size() > kPrinted) result += "... and " + std::to_string(all.size() - kPrinted) + " more\n";
+  return result;
+}
+
+}  // namespace orca::xml

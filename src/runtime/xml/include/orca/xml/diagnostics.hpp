@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace orca::xml {
+
+/// A place in a text file. Lines and columns count from 1; a column is one character (code point), a tab is
+/// one column. Line 0 stands for something that is no file, such as the command line.
+struct Position {
+  std::string file;
+  int line = 0;
+  int column = 0;
+
+  /// "graph.xml:12:7", or the file alone where there is no line.
+  [[nodiscard]] std::string text() const;
+  friend bool operator==(const Position&, const Position&) = default;
+};
+
+enum class Severity { error, warning };
+
+/// One thing to tell the author of a file. docs/errors.md lists the codes; they stay what they are.
+struct Diagnostic {
+  Severity severity = Severity::error;
+  std::string code;  ///< E.g. "G017"; empty: `message` is a whole line made elsewhere, printed as it is.
+  Position position;
+  std::string message;
+
+  /// "graph.xml:12:7: error G017: ..."
+  [[nodiscard]] std::string text() const;
+  friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
+};
+
+/// Collects what is wrong with a file, so that all of it can be told at once.
+///
+/// Thread contract: not synchronised; one thread.
+class Diagnostics {
+ public:
+  /// More lines than this help nobody.
+  static constexpr std::size_t kPrinted = 50;
+
+  void error(std::string code, Position position, std::string message);
+  void warning(std::string code, Position position, std::string message);
+
+  /// Takes over a finished line, for instance about another file. `position` says where it sorts.
+  void line(Position position, std::string finished_line);
+
+  [[nodiscard]] bool has_errors() const { return errors_ > 0; }
+  [[nodiscard]] std::size_t error_count() const { return errors_; }
+
+  /// Everything, ordered by file, line and column; in the order of reporting within one place.
+  [[nodiscard]] std::vector<Diagnostic> sorted() const;
+
+  /// The sorted lines, each ended by a newline; after kPrinted of them "... and N more".
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::vector<Diagnostic> items_;
+  std::size_t errors_ = 0;
+};
+
+}  // namespace orca::xml

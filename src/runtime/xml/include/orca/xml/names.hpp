@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace orca::xml {
+
+/// The candidate that a person most likely meant by `word`: the one with the fewest inserted, deleted,
+/// replaced or swapped characters (upper and lower case count as equal), the first of them if several are as
+/// near.
+/// @return nothing if `word` is empty or every candidate differs in more than about a third of the word's
+/// characters.
+/// @source  optimal string alignment distance; Damerau, "A technique for computer detection and correction
+///          of spelling errors", CACM 7(3), 1964.
+[[nodiscard]] std::optional<std::string> nearest_name(std::string_view word,
+                                                      std::span<const std::string> candidates);
+
+/// `; did you mean "laser"?`, or nothing: the end of a message about an unknown name.
+[[nodiscard]] std::string did_you_mean(const std::optional<std::string>& nearest);
+
+/// "a, b, c" for people; "nothing" if there are none, and the first 20 of more.
+[[nodiscard]] std::string listed(std::span<const std::string> names);
+
+}  // namespace orca::xml

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/xml/number.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace orca::xml {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\n";
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+Error not_a_number(std::string_view text, const std::string& hint) {
+  return fail(Code::invalid_argument, "\"" + std::string(text) + "\" is not a number" + hint);
+}
+
+// "0,5 m" was meant as "0.5 m": a comma straight after the digits read so far, with a digit behind it.
+bool comma_follows(std::string_view rest) { return rest.size() > 1 && rest[0] == ',' && is_digit(rest[1]); }
+
+Error comma_error(std::string_view text) {
+  std::string fixed(text);
+  fixed.replace(fixed.find(','), 1, ".");
+  return not_a_number(text, ": write a decimal point, \"" + fixed + "\"");
+}
+
+Error trailing_error(std::string_view text, std::string_view rest) {
+  return not_a_number(text, ": it stops being one at \"" + std::string(rest) + "\"");
+}
+
+// std::from_chars takes no '+', and would take "inf" and "nan", which start with a letter.
+std::string_view without_plus(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  return text;
+}
+
+bool starts_like_a_number(std::string_view digits) {
+  const std::size_t first = digits.find_first_not_of('-');
+  return first != std::string_view::npos && (is_digit(digits[first]) || digits[first] == '.');
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+Result<LeadingNumber> parse_leading_number(std::string_view text) {
+  const std::string_view digits = without_plus(trimmed(text));
+  if (digits.empty()) return fail(Code::invalid_argument, "the text is empty, a number is expected");
+  const char* end = digits.data() + digits.size();
+  LeadingNumber result;
+  const auto [stop, problem] = std::from_chars(digits.data(), end, result.value);
+  if (problem == std::errc::invalid_argument) return not_a_number(text, "");
+  if (!starts_like_a_number(digits)) return not_a_number(text, ", which must be finite");
+  if (problem == std::errc::result_out_of_range) {
+    return not_a_number(text, " that fits in 64 bits (1e-307 to 1.7e308)");
+  }
+  const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
+  if (comma_follows(rest)) return comma_error(text);
+  result.rest = trimmed(rest);
+  return result;
+}
+
+Result<double> parse_number(std::string_view text) {
+  const Result<LeadingNumber> number = parse_leading_number(text);
+  if (!number) return number.error();
+  if (!number->rest.empty()) return trailing_error(text, number->rest);
+  return number->value;
+}
+
+Result<std::int64_t> parse_integer(std::string_view text) {
+  const std::string_view digits = without_plus(trimmed(text));
+  const char* end = digits.data() + digits.size();
+  std::int64_t value = 0;
+  const auto [stop, problem] = std::from_chars(digits.data(), end, value);
+  const std::string shown = "\"" + std::string(text) + "\"";
+  if (problem == std::errc::result_out_of_range) {
+    return fail(Code::invalid_argument, shown + " does not fit in 64 bits");
+  }
+  if (problem != std::errc{} || stop != end) {
+    return fail(Code::invalid_argument, shown + " is not an integer: digits only, no point and no unit");
+  }
+  return value;
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto [end, problem] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return std::string(buffer.data(), end);
+}
+
+}  // namespace orca::xml

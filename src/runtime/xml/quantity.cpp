@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/xml/quantity.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "orca/xml/number.hpp"
+#include "units.hpp"
+
+namespace orca::xml {
+namespace {
+
+std::string expected(std::string_view si) {
+  const std::string name(quantity_name(si));
+  if (si.empty()) return name + " is expected: write none, or % for hundredths";
+  return (name.empty() ? "a value in " + std::string(si) : name) + " is expected: write " + units_for(si);
+}
+
+Error wrong_unit(std::string_view written, std::string_view si, const Unit* found) {
+  std::string what = "\"" + std::string(written) + "\" ";
+  what += found == nullptr ? "is not a unit that Orca knows"
+                           : "measures " + std::string(quantity_name(found->si));
+  return fail(Code::invalid_argument, what + "; " + expected(si));
+}
+
+}  // namespace
+
+Result<double> to_si(double value, std::string_view written, std::string_view si) {
+  if (written.empty() || (written == si && find_unit(si) == nullptr)) return value;
+  const Unit* unit = find_unit(written);
+  if (unit == nullptr || unit->si != si) return wrong_unit(written, si, unit);
+  const double result = value * unit->multiply / unit->divide;
+  if (!std::isfinite(result))
+    return fail(Code::invalid_argument, "the value is too large in " + std::string(si));
+  return result;
+}
+
+Result<double> parse_quantity(std::string_view text, std::string_view si) {
+  const Result<LeadingNumber> number = parse_leading_number(text);
+  if (!number) return number.error();
+  const Result<double> value = to_si(number->value, number->rest, si);
+  if (!value) return fail(Code::invalid_argument, "\"" + std::string(text) + "\": " + value.error().message);
+  return value;
+}
+
+Result<Duration> parse_duration(std::string_view text) {
+  constexpr double kLongest = 100.0 * 365.25 * 86400.0;
+  const Result<double> seconds = parse_quantity(text, "s");
+  if (!seconds) return seconds.error();
+  if (*seconds < 0.0 || *seconds > kLongest) {
+    return fail(Code::invalid_argument,
+                "\"" + std::string(text) + "\" is not between 0 s and a hundred years");
+  }
+  return from_seconds(*seconds);
+}
+
+}  // namespace orca::xml

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "scanner.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "codes.hpp"
+#include "orca/xml/document.hpp"
+#include "orca/xml/number.hpp"
+#include "references.hpp"
+
+namespace orca::xml {
+namespace {
+
+// Beyond this many errors a file is something else than XML with slips.
+constexpr std::size_t kMaxErrors = 1000;
+
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+// The value of `name="value"` in an XML declaration, empty if there is none.
+std::string declared(std::string_view declaration, std::string_view name) {
+  std::size_t at = declaration.find(name);
+  if (at == std::string_view::npos) return {};
+  at = declaration.find_first_of("\"'", at);
+  if (at == std::string_view::npos) return {};
+  const std::size_t end = declaration.find(declaration[at], at + 1);
+  if (end == std::string_view::npos) return {};
+  std::string value(declaration.substr(at + 1, end - at - 1));
+  std::ranges::transform(value, value.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return value;
+}
+
+bool is_utf8(const std::string& encoding) {
+  return encoding.empty() || encoding == "utf-8" || encoding == "us-ascii" || encoding == "ascii";
+}
+
+}  // namespace
+
+std::string place(Mark mark) {
+  return "line " + std::to_string(mark.line) + ", column " + std::to_string(mark.column);
+}
+
+Scanner::Scanner(std::string_view text, const std::string& file, Diagnostics& out)
+    : cursor_(text), file_(file), out_(out) {}
+
+Scan Scanner::run() {
+  if (starts_as_xml()) {
+    declaration();
+    while (!cursor_.at_end()) content();
+    check_complete();
+  }
+  return std::move(scan_);
+}
+
+void Scanner::report(const char* code, Mark at, std::string message) {
+  if (stopped_) return;
+  out_.error(code, {file_, at.line, at.column}, std::move(message));
+  if (++reported_ < kMaxErrors) return;
+  scan_.readable = false;
+  stopped_ = true;
+  cursor_.advance_to_end();
+}
+
+void Scanner::flaw(const char* code, Mark at, std::string message) { report(code, at, std::move(message)); }
+
+void Scanner::broken(const char* code, Mark at, std::string message) {
+  scan_.readable = false;
+  report(code, at, std::move(message));
+}
+
+void Scanner::stop(const char* code, Mark at, std::string message) {
+  broken(code, at, std::move(message));
+  stopped_ = true;
+  cursor_.advance_to_end();
+}
+
+bool Scanner::skip_blanks() {
+  const std::size_t from = cursor_.offset();
+  while (is_blank(cursor_.peek())) cursor_.advance();
+  return cursor_.offset() > from;
+}
+
+bool Scanner::check_references(std::string_view content, Mark begin) {
+  Cursor cursor(content, begin);
+  std::size_t from = 0;
+  while (const auto bad = find_bad_reference(content, from)) {
+    cursor.advance(bad->offset - cursor.offset());
+    // tinyxml2 leaves an unknown entity as it is, but makes something of an impossible number.
+    const bool number = bad->code == std::string_view(codes::kCharacterReference);
+    if (number) scan_.readable = false;
+    flaw(bad->code, cursor.mark(), bad->message);
+    from = bad->offset + 1;
+    if (stopped_) break;
+  }
+  return from == 0;
+}
+
+bool Scanner::starts_as_xml() {
+  if (cursor_.starts_with("<?xml")) return true;
+  skip_blanks();
+  if (cursor_.at_end()) {
+    stop(codes::kEmpty, cursor_.mark(), "the file holds nothing but blanks, an XML document is expected");
+    return false;
+  }
+  if (cursor_.peek() == '<') return true;
+  const std::string found{cursor_.peek()};
+  const bool ascii = static_cast<unsigned char>(found[0]) < 0x80;
+  stop(codes::kNotXml, cursor_.mark(),
+       "this is not XML: it starts with " + (ascii ? in_quotes(found) : "another character") +
+           " instead of \"<\"");
+  return false;
+}
+
+void Scanner::declaration() {
+  if (cursor_.offset() > 0 || !cursor_.starts_with("<?xml")) return;
+  const Mark begin = cursor_.mark();
+  const std::size_t length = cursor_.distance_to("?>");
+  if (length == std::string_view::npos) {
+    return stop(codes::kInstruction, begin, "the XML declaration is not closed with \"?>\"");
+  }
+  const std::size_t from = cursor_.offset();
+  cursor_.advance(length + 2);
+  const std::string encoding = declared(cursor_.since(from), "encoding");
+  if (!is_utf8(encoding)) {
+    stop(codes::kEncoding, begin,
+         "the file declares the encoding " + in_quotes(encoding) + ", only UTF-8 is read; save it as UTF-8");
+  }
+}
+
+void Scanner::content() {
+  if (cursor_.peek() == '<') return markup();
+  text();
+}
+
+void Scanner::markup() {
+  if (cursor_.starts_with("<!--")) return comment();
+  if (cursor_.starts_with("<![CDATA[")) return cdata();
+  if (cursor_.starts_with("<!")) {
+    return stop(codes::kDoctype, cursor_.mark(),
+                "\"<!\" starts a DOCTYPE or another declaration, which is not read; remove it");
+  }
+  if (cursor_.starts_with("<?")) return instruction();
+  if (cursor_.starts_with("</")) return end_tag();
+  start_tag();
+}
+
+void Scanner::text() {
+  const Mark begin = cursor_.mark();
+  const std::size_t from = cursor_.offset();
+  while (!cursor_.at_end() && cursor_.peek() != '<') cursor_.advance();
+  const std::string_view content = cursor_.since(from);
+  check_references(content, begin);
+  note_text(content, begin);
+}
+
+void Scanner::note_text(std::string_view content, Mark begin) {
+  Cursor cursor(content, begin);
+  while (is_blank(cursor.peek())) cursor.advance();
+  if (cursor.at_end()) return;
+  if (open_.empty()) {
+    return broken(codes::kOutsideRoot, cursor.mark(), "there is text outside the root element");
+  }
+  ElementMark& element = scan_.elements[open_.back().element];
+  if (!element.has_text) element.text = cursor.mark();
+  element.has_text = true;
+}
+
+void Scanner::comment() {
+  const Mark begin = cursor_.mark();
+  cursor_.advance(4);
+  const std::size_t length = cursor_.distance_to("-->");
+  if (length == std::string_view::npos)
+    return stop(codes::kComment, begin, "the comment is not closed with \"-->\"");
+  const std::size_t dashes = cursor_.distance_to("--");
+  if (dashes < length) {
+    cursor_.advance(dashes);
+    flaw(codes::kComment, cursor_.mark(),
+         "\"--\" may not stand inside the comment that starts at " + place(begin));
+  }
+  cursor_.advance(cursor_.distance_to("-->") + 3);
+}
+
+void Scanner::cdata() {
+  const Mark begin = cursor_.mark();
+  cursor_.advance(9);
+  const std::size_t length = cursor_.distance_to("]]>");
+  if (length == std::string_view::npos) {
+    return stop(codes::kComment, begin, "the CDATA section is not closed with \"]]>\"");
+  }
+  const Mark inside = cursor_.mark();
+  const std::size_t from = cursor_.offset();
+  cursor_.advance(length);
+  note_text(cursor_.since(from), inside);
+  cursor_.advance(3);
+}
+
+void Scanner::instruction() {
+  const Mark begin = cursor_.mark();
+  const bool declaration = cursor_.starts_with("<?xml ");
+  broken(codes::kInstruction, begin,
+         declaration ? "the XML declaration may only stand at the very start of the file"
+                     : "processing instructions (\"<?...?>\") are not read; remove it");
+  const std::size_t length = cursor_.distance_to("?>");
+  if (length == std::string_view::npos) return cursor_.advance_to_end();
+  cursor_.advance(length + 2);
+}
+
+void Scanner::end_tag() {
+  const Mark begin = cursor_.mark();
+  cursor_.advance(2);
+  const std::string_view tag = name();
+  skip_blanks();
+  if (cursor_.at_end()) return;  // check_complete() names what is open
+  if (cursor_.peek() == '>') {
+    cursor_.advance();
+  } else {
+    broken(codes::kTag, cursor_.mark(), "the end tag </" + std::string(tag) + "> is not closed with \">\"");
+    skip_rest_of_tag();
+  }
+  close(tag, begin);
+}
+
+void Scanner::close(std::string_view tag, Mark begin) {
+  const std::string shown = "the end tag </" + std::string(tag) + ">";
+  if (open_.empty()) {
+    if (!end_tags_wrong_) broken(codes::kEndTag, begin, shown + " closes nothing: no element is open");
+    end_tags_wrong_ = true;
+    return;
+  }
+  const Open innermost = open_.back();
+  const auto same = [&](const Open& open) { return open.name == tag; };
+  const auto match = std::find_if(open_.rbegin(), open_.rend(), same);
+  if (innermost.name != tag) {
+    broken(codes::kEndTag, begin,
+           shown + " does not fit: <" + std::string(innermost.name) + "> from " + place(innermost.begin) +
+               " is open and needs </" + std::string(innermost.name) + "> first");
+    end_tags_wrong_ = true;
+  }
+  // An end tag that fits nothing is taken for a misspelt one.
+  open_.erase(match == open_.rend() ? open_.end() - 1 : match.base() - 1, open_.end());
+  root_closed_ = open_.empty();
+}
+
+void Scanner::check_complete() {
+  if (stopped_) return;
+  if (scan_.elements.empty()) {
+    return broken(codes::kNoRoot, cursor_.mark(),
+                  "there is no element in the file, a root element is expected");
+  }
+  if (open_.empty() || end_tags_wrong_) return;
+  std::string message = "the file ends here, but <" + std::string(open_.back().name) + "> from " +
+                        place(open_.back().begin) + " is not closed";
+  if (open_.size() > 1) message += ", nor the " + std::to_string(open_.size() - 1) + " around it";
+  broken(codes::kTruncated, cursor_.mark(), message);
+}
+
+}  // namespace orca::xml

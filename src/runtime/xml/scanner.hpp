@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cursor.hpp"
+#include "orca/xml/diagnostics.hpp"
+
+namespace orca::xml {
+
+struct AttributeMark {
+  Mark name;
+  Mark value;
+  bool intact = true;
+};
+
+struct ElementMark {
+  Mark begin;
+  Mark text;  // first character that is not blank directly inside
+  bool has_text = false;
+  std::vector<AttributeMark> attributes;
+};
+
+struct Range {
+  std::size_t offset = 0;
+  std::size_t size = 0;
+};
+
+struct Scan {
+  std::vector<ElementMark> elements;  // in document order
+  std::vector<Range> repeated;        // attributes that tinyxml2 must not see, because it gives up at them
+  bool readable = true;               // a tree can be built, although there may be errors
+};
+
+// Reads through a text once, reports everything that is not well-formed and notes where things are, because
+// tinyxml2 neither knows columns nor objects to much. After an error it goes on where a person would: one
+// slip, one error.
+class Scanner {
+ public:
+  Scanner(std::string_view text, const std::string& file, Diagnostics& out);
+  Scan run();
+
+ private:
+  enum class TagEnd { opens, closed };
+  struct Open {
+    std::string_view name;
+    Mark begin;
+    std::size_t element;
+  };
+
+  // scanner.cpp: what lies between the tags, and end tags
+  bool starts_as_xml();
+  void declaration();
+  void content();
+  void markup();
+  void text();
+  void note_text(std::string_view content, Mark begin);
+  void comment();
+  void cdata();
+  void instruction();
+  void end_tag();
+  void close(std::string_view name, Mark begin);
+  void check_complete();
+
+  // scanner_tags.cpp: start tags. Where a TagEnd comes back early, the rest of a broken tag has been skipped.
+  void start_tag();
+  bool has_place(std::string_view tag, Mark begin);
+  TagEnd attributes(std::string_view tag, Mark begin);
+  TagEnd skip_rest_of_tag();
+  std::optional<TagEnd> attribute();
+  void missing_value(std::string_view name, Mark begin);
+  void missing_quote(std::string_view name);
+  std::optional<TagEnd> value(std::string_view name, AttributeMark& mark);
+  TagEnd value_runs_on(std::string_view name, Mark begin, std::string_view so_far);
+  void note_attribute(std::string_view name, AttributeMark mark, Range range);
+
+  // Both
+  std::string_view name();
+  bool skip_blanks();
+  // False if there is a bad one.
+  bool check_references(std::string_view content, Mark begin);
+  void flaw(const char* code, Mark at, std::string message);    // the tree is still to be had
+  void broken(const char* code, Mark at, std::string message);  // it is not
+  void stop(const char* code, Mark at, std::string message);    // nothing more can be said
+  void report(const char* code, Mark at, std::string message);
+
+  Cursor cursor_;
+  const std::string& file_;
+  Diagnostics& out_;
+  std::size_t reported_ = 0;
+  Scan scan_;
+  std::vector<Open> open_;
+  std::vector<std::string_view> seen_;  // attribute names of the present tag
+  bool root_closed_ = false;
+  bool second_root_ = false;
+  bool end_tags_wrong_ = false;
+  bool stopped_ = false;
+};
+
+// "line 3, column 5"
+std::string place(Mark mark);
+
+bool is_name_start(char c);
+
+}  // namespace orca::xml

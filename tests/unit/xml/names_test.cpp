@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <vector>
+
+#include "orca/xml/names.hpp"
+
+using namespace orca::xml;
+
+TEST_CASE("the nearest name has the fewest slips of the finger", "[xml][names]") {
+  const std::vector<std::string> ports{"sonar", "laser", "odometry", "goal"};
+  CHECK(nearest_name("lazer", ports) == "laser");       // replaced
+  CHECK(nearest_name("lasre", ports) == "laser");       // swapped
+  CHECK(nearest_name("odmetry", ports) == "odometry");  // left out
+  CHECK(nearest_name("goall", ports) == "goal");        // doubled
+  CHECK(nearest_name("SONAR", ports) == "sonar");       // other case
+}
+
+TEST_CASE("a word that resembles nothing has no nearest name", "[xml][names]") {
+  const std::vector<std::string> ports{"sonar", "laser"};
+  CHECK_FALSE(nearest_name("wheel", ports));
+  CHECK_FALSE(nearest_name("", ports));
+  CHECK_FALSE(nearest_name("x", std::vector<std::string>{"y"}));
+  CHECK_FALSE(nearest_name("laser", {}));
+}
+
+TEST_CASE("of equally near names the first is taken", "[xml][names]") {
+  CHECK(nearest_name("port3", std::vector<std::string>{"port1", "port2"}) == "port1");
+}
+
+TEST_CASE("a hint is a question, or nothing", "[xml][names]") {
+  CHECK(did_you_mean("laser") == "; did you mean \"laser\"?");
+  CHECK(did_you_mean(std::nullopt).empty());
+}
+
+TEST_CASE("a list of names for people stops at twenty", "[xml][names]") {
+  CHECK(listed(std::vector<std::string>{}) == "nothing");
+  CHECK(listed(std::vector<std::string>{"a", "b"}) == "a, b");
+  CHECK(listed(std::vector<std::string>(23, "x")).ends_with("x, x and 3 more"));
+}

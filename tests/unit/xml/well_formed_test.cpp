@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is not well-formed, and the one line that says so.
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+#include "orca/xml/document.hpp"
+
+using namespace orca::xml;
+using namespace std::string_literals;
+
+namespace {
+
+std::string errors_of(std::string_view text) {
+  Diagnostics diagnostics;
+  const auto document = read_text(text, "f.xml", diagnostics);
+  CHECK(diagnostics.has_errors());
+  return diagnostics.text();
+}
+
+}  // namespace
+
+TEST_CASE("a file that is missing, a folder, or empty is named with the reason", "[xml][reading]") {
+  Diagnostics diagnostics;
+  CHECK_FALSE(read_file("no/such/file.xml", diagnostics));
+  CHECK(diagnostics.text() ==
+        "no/such/file.xml:1:1: error G101: the file cannot be read: No such file or directory\n");
+  Diagnostics folder;
+  CHECK_FALSE(read_file(ORCA_SOURCE_DIR, folder));
+  CHECK(folder.text().find("Is a directory") != std::string::npos);
+  CHECK(errors_of("") == "f.xml:1:1: error G102: the file is empty, an XML document is expected\n");
+  CHECK(errors_of(" \n ").find("error G102") != std::string::npos);
+}
+
+TEST_CASE("a file is read from disk", "[xml][reading]") {
+  const auto path = std::filesystem::temp_directory_path() / "orca_xml_reading_test.xml";
+  std::ofstream(path) << "<r/>";
+  Diagnostics diagnostics;
+  const auto document = read_file(path.string(), diagnostics);
+  std::filesystem::remove(path);
+  REQUIRE(document.has_value());
+  CHECK(document->root.position().file == path.string());
+}
+
+TEST_CASE("other encodings than UTF-8 are refused with what to do", "[xml][reading]") {
+  CHECK(
+      errors_of("\xFF\xFE<\0r\0"s).find("1:1: error G105: the file is UTF-16 or UTF-32; save it as UTF-8") !=
+      std::string::npos);
+  CHECK(errors_of("<\0r\0/\0>\0"s).find("G105") != std::string::npos);
+  CHECK(errors_of("<?xml version='1.0' encoding='ISO-8859-1'?><r/>")
+            .find("G105: the file declares the encoding \"iso-8859-1\"") != std::string::npos);
+  CHECK(
+      errors_of("<r>\n caf\xE9</r>").find("f.xml:2:5: error G106: the byte 0xe9 at offset 8 is not UTF-8") !=
+      std::string::npos);
+}
+
+TEST_CASE("a byte order mark is an error, and the rest of the file is still looked at", "[xml][reading]") {
+  const std::string text = errors_of("\xEF\xBB\xBF<r a='1' a='2'/>");
+  CHECK(text.find("G104") != std::string::npos);
+  CHECK(text.find("G116") != std::string::npos);
+}
+
+TEST_CASE("the first byte that is no text is named", "[xml][reading]") {
+  CHECK(errors_of("<r>\0</r>"s).find("f.xml:1:4: error G106: the byte 0x00 at offset 3") !=
+        std::string::npos);
+  CHECK(errors_of("\x7F"
+                  "ELF\x02")
+            .find("1:1: error G106: the byte 0x7f at offset 0") != std::string::npos);
+  CHECK(errors_of("{\"name\": 1}").find("1:1: error G107: this is not XML: it starts with \"{\"") !=
+        std::string::npos);
+}
+
+TEST_CASE("each slip gives its one error at its place", "[xml][reading]") {
+  const auto [text, expected] = GENERATE(table<std::string, std::string>({
+      {"<!-- only -->", "1:14: error G108: there is no element"},
+      {"<a/><b/>", "1:5: error G109: <b> is a second root element"},
+      {"<a/>tail", "1:5: error G109: there is text outside"},
+      {"<a><b>\n<c/>",
+       "2:5: error G110: the file ends here, but <b> from line 1, column 4 is not closed, nor the 1"},
+      {"<a><b x='1'", "1:12: error G110: the file ends inside the tag <b> from line 1, column 4"},
+      {"<a x='1", "1:8: error G110: the file ends inside the value of attribute \"x\" from line 1, column 6"},
+      {"<a>\n <b>\n </a>",
+       "3:2: error G111: the end tag </a> does not fit: <b> from line 2, column 2 is open"},
+      {"<a>\n <b>\n </bb></a>", "3:2: error G111: the end tag </bb> does not fit"},
+      {"<a></a></b>", "1:8: error G111: the end tag </b> closes nothing"},
+      {"<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>", "1:1: error G112"},
+      {"<a>1 < 2</a>", "1:6: error G113: no name follows \"<\""},
+      {"<a ,b='1'/>", "1:4: error G113: \",\" does not belong in the tag <a>"},
+      {"<a b='1'c='2'/>", "1:9: error G113: a blank is missing"},
+      {"<a></a b>", "1:8: error G113: the end tag </a> is not closed"},
+      {"<a b/>", "1:4: error G114: attribute \"b\" has no value"},
+      {"<a b=1/>", "1:6: error G114: the value of attribute \"b\" must stand in quotes"},
+      {"<a b=“1”/>", "typographic"},
+      {"<a b='1>\n <c d='2'/></a>",
+       "2:2: error G115: \"<\" in the value of attribute \"b\" from line 1, column 6"},
+      {"<a b='1' b='2'/>", "1:10: error G116: attribute \"b\" is given twice"},
+      {"<a b='&nbsp;'/>", "1:7: error G117: the entity &nbsp; is not defined"},
+      {"<a>R&D</a>", "1:5: error G117: a '&' for itself is written &amp;"},
+      {"<a>&#0;</a>", "1:4: error G118: the character reference &#0;"},
+      {"<a>&#xD800;</a>", "1:4: error G118"},
+      {"<a><!-- x </a>", "1:4: error G119: the comment is not closed"},
+      {"<a><!-- x -- y --></a>", "1:11: error G119: \"--\" may not stand inside"},
+      {"<a><![CDATA[ x ]></a>", "1:4: error G119: the CDATA section is not closed"},
+      {"<a><?php x ?></a>", "1:4: error G120: processing instructions"},
+      {" <?xml version='1.0'?><a/>", "1:2: error G120: the XML declaration may only stand at the very start"},
+  }));
+  const std::string found = errors_of(text);
+  INFO(text << "\n" << found);
+  CHECK(found.find(expected) != std::string::npos);
+  CHECK(std::count(found.begin(), found.end(), '\n') == 1);
+}
+
+TEST_CASE("several slips are told together", "[xml][reading]") {
+  const std::string found = errors_of("<a b='1' b='2'>\n<c d=3/>\n<e f='&x;'/>\n</a>");
+  for (const char* place : {"1:10: error G116", "2:6: error G114", "3:7: error G117"})
+    CHECK(found.find(place) != std::string::npos);
+}
+
+TEST_CASE("nesting, attributes and size have limits that are named", "[xml][reading]") {
+  const auto nested = [](std::size_t depth) {
+    std::string text;
+    for (std::size_t i = 0; i < depth; ++i) text += "<a>";
+    for (std::size_t i = 0; i < depth; ++i) text += "</a>";
+    return text;
+  };
+  Diagnostics diagnostics;
+  CHECK(read_text(nested(Limits::kNesting), "f.xml", diagnostics).has_value());
+  CHECK(diagnostics.text().empty());
+  CHECK(errors_of(nested(Limits::kNesting + 1)).find("error G121") != std::string::npos);
+  std::string wide = "<a";
+  for (std::size_t i = 0; i <= Limits::kAttributes; ++i) wide += " x" + std::to_string(i) + "='1'";
+  CHECK(errors_of(wide + "/>").find("error G121: more than 64 attributes") != std::string::npos);
+  CHECK(errors_of(std::string(Limits::kBytes + 1, ' ')).find("G103") != std::string::npos);
+}
+
+TEST_CASE("a flood of errors ends", "[xml][reading]") {
+  Diagnostics diagnostics;
+  std::string text = "<a>";
+  for (int i = 0; i < 100000; ++i) text += "&";
+  CHECK(read_text(text + "</a>", "f.xml", diagnostics).has_value() == false);
+  CHECK(diagnostics.error_count() <= 1001);
+}
