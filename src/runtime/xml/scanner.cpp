@@ -15,7 +15,7 @@ namespace {
 // Beyond this many errors a file is something else than XML with slips.
 constexpr std::size_t kMaxErrors = 1000;
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 // The value of `name="value"` in an XML declaration, empty if there is none.
 std::string declared(std::string_view declaration, std::string_view name) {
@@ -107,7 +107,7 @@ bool Scanner::starts_as_xml() {
   const std::string found{cursor_.peek()};
   const bool ascii = static_cast<unsigned char>(found[0]) < 0x80;
   stop(codes::kNotXml, cursor_.mark(),
-       "this is not XML: it starts with " + (ascii ? quoted(found) : "another character") +
+       "this is not XML: it starts with " + (ascii ? in_quotes(found) : "another character") +
            " instead of \"<\"");
   return false;
 }
@@ -124,7 +124,7 @@ void Scanner::declaration() {
   const std::string encoding = declared(cursor_.since(from), "encoding");
   if (!is_utf8(encoding)) {
     stop(codes::kEncoding, begin,
-         "the file declares the encoding " + quoted(encoding) + ", only UTF-8 is read; save it as UTF-8");
+         "the file declares the encoding " + in_quotes(encoding) + ", only UTF-8 is read; save it as UTF-8");
   }
 }
 

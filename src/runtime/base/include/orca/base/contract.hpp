@@ -88,6 +88,7 @@ struct Trigger {
   Kind kind = Kind::free_running;
   Duration period{0};
   std::string port;
+  friend bool operator==(const Trigger&, const Trigger&) = default;
 };
 
 enum class PluginKind { component, hardware };

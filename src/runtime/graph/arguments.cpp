@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "arguments.hpp"
+
+#include "codes.hpp"
+#include "naming.hpp"
+#include "orca/xml/names.hpp"
+
+namespace orca::graph {
+namespace {
+
+const xml::Position kCommandLine{"command line", 0, 0};
+
+}  // namespace
+
+Arguments::Arguments(const std::vector<std::string>& settings, Report& report) : report_(report) {
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals != std::string::npos && equals > 0) {
+      settings_[setting.substr(0, equals)] = {setting.substr(equals + 1)};
+    } else {
+      report_.error(codes::kBadSetting, kCommandLine,
+                    "--set " + setting + " has no value: write --set ARG=VALUE");
+    }
+  }
+}
+
+void Arguments::declare(const Node& arg) {
+  const Text* name = arg.known("name");
+  if (name == nullptr) return;
+  if (const auto fault = name_fault(name->value)) {
+    report_.error(codes::kBadName, name->position, arg.title() + ": " + *fault);
+  }
+  if (arguments_.contains(name->value)) return report_duplicate(name->value, arg);
+  arguments_[name->value] = {value_of(name->value, arg), arg.position};
+}
+
+void Arguments::report_duplicate(const std::string& name, const Node& arg) {
+  report_.error(codes::kDuplicateName, arg.place("name"),
+                arg.title() + " is declared already at " + arguments_.at(name).position.text());
+}
+
+Text Arguments::value_of(const std::string& name, const Node& arg) {
+  const auto setting = settings_.find(name);
+  if (setting != settings_.end()) {
+    setting->second.used = true;
+    return {setting->second.value, kCommandLine, true, true};
+  }
+  if (const Text* default_value = arg.find("default")) return *default_value;
+  report_.error(codes::kArgumentWithoutValue, arg.position,
+                arg.title() + " has no default and is not set: add --set " + name + "=VALUE");
+  return {"", arg.position, false, false};
+}
+
+Text Arguments::replaced(const xml::Attribute& attribute) {
+  Text text{"", attribute.value_position, attribute.intact, false};
+  std::string_view rest = attribute.value;
+  for (;;) {
+    const std::size_t dollar = rest.find('$');
+    text.value += rest.substr(0, dollar);
+    if (dollar == std::string_view::npos) return text;
+    rest.remove_prefix(dollar);
+    replace_one(rest, text);
+  }
+}
+
+void Arguments::replace_one(std::string_view& rest, Text& text) {
+  if (rest.starts_with("$$")) {
+    text.value += '$';
+    return rest.remove_prefix(2);
+  }
+  const std::size_t end = rest.starts_with("${") ? rest.find('}') : std::string_view::npos;
+  if (end == std::string_view::npos) {
+    report_.error(codes::kBadDollar, text.position,
+                  "a single '$' in " + in_quotes(rest) + "; write ${arg} for an argument, $$ for a dollar");
+    text.known = false;
+    return rest.remove_prefix(1);
+  }
+  append(std::string(rest.substr(2, end - 2)), text);
+  rest.remove_prefix(end + 1);
+}
+
+void Arguments::append(const std::string& name, Text& text) {
+  const auto found = arguments_.find(name);
+  if (found == arguments_.end()) {
+    report_.error(codes::kUndefinedArgument, text.position,
+                  "${" + name + "} is not defined; there is <arg> for: " + xml::listed(names()) +
+                      report_.hint(name, names()));
+    text.known = false;
+    return;
+  }
+  Argument& argument = found->second;
+  argument.used = true;
+  if (text.value.empty()) text.from_command_line = argument.value.from_command_line;
+  text.known = text.known && argument.value.known;
+  text.value += argument.value.value;
+}
+
+void Arguments::check_use() {
+  for (const auto& [name, setting] : settings_) {
+    if (setting.used) continue;
+    report_.error(codes::kBadSetting, kCommandLine,
+                  "--set " + name + ": the graph has no such argument; it has: " + xml::listed(names()) +
+                      report_.hint(name, names()));
+  }
+  for (const auto& [name, argument] : arguments_) {
+    if (!argument.used) {
+      report_.warning(codes::kUnusedArgument, argument.position,
+                      "arg " + in_quotes(name) + " is used nowhere");
+    }
+  }
+}
+
+std::vector<std::string> Arguments::names() const {
+  std::vector<std::string> result;
+  for (const auto& [name, argument] : arguments_) result.push_back(name);
+  return result;
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "node.hpp"
+#include "orca/xml/document.hpp"
+#include "report.hpp"
+
+namespace orca::graph {
+
+// The <arg>s of a graph with what the command line sets, and their replacement in attribute values.
+class Arguments {
+ public:
+  // @param settings  "ARG=VALUE" each.
+  Arguments(const std::vector<std::string>& settings, Report& report);
+
+  // Declares an <arg>. Its default may refer to arguments declared before.
+  void declare(const Node& arg);
+
+  // The attribute's value with ${arg} replaced and $$ made $.
+  Text replaced(const xml::Attribute& attribute);
+
+  // Reports settings that no <arg> takes and arguments that nothing uses.
+  void check_use();
+
+ private:
+  struct Argument {
+    Text value;
+    xml::Position position;
+    bool used = false;
+  };
+  struct Setting {
+    std::string value;
+    bool used = false;
+  };
+
+  void report_duplicate(const std::string& name, const Node& arg);
+  Text value_of(const std::string& name, const Node& arg);
+  // Replaces what stands at the '$' that `rest` starts with, and takes it off.
+  void replace_one(std::string_view& rest, Text& text);
+  void append(const std::string& name, Text& text);
+  [[nodiscard]] std::vector<std::string> names() const;
+
+  Report& report_;
+  std::map<std::string, Setting> settings_;
+  std::map<std::string, Argument> arguments_;
+};
+
+}  // namespace orca::graph

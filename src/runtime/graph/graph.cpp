@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/graph/graph.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace orca::graph {
+namespace {
+
+template <class Node>
+const Node* find(const std::vector<Node>& nodes, const std::string& wanted) {
+  const auto found = std::ranges::find(nodes, wanted, &Node::name);
+  return found == nodes.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+bool operator==(const HardwareNode& a, const HardwareNode& b) {
+  const auto content = [](const HardwareNode& n) { return std::tie(n.name, n.type, n.params); };
+  return content(a) == content(b);
+}
+
+bool operator==(const ComponentNode& a, const ComponentNode& b) {
+  const auto content = [](const ComponentNode& n) {
+    return std::tie(n.name, n.type, n.hardware, n.process, n.priority, n.autonomous, n.trigger, n.start_after,
+                    n.params, n.properties);
+  };
+  return content(a) == content(b);
+}
+
+bool operator==(const Edge& a, const Edge& b) {
+  const auto content = [](const Edge& e) { return std::tie(e.from, e.to, e.pattern, e.queue, e.interval); };
+  return content(a) == content(b);
+}
+
+const HardwareNode* Graph::find_hardware(const std::string& wanted) const { return find(hardware, wanted); }
+
+const ComponentNode* Graph::find_component(const std::string& wanted) const {
+  return find(components, wanted);
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "orca/base/contract.hpp"
+#include "orca/graph/graph.hpp"
+
+namespace orca::graph {
+
+struct CheckedHardware {
+  HardwareNode value;
+  bool sound = false;  // it may be shown to components
+};
+
+struct CheckedComponent {
+  ComponentNode value;
+  std::optional<Contract> contract;  // nothing if the type is missing or unknown
+  bool ports_known = false;          // false: its ports cannot be judged, for a reason already reported
+  bool duplicate = false;
+};
+
+// What the checks know about the graph so far. Nodes stay in the order of the file.
+struct Model {
+  std::vector<CheckedHardware> hardware;
+  std::vector<CheckedComponent> components;
+  std::map<std::string, std::size_t> hardware_by_name;
+  std::map<std::string, std::size_t> component_by_name;
+  std::set<std::string> excused;  // see Structure
+  bool names_incomplete = false;  // see Structure
+
+  [[nodiscard]] const CheckedComponent* component(const std::string& name) const {
+    const auto found = component_by_name.find(name);
+    return found == component_by_name.end() ? nullptr : &components[found->second];
+  }
+  [[nodiscard]] const CheckedHardware* find_hardware(const std::string& name) const {
+    const auto found = hardware_by_name.find(name);
+    return found == hardware_by_name.end() ? nullptr : &hardware[found->second];
+  }
+  [[nodiscard]] std::vector<std::string> component_names() const {
+    std::vector<std::string> names;
+    for (const auto& [name, index] : component_by_name) names.push_back(name);
+    return names;
+  }
+  [[nodiscard]] std::vector<std::string> hardware_names() const {
+    std::vector<std::string> names;
+    for (const auto& [name, index] : hardware_by_name) names.push_back(name);
+    return names;
+  }
+};
+
+}  // namespace orca::graph

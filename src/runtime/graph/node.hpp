@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/xml/diagnostics.hpp"
+#include "rules.hpp"
+
+namespace orca::graph {
+
+// An attribute's value after the replacement of ${...}.
+struct Text {
+  std::string value;
+  xml::Position position;
+  bool known = true;               // false: an error about it is reported, whatever follows from it is not
+  bool from_command_line = false;  // it starts with a value given by --set
+};
+
+// An element whose name and attributes follow the rules; slips that could be guessed are put right already.
+struct Node {
+  const ElementRule* rule = nullptr;
+  xml::Position position;
+  std::map<std::string, Text, std::less<>> attributes;
+  std::vector<Node> children;
+  bool duplicate = false;  // its name is taken; it is checked, but never found by name
+
+  [[nodiscard]] bool is(std::string_view element) const { return rule->name == element; }
+  [[nodiscard]] const Text* find(std::string_view attribute) const;
+  // The attribute if it is there and can be judged.
+  [[nodiscard]] const Text* known(std::string_view attribute) const;
+  // Its value, or "" if it is missing or unknown.
+  [[nodiscard]] std::string value(std::string_view attribute) const;
+  // The attribute's place, or the element's.
+  [[nodiscard]] const xml::Position& place(std::string_view attribute) const;
+  // "component "avoid"": how messages call it.
+  [[nodiscard]] std::string title() const;
+};
+
+}  // namespace orca::graph

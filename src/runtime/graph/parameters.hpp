@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "node.hpp"
+#include "orca/base/contract.hpp"
+#include "orca/graph/graph.hpp"
+#include "report.hpp"
+
+namespace orca::graph {
+
+// All parameters of a hardware or component node: what it sets, defaults for the rest. Nothing if one of them
+// is wrong.
+std::optional<Params> read_params(const Node& node, const Contract& contract, Report& report);
+
+}  // namespace orca::graph

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "node.hpp"
+#include "report.hpp"
+
+namespace orca::graph {
+
+// What a graph consists of once its profiles are merged.
+struct Parts {
+  std::vector<Node> hardware;
+  std::vector<Node> components;
+  std::vector<Node> connections;
+};
+
+// The graph's own parts with the chosen profiles merged over them in order.
+// @param chosen  names from the command line; none: the graph's default_profile.
+Parts merge_profiles(const Node& graph, const std::vector<std::string>& chosen, Report& report);
+
+}  // namespace orca::graph

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/xml/document.hpp"
+
+namespace orca::graph {
+
+struct AttributeRule {
+  std::string_view name;
+  bool required = false;
+};
+
+// What the graph's XML may look like, one entry per element.
+struct ElementRule {
+  enum class Support {
+    full,
+    transparent,  // not yet, but its content can be looked at as if it stood outside
+    none,         // not yet, and it may bring in names that nobody can know
+  };
+  std::string_view name;
+  std::span<const AttributeRule> attributes;
+  std::span<const std::string_view> children;
+  Support support = Support::full;
+
+  [[nodiscard]] const AttributeRule* attribute(std::string_view wanted) const;
+  [[nodiscard]] bool allows(std::string_view child) const;
+  // The child that `element` was probably meant to be: the one with the nearest name, or <connect> if it has
+  // its two ends. Null if there is no telling.
+  [[nodiscard]] const ElementRule* guess_child(const xml::Element& element) const;
+  [[nodiscard]] std::vector<std::string> attribute_names() const;
+  [[nodiscard]] std::vector<std::string> child_names() const;
+};
+
+// The rule of an element, or null.
+const ElementRule* find_rule(std::string_view element);
+
+// The elements that may contain `child`, for people: "<hardware> or <component>".
+std::string parents_of(std::string_view child);
+
+}  // namespace orca::graph

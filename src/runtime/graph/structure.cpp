@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "structure.hpp"
+
+#include <map>
+
+#include "codes.hpp"
+#include "orca/xml/names.hpp"
+#include "orca/xml/number.hpp"
+
+namespace orca::graph {
+namespace {
+
+std::string tag(std::string_view name) { return "<" + std::string(name) + ">"; }
+
+class Reader {
+ public:
+  Reader(Arguments& arguments, Report& report) : arguments_(arguments), report_(report) {}
+
+  Structure read_graph(const xml::Element& root) {
+    const ElementRule& rule = *find_rule("graph");
+    result_.graph = {&rule, root.position(), {}, {}};
+    // Arguments first: everything else may use them.
+    for (const xml::Element& child : root.children()) {
+      if (is_arg(rule, child)) arguments_.declare(read(child, *find_rule("arg")));
+    }
+    read_attributes(root, result_.graph);
+    check_text(root);
+    for (const xml::Element& child : root.children()) {
+      if (is_arg(rule, child)) {
+        check_spelling(child, rule, find_rule("arg"));
+      } else {
+        read_child(child, result_.graph);
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static bool is_arg(const ElementRule& parent, const xml::Element& element) {
+    return parent.guess_child(element) == find_rule("arg");
+  }
+
+  Node read(const xml::Element& element, const ElementRule& rule) {
+    Node node{&rule, element.position(), {}, {}};
+    read_attributes(element, node);
+    check_text(element);
+    for (const xml::Element& child : element.children()) read_child(child, node);
+    drop_duplicates(node);
+    return node;
+  }
+
+  void read_attributes(const xml::Element& element, Node& node) {
+    for (const xml::Attribute& attribute : element.attributes()) {
+      const std::string name = attribute_meant(element, attribute, *node.rule);
+      if (!name.empty()) node.attributes.emplace(name, arguments_.replaced(attribute));
+    }
+    for (const AttributeRule& rule : node.rule->attributes) {
+      if (!rule.required || node.find(rule.name) != nullptr) continue;
+      report_.error(codes::kMissingAttribute, element.position(),
+                    tag(element.name()) + " needs the attribute " + in_quotes(rule.name));
+      if (rule.name == "name" && node.is("component")) result_.names_incomplete = true;
+    }
+  }
+
+  // The attribute's name; for an unknown one the one it was meant to be, if that is not there as well.
+  std::string attribute_meant(const xml::Element& element, const xml::Attribute& attribute,
+                              const ElementRule& rule) {
+    if (rule.attribute(attribute.name) != nullptr) return attribute.name;
+    const std::vector<std::string> names = rule.attribute_names();
+    const auto near = report_.nearest(attribute.name, names);
+    report_.error(codes::kUnknownAttribute, attribute.position,
+                  tag(element.name()) + " has no attribute " + in_quotes(attribute.name) +
+                      "; it has: " + xml::listed(names) + xml::did_you_mean(near));
+    return near && element.attribute(*near) == nullptr ? *near : "";
+  }
+
+  void check_text(const xml::Element& element) {
+    const std::string_view text = xml::trimmed(element.text());
+    if (text.empty()) return;
+    const std::string shown = text.size() > 20 ? std::string(text.substr(0, 20)) + "..." : std::string(text);
+    report_.error(codes::kStrayText, element.text_position(),
+                  "the text " + in_quotes(shown) + " inside " + tag(element.name()) +
+                      " means nothing; a graph says everything in attributes");
+  }
+
+  void read_child(const xml::Element& element, Node& parent) {
+    const ElementRule* rule = parent.rule->guess_child(element);
+    check_spelling(element, *parent.rule, rule);
+    if (rule == nullptr) return excuse(element);
+    if (rule->support == ElementRule::Support::full) {
+      parent.children.push_back(read(element, *rule));
+    } else {
+      read_unsupported(element, *rule, parent);
+    }
+  }
+
+  void read_unsupported(const xml::Element& element, const ElementRule& rule, Node& parent) {
+    report_.error(codes::kUnsupported, element.position(),
+                  tag(rule.name) + " is not supported yet" +
+                      (rule.support == ElementRule::Support::transparent
+                           ? "; put what it contains directly into the graph"
+                           : "; put the components that it would bring directly into the graph"));
+    if (rule.support == ElementRule::Support::none) result_.names_incomplete = true;
+    Node inside{&rule, element.position(), {}, {}};
+    if (rule.support == ElementRule::Support::transparent) {
+      for (const xml::Element& child : element.children()) read_child(child, inside);
+    }
+    for (Node& child : inside.children) parent.children.push_back(std::move(child));
+  }
+
+  void check_spelling(const xml::Element& element, const ElementRule& parent, const ElementRule* meant) {
+    if (meant != nullptr && meant->name == element.name()) return;
+    if (find_rule(element.name()) != nullptr) {
+      return report_.error(codes::kMisplacedElement, element.position(),
+                           tag(element.name()) + " does not belong in " + tag(parent.name) +
+                               (element.name() == "graph" ? "; it is the root of the file"
+                                                          : "; it goes into " + parents_of(element.name())));
+    }
+    const auto near = meant == nullptr ? std::nullopt : std::optional(std::string(meant->name));
+    const std::vector<std::string> allowed = parent.child_names();
+    report_.error(codes::kUnknownElement, element.position(),
+                  "there is no element " + tag(element.name()) + " in " + tag(parent.name) +
+                      "; it may contain: " + xml::listed(allowed) + xml::did_you_mean(near));
+  }
+
+  void excuse(const xml::Element& element) {
+    if (const xml::Attribute* name = element.attribute("name")) result_.excused.insert(name->value);
+    for (const xml::Element& child : element.children()) excuse(child);
+  }
+
+  void drop_duplicates(Node& node) {
+    std::map<std::pair<std::string_view, std::string>, xml::Position> seen;
+    std::erase_if(node.children, [&](const Node& child) {
+      const Text* name = child.known("name");
+      if (name == nullptr || !(child.is("param") || child.is("property"))) return false;
+      const auto [first, fresh] = seen.try_emplace({child.rule->name, name->value}, child.position);
+      if (fresh) return false;
+      report_.error(codes::kDuplicateName, name->position,
+                    child.title() + " is given already at " + first->second.text());
+      return true;
+    });
+  }
+
+  Arguments& arguments_;
+  Report& report_;
+  Structure result_;
+};
+
+bool check_root(const xml::Element& root, Report& report) {
+  if (root.name() == "graph") return true;
+  const std::vector<std::string> expected{"graph"};
+  const auto near = xml::nearest_name(root.name(), expected);
+  report.error(codes::kWrongRoot, root.position(),
+               "the root element is " + tag(root.name()) + ", a system graph starts with <graph>" +
+                   xml::did_you_mean(near));
+  return near.has_value();
+}
+
+void check_version(const Node& graph, Report& report) {
+  const Text* version = graph.known("version");
+  if (version == nullptr || xml::trimmed(version->value) == "1") return;
+  report.error(codes::kVersion, version->position,
+               "the graph has version " + in_quotes(version->value) + ", this Orca reads version \"1\"");
+}
+
+}  // namespace
+
+std::optional<Structure> read_structure(const xml::Document& document, Arguments& arguments, Report& report) {
+  if (!check_root(document.root, report)) return std::nullopt;
+  Structure structure = Reader(arguments, report).read_graph(document.root);
+  check_version(structure.graph, report);
+  arguments.check_use();
+  return structure;
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "checks.hpp"
+#include "codes.hpp"
+#include "naming.hpp"
+
+namespace orca::graph {
+
+const Text* Types::type_of(const Node& node) {
+  const Text* type = node.find("type");
+  if (type == nullptr) {
+    report_.error(codes::kMissingAttribute, node.position,
+                  "<" + std::string(node.rule->name) + "> needs the attribute \"type\", for " + node.title());
+  }
+  return type != nullptr && type->known ? type : nullptr;
+}
+
+std::optional<Contract> Types::hardware(const Node& node) {
+  const Text* type = type_of(node);
+  if (type == nullptr) return std::nullopt;
+  Result<Contract> contract = catalogue_.hardware(type->value);
+  if (contract) return *std::move(contract);
+  report_failure(node, contract.error(), PluginKind::hardware);
+  return std::nullopt;
+}
+
+std::optional<Contract> Types::component(const Node& node, const HardwareUse* use) {
+  const Text* type = type_of(node);
+  if (type == nullptr) return std::nullopt;
+  Result<Contract> contract = catalogue_.component(type->value, use);
+  if (contract) return *std::move(contract);
+  report_failure(node, contract.error(), PluginKind::component);
+  return std::nullopt;
+}
+
+std::optional<Contract> Types::component_without_hardware(const Node& node) {
+  const Text* type = type_of(node);
+  if (type == nullptr) return std::nullopt;
+  Result<Contract> contract = catalogue_.component(type->value, nullptr);
+  if (contract) return *std::move(contract);
+  if (contract.error().code == Code::not_found) report_failure(node, contract.error(), PluginKind::component);
+  return std::nullopt;
+}
+
+void Types::report_failure(const Node& node, const Error& error, PluginKind kind) {
+  const std::string what = node.title() + ": " + error.text();
+  if (error.code == Code::not_found) {
+    return report_.error(codes::kUnknownType, node.place("type"),
+                         what + report_.hint(node.value("type"), catalogue_.type_names(kind)));
+  }
+  if (broken_.insert(error.text()).second) report_.error(codes::kPlugin, node.place("type"), what);
+}
+
+void check_name(const Node& node, const char* attribute, Report& report) {
+  const Text* name = node.known(attribute);
+  if (name == nullptr) return;
+  if (const auto fault = name_fault(name->value)) {
+    report.error(codes::kBadName, name->position,
+                 "the " + std::string(attribute) + " " + in_quotes(name->value) + " of a " +
+                     std::string(node.rule->name) + ": " + *fault);
+  }
+}
+
+bool check_component_exists(const std::string& name, const xml::Position& place, const std::string& title,
+                            const Model& model, Report& report) {
+  if (model.component(name) != nullptr) return true;
+  if (model.excused.contains(name)) return false;
+  const std::vector<std::string> names = model.component_names();
+  const std::string hint = report.hint(name, names);
+  if (model.names_incomplete && hint.empty()) return false;
+  report.error(codes::kUnknownComponent, place, title + ": there is no component " + in_quotes(name) + hint);
+  return false;
+}
+
+}  // namespace orca::graph

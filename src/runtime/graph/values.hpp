@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "node.hpp"
+#include "orca/base/contract.hpp"
+#include "report.hpp"
+
+namespace orca::graph {
+
+// The value of a text as the contract wants it: of its type, in SI, in range, files absolute. Nothing if the
+// text is unknown or wrong; what is wrong is reported after `title`.
+std::optional<ParamValue> read_value(const Text& text, const ParamContract& contract,
+                                     const std::string& title, Report& report);
+
+// A path as the text means it: absolute and without "..". It starts at the folder of the file that says it,
+// or at the current one if the command line says it.
+std::string resolved_path(const std::string& path, const Text& origin);
+
+}  // namespace orca::graph

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "checks.hpp"
+#include "codes.hpp"
+#include "edges.hpp"
+#include "endpoints.hpp"
+#include "orca/xml/names.hpp"
+
+namespace orca::graph {
+namespace {
+
+bool fit_together(const PortContract& a, const PortContract& b) {
+  return a.pattern == b.pattern && a.role != b.role && a.type == b.type;
+}
+
+class Wiring {
+ public:
+  Wiring(const Model& model, Report& report) : model_(model), report_(report) {}
+
+  void connect(const Node& connection) {
+    const Endpoint from = resolve_endpoint(connection, "from", model_, report_);
+    const Endpoint to = resolve_endpoint(connection, "to", model_, report_);
+    touch(from, to);
+    touch(to, from);
+    if (from.port == nullptr || to.port == nullptr) return;
+    const auto edge = make_edge(connection, from, to, report_);
+    if (!edge || connection.duplicate) return;
+    if (takes_one_more(*edge, from, to)) edges_.push_back(*edge);
+  }
+
+  void check_required() {
+    for (const CheckedComponent& component : model_.components) {
+      if (component.duplicate || !component.contract || !component.ports_known) continue;
+      for (const PortContract& port : component.contract->ports) {
+        if (port.required && port.role == Role::proxy) check_connected(component, port);
+      }
+    }
+  }
+
+  std::vector<Edge> edges() && { return std::move(edges_); }
+
+ private:
+  // A connection whose other end could not be made out, although something was said about it.
+  struct Loose {
+    const PortContract* port;
+    std::string component;  // that the other end names; empty: not even that is known
+  };
+
+  void touch(const Endpoint& end, const Endpoint& other) {
+    if (end.port != nullptr) touched_.insert(end.ref);
+    if (end.guessed) touched_.insert({end.ref.component, *end.guessed});
+    const bool lost = end.port == nullptr && !end.guessed;
+    if (lost && other.port != nullptr) loose_.push_back({other.port, known_component(end.ref.component)});
+  }
+
+  std::string known_component(const std::string& name) const {
+    return model_.component(name) == nullptr ? "" : name;
+  }
+
+  bool takes_one_more(const Edge& edge, const Endpoint& from, const Endpoint& to) {
+    const Endpoint& proxy = from.port->role == Role::proxy ? from : to;
+    if (proxy.port->many) return true;
+    const auto [first, fresh] = single_.try_emplace(proxy.ref, edge);
+    if (fresh) return true;
+    report_.error(codes::kTooManyEdges, edge.position,
+                  described(proxy) + " takes one connection and gets two: from " +
+                      in_quotes(edge.from.text()) + " to " + in_quotes(edge.to.text()) + " here, from " +
+                      in_quotes(first->second.from.text()) + " to " + in_quotes(first->second.to.text()) +
+                      " at " + first->second.position.text());
+    return false;
+  }
+
+  void check_connected(const CheckedComponent& component, const PortContract& port) {
+    const PortRef ref{component.value.name, port.name};
+    if (touched_.contains(ref) || explained_by_loose_end(ref, port)) return;
+    report_.error(codes::kUnconnected, component.value.position,
+                  "component " + in_quotes(ref.component) + ": port " + in_quotes(port.name) + " (" +
+                      described(port) + ") must be connected; " + offers(port, ref.component));
+  }
+
+  // One connection with an unknown end may be the one that is missing here: that would be two errors for one
+  // cause.
+  bool explained_by_loose_end(const PortRef& ref, const PortContract& port) {
+    const auto explains = [&](const Loose& loose) {
+      return fit_together(*loose.port, port) && (loose.component.empty() || loose.component == ref.component);
+    };
+    const auto found = std::ranges::find_if(loose_, explains);
+    if (found == loose_.end()) return false;
+    loose_.erase(found);
+    return true;
+  }
+
+  std::string offers(const PortContract& wanted, const std::string& self) const {
+    std::vector<std::string> names;
+    for (const CheckedComponent& component : model_.components) {
+      if (!component.contract || component.value.name == self) continue;
+      for (const PortContract& port : component.contract->ports)
+        if (fit_together(port, wanted)) names.push_back(component.value.name + "." + port.name);
+    }
+    if (names.empty()) return "no component of the graph offers it";
+    return "it is offered by: " + xml::listed(names);
+  }
+
+  const Model& model_;
+  Report& report_;
+  std::vector<Edge> edges_;
+  std::set<PortRef> touched_;
+  std::vector<Loose> loose_;
+  std::map<PortRef, Edge> single_;  // the first edge at each proxy that takes only one
+};
+
+}  // namespace
+
+std::vector<Edge> check_wiring(const std::vector<Node>& connections, const Model& model, Report& report) {
+  Wiring wiring(model, report);
+  for (const Node& connection : connections) wiring.connect(connection);
+  wiring.check_required();
+  return std::move(wiring).edges();
+}
+
+}  // namespace orca::graph
