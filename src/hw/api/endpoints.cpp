@@ -26,6 +26,15 @@ void SensorEndpoint::publish_loan(ObjectLoan reading) {
   latest_ = sink_ ? sink_(std::move(reading)) : std::move(reading).seal();
 }
 
+namespace {
+
+bool is_sound(const idl::MotionCommand& command) {
+  return std::isfinite(command.speed()) && std::isfinite(command.direction()) &&
+         std::isfinite(command.turn_rate()) && std::isfinite(command.weight()) && command.weight() >= 0.0;
+}
+
+}  // namespace
+
 MotionHW::MotionHW(const DriveLimits& limits, Duration max_command_age)
     : limits_(limits), max_command_age_(max_command_age) {}
 
@@ -33,11 +42,12 @@ Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
   if (command.kind() == idl::DONTCARE)
     return fail(Code::invalid_argument,
                 "a base needs a crisp motion command, not DONTCARE; put a MotionCommandFuser in front of it");
-  if (!std::isfinite(command.speed()) || !std::isfinite(command.direction()) ||
-      !std::isfinite(command.turn_rate()))
-    return fail(Code::invalid_argument, "a motion command holds a number that is not finite");
+  const bool stop = command.kind() == idl::FULLSTOP;  // obeyed, whatever else it holds
+  if (!stop && !is_sound(command))
+    return fail(Code::invalid_argument,
+                "a motion command holds a number that is not finite, or a negative weight");
   const std::lock_guard lock(mutex_);
-  setpoint_ = command.kind() == idl::FULLSTOP ? DriveSetpoint{} : within_limits(command);
+  setpoint_ = stop ? DriveSetpoint{} : within_limits(command);
   received_ = now;
   return ok();
 }

@@ -14,8 +14,12 @@ using std::numbers::pi;
 
 namespace {
 
-const Limits kLimits{
-    .robot_radius = 0.2, .margin = 0.1, .safe_distance = 0.8, .stop_distance = 0.15, .max_speed = 0.4};
+const Limits kLimits{.robot_radius = 0.2,
+                     .margin = 0.1,
+                     .side_distance = 0.2,
+                     .safe_distance = 0.8,
+                     .stop_distance = 0.15,
+                     .max_speed = 0.4};
 constexpr double kReach = 0.3;  // robot_radius + margin
 
 std::vector<Echo> random_echoes(orca::RandomStream& random) {
@@ -45,8 +49,18 @@ TEST_CASE("the free way ends where the robot with its margin touches the echo", 
   CHECK(free_way(ahead, pi / 2, kLimits) == kLimits.safe_distance);
 }
 
+TEST_CASE("a near echo beside the way counts as a wall across its beam", "[components][sonar]") {
+  const double angle = 1.2;
+  const double gap = 0.15;
+  const std::vector<Echo> near{{0.35 * std::cos(angle), 0.35 * std::sin(angle)}};
+  CHECK(free_way(near, 0.0, kLimits) == Approx(gap / std::cos(angle)));
+  CHECK(free_way(near, angle - pi / 2, kLimits) == kLimits.safe_distance);
+  const std::vector<Echo> farther{{0.41 * std::cos(angle), 0.41 * std::sin(angle)}};
+  CHECK(free_way(farther, 0.0, kLimits) == kLimits.safe_distance);
+}
+
 TEST_CASE("echoes behind, beside or far away leave the way free", "[components][sonar]") {
-  const std::vector<Echo> echoes{{-0.1, 0.0}, {0.5, kReach}, {0.5, -kReach}, {2.0, 0.0}};
+  const std::vector<Echo> echoes{{-0.1, 0.0}, {0.5, 1.01 * kReach}, {0.5, -1.01 * kReach}, {2.0, 0.0}};
   CHECK(free_way(echoes, 0.0, kLimits) == kLimits.safe_distance);
 }
 
@@ -99,15 +113,14 @@ TEST_CASE("an obstacle on one side is avoided to the other", "[components][sonar
 TEST_CASE("in front of something symmetric the side once chosen is kept", "[components][sonar]") {
   for (const double half_width : {0.0, 0.2, 0.6}) {
     CAPTURE(half_width);
-    for (const double side : {-1.0, 1.0}) {
-      double last = 0.3 * side;
-      for (double distance = 1.0; distance > 0.3; distance -= 0.02) {
-        const Advice advice = avoid(wall(distance, half_width), last, kLimits);
-        if (!advice.needed) continue;
-        CHECK(advice.direction * side > 0.0);
-        last = advice.direction;
-      }
+    for (double distance = 1.0; distance > 0.4; distance -= 0.02) {
+      const std::vector<Echo> echoes = wall(distance, half_width);
+      const Advice left = avoid(echoes, 0.3, kLimits);
+      const Advice right = avoid(echoes, -0.3, kLimits);
+      CHECK(left.direction >= 0.0);
+      CHECK(right.direction == -left.direction);
     }
+    CHECK(avoid(wall(0.5, half_width), 0.3, kLimits).direction > 0.0);
   }
 }
 

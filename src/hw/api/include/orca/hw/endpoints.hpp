@@ -93,8 +93,8 @@ class MotionHW {
   MotionHW(const DriveLimits& limits, Duration max_command_age);
 
   /// Takes a command, to be carried out at the container's next turn.
-  /// @errors  invalid_argument for DONTCARE (fuse first), for a negative speed weight, and for values that
-  /// are not finite.
+  /// @errors  invalid_argument for DONTCARE (fuse first), for a negative weight, and for values that are not
+  /// finite. A full stop is never refused.
   Status command(const idl::MotionCommand& command, TimePoint now);
 
   /// The set-point that holds now: zero when the last command is older than max_command_age.
