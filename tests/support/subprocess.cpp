@@ -5,9 +5,9 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/pidfd.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -55,7 +55,8 @@ Subprocess::Subprocess(const std::vector<std::string>& command, const Options& o
   if (setpgid(pid_, pid_) != 0 && errno != EACCES) throw std::runtime_error("setpgid");
   close(input[0]);
   input_fd_ = input[1];
-  exit_fd_ = checked(pidfd_open(pid_, 0), "pidfd_open");
+  // glibc 2.36 declares pidfd_open() for C only.
+  exit_fd_ = checked(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)), "pidfd_open");
   write_input(options.input);
   if (!options.keep_input_open) close_input();
 }
