@@ -49,8 +49,20 @@ Subprocess::Subprocess(const std::vector<std::string>& command, const Options& o
       start_(Clock::now()) {
   std::array<int, 2> input{};
   checked(pipe2(input.data(), O_CLOEXEC), "pipe2");
+  // A signal sent at once must not meet the test program's own handlers in the child: it waits until exec is
+  // near.
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
   pid_ = checked(fork(), "fork");
-  if (pid_ == 0) become(command, options.folder, input[0]);
+  if (pid_ == 0) {
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    become(command, options.folder, input[0]);
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
   // Both sides set the group, so that it is there whoever comes first; the child may have called exec by now.
   if (setpgid(pid_, pid_) != 0 && errno != EACCES) throw std::runtime_error("setpgid");
   close(input[0]);

@@ -122,7 +122,7 @@ TEST_CASE("running: nothing is pushed before the hardware is active", "[system][
 TEST_CASE("closing, Fig. 11.9: after the last goal every connection is shut down and the hardware is idle",
           "[system][phases]") {
   const std::size_t last = arrival(3);
-  const std::size_t end = when("state", {"command", "WORK_DONE", "EXIT"});
+  const std::size_t end = when("state", {"scout", "Ready", "Closed"});  // taking down begins
   REQUIRE(last < end);
   for (const std::string& connection : kAllConnections) {
     const auto gap = connection.find(' ');

@@ -70,7 +70,15 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
  public:
   HardwareDescriber(const TypeEntry& type, const std::string& library, const std::string& name)
       : Describer(PluginKind::hardware, type, library, name),
-        container_(type.create_hardware(*this), type.destroy_hardware) {}
+        destroy_(type.destroy_hardware),
+        container_(type.create_hardware(*this)) {}
+  ~HardwareDescriber() override {
+    try {
+      destroy_(container_);
+    } catch (...) {
+      write_log(log::Level::error, "its destructor threw");
+    }
+  }
 
   [[nodiscard]] const Contract& contract() const override { return contract_; }
   std::vector<std::string> prepare(const std::map<std::string, ParamValue>& params) override {
@@ -85,7 +93,8 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   [[nodiscard]] Executive& executive() override { refuse("asked for the executive"); }
 
  private:
-  std::unique_ptr<hw::HardwareContainer, void (*)(hw::HardwareContainer*)> container_;
+  void (*destroy_)(hw::HardwareContainer*);
+  hw::HardwareContainer* container_;
 };
 
 Error constructor_threw(const TypeEntry& type, const std::string& what) {
