@@ -114,7 +114,7 @@ TEST_CASE(
     CHECK(run.exit_code() == 2);
     CHECK(run.out.empty());
     const std::string said = line_with(text, run);
-    CHECK(said.find("one_component.xml:9:") != std::string::npos);
+    CHECK(said.find("one_component.xml:8:") != std::string::npos);
     CHECK(said.find(type) != std::string::npos);
   }
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "orca/base/exception_text.hpp"
 #include "orca/component/component.hpp"
 #include "orca/hw/container.hpp"
 
@@ -36,7 +37,7 @@ class Describer : public Base {
   void announce(const Announcement& /*announcement*/) override { refuse("made an announcement"); }
 
   [[noreturn]] static void refuse(const std::string& what) {
-    throw std::logic_error("its constructor " + what + ", but may only declare ports and parameters");
+    throw std::logic_error("it " + what + ", but a constructor may only declare ports and parameters");
   }
 
   Contract contract_;
@@ -76,7 +77,7 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
     try {
       destroy_(container_);
     } catch (...) {
-      write_log(log::Level::error, "its destructor threw");
+      write_log(log::Level::error, "its destructor " + describe_current_exception());
     }
   }
 
@@ -105,10 +106,8 @@ template <class Make>
 auto guarded(const TypeEntry& type, Make&& make) -> decltype(make()) {
   try {
     return make();
-  } catch (const std::exception& error) {
-    return constructor_threw(type, error.what());
   } catch (...) {
-    return constructor_threw(type, "its constructor threw something that is not a std::exception");
+    return constructor_threw(type, "its constructor " + describe_current_exception());
   }
 }
 
