@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The texts of errors are part of what Orca promises. Each tests/data/graphs/broken/NAME.xml is checked, and
-// what comes out must equal NAME.expected. A first line "<!-- options: --profile P --set A=B -->" stands for
+// what comes out must equal NAME.expected. A first line "<!-- options: profile P set A=B -->" stands for
 // the command line.
 #include <catch2/catch.hpp>
 
@@ -36,7 +36,7 @@ graph::LoadOptions options_in(const std::string& text) {
   while (words >> word) {
     std::string value;
     words >> value;
-    (word == "--profile" ? options.profiles : options.settings).push_back(value);
+    (word == "profile" ? options.profiles : options.settings).push_back(value);
   }
   return options;
 }

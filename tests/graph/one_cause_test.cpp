@@ -108,6 +108,13 @@ TEST_CASE("a value that cannot be known is not judged", "[graph][one cause]") {
         Codes{"G117"});
 }
 
+TEST_CASE("a component without a name may be the one that is referred to", "[graph][one cause]") {
+  for (const char* name : {"", "name=''", "name='${who}'"}) {
+    const std::string component = "<component " + std::string(name) + " type='orca.SonarAvoid'/>";
+    CHECK(codes(graph(kBase + component + component + kEdge)).size() == 2);
+  }
+}
+
 TEST_CASE("a bad name can still be referred to", "[graph][one cause]") {
   CHECK(codes(graph(kBase + "<component name='my-avoid' type='orca.SonarAvoid'/>"
                             "<connect from='base.SonarRangeReadingsPush' to='my-avoid.sonar'/>")) ==
