@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "peer.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -16,7 +17,9 @@ void Peer::declare_port(PortDeclaration declaration) {
   const bool server = contract.role == Role::server;
   std::unique_ptr<Endpoint> made;
   if (contract.pattern == Pattern::push && server) {
-    made = std::make_unique<PushServerEndpoint>(home_, contract);
+    auto push = std::make_unique<PushServerEndpoint>(home_, contract);
+    push_servers_.push_back(push.get());
+    made = std::move(push);
   } else if (contract.pattern == Pattern::push) {
     made = std::make_unique<PushClientEndpoint>(home_, contract);
   } else if (contract.pattern == Pattern::send && server) {
@@ -59,6 +62,11 @@ bool Peer::handle_one() {
   for (const auto& intake : query_servers_)
     if (intake.endpoint->handle_one()) return true;
   return false;
+}
+
+bool Peer::has_subscribers() const {
+  return std::any_of(push_servers_.begin(), push_servers_.end(),
+                     [](const auto* server) { return server->subscriber_count() > 0; });
 }
 
 void Peer::leave() {

@@ -32,6 +32,10 @@ class Peer : public PortOwner {
   /// @return false if there was none. What a handler throws passes.
   bool handle_one();
 
+  /// Whether somebody subscribes to one of its PushServers.
+  [[nodiscard]] bool has_subscribers() const;
+  [[nodiscard]] const std::vector<std::unique_ptr<Endpoint>>& endpoints() const { return endpoints_; }
+
   /// Makes every wait of the strand throw Interrupted from now on.
   void leave();
   [[nodiscard]] bool leaving() const { return leaving_; }
@@ -50,6 +54,7 @@ class Peer : public PortOwner {
   Strand strand_;
   PortHome home_;
   std::vector<std::unique_ptr<Endpoint>> endpoints_;
+  std::vector<PushServerEndpoint*> push_servers_;
   std::vector<Intake<SendServerEndpoint>> send_servers_;
   std::vector<Intake<QueryServerEndpoint>> query_servers_;
   std::atomic<bool> leaving_{false};

@@ -103,6 +103,7 @@ class HardwareContainer {
   virtual Status open() { return ok(); }
   virtual Status start() { return ok(); }
   virtual void stop() {}
+  /// Also after open() has failed.
   virtual void close() {}
   /// Called at next_poll() while ready or active: read the device, publish readings.
   virtual Status poll() = 0;
@@ -114,12 +115,19 @@ class HardwareContainer {
 
  private:
   void main();
+  void guarded(void (HardwareContainer::*step)());
   void open_device();
   void turn();
   void follow_users();
+  void start_device();
+  void stop_device();
   void apply_motion();
+  void drive_to(const DriveSetpoint& setpoint);
   void set_state(HardwareState state);
   void fail_with(const std::string& reason);
+  void still_stop();
+  [[nodiscard]] bool works() const;
+  [[nodiscard]] TimePoint next_turn() const;
 
   HardwareHost& host_;
   std::vector<SensorEndpoint*> sensors_;
