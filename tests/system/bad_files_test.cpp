@@ -123,7 +123,12 @@ TEST_CASE("a wire that does not fit is refused with both of its ends", "[system]
                "<connect from=\"avoid.sonar\" to=\"base.SonarRangeReadingsPush\"/>",
                "<connect",
                {"avoid.sonar", "base.SonarRangeReadingsPush"}});
-  check_graph({good, good + "\n  " + good, "<connect", {"base.SonarRangeReadingsPush", "avoid.sonar"}});
+  // Written with two spaces, the second of two equal connections can be told from the first: it is the one
+  // too many.
+  check_graph({good,
+               good + "\n  <connect  from=\"base.SonarRangeReadingsPush\" to=\"avoid.sonar\"/>",
+               "<connect  from",
+               {"base.SonarRangeReadingsPush", "avoid.sonar"}});
 }
 
 TEST_CASE("all faults of a graph are reported at once, in the order of the file", "[system][bad]") {
