@@ -69,7 +69,7 @@ void WorldReader::claim(const Attributes& element, const std::string& kind, cons
   const auto [first, is_new] = taken_.emplace(kind + " " + name, element.element().position());
   if (!is_new)
     element.error_at("name", 7,
-                     "there is a " + kind + " \"" + name + "\" already, at " + first->second.text() +
+                     "the " + kind + " \"" + name + "\" exists already, at " + first->second.text() +
                          "; choose another name");
 }
 

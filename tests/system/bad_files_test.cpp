@@ -183,9 +183,12 @@ TEST_CASE("a broken world is refused with file, line and column", "[system][bad]
   check_world({"radius=\"0.15 m\"", "radius=\"-0.15 m\"", "-0.15", {"radius"}});
   check_world({"radius=\"0.15 m\"", "radius=\"0.15 kg\"", "0.15", {"kg", "m"}});
   check_world({"radius=\"0.15 m\"", "radios=\"0.15 m\"", "radios", {"\"radius\""}});
-  check_world({"name=\"desk_2\"", "name=\"desk_1\"", "desk_1", {"desk_1"}});
-  check_world({"x=\"17.0 m\" y=\"6.0 m\"", "x=\"17.5 m\" y=\"11.5 m\"", "x=", {"corridor_east", "plant_2"}});
-  check_world({"</world>", "", "", {}});
+  check_world({"<box name=\"desk_2\"", "<box  name=\"desk_1\"", "desk_1", {"desk_1"}});
+  check_world({"<place name=\"corridor_east\" x=\"17.0 m\" y=\"6.0 m\"",
+               "<place name=\"corridor_east\" x=\"17.5 m\" y=\"11.5 m\"",
+               "<place",
+               {"corridor_east", "plant_2"}});
+  check_world({"</world>", "</word>", "</word>", {"world"}});
 }
 
 TEST_CASE("a broken robot is refused with file, line and column", "[system][bad]") {
@@ -195,8 +198,8 @@ TEST_CASE("a broken robot is refused with file, line and column", "[system][bad]
                {"\"base_footprint\""}});
   check_robot({"<mass value=\"23\"/>", "<mass value=\"-23\"/>", "-23", {"mass"}});
   check_robot({"radius=\"0.19\" length=\"0.27\"", "radius=\"nan\" length=\"0.27\"", "nan", {"radius"}});
-  check_robot({"ixx=\"0.337\"", "ixx=\"-0.337\"", "", {}});
-  check_robot({"<link name=\"right_wheel\">", "<link name=\"left_wheel\">", "left_wheel", {"left_wheel"}});
+  check_robot({"<inertia ixx=\"0.337\"", "<inertia ixx=\"-0.337\"", "<inertia", {"inertia"}});
+  check_robot({"<link name=\"right_wheel\">", "<link  name=\"left_wheel\">", "left_wheel", {"left_wheel"}});
 }
 
 TEST_CASE("a world or a robot that is not there is named together with the parameter that names it",
@@ -216,8 +219,10 @@ TEST_CASE("a world or a robot that is not there is named together with the param
 
 TEST_CASE("a start that does not exist or lies inside a wall is refused before anything starts",
           "[system][bad]") {
-  check_graph(
-      {"<param name=\"place\" value=\"start\"/>", "<param name=\"place\" value=\"strat\"/>", "<param", {}});
+  check_graph({"<param name=\"place\" value=\"start\"/>",
+               "<param name=\"place\" value=\"strat\"/>",
+               "strat",
+               {"\"start\""}});
   const TempFolder folder;
   const std::string wall = "<param name=\"x\" value=\"0 m\"/><param name=\"y\" value=\"5 m\"/>";
   const Run run = start(folder.write(

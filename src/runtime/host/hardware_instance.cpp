@@ -16,7 +16,7 @@ HardwareInstance::~HardwareInstance() {
 }
 
 Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
-  std::vector<std::string> errors;
+  std::vector<HardwareFault> errors;
   const auto fault = guarded_call([&] {
     container_.reset(type_.create_hardware(*this));
     for (const ParamDeclaration& param : params_)
@@ -25,7 +25,7 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
     errors = container_->prepare();
   });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, name_);
-  if (!errors.empty()) return fail(Code::invalid_argument, errors.front(), name_);
+  if (!errors.empty()) return fail(Code::invalid_argument, errors.front().text, name_);
   return ok();
 }
 

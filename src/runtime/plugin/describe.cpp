@@ -82,7 +82,7 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   }
 
   [[nodiscard]] const Contract& contract() const override { return contract_; }
-  std::vector<std::string> prepare(const std::map<std::string, ParamValue>& params) override {
+  std::vector<HardwareFault> prepare(const std::map<std::string, ParamValue>& params) override {
     for (const auto& [name, value] : params)
       if (const auto setter = setters_.find(name); setter != setters_.end()) setter->second(value);
     return container_->prepare();

@@ -147,7 +147,7 @@ TEST_CASE("hardware that has nothing that moves refuses commands", "[hw][contain
   class Deaf final : public hw::HardwareContainer {
    public:
     using HardwareContainer::HardwareContainer;
-    std::vector<std::string> prepare() override { return {}; }
+    std::vector<orca::HardwareFault> prepare() override { return {}; }
     [[nodiscard]] idl::Robot description() const override { return {}; }
 
    private:

@@ -57,7 +57,7 @@ class FakeScout : public hw::HardwareContainer {
     set_motion(wheels_);
   }
 
-  std::vector<std::string> prepare() override { return {}; }
+  std::vector<orca::HardwareFault> prepare() override { return {}; }
   [[nodiscard]] idl::Robot description() const override { return {}; }
   [[nodiscard]] hw::MotionHW& wheels() { return wheels_; }
 

@@ -143,7 +143,7 @@ TEST_CASE("polygons that bound no area are told", "[sim][world_file]") {
 
 TEST_CASE("names are given once and places lie outside obstacles", "[sim][world_file]") {
   CHECK_THAT(errors("<place name='a' x='0' y='0'/><place name='a' x='1' y='1'/>"),
-             Catch::Contains("error W007: there is a place \"a\" already, at w.xml:2:1"));
+             Catch::Contains("error W007: the place \"a\" exists already, at w.xml:2:1"));
   CHECK_THAT(errors("<place name='a' x='0' y='0'/><cylinder name='c' x='0' y='0' radius='1'/>"),
              Catch::Contains("w.xml:2:1: error W012: place \"a\" lies inside obstacle \"c\""));
 }

@@ -61,8 +61,8 @@ class HardwareContainer {
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 
   /// Reads what the parameters name, and declares the endpoints.
-  /// @return the errors found, each a line with file, line and column where there is one; empty: all is well.
-  virtual std::vector<std::string> prepare() = 0;
+  /// @return what is wrong; empty: all is well.
+  virtual std::vector<HardwareFault> prepare() = 0;
 
   [[nodiscard]] const std::vector<SensorEndpoint*>& sensors() const { return sensors_; }
   [[nodiscard]] MotionHW* motion() const { return motion_; }
