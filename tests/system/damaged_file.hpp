@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace orca::test {
@@ -17,16 +18,23 @@ struct Damage {
   std::vector<std::string> hints;  ///< What the error must say.
 };
 
-/// The text after an edit; fails the test if there is nothing to replace.
-inline std::string damaged(std::string text, const Damage& damage) {
+/// A good text after an edit.
+struct Damaged {
+  std::string text;
+  std::size_t place = 0;  ///< Where the edit begins.
+};
+
+/// Throws if there is nothing to replace.
+inline Damaged damaged(std::string text, const Damage& damage) {
   const auto place = text.find(damage.from);
   if (place == std::string::npos) throw std::runtime_error("the good file does not contain " + damage.from);
-  return text.replace(place, damage.from.size(), damage.to);
+  text.replace(place, damage.from.size(), damage.to);
+  return {std::move(text), place};
 }
 
-/// "12:7" for where `at` stands, at or after the first occurrence of `after`. Lines and columns count from 1.
-inline std::string line_and_column(std::string_view text, std::string_view after, std::string_view at) {
-  const auto place = text.find(at, text.find(after));
+/// "12:7" for the first `at` from `from` on. Lines and columns count from 1.
+inline std::string line_and_column(std::string_view text, std::size_t from, std::string_view at) {
+  const auto place = text.find(at, from);
   if (place == std::string_view::npos) throw std::runtime_error("no " + std::string(at) + " in the text");
   const auto before = text.substr(0, place);
   const auto line = std::ranges::count(before, '\n') + 1;

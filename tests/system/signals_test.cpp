@@ -136,7 +136,7 @@ TEST_CASE("a second signal ends a run that cannot end by itself within a second"
 TEST_CASE("two signals at once end a driving robot within a second, with 0", "[system][signals]") {
   Subprocess program(deployer({source_file("graphs/scout_goto.xml")}));
   sleep_for(1.0);
-  program.send(SIGTERM);
+  program.send(SIGINT);
   program.send(SIGTERM);
   const auto sent = std::chrono::steady_clock::now();
   const Run run = finish(program, Seconds(10));
