@@ -82,8 +82,12 @@ const TypeEntry* PluginLibrary::find(PluginKind kind, std::string_view type) con
 bool is_mapped(const std::string& path) {
   const std::string real = std::filesystem::weakly_canonical(path).string();
   std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);)
-    if (line.ends_with(real)) return true;
+  for (std::string line; std::getline(maps, line);) {
+    const auto start = line.find('/');
+    if (start == std::string::npos) continue;
+    const std::string file = line.substr(start);
+    if (file == real || file == real + " (deleted)") return true;
+  }
   return false;
 }
 

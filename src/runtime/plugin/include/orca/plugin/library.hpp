@@ -42,7 +42,8 @@ class PluginLibrary {
   const Manifest* manifest_;
 };
 
-/// Whether any part of the file is still mapped into this process: the proof after unloading.
+/// Whether any part of the file is still mapped into this process, be it that the file itself has been
+/// removed or exchanged meanwhile: the proof after unloading.
 [[nodiscard]] bool is_mapped(const std::string& path);
 
 }  // namespace orca
