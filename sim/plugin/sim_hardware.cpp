@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,7 +6,6 @@
 
 #include "objects.hpp"
 #include "orca/hardware.hpp"
-#include "orca/sim/bitmap.hpp"
 #include "orca/sim/robot_file.hpp"
 #include "orca/sim/world_file.hpp"
 #include "shared_world.hpp"
@@ -40,14 +38,9 @@ class SimHardware final : public orca::hw::HardwareContainer {
   }
 
   std::optional<WorldModel> read_world_file(std::vector<std::string>& errors) const {
-    if (std::filesystem::path(*world_file_).extension() != ".xml") {
-      orca::Result<WorldModel> map = read_bitmap_world(*world_file_, {*map_width_, std::nullopt});
-      if (map) return std::move(map).value();
-      errors.push_back(*world_file_ + ": error: " + map.error().message);
-      return std::nullopt;
-    }
     orca::xml::Diagnostics diagnostics;
-    std::optional<WorldModel> world = read_world(*world_file_, diagnostics);
+    std::optional<WorldModel> world =
+        read_world(*world_file_, *map_width_ > 0.0 ? std::optional(*map_width_) : std::nullopt, diagnostics);
     append(diagnostics, errors);
     return diagnostics.has_errors() ? std::nullopt : std::move(world);
   }
@@ -157,8 +150,8 @@ class SimHardware final : public orca::hw::HardwareContainer {
   orca::Param<double> map_width_{
       *this,
       "map_width",
-      140.0,
-      {.unit = "m", .min = 0.1, .text = "Width of the whole picture, if the world is a bitmap."}};
+      0.0,
+      {.unit = "m", .min = 0.0, .text = "Width of the whole picture; a bitmap needs it."}};
   orca::Param<std::string> robot_file_{
       *this, "robot", "", {.file = true, .text = "The robot (URDF with <orca>)."}};
   orca::Param<std::string> name_{

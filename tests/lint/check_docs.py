@@ -68,7 +68,8 @@ def find(tree):
     graph = re.compile(GRAPH.pattern.replace("graphs/", "graphs/(?![A-Z]{3})"))
     page = re.compile(PAGE.pattern.replace("docs/", "docs/(?!(?:adr/)?[A-Z]{3})"))
     readmes = [p for p in tree.paths if p.startswith("README")]
-    return [*_links(tree), *_named(tree, readmes, graph, "graph"), *_named(tree, sources, page, "page")]
+    findings = [*_links(tree), *_named(tree, readmes, graph, "graph"), *_named(tree, sources, page, "page")]
+    return list(dict.fromkeys(findings))
 
 
 BAD = [

@@ -34,7 +34,7 @@ LAYERS = (
           ("fastdds", "fastcdr", "fmt")),
     Layer("component", ("src/runtime/component", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
           ("patterns", "idl", "base"), ("fmt",)),
-    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hw.hpp"), COMPONENT, ("fmt",)),
+    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), COMPONENT, ("fmt",)),
     Layer("graph", ("src/runtime/graph",), ("orca/graph/",), ("xml", "base"), ("fmt",)),
     Layer("plugin", ("src/runtime/plugin",), ("orca/plugin/",), DEVICE, ("fmt",)),
     Layer("device", ("src/hw",), (), DEVICE, ("fmt",), siblings=False),
@@ -43,7 +43,7 @@ LAYERS = (
           ("bullet", "urdfdom", "eigen", "png", "fmt")),
     Layer("host", ("src/runtime/host",), ("orca/host/",),
           ("graph", "plugin", "xml", "patterns_local", "patterns_dds", *DEVICE), ("cairo", "fmt")),
-    Layer("apps", ("src/apps",), (), ("host", "sim", "graph", "plugin", "xml", *DEVICE), ("fmt",)),
+    Layer("apps", ("src/apps",), (), ("host", "graph", "plugin", "xml", *DEVICE), ("fmt",)),
 )
 
 # Library -> how its headers begin. A header that no line names (the standard library, POSIX) is free for all.

@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "orca/base/exception_text.hpp"
+
 namespace orca::hw {
 
 void HardwareContainer::run() {
@@ -83,10 +85,8 @@ void HardwareContainer::still_stop() {
 void HardwareContainer::guarded(void (HardwareContainer::*step)()) {
   try {
     (this->*step)();
-  } catch (const std::exception& error) {
-    fail_with("the hardware plugin threw: " + std::string(error.what()));
   } catch (...) {
-    fail_with("the hardware plugin threw something that is not a std::exception");
+    fail_with("the hardware plugin " + describe_current_exception());
   }
 }
 

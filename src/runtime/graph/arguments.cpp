@@ -32,6 +32,7 @@ void Arguments::declare(const Node& arg) {
   }
   if (arguments_.contains(name->value)) return report_duplicate(name->value, arg);
   arguments_[name->value] = {value_of(name->value, arg), arg.position};
+  names_.push_back(name->value);
 }
 
 void Arguments::report_duplicate(const std::string& name, const Node& arg) {
@@ -82,11 +83,8 @@ void Arguments::replace_one(std::string_view& rest, Text& text) {
 void Arguments::append(const std::string& name, Text& text) {
   const auto found = arguments_.find(name);
   if (found == arguments_.end()) {
-    report_.error(codes::kUndefinedArgument, text.position,
-                  "${" + name + "} is not defined; there is <arg> for: " + xml::listed(names()) +
-                      report_.hint(name, names()));
     text.known = false;
-    return;
+    return report_undefined(name, text);
   }
   Argument& argument = found->second;
   argument.used = true;
@@ -95,12 +93,20 @@ void Arguments::append(const std::string& name, Text& text) {
   text.value += argument.value.value;
 }
 
+void Arguments::report_undefined(const std::string& name, const Text& text) {
+  const auto near = report_.nearest(name, names_);
+  if (near) arguments_.at(*near).used = true;  // to call it unused would be a second error for one cause
+  report_.error(
+      codes::kUndefinedArgument, text.position,
+      "${" + name + "} is not defined; there is <arg> for: " + xml::listed(names_) + xml::did_you_mean(near));
+}
+
 void Arguments::check_use() {
   for (const auto& [name, setting] : settings_) {
     if (setting.used) continue;
     report_.error(codes::kBadSetting, kCommandLine,
-                  "--set " + name + ": the graph has no such argument; it has: " + xml::listed(names()) +
-                      report_.hint(name, names()));
+                  "--set " + name + ": the graph has no such argument; it has: " + xml::listed(names_) +
+                      report_.hint(name, names_));
   }
   for (const auto& [name, argument] : arguments_) {
     if (!argument.used) {
@@ -108,12 +114,6 @@ void Arguments::check_use() {
                       "arg " + in_quotes(name) + " is used nowhere");
     }
   }
-}
-
-std::vector<std::string> Arguments::names() const {
-  std::vector<std::string> result;
-  for (const auto& [name, argument] : arguments_) result.push_back(name);
-  return result;
 }
 
 }  // namespace orca::graph

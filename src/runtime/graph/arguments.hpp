@@ -43,11 +43,12 @@ class Arguments {
   // Replaces what stands at the '$' that `rest` starts with, and takes it off.
   void replace_one(std::string_view& rest, Text& text);
   void append(const std::string& name, Text& text);
-  [[nodiscard]] std::vector<std::string> names() const;
+  void report_undefined(const std::string& name, const Text& text);
 
   Report& report_;
   std::map<std::string, Setting> settings_;
   std::map<std::string, Argument> arguments_;
+  std::vector<std::string> names_;  // of arguments_, in the order of the file
 };
 
 }  // namespace orca::graph

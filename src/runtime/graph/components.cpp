@@ -77,7 +77,7 @@ class ComponentReader {
     if (name == nullptr) return nullptr;
     const CheckedHardware* hardware = model_.find_hardware(name->value);
     if (hardware == nullptr && !model_.excused.contains(name->value)) {
-      const std::vector<std::string> names = model_.hardware_names();
+      const std::vector<std::string>& names = model_.hardware_names;
       report_.error(codes::kUnknownHardware, name->position,
                     node_.title() + ": there is no hardware " + in_quotes(name->value) +
                         "; the graph has: " + xml::listed(names) + report_.hint(name->value, names));
@@ -93,10 +93,10 @@ class ComponentReader {
   }
 
   void report_missing_hardware() {
-    report_.error(codes::kHardwareMissing, node_.position,
-                  node_.title() + ": " + checked_.contract->type +
-                      " needs a hardware: add hardware=\"NAME\"; the graph has: " +
-                      xml::listed(model_.hardware_names()));
+    report_.error(
+        codes::kHardwareMissing, node_.position,
+        node_.title() + ": " + checked_.contract->type +
+            " needs a hardware: add hardware=\"NAME\"; the graph has: " + xml::listed(model_.hardware_names));
   }
 
   std::optional<ParamValue> attribute(const char* name, const ParamContract& contract) {
@@ -180,9 +180,8 @@ void check_components(const std::vector<Node>& nodes, Types& types, Model& model
                        std::to_string(kMostComponents));
       break;
     }
-    model.components.push_back(ComponentReader(node, types, model, report).read());
-    if (node.duplicate || node.known("name") == nullptr) continue;
-    model.component_by_name.emplace(node.value("name"), model.components.size() - 1);
+    model.add(ComponentReader(node, types, model, report).read(),
+              !node.value("name").empty() && !node.duplicate);
   }
   check_start_after(nodes, model, report);
 }

@@ -88,7 +88,7 @@ class PolicyReader {
     const Text* queue = connection_.find("queue");
     if (queue == nullptr) return true;
     if (queue->known && xml::trimmed(queue->value) == "latest") {
-      edge_.queue = {};
+      edge_.queue = QueuePolicy{};
       return true;
     }
     ParamContract contract;
@@ -134,7 +134,9 @@ class PolicyReader {
 
 std::optional<Edge> make_edge(const Node& connection, const Endpoint& from, const Endpoint& to,
                               Report& report) {
-  Edge edge{from.ref, to.ref, from.port->pattern, to.port->queue, Duration{0}, connection.position};
+  Edge edge{from.ref,           to.ref, from.port->pattern, to.port->queue, to.port->queue.min_interval,
+            connection.position};
+  edge.queue.min_interval = Duration{0};
   const auto reason = misfit(from, to);
   if (reason) {
     report.error(reason->code, connection.position,

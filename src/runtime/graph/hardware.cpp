@@ -25,9 +25,7 @@ CheckedHardware check_one(const Node& node, Types& types, Report& report) {
 
 void check_hardware(const std::vector<Node>& nodes, Types& types, Model& model, Report& report) {
   for (const Node& node : nodes) {
-    model.hardware.push_back(check_one(node, types, report));
-    if (node.duplicate || node.known("name") == nullptr) continue;
-    model.hardware_by_name.emplace(node.value("name"), model.hardware.size() - 1);
+    model.add(check_one(node, types, report), !node.value("name").empty() && !node.duplicate);
   }
 }
 

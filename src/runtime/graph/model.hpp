@@ -30,9 +30,23 @@ struct Model {
   std::vector<CheckedComponent> components;
   std::map<std::string, std::size_t> hardware_by_name;
   std::map<std::string, std::size_t> component_by_name;
+  std::vector<std::string> hardware_names;  // the same names, in the order of the file, for hints
+  std::vector<std::string> component_names;
   std::set<std::string> excused;  // see Structure
   bool names_incomplete = false;  // see Structure
 
+  void add(CheckedHardware node, bool by_name) {
+    if (by_name && hardware_by_name.emplace(node.value.name, hardware.size()).second) {
+      hardware_names.push_back(node.value.name);
+    }
+    hardware.push_back(std::move(node));
+  }
+  void add(CheckedComponent node, bool by_name) {
+    if (by_name && component_by_name.emplace(node.value.name, components.size()).second) {
+      component_names.push_back(node.value.name);
+    }
+    components.push_back(std::move(node));
+  }
   [[nodiscard]] const CheckedComponent* component(const std::string& name) const {
     const auto found = component_by_name.find(name);
     return found == component_by_name.end() ? nullptr : &components[found->second];
@@ -40,16 +54,6 @@ struct Model {
   [[nodiscard]] const CheckedHardware* find_hardware(const std::string& name) const {
     const auto found = hardware_by_name.find(name);
     return found == hardware_by_name.end() ? nullptr : &hardware[found->second];
-  }
-  [[nodiscard]] std::vector<std::string> component_names() const {
-    std::vector<std::string> names;
-    for (const auto& [name, index] : component_by_name) names.push_back(name);
-    return names;
-  }
-  [[nodiscard]] std::vector<std::string> hardware_names() const {
-    std::vector<std::string> names;
-    for (const auto& [name, index] : hardware_by_name) names.push_back(name);
-    return names;
   }
 };
 

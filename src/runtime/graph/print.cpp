@@ -76,7 +76,7 @@ std::string edge_text(const Edge& edge) {
     attributes += attribute("queue", std::to_string(edge.queue.depth));
     attributes += attribute("overflow", newest ? "drop_newest" : "drop_oldest");
   }
-  if (edge.interval.count() > 0) attributes += attribute("interval", seconds_text(edge.interval));
+  if (edge.pattern == Pattern::push) attributes += attribute("interval", seconds_text(edge.interval));
   return element("connect", attributes, "");
 }
 

@@ -14,10 +14,10 @@ namespace {
 
 // What makes two nodes the same one: the name, or both ends of a connection. Nothing if that is not known.
 std::optional<std::string> identity(const Node& node) {
-  if (!node.is("connect"))
-    return node.known("name") == nullptr ? std::nullopt : std::optional(node.value("name"));
-  if (node.known("from") == nullptr || node.known("to") == nullptr) return std::nullopt;
-  return node.value("from") + " to " + node.value("to");
+  const bool edge = node.is("connect");
+  const std::string name = edge ? node.value("from") : node.value("name");
+  if (name.empty() || (edge && node.value("to").empty())) return std::nullopt;
+  return edge ? name + " to " + node.value("to") : name;
 }
 
 void override_child(Node& base, const Node& child) {

@@ -46,6 +46,7 @@ class Reader {
     check_text(element);
     for (const xml::Element& child : element.children()) read_child(child, node);
     drop_duplicates(node);
+    if (node.is("component") && node.value("name").empty()) result_.names_incomplete = true;
     return node;
   }
 
@@ -58,7 +59,6 @@ class Reader {
       if (!rule.required || node.find(rule.name) != nullptr) continue;
       report_.error(codes::kMissingAttribute, element.position(),
                     tag(element.name()) + " needs the attribute " + in_quotes(rule.name));
-      if (rule.name == "name" && node.is("component")) result_.names_incomplete = true;
     }
   }
 

@@ -2,6 +2,7 @@
 #include "checks.hpp"
 #include "codes.hpp"
 #include "naming.hpp"
+#include "orca/xml/names.hpp"
 
 namespace orca::graph {
 
@@ -64,10 +65,11 @@ bool check_component_exists(const std::string& name, const xml::Position& place,
                             const Model& model, Report& report) {
   if (model.component(name) != nullptr) return true;
   if (model.excused.contains(name)) return false;
-  const std::vector<std::string> names = model.component_names();
-  const std::string hint = report.hint(name, names);
+  const std::string hint = report.hint(name, model.component_names);
   if (model.names_incomplete && hint.empty()) return false;
-  report.error(codes::kUnknownComponent, place, title + ": there is no component " + in_quotes(name) + hint);
+  report.error(codes::kUnknownComponent, place,
+               title + ": there is no component " + in_quotes(name) +
+                   (hint.empty() ? "; the graph has: " + xml::listed(model.component_names) : hint));
   return false;
 }
 

@@ -13,13 +13,14 @@
 namespace orca::graph {
 namespace {
 
+// "0.05 to 5 m is allowed", or nothing if everything is.
 std::string limit_text(const ParamContract& contract) {
   const std::string unit = contract.unit.empty() ? "" : " " + contract.unit;
-  if (contract.min && contract.max) {
-    return xml::number_text(*contract.min) + " to " + xml::number_text(*contract.max) + unit + " is allowed";
-  }
-  if (contract.min) return "at least " + xml::number_text(*contract.min) + unit + " is allowed";
-  return "at most " + xml::number_text(contract.max.value_or(0.0)) + unit + " is allowed";
+  const std::string min = contract.min ? xml::number_text(*contract.min) : "";
+  const std::string max = contract.max ? xml::number_text(*contract.max) : "";
+  if (contract.min && contract.max) return min + " to " + max + unit + " is allowed";
+  if (contract.min) return "at least " + min + unit + " is allowed";
+  return contract.max ? "at most " + max + unit + " is allowed" : "";
 }
 
 class Converter {
@@ -47,14 +48,14 @@ class Converter {
 
   std::optional<ParamValue> integer() {
     const Result<std::int64_t> value = xml::parse_integer(text_.value);
-    if (!value) return wrong(codes::kBadValue, value.error().message);
+    if (!value) return no_number(value.error());
     if (!in_range(static_cast<double>(*value))) return out_of_range();
     return *value;
   }
 
   std::optional<ParamValue> real() {
     const Result<xml::LeadingNumber> number = xml::parse_leading_number(text_.value);
-    if (!number) return wrong(codes::kBadValue, number.error().message);
+    if (!number) return no_number(number.error());
     const Result<double> value = xml::to_si(number->value, number->rest, contract_.unit);
     if (!value) return wrong(codes::kUnit, in_quotes(text_.value) + ": " + value.error().message);
     if (!in_range(*value)) return out_of_range();
@@ -86,6 +87,11 @@ class Converter {
 
   [[nodiscard]] bool in_range(double value) const {
     return value >= contract_.min.value_or(value) && value <= contract_.max.value_or(value);
+  }
+
+  std::nullopt_t no_number(const Error& error) {
+    const std::string limits = limit_text(contract_);
+    return wrong(codes::kBadValue, error.message + (limits.empty() ? "" : "; " + limits));
   }
 
   std::nullopt_t out_of_range() {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "checks.hpp"
 #include "codes.hpp"
@@ -32,8 +33,10 @@ class Wiring {
   }
 
   void check_required() {
+    index_offers();
     for (const CheckedComponent& component : model_.components) {
-      if (component.duplicate || !component.contract || !component.ports_known) continue;
+      const bool judged = component.contract && component.ports_known;
+      if (!judged || component.duplicate || component.value.name.empty()) continue;
       for (const PortContract& port : component.contract->ports) {
         if (port.required && port.role == Role::proxy) check_connected(component, port);
       }
@@ -78,7 +81,7 @@ class Wiring {
     if (touched_.contains(ref) || explained_by_loose_end(ref, port)) return;
     report_.error(codes::kUnconnected, component.value.position,
                   "component " + in_quotes(ref.component) + ": port " + in_quotes(port.name) + " (" +
-                      described(port) + ") must be connected; " + offers(port, ref.component));
+                      described(port) + ") must be connected; " + offers(port));
   }
 
   // One connection with an unknown end may be the one that is missing here: that would be two errors for one
@@ -93,15 +96,24 @@ class Wiring {
     return true;
   }
 
-  std::string offers(const PortContract& wanted, const std::string& self) const {
-    std::vector<std::string> names;
+  // What an end of a connection must have to fit to another.
+  using Plug = std::tuple<Pattern, Role, std::string, std::uint64_t>;
+
+  void index_offers() {
     for (const CheckedComponent& component : model_.components) {
-      if (!component.contract || component.value.name == self) continue;
-      for (const PortContract& port : component.contract->ports)
-        if (fit_together(port, wanted)) names.push_back(component.value.name + "." + port.name);
+      if (!component.contract) continue;
+      for (const PortContract& port : component.contract->ports) {
+        const Plug plug{port.pattern, port.role, port.type.name, port.type.hash};
+        offers_[plug].push_back(component.value.name + "." + port.name);
+      }
     }
-    if (names.empty()) return "no component of the graph offers it";
-    return "it is offered by: " + xml::listed(names);
+  }
+
+  std::string offers(const PortContract& wanted) {
+    const Role other = wanted.role == Role::proxy ? Role::server : Role::proxy;
+    const auto found = offers_.find(Plug{wanted.pattern, other, wanted.type.name, wanted.type.hash});
+    if (found == offers_.end()) return "no component of the graph offers it";
+    return "it is offered by: " + xml::listed(found->second);
   }
 
   const Model& model_;
@@ -109,7 +121,8 @@ class Wiring {
   std::vector<Edge> edges_;
   std::set<PortRef> touched_;
   std::vector<Loose> loose_;
-  std::map<PortRef, Edge> single_;  // the first edge at each proxy that takes only one
+  std::map<Plug, std::vector<std::string>> offers_;  // ports by what fits to them
+  std::map<PortRef, Edge> single_;                   // the first edge at each proxy that takes only one
 };
 
 }  // namespace

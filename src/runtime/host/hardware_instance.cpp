@@ -10,6 +10,11 @@ namespace orca {
 HardwareInstance::HardwareInstance(RunContext& run, std::string name, const TypeEntry& type)
     : run_(run), name_(std::move(name)), type_(type), container_(nullptr, type.destroy_hardware) {}
 
+HardwareInstance::~HardwareInstance() {
+  if (const auto fault = guarded_call([this] { type_.destroy_hardware(container_.release()); }))
+    write_log(log::Level::error, "its destructor " + fault->text);
+}
+
 Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
   std::vector<std::string> errors;
   const auto fault = guarded_call([&] {

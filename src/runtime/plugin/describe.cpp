@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "orca/base/exception_text.hpp"
 #include "orca/component/component.hpp"
 #include "orca/hw/container.hpp"
 
@@ -16,15 +17,14 @@ Error cannot_describe(const std::string& type, const std::string& what) {
   return fail(Code::internal, "the type " + type + " cannot be described: " + what);
 }
 
-// Runs a plugin's code; `who` of it throws becomes an error, its text copied before the plugin is unloaded.
+// Runs a plugin's code; what `who` of it throws becomes an error, its text copied before the plugin is
+// unloaded.
 template <class Run>
 auto guarded(const std::string& type, const char* who, Run&& run) -> decltype(run()) {
   try {
     return run();
-  } catch (const std::exception& error) {
-    return cannot_describe(type, error.what());
   } catch (...) {
-    return cannot_describe(type, std::string(who) + " threw something that is not a std::exception");
+    return cannot_describe(type, std::string(who) + " " + describe_current_exception());
   }
 }
 
@@ -52,7 +52,7 @@ class Describer : public Base {
   void announce(const Announcement& /*announcement*/) override { refuse("made an announcement"); }
 
   [[noreturn]] static void refuse(const std::string& what) {
-    throw std::logic_error("its constructor " + what + ", but may only declare ports and parameters");
+    throw std::logic_error("it " + what + ", but a constructor may only declare ports and parameters");
   }
 
   Contract contract_;
@@ -86,7 +86,15 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
  public:
   HardwareDescriber(const TypeEntry& type, const std::string& library, const std::string& name)
       : Describer(PluginKind::hardware, type, library, name),
-        container_(type.create_hardware(*this), type.destroy_hardware) {}
+        destroy_(type.destroy_hardware),
+        container_(type.create_hardware(*this)) {}
+  ~HardwareDescriber() override {
+    try {
+      destroy_(container_);
+    } catch (...) {
+      write_log(log::Level::error, "its destructor " + describe_current_exception());
+    }
+  }
 
   [[nodiscard]] const Contract& contract() const override { return contract_; }
   std::vector<std::string> prepare(const std::map<std::string, ParamValue>& params) override {
@@ -104,7 +112,8 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   [[nodiscard]] Executive& executive() override { refuse("asked for the executive"); }
 
  private:
-  std::unique_ptr<hw::HardwareContainer, void (*)(hw::HardwareContainer*)> container_;
+  void (*destroy_)(hw::HardwareContainer*);
+  hw::HardwareContainer* container_;
 };
 
 }  // namespace

@@ -37,22 +37,30 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
   return last[b.size()];
 }
 
+bool one_begins_the_other(std::string_view a, std::string_view b) {
+  constexpr std::size_t kTelling = 3;
+  return std::min(a.size(), b.size()) >= kTelling && (a.starts_with(b) || b.starts_with(a));
+}
+
 }  // namespace
 
 std::optional<std::string> nearest_name(std::string_view word, std::span<const std::string> candidates) {
   if (word.empty()) return std::nullopt;
   const std::string wanted = lower(word);
   const std::string* best = nullptr;
+  const std::string* longer_or_shorter = nullptr;
   std::size_t best_distance = (wanted.size() + 1) / 3 + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t d = distance(wanted, lower(candidate), best_distance - 1);
+    const std::string other = lower(candidate);
+    if (longer_or_shorter == nullptr && one_begins_the_other(wanted, other)) longer_or_shorter = &candidate;
+    const std::size_t d = distance(wanted, other, best_distance - 1);
     if (d >= best_distance) continue;
     best = &candidate;
     best_distance = d;
     if (d == 0) break;
   }
-  if (best == nullptr) return std::nullopt;
-  return *best;
+  if (best == nullptr) best = longer_or_shorter;
+  return best == nullptr ? std::nullopt : std::optional(*best);
 }
 
 std::string did_you_mean(const std::optional<std::string>& nearest) {

@@ -50,15 +50,13 @@ std::string_view trimmed(std::string_view text) {
 
 Result<LeadingNumber> parse_leading_number(std::string_view text) {
   const std::string_view digits = without_plus(trimmed(text));
-  if (digits.empty()) return fail(Code::invalid_argument, "the text is empty, a number is expected");
   const char* end = digits.data() + digits.size();
   LeadingNumber result;
   const auto [stop, problem] = std::from_chars(digits.data(), end, result.value);
   if (problem == std::errc::invalid_argument) return not_a_number(text, "");
-  if (!starts_like_a_number(digits)) return not_a_number(text, ", which must be finite");
-  if (problem == std::errc::result_out_of_range) {
-    return not_a_number(text, " that fits in 64 bits (1e-307 to 1.7e308)");
-  }
+  if (!starts_like_a_number(digits)) return not_a_number(text, ": it must be finite");
+  if (problem == std::errc::result_out_of_range)
+    return not_a_number(text, " of 64 bits: it is too large or too small");
   const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
   if (comma_follows(rest)) return comma_error(text);
   result.rest = trimmed(rest);
@@ -88,8 +86,12 @@ Result<std::int64_t> parse_integer(std::string_view text) {
 }
 
 std::string number_text(double value) {
-  std::array<char, 32> buffer{};
-  const auto [end, problem] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  // Within these bounds people read 100000 and 0.00001 more easily than powers of ten.
+  const double size = std::abs(value);
+  const bool plain = size == 0.0 || (size >= 1e-6 && size < 1e15);
+  const auto format = plain ? std::chars_format::fixed : std::chars_format::scientific;
+  std::array<char, 40> buffer{};
+  const auto [end, problem] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format);
   return std::string(buffer.data(), end);
 }
 

@@ -154,16 +154,19 @@ Scanner::TagEnd Scanner::value_runs_on(std::string_view name, Mark begin, std::s
 }
 
 void Scanner::note_attribute(std::string_view name, AttributeMark mark, Range range) {
-  if (std::ranges::find(seen_, name) != seen_.end()) {
+  auto& marks = scan_.elements.back().attributes;
+  if (const auto first = std::ranges::find(seen_, name); first != seen_.end()) {
     scan_.repeated.push_back(range);
-    return flaw(codes::kDuplicateAttribute, mark.name, attribute_text(name) + " is given twice in this tag");
+    const Mark before = marks[static_cast<std::size_t>(first - seen_.begin())].name;
+    return flaw(codes::kDuplicateAttribute, mark.name,
+                attribute_text(name) + " is given already at " + place(before));
   }
   if (seen_.size() == Limits::kAttributes) {
     stop(codes::kLimit, mark.name,
          "more than " + std::to_string(Limits::kAttributes) + " attributes in one tag");
   }
   seen_.push_back(name);
-  scan_.elements.back().attributes.push_back(mark);
+  marks.push_back(mark);
 }
 
 }  // namespace orca::xml

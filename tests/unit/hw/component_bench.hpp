@@ -13,6 +13,7 @@ namespace orca::test {
 /// machine of thesis 9.4 does. Failures are lines of its diary.
 class ComponentBench final : public ComponentHost {
  public:
+  ~ComponentBench() noexcept override {}  // components' destructors may throw; those of these tests do not
   ComponentBench(Executive& executive, std::string name, hw::HardwareContainer* hardware)
       : peer_(executive, std::move(name)), hardware_(hardware) {}
 

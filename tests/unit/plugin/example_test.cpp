@@ -20,7 +20,7 @@ TEST_CASE("the example component has at most 25 lines of code", "[plugin][exampl
 }
 
 TEST_CASE("the example component declares its two ports and its parameter", "[plugin][example]") {
-  const auto library = loaded(test_plugin("avoid"));
+  const auto library = loaded(kExample);
   const TypeEntry* const type = library->find(PluginKind::component, "orca.Avoid");
   REQUIRE(type != nullptr);
   const auto contract = describe_component(*type, library->path(), nullptr);

@@ -11,7 +11,7 @@ using Catch::Contains;
 TEST_CASE("the index names the file that holds a type", "[plugin][index]") {
   const PluginIndex index({kShipped, kForTests});
   CHECK(index.file_of("orca.Goto").value() == kShipped + "/goto.so");
-  CHECK(index.file_of("orca.Avoid").value() == test_plugin("avoid"));
+  CHECK(index.file_of("test.Statics").value() == test_plugin("test_statics"));
   CHECK(index.file_of("test.First").value() == test_plugin("test_two"));
   CHECK(index.file_of("test.hw.Second").value() == test_plugin("test_two"));
 }
@@ -30,10 +30,10 @@ TEST_CASE("of two folders that hold a type the first one wins", "[plugin][index]
   const std::string copy = kForTests + "/first";
   std::filesystem::create_directories(copy);
   for (const char* const extension : {".so", ".types"})
-    std::filesystem::copy_file(kForTests + "/avoid" + extension, copy + "/avoid" + extension,
+    std::filesystem::copy_file(kForTests + "/test_two" + extension, copy + "/test_two" + extension,
                                std::filesystem::copy_options::overwrite_existing);
-  CHECK(PluginIndex({copy, kForTests}).file_of("orca.Avoid").value() == copy + "/avoid.so");
-  CHECK(PluginIndex({kForTests, copy}).file_of("orca.Avoid").value() == test_plugin("avoid"));
+  CHECK(PluginIndex({copy, kForTests}).file_of("test.First").value() == copy + "/test_two.so");
+  CHECK(PluginIndex({kForTests, copy}).file_of("test.First").value() == test_plugin("test_two"));
   std::filesystem::remove_all(copy);
 }
 

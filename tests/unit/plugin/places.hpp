@@ -12,9 +12,12 @@
 
 namespace orca::test {
 
-/// Where the build puts the plugins that are shipped, and those that only tests load.
+/// Where the build puts the plugins that are shipped, and those that only these tests load.
 inline const std::string kShipped = ORCA_BINARY_DIR "/plugins";
-inline const std::string kForTests = ORCA_BINARY_DIR "/tests/plugins";
+inline const std::string kForTests = ORCA_BINARY_DIR "/tests/unit_plugins";
+
+/// The author's example (tests/data/plugins/avoid.cpp).
+inline const std::string kExample = ORCA_BINARY_DIR "/tests/plugins/avoid.so";
 
 inline std::string test_plugin(const std::string& name) { return kForTests + "/" + name + ".so"; }
 

@@ -118,7 +118,7 @@ TEST_CASE("a mapped plugin is seen also when its file has been removed or exchan
 TEST_CASE("only the whole path counts: a file of the same name elsewhere is not mapped", "[plugin][unload]") {
   const auto library = loaded(test_plugin("test_statics"));
   CHECK_FALSE(is_mapped("/test_statics.so"));
-  CHECK_FALSE(is_mapped("/tests/plugins/test_statics.so"));
+  CHECK_FALSE(is_mapped("/tests/unit_plugins/test_statics.so"));
   CHECK_FALSE(is_mapped(kForTests + "/test_static.so"));
 }
 

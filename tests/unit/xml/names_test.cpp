@@ -28,6 +28,13 @@ TEST_CASE("of equally near names the first is taken", "[xml][names]") {
   CHECK(nearest_name("port3", std::vector<std::string>{"port1", "port2"}) == "port1");
 }
 
+TEST_CASE("a name that was cut short or made longer is still known", "[xml][names]") {
+  const std::vector<std::string> names{"sim", "stop_distance", "stopwatch"};
+  CHECK(nearest_name("stop_dist", names) == "stop_distance");
+  CHECK(nearest_name("simulation", names) == "sim");
+  CHECK_FALSE(nearest_name("si", std::vector<std::string>{"sideways"}));
+}
+
 TEST_CASE("a hint is a question, or nothing", "[xml][names]") {
   CHECK(did_you_mean("laser") == "; did you mean \"laser\"?");
   CHECK(did_you_mean(std::nullopt).empty());

@@ -94,7 +94,7 @@ TEST_CASE("each slip gives its one error at its place", "[xml][reading]") {
       {"<a b=“1”/>", "typographic"},
       {"<a b='1>\n <c d='2'/></a>",
        "2:2: error G115: \"<\" in the value of attribute \"b\" from line 1, column 6"},
-      {"<a b='1' b='2'/>", "1:10: error G116: attribute \"b\" is given twice"},
+      {"<a b='1' b='2'/>", "1:10: error G116: attribute \"b\" is given already at line 1, column 4"},
       {"<a b='&nbsp;'/>", "1:7: error G117: the entity &nbsp; is not defined"},
       {"<a>R&D</a>", "1:5: error G117: a '&' for itself is written &amp;"},
       {"<a>&#0;</a>", "1:4: error G118: the character reference &#0;"},

@@ -54,7 +54,7 @@ class HardwareHost : public PluginHost {
 class HardwareContainer {
  public:
   explicit HardwareContainer(HardwareHost& host) : host_(host) {}
-  virtual ~HardwareContainer() = default;
+  virtual ~HardwareContainer() noexcept(false) = default;
   HardwareContainer(const HardwareContainer&) = delete;
   HardwareContainer& operator=(const HardwareContainer&) = delete;
 

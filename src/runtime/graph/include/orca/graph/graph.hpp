@@ -58,8 +58,9 @@ struct Edge {
   PortRef from;  ///< The PushServer, QueryProxy or SendProxy.
   PortRef to;    ///< The PushProxy, QueryServer or SendServer.
   Pattern pattern = Pattern::push;
-  QueuePolicy queue;       ///< Of this edge alone; the receiving port's default where the graph does not say.
-  Duration interval{0};    ///< Push: deliver at most one object per interval; 0: every one.
+  QueuePolicy queue;     ///< Of this edge alone, its min_interval always 0; where the graph does not say, the
+                         ///< receiving port's default.
+  Duration interval{0};  ///< Push: deliver at most one object per interval; 0: every one.
   xml::Position position;  ///< Of its element; takes no part in comparisons.
 
   friend bool operator==(const Edge& a, const Edge& b);

@@ -10,9 +10,9 @@ namespace orca::xml {
 
 /// The candidate that a person most likely meant by `word`: the one with the fewest inserted, deleted,
 /// replaced or swapped characters (upper and lower case count as equal), the first of them if several are as
-/// near.
-/// @return nothing if `word` is empty or every candidate differs in more than about a third of the word's
-/// characters.
+/// near. Failing that, the first that begins with the word or that the word begins with.
+/// @return nothing if `word` is empty, or every candidate differs in more than about a third of the word's
+///         characters and shares no beginning of three or more with it.
 /// @source  optimal string alignment distance; Damerau, "A technique for computer detection and correction
 ///          of spelling errors", CACM 7(3), 1964.
 [[nodiscard]] std::optional<std::string> nearest_name(std::string_view word,

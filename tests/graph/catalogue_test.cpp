@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "loading.hpp"
+
+using namespace orca::graph;
+
+TEST_CASE("the catalogue hears of folders first, then of hardware, then of components",
+          "[graph][catalogue]") {
+  FakeCatalogue catalogue;
+  orca::xml::Diagnostics diagnostics;
+  const auto graph = load_text(
+      "<graph name='g' plugins='/opt/more'><component name='base' type='orca.RobotBaseServer' "
+      "hardware='robot'/>"
+      "<component name='loc' type='orca.Localizer'/><hardware name='robot' type='orca.hw.Sim'/></graph>",
+      "g.xml", {}, catalogue, diagnostics);
+  CHECK(graph.has_value());
+  CHECK(catalogue.calls ==
+        std::vector<std::string>{"folders /opt/more", "hardware orca.hw.Sim", "validate robot",
+                                 "component orca.RobotBaseServer with robot", "component orca.Localizer"});
+}
+
+TEST_CASE("hardware with wrong parameters is not looked into", "[graph][catalogue]") {
+  FakeCatalogue catalogue;
+  orca::xml::Diagnostics diagnostics;
+  CHECK_FALSE(
+      load_text("<graph name='g'><hardware name='robot' type='orca.hw.Sim'><param name='x' value='1'/>"
+                "</hardware></graph>",
+                "g.xml", {}, catalogue, diagnostics));
+  CHECK(std::ranges::find(catalogue.calls, "validate robot") == catalogue.calls.end());
+}
+
+TEST_CASE("what a world file has wrong is printed as the simulator says it", "[graph][catalogue]") {
+  const std::string said = said_about(
+      "<graph name='g'><hardware name='robot' type='orca.hw.Sim'><param name='world' value='broken.world'/>"
+      "</hardware></graph>");
+  CHECK(
+      said ==
+      "broken.world:4:3: error W001: two walls cross\nbroken.world:9:3: error W002: the floor has no size\n");
+}

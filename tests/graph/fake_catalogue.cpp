@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fake_catalogue.hpp"
+
+using namespace orca;
+
+namespace {
+
+PortContract port(const char* name, Pattern pattern, Role role, const char* type) {
+  PortContract result;
+  result.name = name;
+  result.pattern = pattern;
+  result.role = role;
+  result.type = {type, 0x1000};
+  return result;
+}
+
+PortContract pushes(const char* name, const char* type) {
+  return port(name, Pattern::push, Role::server, type);
+}
+PortContract receives(const char* name, const char* type) {
+  return port(name, Pattern::push, Role::proxy, type);
+}
+PortContract sends(const char* name, const char* type) {
+  return port(name, Pattern::send, Role::proxy, type);
+}
+PortContract accepts(const char* name, const char* type) {
+  return port(name, Pattern::send, Role::server, type);
+}
+
+PortContract query(const char* name, Role role, const char* request, const char* reply) {
+  PortContract result = port(name, Pattern::query, role, request);
+  result.reply = TypeId{reply, 0x2000};
+  return result;
+}
+
+PortContract required(PortContract result) {
+  result.required = true;
+  return result;
+}
+
+PortContract many(PortContract result) {
+  result.many = true;
+  return result;
+}
+
+ParamContract real(const char* name, const char* unit, double min, double max, double value) {
+  ParamContract result;
+  result.name = name;
+  result.unit = unit;
+  result.min = min;
+  result.max = max;
+  result.default_value = value;
+  return result;
+}
+
+ParamContract param(const char* name, ParamType type, ParamValue value) {
+  ParamContract result;
+  result.name = name;
+  result.type = type;
+  result.default_value = std::move(value);
+  return result;
+}
+
+ParamContract choice(const char* name, std::vector<std::string> choices) {
+  ParamContract result = param(name, ParamType::text, choices.front());
+  result.choices = std::move(choices);
+  return result;
+}
+
+ParamContract file(const char* name) {
+  ParamContract result = param(name, ParamType::text, std::string());
+  result.file = true;
+  return result;
+}
+
+Contract component(const char* type, std::vector<PortContract> ports,
+                   std::vector<ParamContract> params = {}) {
+  Contract result;
+  result.type = type;
+  result.library = "fake.so";
+  result.ports = std::move(ports);
+  result.params = std::move(params);
+  return result;
+}
+
+Contract device(const char* type, std::vector<ParamContract> params) {
+  Contract result = component(type, {}, std::move(params));
+  result.kind = PluginKind::hardware;
+  return result;
+}
+
+Contract sonar_avoid() {
+  ParamContract samples = param("samples", ParamType::integer, std::int64_t{8});
+  samples.min = 1;
+  samples.max = 64;
+  ParamContract gain = param("gain", ParamType::real, 1.0);
+  gain.min = 0.0;
+  PortContract sonar = required(receives("sonar", "SonarRangeReadings"));
+  sonar.queue.depth = 3;
+  return component("orca.SonarAvoid",
+                   {sonar, receives("odometry", "Odometry"), pushes("motion", "MotionCommand")},
+                   {real("stop_distance", "m", 0.05, 5.0, 0.5), real("sector", "rad", 0.0, 3.2, 1.0),
+                    real("max_speed", "m/s", 0.0, 2.0, 0.6), real("rate", "Hz", 0.1, 100.0, 10.0),
+                    real("share", "", 0.0, 1.0, 0.5), gain, samples,
+                    param("verbose", ParamType::boolean, false), choice("mode", {"stop", "turn", "creep"}),
+                    file("map"), param("label", ParamType::text, std::string("a")),
+                    param("zones", ParamType::text_list, std::vector<std::string>{})});
+}
+
+Contract base_server(bool bound) {
+  Contract result = component("orca.RobotBaseServer", {}, {real("max_command_age", "s", 0.01, 1.0, 0.2)});
+  result.needs_hardware = true;
+  if (!bound) return result;
+  result.ports = {accepts("MotionCommandSend", "MotionCommand"),
+                  pushes("SonarRangeReadingsPush", "SonarRangeReadings"), pushes("OdometryPush", "Odometry"),
+                  query("LimitsQuery", Role::server, "LimitsRequest", "Limits")};
+  return result;
+}
+
+Contract old_logger() {
+  PortContract sonar = receives("sonar", "SonarRangeReadings");
+  sonar.type.hash = 0x999;
+  return component("orca.OldLogger", {sonar});
+}
+
+}  // namespace
+
+FakeCatalogue::FakeCatalogue() {
+  add(sonar_avoid());
+  add(::component("orca.LaserAvoid",
+                  {required(receives("laser", "LaserRangeReadings")), receives("sonar", "SonarRangeReadings"),
+                   pushes("motion", "MotionCommand")}));
+  add(::component(
+      "orca.Command",
+      {sends("goal", "GoalPoint"), sends("clients", "ClientList"), receives("arrived", "Arrived")},
+      {param("goals", ParamType::text, std::string())}));
+  add(::component("orca.Goto",
+                  {accepts("GoalSend", "GoalPoint"), pushes("ArrivedPush", "Arrived"),
+                   pushes("MotionPush", "MotionCommand"), required(receives("localizer", "RobotPose"))}));
+  add(::component("orca.MotionCommandFuser",
+                  {many(receives("motion", "MotionCommand")), sends("base", "MotionCommand"),
+                   accepts("ClientListSend", "ClientList")}));
+  add(::component("orca.Localizer", {pushes("pose", "RobotPose"), receives("odometry", "Odometry")}));
+  add(::component("orca.Planner", {query("limits", Role::proxy, "LimitsRequest", "Limits"),
+                                   query("area", Role::proxy, "LimitsRequest", "Area")}));
+  add(::component("orca.Label", {}, {param("label", ParamType::text, std::string())}));
+  add(old_logger());
+  add(base_server(true));
+  add(device("orca.hw.Sim",
+             {file("world"), file("robot"), choice("realism", {"ideal", "nominal", "harsh"})}));
+  add(device("orca.hw.NomadScout", {param("port", ParamType::text, std::string("/dev/ttyS0")),
+                                    real("silence", "s", 0.1, 10.0, 1.0)}));
+}
+
+void FakeCatalogue::add_folders(const std::vector<std::string>& folders) {
+  std::string call = "folders";
+  for (const std::string& folder : folders) call += " " + folder;
+  calls.push_back(call);
+}
+
+Result<Contract> FakeCatalogue::find(const std::string& type, PluginKind kind) const {
+  if (type == "orca.Broken")
+    return fail(Code::failed_precondition, "broken.so: undefined symbol: orca::lost()");
+  const auto found = types_.find(type);
+  if (found != types_.end() && found->second.kind == kind) return found->second;
+  return fail(Code::not_found, "no plugin in plugins/ holds the type \"" + type + "\"");
+}
+
+Result<Contract> FakeCatalogue::hardware(const std::string& type) {
+  calls.push_back("hardware " + type);
+  return find(type, PluginKind::hardware);
+}
+
+std::vector<std::string> FakeCatalogue::validate_hardware(const graph::HardwareUse& use) {
+  calls.push_back("validate " + use.name);
+  const auto world = use.params.find("world");
+  if (world == use.params.end() || !std::get<std::string>(world->second).ends_with("broken.world")) return {};
+  return {"broken.world:4:3: error W001: two walls cross",
+          "broken.world:9:3: error W002: the floor has no size"};
+}
+
+Result<Contract> FakeCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {
+  calls.push_back("component " + type + (hardware == nullptr ? "" : " with " + hardware->name));
+  if (type == "orca.RobotBaseServer") return base_server(hardware != nullptr);
+  return find(type, PluginKind::component);
+}
+
+std::vector<std::string> FakeCatalogue::type_names(PluginKind kind) const {
+  std::vector<std::string> names;
+  for (const auto& [name, contract] : types_)
+    if (contract.kind == kind) names.push_back(name);
+  return names;
+}

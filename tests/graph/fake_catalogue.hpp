@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "orca/graph/loader.hpp"
+
+/// Contracts as the shipped plugins have them, and some for what can go wrong, without a plugin.
+///
+/// A hardware whose parameter "world" ends in "broken.world" has a broken world file.
+class FakeCatalogue final : public orca::graph::Catalogue {
+ public:
+  FakeCatalogue();
+
+  void add_folders(const std::vector<std::string>& folders) override;
+  orca::Result<orca::Contract> hardware(const std::string& type) override;
+  std::vector<std::string> validate_hardware(const orca::graph::HardwareUse& use) override;
+  orca::Result<orca::Contract> component(const std::string& type,
+                                         const orca::graph::HardwareUse* hardware) override;
+  [[nodiscard]] std::vector<std::string> type_names(orca::PluginKind kind) const override;
+
+  void add(orca::Contract contract) { types_[contract.type] = std::move(contract); }
+
+  /// What it was told and asked, in order: "folders /a;/b", "hardware T", "validate NAME", "component T with
+  /// NAME".
+  std::vector<std::string> calls;
+
+ private:
+  orca::Result<orca::Contract> find(const std::string& type, orca::PluginKind kind) const;
+
+  std::map<std::string, orca::Contract> types_;
+};

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+
+#include "loading.hpp"
+
+using namespace orca::graph;
+
+namespace {
+
+// n avoiders on one base; every `every`-th one has a wrong parameter.
+std::string big_graph(int n, int every) {
+  std::string text =
+      "<graph name='big'><hardware name='robot' type='orca.hw.Sim'/>\n"
+      "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>\n";
+  for (int i = 0; i < n; ++i) {
+    const std::string name = "avoid_" + std::to_string(i);
+    const bool wrong = every > 0 && i % every == 0;
+    text += "<component name='" + name + "' type='orca.SonarAvoid'>\n  <param name='" +
+            std::string(wrong ? "stop_distanse" : "stop_distance") + "' value='0.6 m'/>\n</component>\n";
+    text += "<connect from='base.SonarRangeReadingsPush' to='" + name + ".sonar'/>\n";
+  }
+  return text + "</graph>\n";
+}
+
+double seconds_for(const std::string& text, std::size_t& errors) {
+  FakeCatalogue catalogue;
+  orca::xml::Diagnostics diagnostics;
+  const auto start = std::chrono::steady_clock::now();
+  (void)load_text(text, "big.xml", {}, catalogue, diagnostics);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  errors = diagnostics.error_count();
+  return seconds;
+}
+
+// Sanitizers cost ten times and more; the bound is for what people run.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kBound = 20.0;
+#else
+constexpr double kBound = 1.0;
+#endif
+
+}  // namespace
+
+TEST_CASE("a graph of one megabyte with fifty faults is checked in less than a second", "[graph][large]") {
+  const std::string text = big_graph(6000, 120);
+  REQUIRE(text.size() > 1'000'000);
+  std::size_t errors = 0;
+  CHECK(seconds_for(text, errors) < kBound);
+  CHECK(errors == 50);
+}
+
+TEST_CASE("thousands of unknown names do not cost more than that", "[graph][large]") {
+  std::string text = "<graph name='big'>";
+  for (int i = 0; i < 9000; ++i) {
+    text += "<component name='robot_" + std::to_string(i) + "' type='orca.Localizer'/>";
+    text += "<connect from='rabot_" + std::to_string(i) + "x.pose' to='nobody.at_all'/>";
+  }
+  std::size_t errors = 0;
+  CHECK(seconds_for(text + "</graph>", errors) < 2 * kBound);
+  CHECK(errors == 18000);
+}
+
+TEST_CASE("ten thousand components in a row start one after the other", "[graph][large]") {
+  std::string text = "<graph name='row'>";
+  for (int i = 0; i < 10'000; ++i) {
+    text += "<component name='c" + std::to_string(i) + "' type='orca.Localizer' start_after='c" +
+            std::to_string(std::max(0, i + 1) % 10'000) + "'/>";
+  }
+  std::size_t errors = 0;
+  CHECK(seconds_for(text + "</graph>", errors) < 2 * kBound);
+  CHECK(errors == 1);
+}
+
+TEST_CASE("more than ten thousand components are refused", "[graph][large]") {
+  std::string text = "<graph name='many'>\n";
+  for (int i = 0; i <= 10'000; ++i)
+    text += "<component name='c" + std::to_string(i) + "' type='orca.Localizer'/>\n";
+  const std::string said = said_about(text + "</graph>");
+  CHECK(said == "test.xml:10002:1: error G040: the graph has 10001 components, the limit is 10000\n");
+}

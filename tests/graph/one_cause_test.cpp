@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One slip gives one error: what follows from it is not told as well. And it hides nothing that has another
+// cause.
+#include <algorithm>
+#include <set>
+
+#include "loading.hpp"
+
+namespace {
+
+std::multiset<std::string> codes(const std::string& text) {
+  FakeCatalogue catalogue;
+  orca::xml::Diagnostics diagnostics;
+  (void)orca::graph::load_text(text, "test.xml", {}, catalogue, diagnostics);
+  UNSCOPED_INFO(diagnostics.text());
+  std::multiset<std::string> result;
+  for (const auto& diagnostic : diagnostics.sorted()) result.insert(diagnostic.code);
+  return result;
+}
+
+using Codes = std::multiset<std::string>;
+
+const std::string kBase =
+    "<hardware name='robot' type='orca.hw.Sim'/><component name='base' type='orca.RobotBaseServer' "
+    "hardware='robot'/>";
+const std::string kAvoid = "<component name='avoid' type='orca.SonarAvoid'/>";
+const std::string kEdge = "<connect from='base.SonarRangeReadingsPush' to='avoid.sonar'/>";
+
+std::string graph(const std::string& content) { return "<graph name='g'>" + content + "</graph>"; }
+
+}  // namespace
+
+TEST_CASE("the parts of these tests are good", "[graph][one cause]") {
+  CHECK(codes(graph(kBase + kAvoid + kEdge)).empty());
+}
+
+TEST_CASE("an unknown type says nothing about the ports of the component", "[graph][one cause]") {
+  CHECK(codes(graph(kBase + "<component name='avoid' type='orca.Sonar'/>" + kEdge +
+                    "<connect from='avoid.x' to='base.MotionCommandSend'/>")) == Codes{"G027"});
+}
+
+TEST_CASE("a misspelt port is not missed as a required one", "[graph][one cause]") {
+  CHECK(codes(graph(kBase + kAvoid + "<connect from='base.SonarRangeReadingsPush' to='avoid.sonnar'/>")) ==
+        Codes{"G017"});
+  CHECK(codes(graph(kBase + kAvoid + "<connect from='base.SonarRangeReadingsPush' to='avoid.in'/>")) ==
+        Codes{"G017"});
+  CHECK(codes(graph(kBase + kAvoid + "<connect from='base.SonarRangeReadingsPush' to='ovoid.sonar'/>")) ==
+        Codes{"G016"});
+  CHECK(codes(graph(kBase + kAvoid + "<connect from='base.SonarRangeReadingsPush'/>")) == Codes{"G007"});
+  CHECK(codes(graph(kBase + kAvoid + "<connect from='base.OdometryPush' to='avoid.sonar'/>")) ==
+        Codes{"G021"});
+}
+
+TEST_CASE("a misspelt element or attribute is taken for what it was meant to be", "[graph][one cause]") {
+  CHECK(codes(graph(kBase + "<componet name='avoid' type='orca.SonarAvoid'/>" + kEdge)) == Codes{"G003"});
+  CHECK(codes(graph(kBase + "<component nmae='avoid' type='orca.SonarAvoid'/>" + kEdge)) == Codes{"G006"});
+  CHECK(codes(graph(kBase + kAvoid + "<conect from='base.SonarRangeReadingsPush' to='avoid.sonar'/>")) ==
+        Codes{"G003"});
+  CHECK(codes(graph(kBase + kAvoid + "<edge from='base.SonarRangeReadingsPush' to='avoid.sonar'/>")) ==
+        Codes{"G003"});
+}
+
+TEST_CASE("the name of an element that cannot be understood is not missed", "[graph][one cause]") {
+  CHECK(codes(graph(kBase + "<node name='avoid'/>" + kEdge)) == Codes{"G003"});
+  CHECK(codes("<graph name='g' ends='x'><component name='a' type='orca.Localizer' start_after='x'/>"
+              "<node name='x'/></graph>") == Codes{"G003"});
+}
+
+TEST_CASE("an include may bring in anything, but a name that nearly fits is still a slip",
+          "[graph][one cause]") {
+  CHECK(codes(graph(
+            kBase +
+            "<include file='more.xml'/><connect from='base.SonarRangeReadingsPush' to='far.sonar'/>")) ==
+        Codes{"G005"});
+  CHECK(codes(graph(
+            kBase +
+            "<include file='more.xml'/><connect from='bose.SonarRangeReadingsPush' to='far.sonar'/>")) ==
+        Codes{"G005", "G016"});
+}
+
+TEST_CASE("broken hardware says nothing about the components bound to it", "[graph][one cause]") {
+  const std::string rest =
+      "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>" + kAvoid + kEdge;
+  CHECK(codes(graph("<hardware name='robot' type='orca.hw.Sin'/>" + rest)) == Codes{"G027"});
+  CHECK(codes(graph("<hardware name='robot'/>" + rest)) == Codes{"G007"});
+  CHECK(
+      codes(graph("<hardware name='robot' type='orca.hw.Sim'><param name='realism' value='no'/></hardware>" +
+                  rest)) == Codes{"G033"});
+  CHECK(codes(graph(rest)) == Codes{"G034"});
+}
+
+TEST_CASE("a component without its hardware is not asked for its ports", "[graph][one cause]") {
+  CHECK(codes(graph("<component name='base' type='orca.RobotBaseServer'/>" + kAvoid + kEdge)) ==
+        Codes{"G035"});
+}
+
+TEST_CASE("a value that cannot be known is not judged", "[graph][one cause]") {
+  CHECK(codes(graph(kBase + "<component name='avoid' type='orca.SonarAvoid' period='${x}' priority='3'/>" +
+                    kEdge)) == Codes{"G011"});
+  CHECK(
+      codes(graph(
+          "<arg name='x'/>" + kBase +
+          "<component name='avoid' type='orca.SonarAvoid'><param name='samples' value='${x}'/></component>" +
+          kEdge)) == Codes{"G012"});
+  CHECK(codes(graph(kBase + kAvoid + "<connect from='base.SonarRangeReadingsPush' to='${x}.sonar'/>")) ==
+        Codes{"G011"});
+  CHECK(codes(graph(kBase + "<component name='&who;' type='orca.Localizer'/>" + kAvoid + kEdge)) ==
+        Codes{"G117"});
+}
+
+TEST_CASE("a component without a name may be the one that is referred to", "[graph][one cause]") {
+  for (const char* name : {"", "name=''", "name='${who}'"}) {
+    const std::string component = "<component " + std::string(name) + " type='orca.SonarAvoid'/>";
+    CHECK(codes(graph(kBase + component + component + kEdge)).size() == 2);
+  }
+}
+
+TEST_CASE("a bad name can still be referred to", "[graph][one cause]") {
+  CHECK(codes(graph(kBase + "<component name='my-avoid' type='orca.SonarAvoid'/>"
+                            "<connect from='base.SonarRangeReadingsPush' to='my-avoid.sonar'/>")) ==
+        Codes{"G009"});
+}
+
+TEST_CASE("a broken plugin is told once, however many components want it", "[graph][one cause]") {
+  CHECK(codes(graph("<component name='a' type='orca.Broken'/><component name='b' type='orca.Broken'/>")) ==
+        Codes{"G028"});
+}
+
+TEST_CASE("an unknown element hides neither wiring nor parameter errors", "[graph][one cause]") {
+  CHECK(codes(graph("<plotter/>" + kBase +
+                    "<component name='avoid' type='orca.SonarAvoid'><param name='samples' value='0'/>"
+                    "</component><connect from='base.OdometryPush' to='avoid.sonar'/>")) ==
+        Codes{"G003", "G021", "G032"});
+}
+
+TEST_CASE("a duplicate component is checked like any other", "[graph][one cause]") {
+  CHECK(
+      codes(graph(
+          kBase + kAvoid + kEdge +
+          "<component name='avoid' type='orca.SonarAvoid'><param name='samples' value='0'/></component>")) ==
+      Codes{"G010", "G032"});
+}
+
+TEST_CASE("two circles of start_after are two errors", "[graph][one cause]") {
+  const auto after = [](const char* name, const char* before) {
+    return "<component name='" + std::string(name) + "' type='orca.Localizer' start_after='" + before + "'/>";
+  };
+  CHECK(codes(graph(after("a", "b") + after("b", "a") + after("c", "d") + after("d", "c") +
+                    after("e", "a c"))) == Codes{"G037", "G037"});
+}
