@@ -13,6 +13,21 @@
 namespace orca {
 namespace {
 
+Error cannot_describe(const std::string& type, const std::string& what) {
+  return fail(Code::internal, "the type " + type + " cannot be described: " + what);
+}
+
+// Runs a plugin's code; what `who` of it throws becomes an error, its text copied before the plugin is
+// unloaded.
+template <class Run>
+auto guarded(const std::string& type, const char* who, Run&& run) -> decltype(run()) {
+  try {
+    return run();
+  } catch (...) {
+    return cannot_describe(type, std::string(who) + " " + describe_current_exception());
+  }
+}
+
 // Takes declarations and refuses every service: a constructor has no business with them.
 template <class Base>
 class Describer : public Base {
@@ -85,7 +100,10 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   std::vector<HardwareFault> prepare(const std::map<std::string, ParamValue>& params) override {
     for (const auto& [name, value] : params)
       if (const auto setter = setters_.find(name); setter != setters_.end()) setter->second(value);
-    return container_->prepare();
+    using Errors = std::vector<std::string>;
+    const Result<Errors> errors = guarded(contract_.type, "its prepare()",
+                                          [this]() -> Result<Errors> { return container_->prepare(); });
+    return errors ? *errors : Errors{errors.error().text()};
   }
   [[nodiscard]] hw::HardwareContainer& container() override { return *container_; }
 
@@ -98,32 +116,19 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   hw::HardwareContainer* container_;
 };
 
-Error constructor_threw(const TypeEntry& type, const std::string& what) {
-  return fail(Code::internal, std::string("the type ") + type.type + " cannot be described: " + what);
-}
-
-template <class Make>
-auto guarded(const TypeEntry& type, Make&& make) -> decltype(make()) {
-  try {
-    return make();
-  } catch (...) {
-    return constructor_threw(type, "its constructor " + describe_current_exception());
-  }
-}
-
 }  // namespace
 
 Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& type,
                                                              const std::string& library,
                                                              const std::string& name) {
-  return guarded(type, [&]() -> Result<std::unique_ptr<DescribedHardware>> {
+  return guarded(type.type, "its constructor", [&]() -> Result<std::unique_ptr<DescribedHardware>> {
     return std::unique_ptr<DescribedHardware>(std::make_unique<HardwareDescriber>(type, library, name));
   });
 }
 
 Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
                                     hw::HardwareContainer* hardware) {
-  return guarded(type, [&]() -> Result<Contract> {
+  return guarded(type.type, "its constructor", [&]() -> Result<Contract> {
     ComponentDescriber describer(type, library, hardware);
     type.destroy_component(type.create_component(describer));
     return describer.contract_;
