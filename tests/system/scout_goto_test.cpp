@@ -7,6 +7,7 @@
 
 #include "deployer.hpp"
 #include "temp_folder.hpp"
+#include "trace_file.hpp"
 
 using namespace orca::test;
 
@@ -81,6 +82,33 @@ TEST_CASE("--until ends a run early with exit 0 and a trace hash", "[system][sco
   CHECK(run.exit_code() == 0);
   CHECK(run.arrivals().empty());
   CHECK(run.trace_hash().has_value());
+}
+
+TEST_CASE("--until stops the robot at that time: no sensor reading is delivered later", "[system][scout]") {
+  const TempFolder folder;
+  REQUIRE(drive({"--until", "2 s", "--trace", folder.file("trace")}).exit_code() == 0);
+  const TraceFile trace(folder.file("trace"));
+  REQUIRE(trace.has("deliver", {"avoid", "sonar"}));
+  double last = 0.0;
+  for (const TraceLine& line : trace.lines())
+    if (line.is("deliver", {"avoid", "sonar"})) last = line.time;
+  CHECK(last > 1.5);
+  CHECK(last <= 2.0);
+}
+
+TEST_CASE("without goals the command asks for them one after the other, until an empty line",
+          "[system][scout]") {
+  Subprocess program(
+      deployer(Words{source_file("graphs/scout_goto.xml"), "--set", "goals="} + virtual_clock()),
+      {.input = "ahead: 2 6\nnonsense\nfurther: 2.5 6 > 3 6\n\n"});
+  const Run run = finish(program, Seconds(30));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  const std::vector<Arrival> arrivals = run.arrivals();
+  REQUIRE(arrivals.size() == 2);
+  CHECK(arrivals[0].name == "ahead");
+  CHECK(arrivals[1].name == "further");
+  CHECK(run.says("cannot read the goal \"nonsense\""));
 }
 
 TEST_CASE("--picture draws what happened, as SVG and as PNG", "[system][scout]") {
