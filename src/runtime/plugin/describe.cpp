@@ -100,10 +100,10 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   std::vector<HardwareFault> prepare(const std::map<std::string, ParamValue>& params) override {
     for (const auto& [name, value] : params)
       if (const auto setter = setters_.find(name); setter != setters_.end()) setter->second(value);
-    using Errors = std::vector<std::string>;
-    const Result<Errors> errors = guarded(contract_.type, "its prepare()",
-                                          [this]() -> Result<Errors> { return container_->prepare(); });
-    return errors ? *errors : Errors{errors.error().text()};
+    using Faults = std::vector<HardwareFault>;
+    const Result<Faults> faults = guarded(contract_.type, "its prepare()",
+                                          [this]() -> Result<Faults> { return container_->prepare(); });
+    return faults ? *faults : Faults{{"", faults.error().text()}};
   }
   [[nodiscard]] hw::HardwareContainer& container() override { return *container_; }
 

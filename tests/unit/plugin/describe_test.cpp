@@ -76,7 +76,10 @@ TEST_CASE("hardware is described without opening it, and its preparation tells w
   REQUIRE(hardware.has_value());
   CHECK((*hardware)->contract().kind == PluginKind::hardware);
   CHECK((*hardware)->contract().param("mode") != nullptr);
-  CHECK((*hardware)->prepare({}) == std::vector<std::string>{"robot.xml:3:1: there is no radius"});
+  const std::vector<HardwareFault> faults = (*hardware)->prepare({});
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].param.empty());
+  CHECK(faults[0].text == "robot.xml:3:1: there is no radius");
   CHECK((*hardware)->prepare({{"mode", std::string("good")}}).empty());
   CHECK((*hardware)->container().state() == hw::HardwareState::closed);
 }
@@ -88,5 +91,5 @@ TEST_CASE("hardware whose preparation throws is an error with its text", "[plugi
   REQUIRE(hardware.has_value());
   const auto errors = (*hardware)->prepare({{"mode", std::string("throw")}});
   REQUIRE(errors.size() == 1);
-  CHECK_THAT(errors.front(), Contains("test.hw.Second") && Contains("the robot file smokes"));
+  CHECK_THAT(errors.front().text, Contains("test.hw.Second") && Contains("the robot file smokes"));
 }

@@ -9,8 +9,8 @@ namespace {
 class Two final : public orca::hw::HardwareContainer {
  public:
   using HardwareContainer::HardwareContainer;
-  std::vector<std::string> prepare() override {
-    if (mode_->empty()) return {"robot.xml:3:1: there is no radius"};
+  std::vector<orca::HardwareFault> prepare() override {
+    if (mode_->empty()) return {{"", "robot.xml:3:1: there is no radius"}};
     if (*mode_ == "throw") throw std::runtime_error("the robot file smokes");
     return {};
   }

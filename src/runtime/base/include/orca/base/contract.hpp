@@ -95,9 +95,9 @@ enum class PluginKind { component, hardware };
 
 /// What is wrong with the values of a hardware container's parameters, or in the files that they name.
 struct HardwareFault {
-  std::string
-      param;  ///< The parameter to correct; empty: `text` is a whole line about a place in another file.
-  std::string text;  ///< What was found and what was expected.
+  std::string param;  ///< The one to correct; empty: `text` is a whole line about a place in another file.
+  std::string text;   ///< What was found and what was expected.
+  friend bool operator==(const HardwareFault&, const HardwareFault&) = default;
 };
 
 /// What a component or a hardware container type offers and needs: computed by constructing it, nothing else.
