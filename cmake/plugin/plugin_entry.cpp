@@ -9,6 +9,6 @@ extern "C" {
 [[gnu::visibility("hidden")]] extern const orca::TypeEntry* const __stop_orca_types[];
 
 [[gnu::visibility("default")]] extern const orca::Manifest orca_plugin_manifest;
-const orca::Manifest orca_plugin_manifest{
-    orca::kAbiVersion, sizeof(orca::Manifest), ORCA_BUILD_ID, __start_orca_types, __stop_orca_types};
+const orca::Manifest orca_plugin_manifest{orca::kAbiVersion, sizeof(orca::Manifest), ORCA_BUILD_ID,
+                                          __start_orca_types, __stop_orca_types};
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,9 +6,10 @@
 
 #include "objects.hpp"
 #include "orca/hardware.hpp"
-#include "orca/sim/bitmap.hpp"
 #include "orca/sim/robot_file.hpp"
 #include "orca/sim/world_file.hpp"
+#include "orca/xml/names.hpp"
+#include "orca/xml/number.hpp"
 #include "shared_world.hpp"
 
 namespace {
@@ -29,8 +29,8 @@ class SimHardware final : public orca::hw::HardwareContainer {
   using HardwareContainer::HardwareContainer;
 
  private:
-  std::vector<std::string> prepare() override {
-    std::vector<std::string> errors;
+  std::vector<orca::HardwareFault> prepare() override {
+    std::vector<orca::HardwareFault> errors;
     world_ = read_world_file(errors);
     robot_ = read_robot_file(errors);
     if (!world_ || !robot_) return errors;
@@ -39,51 +39,49 @@ class SimHardware final : public orca::hw::HardwareContainer {
     return errors;
   }
 
-  std::optional<WorldModel> read_world_file(std::vector<std::string>& errors) const {
-    if (std::filesystem::path(*world_file_).extension() != ".xml") {
-      orca::Result<WorldModel> map = read_bitmap_world(*world_file_, {*map_width_, std::nullopt});
-      if (map) return std::move(map).value();
-      errors.push_back(*world_file_ + ": error: " + map.error().message);
-      return std::nullopt;
-    }
+  std::optional<WorldModel> read_world_file(std::vector<orca::HardwareFault>& errors) const {
     orca::xml::Diagnostics diagnostics;
-    std::optional<WorldModel> world = read_world(*world_file_, diagnostics);
+    std::optional<WorldModel> world =
+        read_world(*world_file_, *map_width_ > 0.0 ? std::optional(*map_width_) : std::nullopt, diagnostics);
     append(diagnostics, errors);
     return diagnostics.has_errors() ? std::nullopt : std::move(world);
   }
 
-  std::optional<RobotModel> read_robot_file(std::vector<std::string>& errors) const {
+  std::optional<RobotModel> read_robot_file(std::vector<orca::HardwareFault>& errors) const {
     orca::xml::Diagnostics diagnostics;
     std::optional<RobotModel> robot = read_robot(*robot_file_, diagnostics);
     append(diagnostics, errors);
     return diagnostics.has_errors() ? std::nullopt : std::move(robot);
   }
 
-  static void append(const orca::xml::Diagnostics& diagnostics, std::vector<std::string>& errors) {
-    for (const auto& diagnostic : diagnostics.sorted()) errors.push_back(diagnostic.text());
+  static void append(const orca::xml::Diagnostics& diagnostics, std::vector<orca::HardwareFault>& errors) {
+    for (const auto& diagnostic : diagnostics.sorted()) errors.push_back({"", diagnostic.text()});
   }
 
-  void find_start(std::vector<std::string>& errors) {
+  void find_start(std::vector<orca::HardwareFault>& errors) {
     start_ = {*x_, *y_, *heading_};
     if (!place_->empty()) {
       const Place* const place = world_->place(*place_);
       if (place == nullptr) {
-        errors.push_back(*world_file_ + ": error: there is no place \"" + *place_ +
-                         "\" to start from; places: " + place_names());
+        const std::vector<std::string> names = place_names();
+        errors.push_back({"place", "\"" + *place_ + "\" is no place of " + *world_file_ +
+                                       "; places: " + orca::xml::listed(names) +
+                                       orca::xml::did_you_mean(orca::xml::nearest_name(*place_, names))});
         return;
       }
       start_ = place->pose;
     }
     if (const Obstacle* hit = world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom))
-      errors.push_back(*world_file_ + ": error: the robot \"" + *name_ + "\" would start inside \"" +
-                       hit->name + "\" at x " + std::to_string(start_.x) + " m, y " +
-                       std::to_string(start_.y) + " m; choose a free place");
+      errors.push_back({place_->empty() ? "x" : "place",
+                        "the robot \"" + *name_ + "\" would start inside \"" + hit->name + "\" at x " +
+                            orca::xml::number_text(start_.x) + " m, y " + orca::xml::number_text(start_.y) +
+                            " m; choose a free place"});
   }
 
-  [[nodiscard]] std::string place_names() const {
-    std::string names;
-    for (const Place& place : world_->places) names += (names.empty() ? "" : ", ") + place.name;
-    return names.empty() ? "none" : names;
+  [[nodiscard]] std::vector<std::string> place_names() const {
+    std::vector<std::string> names;
+    for (const Place& place : world_->places) names.push_back(place.name);
+    return names;
   }
 
   void declare_endpoints() {
@@ -157,8 +155,8 @@ class SimHardware final : public orca::hw::HardwareContainer {
   orca::Param<double> map_width_{
       *this,
       "map_width",
-      140.0,
-      {.unit = "m", .min = 0.1, .text = "Width of the whole picture, if the world is a bitmap."}};
+      0.0,
+      {.unit = "m", .min = 0.0, .text = "Width of the whole picture; a bitmap needs it."}};
   orca::Param<std::string> robot_file_{
       *this, "robot", "", {.file = true, .text = "The robot (URDF with <orca>)."}};
   orca::Param<std::string> name_{

@@ -84,9 +84,10 @@ Result<double> pixel_size(const BitmapScale& scale, std::size_t width) {
                                 : "a bitmap has no size of its own: give map_width, the width of the whole "
                                   "picture, e.g. \"140 m\"");
   const double value = scale.map_width ? *scale.map_width : *scale.resolution;
-  if (!(value > 0.0) || !std::isfinite(value))
+  if (!(value > 0.0 && value <= 1e5))
     return fail(Code::invalid_argument, std::string(scale.map_width ? "map_width" : "resolution") + " is " +
-                                            std::to_string(value) + " m; it must be more than 0 m");
+                                            std::to_string(value) +
+                                            " m; it must be more than 0 m and at most 100 km");
   return scale.map_width ? value / static_cast<double>(width) : value;
 }
 

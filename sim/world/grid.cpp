@@ -14,6 +14,11 @@ constexpr double kMargin = 1e-6;
 constexpr double kMinCell = 0.1;
 constexpr double kMaxCells = 4e6;
 
+// Limited before it becomes an integer, so that no value, not even NaN, is out of range.
+int cell_number(double cells, int count) {
+  return static_cast<int>(std::fmax(0.0, std::fmin(std::floor(cells), count - 1.0)));
+}
+
 }  // namespace
 
 Grid::Grid(const WorldModel& world) {
@@ -48,12 +53,8 @@ void Grid::choose_cells(const Bounds& bounds) {
   rows_ = static_cast<int>(height / cell_size_) + 1;
 }
 
-int Grid::column(double x) const {
-  return std::clamp(static_cast<int>(std::floor((x - origin_.x) / cell_size_)), 0, columns_ - 1);
-}
-int Grid::row(double y) const {
-  return std::clamp(static_cast<int>(std::floor((y - origin_.y) / cell_size_)), 0, rows_ - 1);
-}
+int Grid::column(double x) const { return cell_number((x - origin_.x) / cell_size_, columns_); }
+int Grid::row(double y) const { return cell_number((y - origin_.y) / cell_size_, rows_); }
 std::size_t Grid::cell(int column, int row) const {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
          static_cast<std::size_t>(column);
@@ -79,9 +80,13 @@ void Grid::for_cells_of(const Segment& s, const Visit& visit) const {
 template <class Visit>
 void Grid::for_cells_of(const Circle& circle, const Visit& visit) const {
   const double reach = circle.radius + kMargin;
+  const double diagonal = 1.5 * cell_size_;
   for (int r = row(circle.center.y - reach); r <= row(circle.center.y + reach); ++r)
-    for (int c = column(circle.center.x - reach); c <= column(circle.center.x + reach); ++c)
-      visit(cell(c, r));
+    for (int c = column(circle.center.x - reach); c <= column(circle.center.x + reach); ++c) {
+      // Cells well inside or outside the circle hold none of its boundary.
+      const Vec2 middle = origin_ + cell_size_ * Vec2{c + 0.5, r + 0.5};
+      if (std::fabs(norm(middle - circle.center) - circle.radius) < diagonal + kMargin) visit(cell(c, r));
+    }
 }
 
 template <class Visit>

@@ -35,10 +35,6 @@ int side(const Segment& s, Vec2 p) {
   return c > 0.0 ? 1 : c < 0.0 ? -1 : 0;
 }
 
-bool cross_each_other(const Segment& s, const Segment& t) {
-  return side(s, t.a) * side(s, t.b) < 0 && side(t, s.a) * side(t, s.b) < 0;
-}
-
 bool edges_overlap(const Shape& one, const Shape& other) {
   const std::vector<Segment> a = edges_of(one);
   const std::vector<Segment> b = edges_of(other);
@@ -104,6 +100,10 @@ Vec2 nearest_point(const Segment& segment, Vec2 p) {
   const double length2 = dot(along, along);
   if (length2 == 0.0) return segment.a;
   return segment.a + std::clamp(dot(p - segment.a, along) / length2, 0.0, 1.0) * along;
+}
+
+bool cross_each_other(const Segment& one, const Segment& other) {
+  return side(one, other.a) * side(one, other.b) < 0 && side(other, one.a) * side(other, one.b) < 0;
 }
 
 bool overlap(const Shape& one, const Shape& other) {

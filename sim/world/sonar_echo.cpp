@@ -15,6 +15,18 @@ constexpr double kThreshold = 0.1;
 // [m] A point of a surface is seen if the ray to it ends this close to it.
 constexpr double kSeen = 1e-6;
 
+// Where two edges cross, if they do.
+std::optional<Vec2> crossing(const Segment& one, const Segment& other) {
+  const Vec2 d = one.b - one.a;
+  const Vec2 e = other.b - other.a;
+  const double slope = cross(d, e);
+  if (slope == 0.0) return std::nullopt;
+  const double s = cross(other.a - one.a, e) / slope;
+  const double t = cross(other.a - one.a, d) / slope;
+  if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) return std::nullopt;
+  return one.a + s * d;
+}
+
 // Collects the echoes of one cone and keeps the nearest that is strong enough.
 class Listener {
  public:
@@ -42,6 +54,17 @@ class Listener {
         probe_point(edge->b, kEdgeStrength);
       }
     }
+  }
+
+  // Where two walls meet in a corner neither needs to end: they run into each other.
+  void probe_corners() {
+    for (std::size_t i = 0; i < surfaces_.size(); ++i)
+      for (std::size_t k = i + 1; k < surfaces_.size(); ++k) {
+        const auto* one = std::get_if<Segment>(&surfaces_[i]);
+        const auto* other = std::get_if<Segment>(&surfaces_[k]);
+        if (one == nullptr || other == nullptr) continue;
+        if (const auto corner = crossing(*one, *other)) probe_point(*corner, kEdgeStrength);
+      }
   }
 
   [[nodiscard]] std::optional<double> nearest() const { return nearest_; }
@@ -82,6 +105,7 @@ std::optional<double> first_echo(const Caster& caster, const Beam& beam, double 
   Listener listener(caster, beam, critical_angle);
   for (int i = 0; i < kRays; ++i) listener.probe(beam.half_lobe * (2.0 * i / (kRays - 1) - 1.0));
   listener.probe_surfaces();
+  listener.probe_corners();
   return listener.nearest();
 }
 

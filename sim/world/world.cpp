@@ -13,6 +13,8 @@
 namespace orca::sim {
 namespace {
 
+constexpr double kFarthest = 1e5;  // [m]
+
 std::size_t index(RobotId id) { return static_cast<std::size_t>(id); }
 
 std::string text(const Pose2& pose) {
@@ -50,8 +52,9 @@ Status World::Impl::check_birth(const std::string& name, const RobotModel& robot
                                 const Pose2& X_WB) const {
   if (name.empty()) return fail(Code::invalid_argument, "a robot needs a name");
   const std::string who = "robot '" + name + "'";
-  if (!std::isfinite(X_WB.x) || !std::isfinite(X_WB.y) || !std::isfinite(X_WB.yaw))
-    return fail(Code::invalid_argument, who + ": its start pose is not finite");
+  const bool near = std::fabs(X_WB.x) <= kFarthest && std::fabs(X_WB.y) <= kFarthest;
+  if (!near || !std::isfinite(X_WB.yaw))
+    return fail(Code::invalid_argument, who + ": its start pose is not finite or beyond 100 km");
   const std::string there = who + " cannot start at " + text(X_WB) + ": it would stand in ";
   const std::string remedy = "; choose a free place";
   const Shape body = placed(robot_model.footprint, X_WB);

@@ -49,15 +49,13 @@ PushProxyHandle::PushProxyHandle(PortOwner& owner, std::string name, TypeId type
 ObjectRef PushProxyHandle::take() {
   if (!endpoint().connected()) return {};
   ObjectRef object = endpoint().edges().front()->take();
-  if (object) {
-    endpoint().home().provenance.note(object.header());
-    last_ = object;
-  }
+  if (object) endpoint().home().provenance.note(object.header());
   return object;
 }
 
 ObjectRef PushProxyHandle::get_update_ref() {
-  if (take() || last_) return last_;
+  if (ObjectRef next = take()) return next;
+  if (ObjectRef last = latest_ref()) return last;
   return get_update_wait_ref(kForever);
 }
 

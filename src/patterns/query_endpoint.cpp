@@ -72,7 +72,9 @@ bool QueryServerEndpoint::handle_one() {
 void QueryServerEndpoint::answer(const Question& question, Result<ObjectLoan> answer) {
   if (answer) {
     ObjectLoan loan = std::move(answer).value();
-    stamp(loan, &home().provenance);
+    Provenance of_question;  // not home().provenance: the handler may have taken other objects meanwhile
+    of_question.note(question.request.header());
+    stamp(loan, &of_question);
     question.reply_to->reply(question.id, std::move(loan).seal());
     return;
   }
@@ -104,8 +106,7 @@ Result<QueryId> QueryClientEndpoint::request(ObjectLoan loan, const Provenance* 
   }
   const Status accepted = target_->ask(std::move(loan).seal(), *this, id);
   if (accepted.ok()) return id;
-  const std::lock_guard lock(mutex_);
-  pending_.erase(id);
+  forget(id);
   return accepted.error();
 }
 
@@ -124,9 +125,13 @@ std::optional<Result<ObjectRef>> QueryClientEndpoint::receive(QueryId id) {
 Result<ObjectRef> QueryClientEndpoint::receive_until(QueryId id, TimePoint deadline) {
   home().strand.wait_for(deadline, [&] { return answered(id); });
   if (std::optional<Result<ObjectRef>> answer = receive(id)) return std::move(*answer);
-  const std::lock_guard lock(mutex_);
-  pending_.erase(id);  // a late answer is thrown away
+  forget(id);
   return fail(Code::deadline_exceeded, target_->path() + " did not answer " + path() + " in time");
+}
+
+void QueryClientEndpoint::forget(QueryId id) {
+  const std::lock_guard lock(mutex_);
+  pending_.erase(id);
 }
 
 bool QueryClientEndpoint::answered(QueryId id) const {

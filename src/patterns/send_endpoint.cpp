@@ -48,12 +48,19 @@ bool SendServerEndpoint::handle_one(Status& outcome) {
     handler = handler_;
   }
   home().provenance.note(object.header());
-  outcome = handler(object);
-  if (!outcome.ok()) {
-    const std::lock_guard lock(mutex_);
-    ++counters_.failed;
+  try {
+    outcome = handler(object);
+  } catch (...) {
+    count_failure();
+    throw;
   }
+  if (!outcome.ok()) count_failure();
   return true;
+}
+
+void SendServerEndpoint::count_failure() {
+  const std::lock_guard lock(mutex_);
+  ++counters_.failed;
 }
 
 IntakeCounters SendServerEndpoint::counters() const {

@@ -16,7 +16,7 @@ class FakeCatalogue final : public orca::graph::Catalogue {
 
   void add_folders(const std::vector<std::string>& folders) override;
   orca::Result<orca::Contract> hardware(const std::string& type) override;
-  std::vector<std::string> validate_hardware(const orca::graph::HardwareUse& use) override;
+  std::vector<orca::HardwareFault> validate_hardware(const orca::graph::HardwareUse& use) override;
   orca::Result<orca::Contract> component(const std::string& type,
                                          const orca::graph::HardwareUse* hardware) override;
   [[nodiscard]] std::vector<std::string> type_names(orca::PluginKind kind) const override;

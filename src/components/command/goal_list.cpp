@@ -66,18 +66,19 @@ Result<Route> parse_route(std::string_view text) {
   route.name = std::string(trim(cut(rest, ':')));
   if (!is_name(route.name))
     return bad(text, "\"" + route.name + "\" is no name: a letter, then letters, digits and _");
+  route.use_orientation = rest.find('@') != std::string_view::npos;
   std::string_view places = cut(rest, '@');
-  if (const std::string_view angle = trim(rest); !angle.empty()) {
-    const Result<double> degrees = parse_number(angle);
+  if (route.use_orientation) {
+    const Result<double> degrees = parse_number(trim(rest));
     if (!degrees) return bad(text, degrees.error().message);
-    route.use_orientation = true;
     route.orientation = *degrees * std::numbers::pi / 180.0;
   }
-  do {
+  for (bool more = true; more;) {
+    more = places.find('>') != std::string_view::npos;
     const Result<Place> place = parse_place(cut(places, '>'));
     if (!place) return bad(text, place.error().message);
     route.via.push_back(*place);
-  } while (!trim(places).empty());
+  }
   route.goal = route.via.back();
   route.via.pop_back();
   return route;

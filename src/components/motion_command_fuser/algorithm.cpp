@@ -5,12 +5,19 @@
 #include <cmath>
 
 namespace orca::fuse {
+namespace {
+
+// Unit vectors whose weighted sum is shorter than this share of the weights cancel out: what is left of them
+// is rounding, and no direction.
+constexpr double kCancelled = 1e-9;
+
+}  // namespace
 
 std::optional<Wish> fuse_weighted(std::span<const Wish> wishes, double steer_gain) {
-  const auto is = [](Wish::Kind kind) { return [kind](const Wish& wish) { return wish.kind == kind; }; };
-  if (std::any_of(wishes.begin(), wishes.end(), is(Wish::Kind::full_stop)))
-    return Wish{Wish::Kind::full_stop};
-  const bool as_rate = std::any_of(wishes.begin(), wishes.end(), is(Wish::Kind::turn_rate));
+  const auto stops = [](const Wish& wish) { return wish.kind == Wish::Kind::full_stop; };
+  const auto turns = [](const Wish& wish) { return wish.kind == Wish::Kind::turn_rate && wish.weight > 0.0; };
+  if (std::any_of(wishes.begin(), wishes.end(), stops)) return Wish{Wish::Kind::full_stop};
+  const bool as_rate = std::any_of(wishes.begin(), wishes.end(), turns);
   double weight = 0.0;
   double speed = 0.0;
   double rate = 0.0;
@@ -24,8 +31,9 @@ std::optional<Wish> fuse_weighted(std::span<const Wish> wishes, double steer_gai
     left += wish.weight * std::sin(wish.value);
   }
   if (weight <= 0.0) return std::nullopt;
-  const double value = as_rate ? rate / weight : std::atan2(left, forward);
-  return Wish{as_rate ? Wish::Kind::turn_rate : Wish::Kind::direction, value, speed / weight, weight};
+  if (as_rate) return Wish{Wish::Kind::turn_rate, rate / weight, speed / weight, weight};
+  if (std::hypot(forward, left) < kCancelled * weight) return Wish{Wish::Kind::direction, 0.0, 0.0, weight};
+  return Wish{Wish::Kind::direction, std::atan2(left, forward), speed / weight, weight};
 }
 
 }  // namespace orca::fuse

@@ -16,8 +16,8 @@ struct Wish {
 };
 
 /// Weighted fusion (thesis 11.1): directions as the weighted sum of unit vectors, turn rates and speeds as
-/// weighted means. Any full stop stops. If some wish is a turn rate, directions count as rates of
-/// `steer_gain` times the direction.
+/// weighted means. Any full stop stops. If some wish with a weight is a turn rate, directions count as rates
+/// of `steer_gain` times the direction. Directions that cancel out leave the robot standing.
 ///
 /// @param steer_gain  [1/s]
 /// @return the fused command, with the sum of the weights; nothing if no wish has any weight.

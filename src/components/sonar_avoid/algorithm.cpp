@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace orca::avoid {
@@ -11,6 +12,21 @@ namespace {
 constexpr double kStep = std::numbers::pi / 36;         // candidate directions every 5 degrees
 constexpr double kWidest = std::numbers::pi * 5.0 / 6;  // up to 150 degrees to either side
 constexpr double kOtherSidePenalty = 0.8;               // [rad] for changing the side once chosen
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+double way_to_point(const Echo& echo, double direction, const Limits& limits) {
+  const double reach = limits.robot_radius + limits.margin;
+  const double along = std::cos(direction) * echo.x + std::sin(direction) * echo.y;
+  const double aside = std::abs(-std::sin(direction) * echo.x + std::cos(direction) * echo.y);
+  return along <= 0.0 || aside >= reach ? kNever : along - std::sqrt(reach * reach - aside * aside);
+}
+
+double way_to_wall(const Echo& echo, double direction, const Limits& limits) {
+  const double gap = std::hypot(echo.x, echo.y) - limits.robot_radius;
+  const double closing = std::cos(direction - std::atan2(echo.y, echo.x));
+  return gap >= limits.side_distance || closing < 0.05 ? kNever : gap / closing;
+}
 
 // What speaks against a direction: turning far, changing sides, and a short way.
 double cost(double direction, double way, double last_direction, const Limits& limits) {
@@ -37,16 +53,9 @@ double best_direction(std::span<const Echo> echoes, double last_direction, const
 }  // namespace
 
 double free_way(std::span<const Echo> echoes, double direction, const Limits& limits) {
-  const double reach = limits.robot_radius + limits.margin;
-  const double c = std::cos(direction);
-  const double s = std::sin(direction);
   double way = limits.safe_distance;
-  for (const Echo& echo : echoes) {
-    const double along = c * echo.x + s * echo.y;
-    const double aside = std::abs(-s * echo.x + c * echo.y);
-    if (along <= 0.0 || aside >= reach) continue;
-    way = std::min(way, along - std::sqrt(reach * reach - aside * aside));
-  }
+  for (const Echo& echo : echoes)
+    way = std::min({way, way_to_point(echo, direction, limits), way_to_wall(echo, direction, limits)});
   return std::max(0.0, way);
 }
 

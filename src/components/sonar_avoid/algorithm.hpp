@@ -14,6 +14,7 @@ struct Echo {
 struct Limits {
   double robot_radius = 0.0;   ///< [m] of the circle that holds the robot.
   double margin = 0.0;         ///< [m] kept free on both sides of it.
+  double side_distance = 0.0;  ///< [m] an echo nearer to the body than this counts as a wall across the beam.
   double safe_distance = 0.0;  ///< [m] free way ahead from which on there is nothing to avoid.
   double stop_distance = 0.0;  ///< [m] free way ahead at which the robot does not drive on.
   double max_speed = 0.0;      ///< [m/s] with a free way of safe_distance.
@@ -27,7 +28,11 @@ struct Advice {
   double urgency = 0.0;    ///< [0, 1] 0 at safe_distance, 1 at stop_distance.
 };
 
-/// How far the robot can go straight in a direction before its body, with margin, touches an echo [m].
+/// How far the robot can go straight in a direction before its body, with margin, touches an echo, at most
+/// safe_distance [m].
+///
+/// A smooth wall that the robot nears at a flat angle sends back only the beam that meets it squarely:
+/// nothing is heard from where the robot will touch it. So a near echo stands for a wall across its beam.
 [[nodiscard]] double free_way(std::span<const Echo> echoes, double direction, const Limits& limits);
 
 /// Steers to the nearest direction with a long enough free way when the way ahead is blocked.

@@ -25,7 +25,7 @@ class SonarAvoid final : public orca::Component {
     const Advice advice = orca::avoid::avoid(echoes_, last_direction_, limits());
     last_direction_ = advice.direction;
     if (advice.needed) {
-      motion_.push(orca::head(advice.direction, advice.speed, *weight_ * advice.urgency));
+      motion_.push(orca::head(advice.direction, advice.speed, *weight_ * insistence(advice.urgency)));
     } else {
       motion_.push(orca::dont_care());
     }
@@ -33,6 +33,10 @@ class SonarAvoid final : public orca::Component {
   }
 
   void stop() override { last_direction_ = 0.0; }
+
+  // 0 where the way is free, 1 half way, 50 at the stop distance: there no other wish must carry the robot
+  // on.
+  static double insistence(double urgency) { return urgency / (1.02 - urgency); }
 
   // An echo may come from anywhere on the arc of the cone; its middle is taken.
   void locate_echoes(const orca::idl::SonarRangeReadings& readings) {
@@ -48,7 +52,7 @@ class SonarAvoid final : public orca::Component {
   }
 
   [[nodiscard]] orca::avoid::Limits limits() const {
-    return {*robot_radius_, *margin_, *safe_distance_, *stop_distance_, *max_speed_};
+    return {*robot_radius_, *margin_, *side_distance_, *safe_distance_, *stop_distance_, *max_speed_};
   }
 
   orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{*this, "sonar", {.text = "What the sonars hear."}};
@@ -62,6 +66,11 @@ class SonarAvoid final : public orca::Component {
       {.unit = "m", .min = 0.0, .text = "Circle that holds the robot, bumpers too."}};
   orca::Param<double> margin_{
       *this, "margin", 0.1, {.unit = "m", .min = 0.0, .text = "Kept free on both sides."}};
+  orca::Param<double> side_distance_{
+      *this,
+      "side_distance",
+      0.2,
+      {.unit = "m", .min = 0.0, .text = "Nearer than this the robot turns away from a wall beside it."}};
   orca::Param<double> safe_distance_{
       *this,
       "safe_distance",
@@ -75,7 +84,10 @@ class SonarAvoid final : public orca::Component {
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.4, {.unit = "m/s", .min = 0.0, .text = "Speed while avoiding."}};
   orca::Param<double> weight_{
-      *this, "weight", 4.0, {.min = 0.0, .text = "Share of its wishes when fused, at full urgency."}};
+      *this,
+      "weight",
+      2.0,
+      {.min = 0.0, .text = "Share of its wishes when fused, half way to the stop distance."}};
 
   std::vector<Echo> echoes_;
   double last_direction_ = 0.0;

@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "orca/base/exception_text.hpp"
+
 namespace orca::hw {
 
 void HardwareContainer::run() {
@@ -56,30 +58,45 @@ void HardwareContainer::set_state(HardwareState state) {
 }
 
 void HardwareContainer::fail_with(const std::string& reason) {
+  if (state() == HardwareState::fault) return;  // what went wrong first is the reason that people need
   {
     const std::lock_guard lock(mutex_);
     fault_ = reason;
   }
   host_.write_log(log::Level::error, reason);
   if (motion_ != nullptr) motion_->halt();
+  if (state() == HardwareState::active) still_stop();
+  for (SensorEndpoint* sensor : sensors_) sensor->forget();
   set_state(HardwareState::fault);
 }
 
-void HardwareContainer::main() {
+// The device has failed in some way, but its motors may run and may still listen.
+void HardwareContainer::still_stop() {
   try {
-    open_device();
-    while (!shutting_down_.load(std::memory_order_acquire)) turn();
-    if (state() == HardwareState::active) {
-      users_.store(0);
-      follow_users();
-    }
-    close();
-    if (state() != HardwareState::fault) set_state(HardwareState::closed);
-  } catch (const std::exception& error) {
-    fail_with("the hardware plugin threw: " + std::string(error.what()));
+    applied_ = DriveSetpoint{};
+    if (motion_ != nullptr && !drive(applied_).ok())
+      host_.write_log(log::Level::error, "the motors did not take the stop command either");
+    stop();
   } catch (...) {
-    fail_with("the hardware plugin threw something that is not a std::exception");
+    host_.write_log(log::Level::error, "the hardware plugin threw while it was stopped after a fault");
   }
+}
+
+void HardwareContainer::guarded(void (HardwareContainer::*step)()) {
+  try {
+    (this->*step)();
+  } catch (...) {
+    fail_with("the hardware plugin " + describe_current_exception());
+  }
+}
+
+void HardwareContainer::main() {
+  guarded(&HardwareContainer::open_device);
+  while (!shutting_down_.load(std::memory_order_acquire)) guarded(&HardwareContainer::turn);
+  users_.store(0);
+  guarded(&HardwareContainer::follow_users);
+  guarded(&HardwareContainer::close);
+  if (state() != HardwareState::fault) set_state(HardwareState::closed);
 }
 
 void HardwareContainer::open_device() {
@@ -92,43 +109,53 @@ void HardwareContainer::open_device() {
 }
 
 void HardwareContainer::turn() {
-  if (state() == HardwareState::fault) {
-    strand_->pause_until(kForever);
-    return;
-  }
   follow_users();
   apply_motion();
-  if (host_.now() >= next_poll()) {
-    if (const Status polled = poll(); !polled.ok()) {
-      fail_with(polled.error().text());
-      return;
-    }
-  }
-  const TimePoint expiry =
-      state() == HardwareState::active && motion_ != nullptr ? motion_->expiry() : kForever;
-  strand_->pause_until(std::min(next_poll(), expiry));
+  if (works() && host_.now() >= next_poll())
+    if (const Status polled = poll(); !polled.ok()) fail_with(polled.error().text());
+  strand_->pause_until(next_turn());
+}
+
+bool HardwareContainer::works() const {
+  const HardwareState now = state();
+  return now == HardwareState::ready || now == HardwareState::active;
+}
+
+TimePoint HardwareContainer::next_turn() const {
+  if (!works()) return kForever;
+  const bool moves = state() == HardwareState::active && motion_ != nullptr;
+  return moves ? std::min(next_poll(), motion_->expiry()) : next_poll();
 }
 
 void HardwareContainer::follow_users() {
   const bool wanted = users_.load() > 0;
-  if (wanted && state() == HardwareState::ready) {
-    if (const Status started = start(); !started.ok()) {
-      fail_with(started.error().text());
-    } else {
-      set_state(HardwareState::active);
-    }
-  } else if (!wanted && state() == HardwareState::active) {
-    if (motion_ != nullptr) motion_->halt();
-    apply_motion();
-    stop();
-    for (SensorEndpoint* sensor : sensors_) sensor->forget();
-    set_state(HardwareState::ready);
+  if (wanted && state() == HardwareState::ready) start_device();
+  if (!wanted && state() == HardwareState::active) stop_device();
+}
+
+void HardwareContainer::start_device() {
+  if (motion_ != nullptr) motion_->halt();  // a command of an earlier use must not move it now
+  if (const Status started = start(); !started.ok()) {
+    fail_with(started.error().text());
+  } else {
+    set_state(HardwareState::active);
   }
 }
 
+void HardwareContainer::stop_device() {
+  if (motion_ != nullptr) motion_->halt();
+  drive_to(DriveSetpoint{});
+  if (state() != HardwareState::active) return;
+  stop();
+  for (SensorEndpoint* sensor : sensors_) sensor->forget();
+  set_state(HardwareState::ready);
+}
+
 void HardwareContainer::apply_motion() {
-  if (motion_ == nullptr || state() != HardwareState::active) return;
-  const DriveSetpoint setpoint = motion_->due(host_.now());
+  if (motion_ != nullptr && state() == HardwareState::active) drive_to(motion_->due(host_.now()));
+}
+
+void HardwareContainer::drive_to(const DriveSetpoint& setpoint) {
   if (setpoint == applied_) return;
   applied_ = setpoint;
   if (const Status driven = drive(setpoint); !driven.ok()) fail_with(driven.error().text());

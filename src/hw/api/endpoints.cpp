@@ -29,13 +29,20 @@ void SensorEndpoint::publish_loan(ObjectLoan reading) {
 MotionHW::MotionHW(const DriveLimits& limits, Duration max_command_age)
     : limits_(limits), max_command_age_(max_command_age) {}
 
-Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
+Status MotionHW::check(const idl::MotionCommand& command) {
+  if (command.kind() == idl::FULLSTOP) return ok();  // obeyed, whatever else it holds
   if (command.kind() == idl::DONTCARE)
     return fail(Code::invalid_argument,
                 "a base needs a crisp motion command, not DONTCARE; put a MotionCommandFuser in front of it");
-  if (!std::isfinite(command.speed()) || !std::isfinite(command.direction()) ||
-      !std::isfinite(command.turn_rate()))
-    return fail(Code::invalid_argument, "a motion command holds a number that is not finite");
+  const bool sound = std::isfinite(command.speed()) && std::isfinite(command.direction()) &&
+                     std::isfinite(command.turn_rate()) && std::isfinite(command.weight());
+  if (sound && command.weight() >= 0.0) return ok();
+  return fail(Code::invalid_argument,
+              "a motion command holds a number that is not finite, or a negative weight");
+}
+
+Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
+  if (Status checked = check(command); !checked.ok()) return checked;
   const std::lock_guard lock(mutex_);
   setpoint_ = command.kind() == idl::FULLSTOP ? DriveSetpoint{} : within_limits(command);
   received_ = now;

@@ -59,12 +59,14 @@ class HardwareServer::SensorPorts {
 
   // The latest reading; of idle hardware, the first after starting it.
   Result<ObjectLoan> answer() {
-    const Use use(*server_.container());
-    const bool there = server_.host().strand().wait_for(
-        server_.now() + kFirstReadingLimit, [this] { return static_cast<bool>(sensor_.latest()); });
-    const ObjectRef reading = sensor_.latest();
-    if (!there || !reading) return fail(Code::deadline_exceeded, "the hardware gave no reading within 2 s");
-    return copy_value(reading);
+    HardwareContainer& container = *server_.container();
+    const Use use(container);
+    const auto failed = [&] { return container.state() == HardwareState::fault; };
+    server_.host().strand().wait_for(server_.now() + kFirstReadingLimit,
+                                     [&] { return failed() || sensor_.latest(); });
+    if (const ObjectRef reading = sensor_.latest()) return copy_value(reading);
+    if (failed()) return fail(Code::unavailable, "the hardware failed: " + container.fault());
+    return fail(Code::deadline_exceeded, "the hardware gave no reading within 2 s");
   }
 
   HardwareServer& server_;
@@ -103,10 +105,19 @@ Status HardwareServer::start() {
   });
   if (container_->state() != HardwareState::active)
     return fail(Code::unavailable, "the hardware does not start: " + container_->fault());
+  carry_out_waiting_command();
   last_command_ = now();
-  if (const ObjectPtr<idl::MotionCommand> command = std::exchange(waiting_command_, nullptr))
-    return container_->command(*command);
   return ok();
+}
+
+void HardwareServer::carry_out_waiting_command() {
+  const ObjectPtr<idl::MotionCommand> command = std::exchange(waiting_command_, nullptr);
+  if (!command) return;
+  if (now() - last_command_ >= container_->motion()->max_command_age()) {
+    log_warning("a motion command grew too old while the hardware was started");
+  } else if (const Status taken = container_->command(*command); !taken.ok()) {
+    log_warning("the command that started the hardware was lost: " + taken.error().text());
+  }
 }
 
 Outcome HardwareServer::work() {
@@ -119,15 +130,16 @@ Outcome HardwareServer::work() {
 void HardwareServer::stop() { container_->release(); }
 
 Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {
+  if (Status checked = MotionHW::check(*command); !checked.ok()) return checked;
   last_command_ = now();
   const bool stands = command->kind() == idl::FULLSTOP;
   if (container_->state() == HardwareState::active) {
     stay_active(!stands);
     return container_->command(*command);
   }
-  if (stands) return ok();  // idle hardware stands already
-  waiting_command_ = command;
-  stay_active(true);
+  // Idle hardware stands already; what it was to be started for is not wanted any more.
+  waiting_command_ = stands ? nullptr : command;
+  stay_active(!stands);
   return ok();
 }
 

@@ -46,5 +46,6 @@ inline constexpr const char* kTwoTriggers = "G038";
 inline constexpr const char* kTriggerPort = "G039";
 inline constexpr const char* kTooManyComponents = "G040";
 inline constexpr const char* kUnusedArgument = "G041";
+inline constexpr const char* kHardwareRefuses = "G042";
 
 }  // namespace orca::graph::codes

@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "checks.hpp"
+#include "codes.hpp"
 #include "parameters.hpp"
 
 namespace orca::graph {
 namespace {
+
+// Where the parameter is set, or the hardware's own place if it has its default.
+const xml::Position& place_of(const Node& node, const std::string& param) {
+  for (const Node& child : node.children)
+    if (child.is("param") && child.value("name") == param) return child.place("value");
+  return node.position;
+}
+
+void tell(const Node& node, const HardwareFault& fault, Report& report) {
+  if (fault.param.empty()) {
+    report.line(node.position, fault.text);
+  } else {
+    report.error(codes::kHardwareRefuses, place_of(node, fault.param),
+                 node.title() + ": parameter " + in_quotes(fault.param) + ": " + fault.text);
+  }
+}
 
 CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   CheckedHardware checked;
@@ -15,8 +32,8 @@ CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   if (!params) return checked;
   checked.value.params = std::move(*params);
   const HardwareUse use{checked.value.name, checked.value.type, checked.value.params};
-  const std::vector<std::string> faults = types.catalogue().validate_hardware(use);
-  for (const std::string& line : faults) report.line(node.position, line);
+  const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use);
+  for (const HardwareFault& fault : faults) tell(node, fault, report);
   checked.sound = faults.empty();
   return checked;
 }

@@ -53,9 +53,9 @@ Result<DescribedHardware*> PluginCatalogue::described(const graph::HardwareUse& 
   return hardware_.emplace(use.name, std::move(made).value()).first->second.get();
 }
 
-std::vector<std::string> PluginCatalogue::validate_hardware(const graph::HardwareUse& use) {
+std::vector<HardwareFault> PluginCatalogue::validate_hardware(const graph::HardwareUse& use) {
   const Result<DescribedHardware*> made = described(use);
-  if (!made) return {made.error().text()};
+  if (!made) return {{"", made.error().text()}};
   return (*made)->prepare(use.params);
 }
 

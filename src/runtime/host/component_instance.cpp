@@ -34,7 +34,7 @@ ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings
 }
 
 ComponentInstance::~ComponentInstance() {
-  if (const auto fault = guarded_call([this] { component_.reset(); }))
+  if (const auto fault = guarded_call([this] { type_.destroy_component(component_.release()); }))
     write_log(log::Level::error, "its destructor " + fault->text);
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <exception>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "orca/base/exception_text.hpp"
 #include "orca/base/strand.hpp"
 
 namespace orca {
@@ -15,9 +15,6 @@ struct PluginFault {
   bool interrupted = false;  ///< Not a fault: the strand was told to leave.
   std::string text;          ///< What was thrown, copied, so that it outlives the plugin.
 };
-
-/// Says what the exception being handled is, whatever its type.
-std::string describe_current_exception();
 
 /// Calls into a plugin; nothing that it throws comes further than here.
 template <class Call>

@@ -10,8 +10,13 @@ namespace orca {
 HardwareInstance::HardwareInstance(RunContext& run, std::string name, const TypeEntry& type)
     : run_(run), name_(std::move(name)), type_(type), container_(nullptr, type.destroy_hardware) {}
 
+HardwareInstance::~HardwareInstance() {
+  if (const auto fault = guarded_call([this] { type_.destroy_hardware(container_.release()); }))
+    write_log(log::Level::error, "its destructor " + fault->text);
+}
+
 Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
-  std::vector<std::string> errors;
+  std::vector<HardwareFault> errors;
   const auto fault = guarded_call([&] {
     container_.reset(type_.create_hardware(*this));
     for (const ParamDeclaration& param : params_)
@@ -20,7 +25,7 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
     errors = container_->prepare();
   });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, name_);
-  if (!errors.empty()) return fail(Code::invalid_argument, errors.front(), name_);
+  if (!errors.empty()) return fail(Code::invalid_argument, errors.front().text, name_);
   return ok();
 }
 

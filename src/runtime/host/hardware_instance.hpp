@@ -18,6 +18,7 @@ namespace orca {
 class HardwareInstance final : public hw::HardwareHost {
  public:
   HardwareInstance(RunContext& run, std::string name, const TypeEntry& type);
+  ~HardwareInstance() override;
 
   /// Constructs the container, sets its parameters and declares its endpoints.
   /// @errors  internal with what it threw; invalid_argument with the first thing that is wrong with its

@@ -6,11 +6,27 @@
 #include <stdexcept>
 #include <utility>
 
+#include "orca/base/exception_text.hpp"
 #include "orca/component/component.hpp"
 #include "orca/hw/container.hpp"
 
 namespace orca {
 namespace {
+
+Error cannot_describe(const std::string& type, const std::string& what) {
+  return fail(Code::internal, "the type " + type + " cannot be described: " + what);
+}
+
+// Runs a plugin's code; what `who` of it throws becomes an error, its text copied before the plugin is
+// unloaded.
+template <class Run>
+auto guarded(const std::string& type, const char* who, Run&& run) -> decltype(run()) {
+  try {
+    return run();
+  } catch (...) {
+    return cannot_describe(type, std::string(who) + " " + describe_current_exception());
+  }
+}
 
 // Takes declarations and refuses every service: a constructor has no business with them.
 template <class Base>
@@ -36,7 +52,7 @@ class Describer : public Base {
   void announce(const Announcement& /*announcement*/) override { refuse("made an announcement"); }
 
   [[noreturn]] static void refuse(const std::string& what) {
-    throw std::logic_error("its constructor " + what + ", but may only declare ports and parameters");
+    throw std::logic_error("it " + what + ", but a constructor may only declare ports and parameters");
   }
 
   Contract contract_;
@@ -70,13 +86,24 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
  public:
   HardwareDescriber(const TypeEntry& type, const std::string& library, const std::string& name)
       : Describer(PluginKind::hardware, type, library, name),
-        container_(type.create_hardware(*this), type.destroy_hardware) {}
+        destroy_(type.destroy_hardware),
+        container_(type.create_hardware(*this)) {}
+  ~HardwareDescriber() override {
+    try {
+      destroy_(container_);
+    } catch (...) {
+      write_log(log::Level::error, "its destructor " + describe_current_exception());
+    }
+  }
 
   [[nodiscard]] const Contract& contract() const override { return contract_; }
-  std::vector<std::string> prepare(const std::map<std::string, ParamValue>& params) override {
+  std::vector<HardwareFault> prepare(const std::map<std::string, ParamValue>& params) override {
     for (const auto& [name, value] : params)
       if (const auto setter = setters_.find(name); setter != setters_.end()) setter->second(value);
-    return container_->prepare();
+    using Errors = std::vector<std::string>;
+    const Result<Errors> errors = guarded(contract_.type, "its prepare()",
+                                          [this]() -> Result<Errors> { return container_->prepare(); });
+    return errors ? *errors : Errors{errors.error().text()};
   }
   [[nodiscard]] hw::HardwareContainer& container() override { return *container_; }
 
@@ -85,37 +112,23 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   [[nodiscard]] Executive& executive() override { refuse("asked for the executive"); }
 
  private:
-  std::unique_ptr<hw::HardwareContainer, void (*)(hw::HardwareContainer*)> container_;
+  void (*destroy_)(hw::HardwareContainer*);
+  hw::HardwareContainer* container_;
 };
-
-Error constructor_threw(const TypeEntry& type, const std::string& what) {
-  return fail(Code::internal, std::string("the type ") + type.type + " cannot be described: " + what);
-}
-
-template <class Make>
-auto guarded(const TypeEntry& type, Make&& make) -> decltype(make()) {
-  try {
-    return make();
-  } catch (const std::exception& error) {
-    return constructor_threw(type, error.what());
-  } catch (...) {
-    return constructor_threw(type, "its constructor threw something that is not a std::exception");
-  }
-}
 
 }  // namespace
 
 Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& type,
                                                              const std::string& library,
                                                              const std::string& name) {
-  return guarded(type, [&]() -> Result<std::unique_ptr<DescribedHardware>> {
+  return guarded(type.type, "its constructor", [&]() -> Result<std::unique_ptr<DescribedHardware>> {
     return std::unique_ptr<DescribedHardware>(std::make_unique<HardwareDescriber>(type, library, name));
   });
 }
 
 Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
                                     hw::HardwareContainer* hardware) {
-  return guarded(type, [&]() -> Result<Contract> {
+  return guarded(type.type, "its constructor", [&]() -> Result<Contract> {
     ComponentDescriber describer(type, library, hardware);
     type.destroy_component(type.create_component(describer));
     return describer.contract_;

@@ -52,7 +52,9 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& pa
   std::error_code unused;
   if (!std::filesystem::is_regular_file(path, unused))
     return fail(Code::not_found, "there is no such plugin", path);
-  void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  // Absolute: a name without a slash would be searched where shared libraries are.
+  const std::string file = std::filesystem::absolute(path).string();
+  void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr)
     return fail(Code::invalid_argument, "cannot be loaded: " + explain_load_error(dlerror()), path);
   const auto* const manifest = static_cast<const Manifest*>(dlsym(handle, "orca_plugin_manifest"));
@@ -61,7 +63,7 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& pa
     dlclose(handle);
     return good.error();
   }
-  return std::unique_ptr<PluginLibrary>(new PluginLibrary(path, handle, manifest));
+  return std::unique_ptr<PluginLibrary>(new PluginLibrary(file, handle, manifest));
 }
 
 PluginLibrary::PluginLibrary(std::string path, void* handle, const Manifest* manifest)
@@ -82,8 +84,12 @@ const TypeEntry* PluginLibrary::find(PluginKind kind, std::string_view type) con
 bool is_mapped(const std::string& path) {
   const std::string real = std::filesystem::weakly_canonical(path).string();
   std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);)
-    if (line.ends_with(real)) return true;
+  for (std::string line; std::getline(maps, line);) {
+    const auto start = line.find('/');
+    if (start == std::string::npos) continue;
+    const std::string file = line.substr(start);
+    if (file == real || file == real + " (deleted)") return true;
+  }
   return false;
 }
 

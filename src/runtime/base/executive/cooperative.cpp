@@ -24,6 +24,9 @@ struct CooperativeExecutive::Fiber {
   bool ended = false;
   std::optional<Key> timer;
   std::optional<Key> ready;
+  // The places of these keys in the queues, kept between two uses: a switch takes nothing from the heap.
+  Queue::node_type timer_place;
+  Queue::node_type ready_place;
   std::atomic<pthread_t> thread{};
 };
 
@@ -155,7 +158,7 @@ void CooperativeExecutive::run(std::function<void()> main) {
 
 void CooperativeExecutive::run_one() {
   Fiber& fiber = *std::get<Fiber*>(*ready_.begin());
-  ready_.erase(ready_.begin());
+  fiber.ready_place = ready_.extract(ready_.begin());
   fiber.ready.reset();
   current_ = &fiber;
   running_.store(&fiber, std::memory_order_release);
@@ -165,21 +168,30 @@ void CooperativeExecutive::run_one() {
   current_ = nullptr;
 }
 
+void CooperativeExecutive::enqueue(Queue& queue, Queue::node_type& place, const Key& key) {
+  if (place.empty()) {
+    queue.insert(key);
+  } else {
+    place.value() = key;
+    queue.insert(std::move(place));
+  }
+}
+
 void CooperativeExecutive::make_ready(Fiber& fiber) {
   if (fiber.ready) return;
   if (fiber.timer) {
-    timers_.erase(*fiber.timer);
+    fiber.timer_place = timers_.extract(*fiber.timer);
     fiber.timer.reset();
   }
   fiber.ready = Key{now(), -fiber.priority, sequence_++, &fiber};
-  ready_.insert(*fiber.ready);
+  enqueue(ready_, fiber.ready_place, *fiber.ready);
 }
 
 void CooperativeExecutive::block_until(TimePoint deadline) {
   Fiber& fiber = *current_;
   if (deadline != kForever) {
     fiber.timer = Key{deadline, -fiber.priority, sequence_++, &fiber};
-    timers_.insert(*fiber.timer);
+    enqueue(timers_, fiber.timer_place, *fiber.timer);
   }
   fiber.context->suspend();
 }

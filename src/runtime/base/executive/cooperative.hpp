@@ -46,9 +46,11 @@ class CooperativeExecutive final : public Executive {
  private:
   // Ordered as DESIGN asks: time, then priority (larger first), then sequence.
   using Key = std::tuple<TimePoint, int, std::uint64_t, Fiber*>;
+  using Queue = std::set<Key>;
 
   std::unique_ptr<Fiber> make_fiber(TaskOptions options, std::function<void()> body);
   void run_one();
+  static void enqueue(Queue& queue, Queue::node_type& place, const Key& key);
   void take_notifications();
   void fire_timers();
   void wait_for_work();
@@ -59,8 +61,8 @@ class CooperativeExecutive final : public Executive {
   std::atomic<std::int64_t> virtual_now_ns_{0};
 
   // Touched only by the thread that schedules or holds the baton.
-  std::set<Key> ready_;
-  std::set<Key> timers_;
+  Queue ready_;
+  Queue timers_;
   std::uint64_t sequence_ = 0;
   Fiber* current_ = nullptr;
   Fiber* main_ = nullptr;

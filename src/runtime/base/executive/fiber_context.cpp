@@ -14,7 +14,11 @@ namespace {
 namespace bc = boost::context;
 
 // 256 KiB is too little: std::regex alone overflows it.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr std::size_t kStackBytes = 8 * 1024 * 1024;  // its red zones make frames several times as large
+#else
 constexpr std::size_t kStackBytes = 1024 * 1024;
+#endif
 
 // The C++ runtime keeps the exceptions being handled per thread, not per fiber. Without swapping these two
 // words at every switch a rethrow after a switch inside a handler throws another fiber's exception.

@@ -23,14 +23,14 @@ struct Pose3 {
 /// One solid of the robot, centred at its own frame.
 struct Part {
   struct Block {
-    double x = 0.0, y = 0.0, z = 0.0;  ///< Full lengths [m].
+    double x, y, z;  ///< Full lengths [m].
   };
   struct Cylinder {
-    double radius = 0.0;  ///< [m]
-    double length = 0.0;  ///< [m] Along z.
+    double radius;  ///< [m]
+    double length;  ///< [m] Along z.
   };
   struct Ball {
-    double radius = 0.0;  ///< [m]
+    double radius;  ///< [m]
   };
   std::variant<Block, Cylinder, Ball> form;
   Pose3 X_BP;

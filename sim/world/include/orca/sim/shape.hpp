@@ -43,6 +43,9 @@ using Shape = std::variant<Circle, Box, Outline>;
 /// The point of the segment nearest to `p`.
 [[nodiscard]] Vec2 nearest_point(const Segment& segment, Vec2 p);
 
+/// True if the two cross, each inside the other's length.
+[[nodiscard]] bool cross_each_other(const Segment& one, const Segment& other);
+
 /// True if the two solids share a point.
 [[nodiscard]] bool overlap(const Shape& one, const Shape& other);
 

@@ -34,7 +34,8 @@ struct PortDeclaration {
 /// Whoever has ports: a component.
 class PortOwner {
  public:
-  virtual ~PortOwner() = default;
+  /// May throw, because an author's may: the runtime contains it.
+  virtual ~PortOwner() noexcept(false) = default;
   /// @pre  called from the owner's constructor.
   virtual void declare_port(PortDeclaration declaration) = 0;
 };

@@ -78,7 +78,6 @@ class PushProxyHandle {
 
  private:
   Endpoint* endpoint_ = nullptr;
-  ObjectRef last_;
 };
 
 /// Receives the objects that one PushServer pushes (thesis 7.3, Fig. 7.3).
@@ -91,7 +90,8 @@ class PushProxy : public PushProxyHandle {
   PushProxy(PortOwner& owner, std::string name, const PortOptions& options = {})
       : PushProxyHandle(owner, std::move(name), type_id(object_type<T>()), options) {}
 
-  /// The next new object, or the last one again if there is none; blocks only before the very first.
+  /// The next new object, or the last one again if there is none; blocks only before the first of this
+  /// subscription.
   ObjectPtr<T> get_update() { return object_cast<T>(get_update_ref()); }
 
   /// Blocks until there is a new object. Never null.

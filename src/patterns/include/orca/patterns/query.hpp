@@ -79,7 +79,12 @@ class QueryProxy : public QueryProxyHandle {
   Result<ObjectPtr<A>> query(Loan<Q> request, Duration timeout = 1s) {
     const Result<QueryId> id = query_request(std::move(request));
     if (!id) return id.error();
-    return query_receive_wait(*id, timeout);
+    try {
+      return query_receive_wait(*id, timeout);
+    } catch (const Interrupted&) {
+      endpoint().forget(*id);  // the caller never saw the id
+      throw;
+    }
   }
 
   Result<QueryId> query_request(Loan<Q> request) { return request_loan(std::move(request)); }

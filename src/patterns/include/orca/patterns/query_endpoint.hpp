@@ -94,6 +94,9 @@ class QueryClientEndpoint final : public Endpoint, public QueryReplySink {
   /// @errors  deadline_exceeded; throws Interrupted.
   Result<ObjectRef> receive_until(QueryId id, TimePoint deadline);
 
+  /// Nobody waits for this answer any more: it is thrown away, now or when it comes.
+  void forget(QueryId id);
+
   void reply(QueryId id, Result<ObjectRef> answer) override;
 
  private:

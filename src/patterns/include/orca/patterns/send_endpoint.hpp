@@ -23,7 +23,7 @@ class SendTarget {
 struct IntakeCounters {
   std::uint64_t accepted = 0;
   std::uint64_t refused = 0;  ///< Not accepted: full or closed.
-  std::uint64_t failed = 0;   ///< Accepted, but the handler returned an error.
+  std::uint64_t failed = 0;   ///< Accepted, but the handler returned an error or threw.
 };
 
 /// Server side of Send: accepted objects wait here until the component's strand handles them between two
@@ -44,12 +44,15 @@ class SendServerEndpoint final : public Endpoint, public SendTarget {
   void close(std::string reason);
 
   /// Handles one waiting object.
-  /// @return false if none was waiting. The handler's own error is counted and returned through `outcome`.
+  /// @return false if none was waiting. The handler's own error is counted and returned through `outcome`;
+  /// what it throws is counted and passes.
   bool handle_one(Status& outcome);
 
   [[nodiscard]] IntakeCounters counters() const;
 
  private:
+  void count_failure();
+
   mutable std::mutex mutex_;
   std::deque<ObjectRef> waiting_;
   Handler handler_;

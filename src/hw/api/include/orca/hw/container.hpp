@@ -54,15 +54,15 @@ class HardwareHost : public PluginHost {
 class HardwareContainer {
  public:
   explicit HardwareContainer(HardwareHost& host) : host_(host) {}
-  virtual ~HardwareContainer() = default;
+  virtual ~HardwareContainer() noexcept(false) = default;
   HardwareContainer(const HardwareContainer&) = delete;
   HardwareContainer& operator=(const HardwareContainer&) = delete;
 
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 
   /// Reads what the parameters name, and declares the endpoints.
-  /// @return the errors found, each a line with file, line and column where there is one; empty: all is well.
-  virtual std::vector<std::string> prepare() = 0;
+  /// @return what is wrong; empty: all is well.
+  virtual std::vector<HardwareFault> prepare() = 0;
 
   [[nodiscard]] const std::vector<SensorEndpoint*>& sensors() const { return sensors_; }
   [[nodiscard]] MotionHW* motion() const { return motion_; }
@@ -103,6 +103,7 @@ class HardwareContainer {
   virtual Status open() { return ok(); }
   virtual Status start() { return ok(); }
   virtual void stop() {}
+  /// Also after open() has failed.
   virtual void close() {}
   /// Called at next_poll() while ready or active: read the device, publish readings.
   virtual Status poll() = 0;
@@ -114,12 +115,19 @@ class HardwareContainer {
 
  private:
   void main();
+  void guarded(void (HardwareContainer::*step)());
   void open_device();
   void turn();
   void follow_users();
+  void start_device();
+  void stop_device();
   void apply_motion();
+  void drive_to(const DriveSetpoint& setpoint);
   void set_state(HardwareState state);
   void fail_with(const std::string& reason);
+  void still_stop();
+  [[nodiscard]] bool works() const;
+  [[nodiscard]] TimePoint next_turn() const;
 
   HardwareHost& host_;
   std::vector<SensorEndpoint*> sensors_;

@@ -92,9 +92,13 @@ class MotionHW {
  public:
   MotionHW(const DriveLimits& limits, Duration max_command_age);
 
+  /// Whether any base can carry out the command.
+  /// @errors  invalid_argument for DONTCARE (fuse first), for a negative weight, and for values that are not
+  /// finite. A full stop is never refused.
+  [[nodiscard]] static Status check(const idl::MotionCommand& command);
+
   /// Takes a command, to be carried out at the container's next turn.
-  /// @errors  invalid_argument for DONTCARE (fuse first), for a negative speed weight, and for values that
-  /// are not finite.
+  /// @errors  check()'s.
   Status command(const idl::MotionCommand& command, TimePoint now);
 
   /// The set-point that holds now: zero when the last command is older than max_command_age.
@@ -107,6 +111,7 @@ class MotionHW {
   [[nodiscard]] TimePoint expiry() const;
 
   [[nodiscard]] const DriveLimits& limits() const { return limits_; }
+  [[nodiscard]] Duration max_command_age() const { return max_command_age_; }
   /// How often a command grew too old while the base was moving.
   [[nodiscard]] std::uint64_t expired_count() const;
 

@@ -42,6 +42,7 @@ class HardwareServer : public Component {
   class SensorPorts;
 
   Status on_motion(const ObjectPtr<idl::MotionCommand>& command);
+  void carry_out_waiting_command();
   void release_idle_motion();
 
   HardwareContainer* const container_;

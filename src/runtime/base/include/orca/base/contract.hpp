@@ -93,6 +93,13 @@ struct Trigger {
 
 enum class PluginKind { component, hardware };
 
+/// What is wrong with the values of a hardware container's parameters, or in the files that they name.
+struct HardwareFault {
+  std::string
+      param;  ///< The parameter to correct; empty: `text` is a whole line about a place in another file.
+  std::string text;  ///< What was found and what was expected.
+};
+
 /// What a component or a hardware container type offers and needs: computed by constructing it, nothing else.
 struct Contract {
   PluginKind kind = PluginKind::component;

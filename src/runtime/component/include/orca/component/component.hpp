@@ -26,6 +26,7 @@ namespace orca {
 class Component : public PortOwner {
  public:
   explicit Component(ComponentHost& host) : host_(host) {}
+  ~Component() noexcept(false) override = default;
   Component(const Component&) = delete;
   Component& operator=(const Component&) = delete;
 

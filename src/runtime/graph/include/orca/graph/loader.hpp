@@ -39,9 +39,10 @@ class Catalogue {
   ///          plugin is there and cannot be used, and the message says why.
   [[nodiscard]] virtual Result<Contract> hardware(const std::string& type) = 0;
 
-  /// Looks into the files that the parameters of a hardware container name (world, robot, ...).
-  /// @return finished lines, "hall.world:9:2: error W004: ...", printed as they are; none if all is well.
-  [[nodiscard]] virtual std::vector<std::string> validate_hardware(const HardwareUse& use) = 0;
+  /// Looks at the values of a hardware container's parameters, and into the files that they name (world,
+  /// robot, ...).
+  /// @return what is wrong; empty if all is well.
+  [[nodiscard]] virtual std::vector<HardwareFault> validate_hardware(const HardwareUse& use) = 0;
 
   /// The contract of a component type.
   /// @param hardware  what the graph binds it to, or null. A component that needs hardware and gets none here

@@ -23,7 +23,7 @@ class PluginCatalogue final : public graph::Catalogue {
 
   void add_folders(const std::vector<std::string>& folders) override { index_.add(folders); }
   Result<Contract> hardware(const std::string& type) override;
-  std::vector<std::string> validate_hardware(const graph::HardwareUse& use) override;
+  std::vector<HardwareFault> validate_hardware(const graph::HardwareUse& use) override;
   Result<Contract> component(const std::string& type, const graph::HardwareUse* hardware) override;
   [[nodiscard]] std::vector<std::string> type_names(PluginKind kind) const override;
 

@@ -20,7 +20,7 @@ class DescribedHardware {
   [[nodiscard]] virtual const Contract& contract() const = 0;
   /// Sets the parameters and declares the endpoints; what is wrong with the files that they name, ready to
   /// print.
-  virtual std::vector<std::string> prepare(const std::map<std::string, ParamValue>& params) = 0;
+  virtual std::vector<HardwareFault> prepare(const std::map<std::string, ParamValue>& params) = 0;
   [[nodiscard]] virtual hw::HardwareContainer& container() = 0;
 };
 

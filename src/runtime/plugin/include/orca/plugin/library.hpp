@@ -28,6 +28,7 @@ class PluginLibrary {
   PluginLibrary(const PluginLibrary&) = delete;
   PluginLibrary& operator=(const PluginLibrary&) = delete;
 
+  /// The absolute path that it was loaded from.
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const Manifest& manifest() const { return *manifest_; }
   [[nodiscard]] std::vector<const TypeEntry*> types() const;
@@ -42,7 +43,8 @@ class PluginLibrary {
   const Manifest* manifest_;
 };
 
-/// Whether any part of the file is still mapped into this process: the proof after unloading.
+/// Whether any part of the file is still mapped into this process, be it that the file itself has been
+/// removed or exchanged meanwhile: the proof after unloading.
 [[nodiscard]] bool is_mapped(const std::string& path);
 
 }  // namespace orca

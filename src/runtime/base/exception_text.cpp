@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "guard.hpp"
+#include "orca/base/exception_text.hpp"
 
 #include <cxxabi.h>
 
 #include <cstdlib>
+#include <exception>
 #include <typeinfo>
 
 namespace orca {

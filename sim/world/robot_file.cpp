@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/sim/robot_file.hpp"
+
+#include <fstream>
+#include <iterator>
+
+#include "orca/xml/document.hpp"
+#include "orca/xml/names.hpp"
+#include "orca/xml/number.hpp"
+#include "robot_extension.hpp"
+#include "urdf_body.hpp"
+#include "urdf_check.hpp"
+#include "urdf_parts.hpp"
+
+namespace orca::sim {
+namespace {
+
+constexpr double kBumperTolerance = 0.001;  // [m]
+
+double reach_of(const Shape& footprint) {
+  const auto* circle = std::get_if<Circle>(&footprint);
+  double reach = circle != nullptr ? circle->radius : 0.0;
+  for (const Segment& e : edges_of(footprint)) reach = std::fmax(reach, norm(e.a));
+  return reach;
+}
+
+void check_body(const RobotModel& model, const detail::Attributes& robot,
+                const detail::Attributes& extension) {
+  if (model.mass <= 0.0) robot.error(18, "no link of the robot has a mass; give its main link an <inertial>");
+  if (model.parts.empty())
+    return robot.error(4, "no link of the robot has a <collision>; without one it would pass through walls");
+  const double reach = reach_of(model.footprint);
+  if (reach > model.bumper_radius + kBumperTolerance)
+    extension.error_at("bumper_radius", 23,
+                       "the collision geometry reaches " + xml::number_text(reach) +
+                           " m from the axis, but bumper_radius is " + xml::number_text(model.bumper_radius) +
+                           " m; make them agree");
+}
+
+// Where the rings are mounted. `orca` is the element they were read from, in the same order.
+void mount_rings(RobotModel& model, const std::map<std::string, Pose3>& links, const xml::Element& orca,
+                 xml::Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const auto& entry : links) names.push_back(entry.first);
+  for (SonarRing& ring : model.sonars) {
+    const auto link = links.find(ring.link);
+    if (link != links.end()) {
+      const Pose3& X = link->second;
+      const double yaw =
+          std::atan2(2.0 * (X.qw * X.qz + X.qx * X.qy), 1.0 - 2.0 * (X.qy * X.qy + X.qz * X.qz));
+      ring.center = {X.x, X.y, yaw};
+      ring.height = X.z;
+      continue;
+    }
+    for (const xml::Element& e : orca.children())
+      if (e.attribute("link") != nullptr && e.attribute("link")->value == ring.link)
+        detail::Attributes(e, 'R', diagnostics)
+            .error_at("link", 12,
+                      "there is no link \"" + ring.link + "\"" +
+                          xml::did_you_mean(xml::nearest_name(ring.link, names)));
+  }
+}
+
+// @pre  the root is <robot> and has an <orca>; urdf and extension are checked as far as they stand alone.
+void read_body(const xml::Element& root, const xml::Element& orca, RobotModel& model,
+               xml::Diagnostics& diagnostics) {
+  const detail::Attributes robot(root, 'R', diagnostics);
+  Result<detail::UrdfBody> body = detail::read_urdf_body(model.urdf);
+  if (!body) return robot.error(24, body.error().message);
+  model.name = body->name;
+  model.mass = body->mass;
+  model.yaw_inertia = body->yaw_inertia;
+  model.parts = std::move(body->parts);
+  if (!model.parts.empty()) {
+    model.footprint = footprint_of(model.parts);
+    std::tie(model.bottom, model.top) = height_range_of(model.parts);
+  }
+  check_body(model, robot, {orca, 'R', diagnostics});
+  mount_rings(model, body->links, orca, diagnostics);
+}
+
+std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
+                                    xml::Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.error_count();
+  const detail::Attributes robot(root, 'R', diagnostics);
+  if (root.name() != "robot")
+    return robot.error(
+               1, "the root element is <" + root.name() + ">; a robot file begins with <robot name=\"...\">"),
+           std::nullopt;
+  static_cast<void>(robot.text("name"));
+  detail::check_urdf(root, diagnostics);
+  const bool urdf_is_sound = diagnostics.error_count() == before;
+  RobotModel model;
+  model.urdf = std::move(text);
+  const xml::Element* orca = detail::only_child(root, "orca");
+  if (orca == nullptr)
+    return robot.error(4, "<robot> needs the element <orca radius=\"...\"> with its drive and sensors"),
+           std::nullopt;
+  detail::read_extension(*orca, model, diagnostics);
+  if (urdf_is_sound) read_body(root, *orca, model, diagnostics);
+  if (diagnostics.error_count() != before) return std::nullopt;
+  return model;
+}
+
+}  // namespace
+
+std::optional<RobotModel> read_robot_text(std::string_view text, const std::string& file_name,
+                                          xml::Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.error_count();
+  const auto document = xml::read_text(text, file_name, diagnostics);
+  if (!document || diagnostics.error_count() != before) return std::nullopt;
+  return read_root(document->root, std::string(text), diagnostics);
+}
+
+std::optional<RobotModel> read_robot(const std::string& path, xml::Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.error_count();
+  const auto document = xml::read_file(path, diagnostics);
+  if (!document || diagnostics.error_count() != before) return std::nullopt;
+  // urdfdom reads for itself and wants the text.
+  std::ifstream file(path, std::ios::binary);
+  return read_root(document->root, {std::istreambuf_iterator<char>(file), {}}, diagnostics);
+}
+
+}  // namespace orca::sim

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "urdf_body.hpp"
+
+#include <LinearMath/btTransform.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <exception>
+
+namespace orca::sim::detail {
+namespace {
+
+btTransform transform_of(const urdf::Pose& pose) {
+  const urdf::Rotation& r = pose.rotation;
+  return btTransform(btQuaternion(r.x, r.y, r.z, r.w),
+                     btVector3(pose.position.x, pose.position.y, pose.position.z));
+}
+
+Pose3 pose_of(const btTransform& X) {
+  const btVector3& p = X.getOrigin();
+  const btQuaternion q = X.getRotation();
+  return {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+// Mesh shapes were refused before.
+Part part_of(const urdf::Collision& collision, const btTransform& X_BL) {
+  Part part;
+  part.X_BP = pose_of(X_BL * transform_of(collision.origin));
+  if (const auto* box = dynamic_cast<const urdf::Box*>(collision.geometry.get()))
+    part.form = Part::Block{box->dim.x, box->dim.y, box->dim.z};
+  if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(collision.geometry.get()))
+    part.form = Part::Cylinder{cylinder->radius, cylinder->length};
+  if (const auto* ball = dynamic_cast<const urdf::Sphere*>(collision.geometry.get()))
+    part.form = Part::Ball{ball->radius};
+  return part;
+}
+
+// The moment about the base's z axis: turned into the base's axes, moved there by the parallel-axis theorem.
+void add_inertial(const urdf::Inertial& inertial, const btTransform& X_BL, UrdfBody& body) {
+  const btTransform X_BC = X_BL * transform_of(inertial.origin);
+  const btMatrix3x3 about_center(inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy,
+                                 inertial.iyz, inertial.ixz, inertial.iyz, inertial.izz);
+  const btVector3 z = X_BC.getBasis().getRow(2);
+  const btVector3& c = X_BC.getOrigin();
+  body.mass += inertial.mass;
+  body.yaw_inertia += z.dot(about_center * z) + inertial.mass * (c.x() * c.x() + c.y() * c.y());
+}
+
+void add_link(const urdf::Link& link, const btTransform& X_BL, UrdfBody& body) {
+  body.links[link.name] = pose_of(X_BL);
+  if (link.inertial) add_inertial(*link.inertial, X_BL, body);
+  for (const auto& collision : link.collision_array) body.parts.push_back(part_of(*collision, X_BL));
+  for (const auto& joint : link.child_joints)
+    for (const auto& child : link.child_links)
+      if (child->name == joint->child_link_name)
+        add_link(*child, X_BL * transform_of(joint->parent_to_joint_origin_transform), body);
+}
+
+urdf::ModelInterfaceSharedPtr parsed(const std::string& text) {
+  try {
+    return urdf::parseURDF(text);
+  } catch (const std::exception&) {  // Thrown for some wrong versions and numbers; null otherwise.
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+Result<UrdfBody> read_urdf_body(const std::string& text) {
+  const urdf::ModelInterfaceSharedPtr model = parsed(text);
+  if (!model || !model->getRoot())
+    return fail(Code::invalid_argument,
+                "urdfdom does not read this robot; the program check_urdf may say more");
+  UrdfBody body;
+  body.name = model->getName();
+  add_link(*model->getRoot(), btTransform::getIdentity(), body);
+  return body;
+}
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/sim/world_model.hpp"
+
+namespace orca::sim::detail {
+
+struct Opening {
+  double at = 0.0;     // [m] Of its middle, from the wall's beginning.
+  double width = 0.0;  // [m]
+};
+
+struct WallPlan {
+  std::string name;
+  Vec2 from, to;  // On the centre line.
+  double thickness = 0.0;
+  double height = 0.0;
+  std::vector<Opening> openings;
+};
+
+// The pieces of a wall between its openings. The outer ends reach half a thickness further, so that walls
+// that meet in a point close the corner.
+// @errors  invalid_argument: no length; an opening reaches over an end or into another.
+[[nodiscard]] Result<std::vector<Obstacle>> pieces_of(WallPlan plan);
+
+}  // namespace orca::sim::detail

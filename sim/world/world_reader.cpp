@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "world_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include "orca/sim/bitmap.hpp"
+
+namespace orca::sim::detail {
+namespace {
+
+constexpr double kWallThickness = 0.1;
+constexpr double kWallHeight = 2.5;
+constexpr std::size_t kMaxCorners = 1000;
+
+// Why these corners do not bound an area; empty if they do.
+std::string polygon_fault(const std::vector<Vec2>& corners) {
+  if (corners.size() < 3)
+    return "a polygon needs at least 3 corners, found " + std::to_string(corners.size());
+  if (corners.size() > kMaxCorners)
+    return "a polygon may have 1000 corners, found " + std::to_string(corners.size()) + "; use a <bitmap>";
+  if (corners.front() == corners.back())
+    return "the last corner repeats the first; a polygon closes by itself, leave the last one out";
+  const std::vector<Segment> edges = outline_of(corners).edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (edges[i].a == edges[i].b) return "two corners in a row are the same point";
+    for (std::size_t k = i + 2; k < edges.size(); ++k)
+      if (cross_each_other(edges[i], edges[k])) return "two sides of the polygon cross each other";
+  }
+  const Bounds b = bounds_of(Outline{edges});
+  return b.low.x < b.high.x && b.low.y < b.high.y ? "" : "the polygon has no area";
+}
+
+const std::vector<std::string> kElements{"wall", "room", "box", "cylinder", "polygon", "bitmap", "place"};
+
+}  // namespace
+
+WorldModel WorldReader::read(const xml::Element& root) {
+  const Attributes world = of(root);
+  header(world);
+  constexpr std::array<Read, 7> kReaders{&WorldReader::wall,     &WorldReader::room,    &WorldReader::box,
+                                         &WorldReader::cylinder, &WorldReader::polygon, &WorldReader::bitmap,
+                                         &WorldReader::place};
+  for (const xml::Element& e : root.children()) {
+    const auto known = std::ranges::find(kElements, e.name());
+    if (known == kElements.end()) continue;
+    (this->*kReaders[static_cast<std::size_t>(known - kElements.begin())])(of(e));
+  }
+  check_places();
+  return std::move(world_);
+}
+
+void WorldReader::header(const Attributes& world) {
+  world.allow({"name", "version", "text"}, kElements);
+  world_.name = world.name("name").value_or("");
+  const auto version = world.text("version");
+  if (version && *version != "1")
+    world.error_at("version", 10,
+                   "version \"" + *version + "\" of the world format is not known; this Orca reads \"1\"");
+}
+
+std::optional<double> WorldReader::height(const Attributes& element) const {
+  return element.quantity_or("height", "m", Sign::positive, kWallHeight);
+}
+
+void WorldReader::claim(const Attributes& element, const std::string& kind, const std::string& name) {
+  const auto [first, is_new] = taken_.emplace(kind + " " + name, element.element().position());
+  if (!is_new)
+    element.error_at("name", 7,
+                     "the " + kind + " \"" + name + "\" exists already, at " + first->second.text() +
+                         "; choose another name");
+}
+
+std::string WorldReader::own_name(const Attributes& element) {
+  if (!element.has("name")) return element.element().name();
+  const auto name = element.name("name");
+  if (name) claim(element, "obstacle", *name);
+  return name.value_or("");
+}
+
+void WorldReader::add(const Attributes& element, Shape shape, double obstacle_height) {
+  world_.obstacles.push_back({own_name(element), std::move(shape), obstacle_height});
+}
+
+void WorldReader::add_wall(const Attributes& element, WallPlan plan) {
+  auto pieces = pieces_of(std::move(plan));
+  if (!pieces) return element.error(8, pieces.error().message);
+  std::ranges::move(*pieces, std::back_inserter(world_.obstacles));
+}
+
+std::optional<Opening> WorldReader::door(const Attributes& element, bool in_room) const {
+  if (in_room) {
+    element.allow({"side", "at", "width"}, {});
+  } else {
+    element.allow({"at", "width"}, {});
+  }
+  const auto at = element.quantity("at", "m", Sign::positive);
+  const auto width = element.quantity("width", "m", Sign::positive);
+  if (!at || !width) return std::nullopt;
+  return Opening{*at, *width};
+}
+
+void WorldReader::wall(const Attributes& element) {
+  element.allow({"name", "from", "to", "thickness", "height"}, {"door"});
+  const auto from = element.point("from");
+  const auto to = element.point("to");
+  const auto thickness = element.quantity_or("thickness", "m", Sign::positive, kWallThickness);
+  const auto tall = height(element);
+  WallPlan plan{own_name(element), {}, {}, 0.0, 0.0, {}};
+  for (const xml::Element& e : element.element().children())
+    if (const auto opening = e.name() == "door" ? door(of(e), false) : std::nullopt)
+      plan.openings.push_back(*opening);
+  if (!from || !to || !thickness || !tall) return;
+  plan.from = *from;
+  plan.to = *to;
+  plan.thickness = *thickness;
+  plan.height = *tall;
+  add_wall(element, std::move(plan));
+}
+
+// Doors of a side count from its western or southern end.
+void WorldReader::room(const Attributes& element) {
+  element.allow({"name", "from", "to", "thickness", "height"}, {"door"});
+  const std::vector<std::string> sides{"south", "north", "west", "east"};
+  std::map<std::string, std::vector<Opening>> openings;
+  for (const xml::Element& e : element.element().children()) {
+    if (e.name() != "door") continue;
+    const auto side = of(e).choice("side", sides);
+    const auto opening = door(of(e), true);
+    if (side && opening) openings[*side].push_back(*opening);
+  }
+  const auto from = element.point("from");
+  const auto to = element.point("to");
+  const auto thickness = element.quantity_or("thickness", "m", Sign::positive, kWallThickness);
+  const auto tall = height(element);
+  const std::string name = own_name(element);
+  if (!from || !to || !thickness || !tall) return;
+  if (from->x >= to->x || from->y >= to->y)
+    return element.error_at("to", 8,
+                            "\"to\" must lie right of and above \"from\": they are the lower left and the "
+                            "upper right corner");
+  const std::array<Segment, 4> lines{Segment{*from, {to->x, from->y}}, Segment{{from->x, to->y}, *to},
+                                     Segment{*from, {from->x, to->y}}, Segment{{to->x, from->y}, *to}};
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    add_wall(element, {name, lines[i].a, lines[i].b, *thickness, *tall, openings[sides[i]]});
+}
+
+void WorldReader::box(const Attributes& element) {
+  element.allow({"name", "x", "y", "yaw", "length", "width", "height"}, {});
+  const auto x = element.quantity("x", "m", Sign::any);
+  const auto y = element.quantity("y", "m", Sign::any);
+  const auto yaw = element.quantity_or("yaw", "rad", Sign::any, 0.0);
+  const auto length = element.quantity("length", "m", Sign::positive);
+  const auto width = element.quantity("width", "m", Sign::positive);
+  const auto tall = height(element);
+  if (x && y && yaw && length && width && tall)
+    add(element, Box{{*x, *y, *yaw}, {0.5 * *length, 0.5 * *width}}, *tall);
+}
+
+void WorldReader::cylinder(const Attributes& element) {
+  element.allow({"name", "x", "y", "radius", "height"}, {});
+  const auto x = element.quantity("x", "m", Sign::any);
+  const auto y = element.quantity("y", "m", Sign::any);
+  const auto radius = element.quantity("radius", "m", Sign::positive);
+  const auto tall = height(element);
+  if (x && y && radius && tall) add(element, Circle{{*x, *y}, *radius}, *tall);
+}
+
+void WorldReader::polygon(const Attributes& element) {
+  element.allow({"name", "points", "height"}, {});
+  const auto corners = element.points("points");
+  const auto tall = height(element);
+  if (!corners) return;
+  if (const std::string fault = polygon_fault(*corners); !fault.empty())
+    return element.error_at("points", 9, fault);
+  if (tall) add(element, outline_of(*corners), *tall);
+}
+
+void WorldReader::bitmap(const Attributes& element) {
+  element.allow({"name", "file", "width", "height"}, {});
+  const auto file = element.text("file");
+  const auto width = element.quantity("width", "m", Sign::positive);
+  const auto tall = height(element);
+  if (!file || !width || !tall) return;
+  const auto path = std::filesystem::path(file_name_).parent_path() / *file;
+  auto map =
+      read_bitmap_world(path.lexically_normal().string(), {.map_width = *width, .resolution = {}}, *tall);
+  if (!map) return element.error_at("file", 11, map.error().text());
+  add(element, std::move(map->obstacles.front().shape), *tall);
+}
+
+void WorldReader::place(const Attributes& element) {
+  element.allow({"name", "x", "y", "yaw"}, {});
+  const auto name = element.name("name");
+  const auto x = element.quantity("x", "m", Sign::any);
+  const auto y = element.quantity("y", "m", Sign::any);
+  const auto yaw = element.quantity_or("yaw", "rad", Sign::any, 0.0);
+  if (name) claim(element, "place", *name);
+  if (!name || !x || !y || !yaw) return;
+  world_.places.push_back({*name, {*x, *y, wrapped(*yaw)}});
+  place_positions_.push_back(element.element().position());
+}
+
+void WorldReader::check_places() const {
+  for (const Obstacle& o : world_.obstacles) {
+    const Bounds b = bounds_of(o.shape);
+    for (std::size_t i = 0; i < world_.places.size(); ++i) {
+      const Place& place = world_.places[i];
+      const Vec2 p = place.pose.position();
+      if (p.x < b.low.x || p.x > b.high.x || p.y < b.low.y || p.y > b.high.y || !contains(o.shape, p))
+        continue;
+      diagnostics_.error(
+          "W012", place_positions_[i],
+          "place \"" + place.name + "\" lies inside obstacle \"" + o.name + "\"; no robot can get there");
+    }
+  }
+}
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "attributes.hpp"
+#include "orca/sim/world_model.hpp"
+#include "walls.hpp"
+
+namespace orca::sim::detail {
+
+// Turns the elements of a <world> into a WorldModel, reporting all errors on the way.
+class WorldReader {
+ public:
+  WorldReader(const std::string& file_name, xml::Diagnostics& diagnostics)
+      : file_name_(file_name), diagnostics_(diagnostics) {}
+
+  WorldModel read(const xml::Element& root);
+
+ private:
+  using Read = void (WorldReader::*)(const Attributes&);
+  [[nodiscard]] Attributes of(const xml::Element& element) const { return {element, 'W', diagnostics_}; }
+
+  void header(const Attributes& world);
+  void wall(const Attributes& element);
+  void room(const Attributes& element);
+  void box(const Attributes& element);
+  void cylinder(const Attributes& element);
+  void polygon(const Attributes& element);
+  void bitmap(const Attributes& element);
+  void place(const Attributes& element);
+
+  void add_wall(const Attributes& element, WallPlan plan);
+  void add(const Attributes& element, Shape shape, double height);
+  [[nodiscard]] std::optional<Opening> door(const Attributes& element, bool in_room) const;
+  [[nodiscard]] std::optional<double> height(const Attributes& element) const;
+  // The name the element gives itself, told if it is taken; its kind if it gives none.
+  std::string own_name(const Attributes& element);
+  void claim(const Attributes& element, const std::string& kind, const std::string& name);
+  void check_places() const;
+
+  std::string file_name_;
+  xml::Diagnostics& diagnostics_;
+  WorldModel world_;
+  std::map<std::string, xml::Position> taken_;  // By kind and name.
+  std::vector<xml::Position> place_positions_;
+};
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the framework writes into the header of every object that travels (DESIGN 3), for every link.
+#include "link_kits.hpp"
+
+using namespace orca;
+using namespace orca::test;
+
+namespace {
+
+// Pushes an answer to what it gets, by Push or by Send.
+struct Relay : Peer {
+  explicit Relay(Executive& executive) : Peer(executive, "relay") {}
+
+  Status on_command(const ObjectPtr<MotionCommand>& command) {
+    out.push(numbered(number_of(command) + 100));
+    return ok();
+  }
+
+  PushProxy<MotionCommand> in{*this, "in"};
+  SendServer<MotionCommand> sent{*this, "sent", &Relay::on_command};
+  PushServer<MotionCommand> out{*this, "out"};
+};
+
+// Sends motion commands.
+struct Sender : Peer {
+  explicit Sender(Executive& executive) : Peer(executive, "sender") {}
+  SendProxy<MotionCommand> out{*this, "out"};
+};
+
+template <class Kit>
+void listen_to_relay(Kit& kit, Relay& relay, Listener& listener) {
+  kit.connect(relay.endpoint("out"), listener.endpoint("in"));
+  listener.in.subscribe();
+  CHECK(eventually(kit.executive, [&] { return relay.out.subscriber_count() == 1; }));
+}
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("an object carries the name of its sender, its number and the time it was made",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Source source(kit.executive, "Platforms/Dewey/base");
+    Listener listener(kit.executive);
+    listener.listen(kit, source, {.depth = 3});
+    for (std::uint64_t seq = 1; seq <= 3; ++seq) {
+      sleep(kit.executive, 1ms);
+      const TimePoint before = kit.executive.now();
+      source.push_numbers(0, 0);
+      const TimePoint after = kit.executive.now();
+      const auto got = listener.in.get_update_wait_max(5s);
+      REQUIRE(got);
+      CHECK(got->origin() == "Platforms/Dewey/base");
+      CHECK(got->seq() == seq);
+      CHECK(got->creation_time().ns() >= before.time_since_epoch().count());
+      CHECK(got->creation_time().ns() <= after.time_since_epoch().count());
+    }
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("what a component pushes after it took an object belongs to that object's mission",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Source source(kit.executive);
+    Relay relay(kit.executive);
+    Listener listener(kit.executive);
+    kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
+    relay.in.subscribe();
+    listen_to_relay(kit, relay, listener);
+    source.push_numbers(0, 0);
+    auto of_mission = numbered(1);
+    of_mission->mission(42);
+    source.out.push(std::move(of_mission));
+    for (const std::uint64_t mission : {0U, 42U}) {
+      REQUIRE(relay.in.get_update_wait_max(5s));
+      relay.out.push(numbered(2));
+      const auto answer = listener.in.get_update_wait_max(5s);
+      REQUIRE(answer);
+      CHECK(answer->mission() == mission);
+      CHECK(answer->cause().origin() == "source");
+      CHECK(answer->cause().seq() == (mission == 42U ? 2U : 1U));
+      CHECK(answer->origin() == "relay");
+    }
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("what a handler sends names the object that it handles as its cause",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Sender sender(kit.executive);
+    Relay relay(kit.executive);
+    Listener listener(kit.executive);
+    kit.connect(sender.endpoint("out"), relay.endpoint("sent"));
+    listen_to_relay(kit, relay, listener);
+    const Service service(relay);
+    auto command = numbered(1);
+    command->mission(7);
+    REQUIRE(sender.out.send(std::move(command)).ok());
+    const auto answer = listener.in.get_update_wait_max(5s);
+    REQUIRE(answer);
+    CHECK(number_of(answer) == 101);
+    CHECK(answer->mission() == 7);
+    CHECK(answer->cause().origin() == "sender");
+    CHECK(answer->cause().seq() == 1);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("an object that answers nothing has no cause and no mission", "[contract][header]",
+                        LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Source source(kit.executive);
+    Listener listener(kit.executive);
+    listener.listen(kit, source);
+    source.push_numbers(1, 1);
+    const auto got = listener.in.get_update_wait_max(5s);
+    REQUIRE(got);
+    CHECK(got->mission() == 0);
+    CHECK(got->cause().origin().empty());
+    CHECK(got->cause().seq() == 0);
+  });
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contract of Query when something goes wrong, for every link.
+#include "query_kits.hpp"
+
+using namespace orca;
+using namespace orca::test;
+using Catch::Contains;
+
+TEMPLATE_LIST_TEST_CASE("a query that is not answered in time fails then, and names both ends",
+                        "[contract][query]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Counter counter(kit);
+    counter.answerer.open();
+    const TimePoint before = kit.executive.now();
+    const auto answer = counter.asker.question.query(counter.asker.about("time"), 20ms);
+    const Duration waited = kit.executive.now() - before;
+    REQUIRE_FALSE(answer.has_value());
+    CHECK(answer.error().code == Code::deadline_exceeded);
+    CHECK_THAT(answer.error().text(), Contains("answerer.server") && Contains("asker.question"));
+    CHECK(waited >= 20ms);
+    if (kit.executive.is_virtual()) CHECK(waited == 20ms);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("a late answer is thrown away and does not answer the next question",
+                        "[contract][query]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Counter counter(kit);
+    counter.answerer.open();
+    auto& question = counter.asker.question;
+    const auto late = question.query_request(counter.asker.about("late"));
+    REQUIRE(late.has_value());
+    REQUIRE(counter.has_been_asked(1));
+    CHECK_FALSE(question.query_receive_wait(*late, 1ms).has_value());
+    CHECK(counter.answerer.handle_one());
+    const Service service(counter.answerer);
+    CHECK(number_of(question.query(counter.asker.about("next one"), 5s).value()) == 8);
+    const auto again = question.query_receive(*late);
+    REQUIRE(again.has_value());
+    CHECK(again->error().code == Code::not_found);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("a query that its component had to leave forgets its answer", "[contract][query]",
+                        LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Counter counter(kit);
+    counter.answerer.open();
+    const std::size_t live = pool_statistics(object_type<MotionCommand>()).live;
+    Script script(counter.asker,
+                  [&] { (void)counter.asker.question.query(counter.asker.about("interrupted"), 1h); });
+    REQUIRE(counter.has_been_asked(1));
+    counter.asker.leave();
+    REQUIRE(script.ends_within(5s));
+    CHECK(script.interrupted());
+    CHECK(counter.answerer.handle_one());
+    CHECK(eventually(kit.executive,
+                     [&] { return pool_statistics(object_type<MotionCommand>()).live == live; }));
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("a server that is full or closed refuses the question with the reason",
+                        "[contract][query]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Counter counter(kit, 1);
+    auto& question = counter.asker.question;
+    const auto early = question.query_request(counter.asker.about("early"));
+    REQUIRE_FALSE(early.has_value());
+    CHECK(early.error().code == Code::unavailable);
+    CHECK_THAT(early.error().text(), Contains("has not been started yet"));
+    counter.answerer.open();
+    CHECK(question.query_request(counter.asker.about("first")).has_value());
+    const auto full = question.query_request(counter.asker.about("second"));
+    REQUIRE_FALSE(full.has_value());
+    CHECK(full.error().code == Code::unavailable);
+    CHECK_THAT(full.error().text(), Contains("answerer.server is full: 1 questions"));
+    CHECK(counter.answerer.counters().refused == 2);
+    CHECK(counter.answerer.counters().accepted == 1);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("an error of the handler is the answer, code and text, and is counted",
+                        "[contract][query]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Counter counter(kit);
+    const Service service(counter.answerer);
+    const auto answer = counter.asker.question.query(counter.asker.about("bad"), 5s);
+    REQUIRE_FALSE(answer.has_value());
+    CHECK(answer.error().code == Code::invalid_argument);
+    CHECK(answer.error().message == "there is nothing to say about bad");
+    CHECK(counter.answerer.counters().failed == 1);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("an exception of the handler is an answer too, and reaches whoever runs the server",
+                        "[contract][query]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Counter counter(kit);
+    counter.answerer.open();
+    auto& question = counter.asker.question;
+    const auto id = question.query_request(counter.asker.about("worse"));
+    REQUIRE(id.has_value());
+    REQUIRE(counter.has_been_asked(1));
+    CHECK_THROWS_WITH(counter.answerer.handle_one(), "worse");
+    const auto answer = question.query_receive_wait(*id, 5s);
+    REQUIRE_FALSE(answer.has_value());
+    CHECK(answer.error().code == Code::internal);
+    CHECK_THAT(answer.error().text(), Contains("answerer.server threw"));
+    CHECK(counter.answerer.counters().failed == 1);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("a server that closes answers what still waits, with the reason", "[contract][query]",
+                        LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Counter counter(kit);
+    counter.answerer.open();
+    Error told;
+    Script script(counter.asker, [&] {
+      const auto answer = counter.asker.question.query(counter.asker.about("waiting"), 1h);
+      if (!answer) told = answer.error();
+    });
+    REQUIRE(counter.has_been_asked(1));
+    counter.answerer.close("it has failed");
+    REQUIRE(script.ends_within(5s));
+    CHECK(told.code == Code::unavailable);
+    CHECK_THAT(told.text(), Contains("answerer.server") && Contains("because it has failed"));
+    CHECK_FALSE(counter.answerer.handle_one());
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("an answer for a question that was never put is not found", "[contract][query]",
+                        LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Counter counter(kit);
+    const auto answer = counter.asker.question.query_receive(77);
+    REQUIRE(answer.has_value());
+    CHECK(answer->error().code == Code::not_found);
+    CHECK(counter.asker.question.query_receive_wait(77, 1h).error().code == Code::not_found);
+  });
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "orca/component.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/idl/sensing.hpp"
+
+namespace {
+
+/// Commands a full stop while any echo is nearer than `stop_distance`.
+class Avoid final : public orca::Component {
+ public:
+  using Component::Component;
+
+ private:
+  orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{*this, "sonar"};
+  orca::PushServer<orca::idl::MotionCommand> motion_{*this, "motion"};
+  orca::Param<double> stop_distance_{*this, "stop_distance", 0.5, {.unit = "m", .min = 0.0}};
+
+  orca::Outcome work() override {
+    const auto echoes = sonar_.get_update_wait();
+    const auto near = [&](double range) { return range < *stop_distance_; };
+    motion_.push(std::ranges::any_of(echoes->ranges(), near) ? orca::full_stop() : orca::dont_care());
+    return orca::again();
+  }
+};
+
+}  // namespace
+
+ORCA_COMPONENT(Avoid, "orca.Avoid")

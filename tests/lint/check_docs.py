@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What documents point to exists: links and their anchors, graphs that README.md names, pages that sources name."""
+import posixpath
+import re
+
+LINK = re.compile(r"(?<!!)\[[^\]\n]*\]\(<?([^)>\s]+)>?\)|!\[[^\]\n]*\]\(<?([^)>\s]+)>?\)")
+HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$", re.MULTILINE)
+FENCE = re.compile(r"^(```|~~~).*?^\1", re.MULTILINE | re.DOTALL)
+CODE = re.compile(r"`[^`\n]*`")
+GRAPH = re.compile(r"\bgraphs/[\w./-]+?\.xml\b")
+PAGE = re.compile(r"\bdocs/[\w./-]+?\.md\b")
+SOURCES = (".cpp", ".hpp", ".idl", ".py", ".cmake", "CMakeLists.txt", ".xml", ".urdf", ".md")
+
+
+def _blanked(match):
+    return re.sub(r"[^\n]", " ", match[0])
+
+
+def prose(text):
+    """The text with code blanked out; lines keep their numbers."""
+    return CODE.sub(_blanked, FENCE.sub(_blanked, text))
+
+
+def anchors(text):
+    """The anchors that the headings of a page make: lower case, no punctuation, blanks to hyphens."""
+    heads = HEADING.findall(FENCE.sub(_blanked, text))
+    plain = (re.sub(r"[`*]|\[([^\]]*)\]\([^)]*\)", lambda m: m[1] or "", h) for h in heads)
+    return {re.sub(r"[^\w\- ]", "", h.lower()).strip().replace(" ", "-") for h in plain}
+
+
+def _line(text, match):
+    return text.count("\n", 0, match.start()) + 1
+
+
+def fault_of_link(tree, page, target):
+    if re.match(r"[a-z][a-z0-9+.-]*:", target):
+        return None
+    path, _, anchor = target.partition("#")
+    file = posixpath.normpath(posixpath.join(posixpath.dirname(page), path)) if path else page
+    if file.startswith("..") or not tree.exists(file):
+        return f'link to "{target}": there is no {file}'
+    if anchor and file.endswith(".md") and anchor not in anchors(tree.text(file)):
+        near = ", ".join(sorted(anchors(tree.text(file))))
+        return f'link to "{target}": {file} has no heading "{anchor}"; it has: {near}'
+    return None
+
+
+def _links(tree):
+    for page in tree.with_suffix(".md"):
+        text = prose(tree.text(page))
+        for match in LINK.finditer(text):
+            wrong = fault_of_link(tree, page, match[1] or match[2])
+            if wrong:
+                yield f"{page}:{_line(text, match)}: {wrong}"
+
+
+def _named(tree, paths, pattern, kind):
+    for path in paths:
+        text = tree.text(path)
+        for match in pattern.finditer(text):
+            if not tree.exists(match[0]):
+                yield f"{path}:{_line(text, match)}: names the {kind} {match[0]}, which does not exist"
+
+
+def find(tree):
+    """A name in capitals (docs/adr/NNNN-title.md, graphs/NAME.xml) stands for any name and is left alone."""
+    sources = [p for p in tree.with_suffix(*SOURCES) if not p.startswith(("tests/lint/", "tests/data/"))]
+    graph = re.compile(GRAPH.pattern.replace("graphs/", "graphs/(?![A-Z]{3})"))
+    page = re.compile(PAGE.pattern.replace("docs/", "docs/(?!(?:adr/)?[A-Z]{3})"))
+    readmes = [p for p in tree.paths if p.startswith("README")]
+    findings = [*_links(tree), *_named(tree, readmes, graph, "graph"), *_named(tree, sources, page, "page")]
+    return list(dict.fromkeys(findings))
+
+
+BAD = [
+    ({"README.md": "see [a](docs/none.md)\n"}, "README.md:1: link"),
+    ({"README.md": "\n[a](docs/a.md#two)\n", "docs/a.md": "# One\n"}, 'has no heading "two"; it has: one'),
+    ({"docs/a.md": "![picture](../none.png)\n"}, "there is no none.png"),
+    ({"docs/a.md": "[out](../../a.md)\n", "a.md": ""}, "there is no ../a.md"),
+    ({"README.md": "```\n./dev run graphs/none.xml\n```\n"}, "README.md:2: names the graph graphs/none.xml"),
+    ({"src/a.cpp": "/// @source docs/none.md, eq. 3\n"}, "src/a.cpp:1: names the page docs/none.md"),
+]
+GOOD = [
+    {"README.md": "[a](docs/a.md#one-and-two) `[b](c)` [d](https://example.org) [e](#here)\n# Here\n",
+     "docs/a.md": "# One, and `two`\n[up](../README.md)\n"},
+    {"README.md": "./dev run graphs/NAME.xml; graphs/a.xml\n", "graphs/a.xml": "<graph/>"},
+    {"docs/adr/0004-x.md": "# x\n", "cmake/a.cmake": "# see docs/adr/0004-x.md and docs/adr/NNNN-title.md\n"},
+    {"README.md": "```\n[no](link.md)\n```\n"},
+]

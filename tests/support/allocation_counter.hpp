@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace orca::test {
+
+/// How often this process has taken memory from the heap with operator new, in any thread and library. Links
+/// in its own operator new and delete.
+[[nodiscard]] long allocations();
+
+}  // namespace orca::test

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bad graphs, worlds and robots: exit 2, nothing started, and errors that help.
+#include <catch2/catch.hpp>
+
+#include "damaged_file.hpp"
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+// scout_goto.xml in a folder of its own, with the world and the robot still where they are.
+std::string scout_graph() {
+  std::string text = read_text(source_file("graphs/scout_goto.xml"));
+  const std::string path = "\"../sim/";
+  for (auto at = text.find(path); at != std::string::npos; at = text.find(path, at))
+    text.replace(at, path.size(), "\"" + source_file("sim/"));
+  return text;
+}
+
+std::string scout_graph_with(const std::string& from, const std::string& to) {
+  return damaged(scout_graph(), {from, to, "", {}}).text;
+}
+
+Run start(const std::string& graph, const Words& more = {}) {
+  return run_deployer(Words{graph} + virtual_clock() + more);
+}
+
+// The line of stderr that begins with "FILE:LINE:COLUMN: error".
+std::string error_at(const std::string& place, const Run& run) {
+  for (const std::string& line : split_lines(run.err))
+    if (line.starts_with(place + ": error")) return line;
+  return {};
+}
+
+void check_refused(const Run& run) {
+  CHECK(run.ended);
+  CHECK(run.exit_code() == 2);
+  CHECK(run.out.empty());
+  CHECK(run.err.find("INIT") == std::string::npos);
+  CHECK(run.err.find("[   ") == std::string::npos);  // no log line of a running system
+}
+
+void check_error(const std::string& file, const Damaged& bad, const Damage& damage, const Run& run) {
+  CAPTURE(damage.to);
+  INFO(run.err);
+  check_refused(run);
+  const std::string place = file + ":" + line_and_column(bad.text, bad.place, damage.at);
+  CAPTURE(place);
+  const std::string said = error_at(place, run);
+  CHECK_FALSE(said.empty());
+  for (const std::string& hint : damage.hints) {
+    CAPTURE(hint);
+    CHECK(said.find(hint) != std::string::npos);
+  }
+}
+
+void check_graph(const Damage& damage) {
+  const TempFolder folder;
+  const Damaged bad = damaged(scout_graph(), damage);
+  const std::string file = folder.write("graph.xml", bad.text);
+  check_error(file, bad, damage, start(file));
+}
+
+// A damaged copy of a world or a robot, named by the good graph.
+void check_part(const std::string& part, const Damage& damage) {
+  const TempFolder folder;
+  const Damaged bad = damaged(read_text(source_file(part)), damage);
+  const std::string file = folder.write("part" + part.substr(part.rfind('.')), bad.text);
+  const std::string graph = folder.write("graph.xml", scout_graph_with(source_file(part), file));
+  check_error(file, bad, damage, start(graph));
+}
+
+void check_world(const Damage& damage) { check_part("sim/worlds/office.xml", damage); }
+void check_robot(const Damage& damage) { check_part("sim/robots/nomad_scout.urdf", damage); }
+
+}  // namespace
+
+TEST_CASE("the graph, world and robot that the damage is done to are good", "[system][bad]") {
+  const TempFolder folder;
+  const Run run = run_deployer({folder.write("graph.xml", scout_graph()), "--check"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.err.find("error:") == std::string::npos);
+}
+
+TEST_CASE("a misspelt word in a graph is found, and the nearest valid one is offered", "[system][bad]") {
+  check_graph({"type=\"orca.SonarAvoid\"", "type=\"orca.SonarAvoit\"", "orca", {"\"orca.SonarAvoid\""}});
+  check_graph({"from=\"goto.MotionCmdPush\"", "from=\"goto.MotionCmdPsh\"", "goto", {"\"MotionCmdPush\""}});
+  check_graph({"to=\"fuser.ClientListSend\"", "to=\"fusr.ClientListSend\"", "fusr", {"\"fuser\""}});
+  check_graph({"<component name=\"goto\"", "<componnt name=\"goto\"", "<", {"componnt", "component"}});
+  check_graph({"ends=\"command\"", "end=\"command\"", "end", {"\"ends\""}});
+  check_graph({"ends=\"command\"", "ends=\"comand\"", "comand", {"\"command\""}});
+  check_graph({"name=\"behaviours\"", "name=\"behavours\"", "behavours", {"\"behaviours\""}});
+  check_graph({"default_profile=\"sim\"", "default_profile=\"simm\"", "simm", {"\"sim\""}});
+  check_graph({"hardware=\"scout\"", "hardware=\"scot\"", "scot", {"\"scout\""}});
+  check_graph({"\"${realism}\"", "\"${realizm}\"", "${", {"realizm", "\"realism\""}});
+}
+
+TEST_CASE("a wrong value of a parameter is refused with what was expected", "[system][bad]") {
+  const auto with = [](const std::string& param, const std::string& value, std::vector<std::string> hints) {
+    check_graph({"<component name=\"avoid\" type=\"orca.SonarAvoid\"/>",
+                 "<component name=\"avoid\" type=\"orca.SonarAvoid\"><param name=\"" + param + "\" value=\"" +
+                     value + "\"/></component>",
+                 value, std::move(hints)});
+  };
+  with("margin", "-5 cm", {"margin", "0 m"});
+  with("margin", "5 s", {"margin", "m"});
+  with("margin", "0,05", {"margin", "."});
+  with("margin", "wide", {"margin", "wide"});
+  with("margin", "nan", {"margin"});
+  check_graph({"<param name=\"realism\" value=\"${realism}\"/>",
+               "<param name=\"realism\" value=\"nominl\"/>",
+               "nominl",
+               {"ideal", "harsh", "\"nominal\""}});
+}
+
+TEST_CASE("a wire that does not fit is refused with both of its ends", "[system][bad]") {
+  const std::string good = "<connect from=\"base.SonarRangeReadingsPush\" to=\"avoid.sonar\"/>";
+  check_graph({good,
+               "<connect from=\"base.OdometryPush\" to=\"avoid.sonar\"/>",
+               "<connect",
+               {"base.OdometryPush", "avoid.sonar", "Odometry", "SonarRangeReadings"}});
+  check_graph({good,
+               "<connect from=\"avoid.sonar\" to=\"base.SonarRangeReadingsPush\"/>",
+               "<connect",
+               {"avoid.sonar", "base.SonarRangeReadingsPush"}});
+  // Written with two spaces, the second of two equal connections can be told from the first: it is the one
+  // too many.
+  check_graph({good,
+               good + "\n  <connect  from=\"base.SonarRangeReadingsPush\" to=\"avoid.sonar\"/>",
+               "<connect  from",
+               {"base.SonarRangeReadingsPush", "avoid.sonar"}});
+}
+
+TEST_CASE("all faults of a graph are reported at once, in the order of the file", "[system][bad]") {
+  const TempFolder folder;
+  Damaged bad{scout_graph()};
+  const std::vector<Damage> damages{
+      {"ends=\"command\"", "ends=\"comand\"", "comand", {}},
+      {"name=\"behaviours\"", "name=\"behavours\"", "behavours", {}},
+      {"type=\"orca.MotionCommandFuser\"", "type=\"orca.MotionComandFuser\"", "orca", {}},
+      {"to=\"goto.GotoCoordinateSend\"", "to=\"goto.GotoCordinateSend\"", "goto", {}},
+      {"<param name=\"place\"", "<parm name=\"place\"", "<parm", {}}};
+  for (const Damage& damage : damages) bad = damaged(bad.text, damage);
+  const std::string file = folder.write("graph.xml", bad.text);
+  const Run run = start(file);
+  INFO(run.err);
+  check_refused(run);
+  std::size_t last = 0;
+  for (const Damage& damage : damages) {
+    CAPTURE(damage.to);
+    const std::string where = line_and_column(bad.text, bad.text.find(damage.to), damage.at);
+    const auto place = run.err.find(file + ":" + where + ": error");
+    REQUIRE(place != std::string::npos);
+    CHECK(place >= last);
+    last = place;
+  }
+}
+
+TEST_CASE("a file that is no graph is refused with what it is", "[system][bad]") {
+  const TempFolder folder;
+  const std::string good = scout_graph();
+  const auto refuses = [&](const std::string& file, const std::string& hint) {
+    const Run run = start(file);
+    CAPTURE(file);
+    INFO(run.err);
+    check_refused(run);
+    CHECK(run.says(file));
+    CHECK(run.says(hint));
+  };
+  refuses(folder.file("missing.xml"), "No such file");
+  refuses(folder.path().string(), "irectory");
+  refuses(folder.write("empty.xml", ""), "empty");
+  refuses(folder.write("binary.xml", std::string("\x7f", 1) + "ELF"), ":1:1: error");
+  refuses(folder.write("cut.xml", good.substr(0, good.find("<profile"))), "<graph>");
+  refuses(folder.write("other.xml", "<world name=\"a\" version=\"1\"/>\n"), ":1:1: error");
+  refuses(folder.write("tags.xml", scout_graph_with("</profile>", "</profil>")), "</profil>");
+}
+
+TEST_CASE("a broken world is refused with file, line and column", "[system][bad]") {
+  check_world({"<cylinder name=\"bin_1\"", "<cylindre name=\"bin_1\"", "<cylindre", {"cylinder"}});
+  check_world({"radius=\"0.15 m\"", "radius=\"-0.15 m\"", "-0.15", {"radius"}});
+  check_world({"radius=\"0.15 m\"", "radius=\"0.15 kg\"", "0.15", {"kg", "m"}});
+  check_world({"radius=\"0.15 m\"", "radios=\"0.15 m\"", "radios", {"\"radius\""}});
+  check_world({"name=\"desk_2\"", "name=\"desk_1\"", "desk_1", {"desk_1"}});
+  check_world({"<place name=\"corridor_east\" x=\"17.0 m\" y=\"6.0 m\"/>",
+               "<place name=\"corridor_east\" x=\"17.5 m\" y=\"11.5 m\"/>",
+               "<place",
+               {"corridor_east", "plant_2"}});
+  check_world({"</world>", "</wrld>", "</wrld>", {"<world>", "</wrld>"}});
+}
+
+TEST_CASE("a broken robot is refused with file, line and column", "[system][bad]") {
+  check_robot({"<parent link=\"base_footprint\"/>",
+               "<parent link=\"base_footprnt\"/>",
+               "base_footprnt",
+               {"\"base_footprint\""}});
+  check_robot({"<mass value=\"23\"/>", "<mass value=\"-23\"/>", "-23", {"mass"}});
+  check_robot({"radius=\"0.19\" length=\"0.27\"", "radius=\"nan\" length=\"0.27\"", "nan", {"radius"}});
+  check_robot({"<inertia ixx=\"0.337\"", "<inertia ixx=\"-0.337\"", "<inertia", {"positive definite"}});
+  check_robot({"<link name=\"right_wheel\">", "<link name=\"left_wheel\">", "left_wheel", {"left_wheel"}});
+}
+
+TEST_CASE("a world or a robot that is not there is named together with the parameter that names it",
+          "[system][bad]") {
+  for (const char* part : {"office.xml", "nomad_scout.urdf"}) {
+    const TempFolder folder;
+    const std::string graph = folder.write("graph.xml", scout_graph_with(part, "lost_" + std::string(part)));
+    const Run run = start(graph);
+    CAPTURE(part);
+    INFO(run.err);
+    check_refused(run);
+    CHECK(run.says("lost_" + std::string(part)));
+    CHECK(run.says("No such file"));
+  }
+}
+
+TEST_CASE("a start that does not exist is refused with the nearest place", "[system][bad]") {
+  check_graph({"<param name=\"place\" value=\"start\"/>",
+               "<param name=\"place\" value=\"strat\"/>",
+               "strat",
+               {"\"start\""}});
+}
+
+TEST_CASE("a start inside a wall is refused before anything starts", "[system][bad]") {
+  const TempFolder folder;
+  const std::string wall = "<param name=\"x\" value=\"0 m\"/><param name=\"y\" value=\"5 m\"/>";
+  const std::string graph =
+      folder.write("graph.xml", scout_graph_with("<param name=\"place\" value=\"start\"/>", wall));
+  const Run run = start(graph);
+  INFO(run.err);
+  check_refused(run);
+  CHECK(run.says("inside"));
+  CHECK(run.says(graph + ":"));
+}

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A plugin that throws fails alone, with its text; one that never lets go is named.
+#include <catch2/catch.hpp>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+struct Thrown {
+  std::string what;
+  std::string text;  ///< What the user is told.
+};
+
+const std::vector<Thrown> kThings{{"exception", "the wheels came off"},
+                                  {"int", "the int 42"},
+                                  {"text", "plain words"},
+                                  {"object", "Oddity"}};
+
+Run misbehave(const std::string& where, const std::string& what, const Words& more = virtual_clock()) {
+  return run_deployer(
+      Words{system_graph("misbehaving.xml"), "--set", "where=" + where, "--set", "what=" + what} +
+      with_test_plugins() + more);
+}
+
+std::string line_with(const std::string& text, const Run& run) {
+  for (const std::string& line : split_lines(run.err))
+    if (line.find(text) != std::string::npos) return line;
+  return {};
+}
+
+Run alone(const std::string& type) {
+  return run_deployer(Words{system_graph("one_component.xml"), "--set", "type=" + type} +
+                      with_test_plugins() + virtual_clock());
+}
+
+void check_fails_alone(const std::string& where, const std::string& hook, const Words& clock) {
+  for (const Thrown& thrown : kThings) {
+    const Run run = misbehave(where, thrown.what, clock);
+    CAPTURE(where, thrown.what);
+    INFO(run.err);
+    CHECK(run.ended);
+    CHECK(run.exit_code() == 0);
+    const std::string said = line_with(thrown.text, run);
+    CHECK(said.find("bad: ") != std::string::npos);
+    CHECK(said.find(hook) != std::string::npos);
+    CHECK(run.says("counter: counted 30 laps"));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a component that throws in a hook or a handler fails alone, with its text, and the others go on",
+          "[system][plugins]") {
+  check_fails_alone("start", "start()", virtual_clock());
+  check_fails_alone("work", "work()", virtual_clock());
+  check_fails_alone("stop", "stop()", virtual_clock());
+  check_fails_alone("send", "goal", virtual_clock());
+  check_fails_alone("query", "robot", virtual_clock());
+}
+
+TEST_CASE("it fails alone with a thread per component, too", "[system][plugins]") {
+  check_fails_alone("work", "work()", {"--clock", "steady"});
+}
+
+TEST_CASE("a component whose destructor throws is named, and the run ends as if nothing had happened",
+          "[system][plugins]") {
+  for (const Thrown& thrown : kThings) {
+    const Run run = misbehave("destructor", thrown.what);
+    CAPTURE(thrown.what);
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(line_with(thrown.text, run).find("bad: its destructor") != std::string::npos);
+    CHECK(run.says("counter: counted 30 laps"));
+    CHECK(run.trace_hash());
+  }
+}
+
+TEST_CASE("whoever sends to or asks a component that has failed gets an answer that says why",
+          "[system][plugins]") {
+  const Run asked = misbehave("query", "exception");
+  INFO(asked.err);
+  CHECK(asked.says("poker: asked: "));
+  CHECK(asked.says("threw while it answered"));
+  const Run sent = misbehave("send", "int");
+  INFO(sent.err);
+  CHECK(line_with("poker: sent: ", sent).find("ok") != std::string::npos);
+  CHECK(sent.says("bad.goal takes nothing, because it has failed"));
+}
+
+TEST_CASE("a component that throws in configure() keeps the system from starting and is named",
+          "[system][plugins]") {
+  for (const Thrown& thrown : kThings) {
+    const Run run = misbehave("configure", thrown.what);
+    CAPTURE(thrown.what);
+    INFO(run.err);
+    CHECK(run.exit_code() == 3);
+    CHECK(line_with(thrown.text, run).find("bad") != std::string::npos);
+    CHECK(run.says("configure()"));
+    CHECK_FALSE(run.says("counted"));
+  }
+}
+
+TEST_CASE(
+    "a component that throws in its constructor makes the graph wrong: named with its place, nothing started",
+    "[system][plugins]") {
+  for (const auto& [type, text] : {std::pair{"test.ThrowsInConstructor", "the wheels came off"},
+                                   std::pair{"test.ThrowsIntInConstructor", "the int 42"}}) {
+    const Run run = alone(type);
+    CAPTURE(type);
+    INFO(run.err);
+    CHECK(run.exit_code() == 2);
+    CHECK(run.out.empty());
+    const std::string said = line_with(text, run);
+    CHECK(said.find("one_component.xml:8:") != std::string::npos);
+    CHECK(said.find(type) != std::string::npos);
+  }
+}
+
+TEST_CASE("under the virtual clock a component that never lets go is named and ends the run within seconds",
+          "[system][plugins]") {
+  for (const char* how : {"one_lap", "many_laps"}) {
+    const Run run = run_deployer(Words{system_graph("hog.xml"), "--set", std::string("how=") + how} +
+                                     with_test_plugins() + virtual_clock(),
+                                 Seconds(15));
+    CAPTURE(how);
+    INFO(run.err);
+    REQUIRE(run.ended);
+    CHECK(run.exit_code() == 1);
+    CHECK(run.says("greedy"));
+    CHECK(run.ending.wall < Seconds(8) * kSlowdown);
+  }
+}
+
+TEST_CASE("with a thread of its own a component that never lets go costs the others nothing",
+          "[system][plugins]") {
+  const Run run =
+      run_deployer(Words{system_graph("hog.xml"), "--set", "how=one_lap"} + with_test_plugins(), Seconds(15));
+  INFO(run.err);
+  REQUIRE(run.ended);
+  CHECK(run.says("counter: counted 10 laps"));
+  CHECK(run.says("greedy"));
+}
+
+TEST_CASE("a component that says in configure() that it cannot is named with its words, exit 3",
+          "[system][plugins]") {
+  const Run run = run_deployer(Words{system_graph("slow_starter.xml"), "--set", "refuses=true"} +
+                               with_test_plugins() + virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 3);
+  CHECK(line_with("the moon is in the wrong phase", run).find("late") != std::string::npos);
+  CHECK_FALSE(run.says("counted"));
+}
+
+TEST_CASE("a component that is not up in time is named, and all is taken down again", "[system][plugins]") {
+  const Run run = run_deployer(Words{system_graph("slow_starter.xml"), "--set", "delay=1000 s"} +
+                               with_test_plugins() + virtual_clock());
+  INFO(run.err);
+  REQUIRE(run.ended);
+  CHECK(run.exit_code() == 3);
+  CHECK(run.says("late"));
+  CHECK(run.says("configure()"));
+}
+
+TEST_CASE("a type that no plugin holds is reported with the places searched", "[system][plugins]") {
+  const Run run = alone("test.Nobody");
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  CHECK(run.out.empty());
+  CHECK(run.says("test.Nobody"));
+  CHECK(run.says(ORCA_BINARY_DIR "/plugins"));
+  CHECK(run.says(ORCA_BINARY_DIR "/tests/plugins"));
+}
+
+TEST_CASE("--describe of something that is no plugin says what it is not", "[system][plugins]") {
+  const TempFolder folder;
+  for (const std::string& file : {folder.write("text.so", "no library"), folder.file("missing.so"),
+                                  std::string(ORCA_BINARY_DIR "/lib/liborca_idl.so")}) {
+    const Run run = run_deployer({"--describe", file});
+    CAPTURE(file);
+    INFO(run.err);
+    CHECK(run.exit_code() == 2);
+    CHECK(run.out.empty());
+    CHECK(run.says(file));
+  }
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the robot base of the thesis's run exports (thesis Fig. 11.3).
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "deployer.hpp"
+#include "orca/graph/loader.hpp"
+#include "orca/host/catalogue.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+// What the base of scout_goto.xml offers, asked as the graph checker asks.
+std::set<std::string> exported_by_the_scout() {
+  orca::PluginCatalogue catalogue{orca::PluginIndex({ORCA_BINARY_DIR "/plugins"})};
+  orca::xml::Diagnostics diagnostics;
+  const auto graph = orca::graph::load_file(source_file("graphs/scout_goto.xml"), {}, catalogue, diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(graph);
+  const auto* const base = graph->find_component("base");
+  REQUIRE(base != nullptr);
+  const auto* const scout = graph->find_hardware(base->hardware);
+  REQUIRE(scout != nullptr);
+  const orca::graph::HardwareUse use{scout->name, scout->type, scout->params};
+  const orca::Result<orca::Contract> contract = catalogue.component(base->type, &use);
+  REQUIRE(contract.has_value());
+  std::set<std::string> names;
+  for (const orca::PortContract& port : contract->ports) {
+    CHECK(port.role == orca::Role::server);
+    names.insert(port.name);
+  }
+  CHECK(names.size() == contract->ports.size());
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the Scout exports the five hardware interfaces of thesis Fig. 11.3 and its description, nothing else",
+    "[system][scout]") {
+  CHECK(exported_by_the_scout() == std::set<std::string>{"MotionCommandSend", "OdometryPush", "OdometryQuery",
+                                                         "RobotQuery", "SonarRangeReadingsPush",
+                                                         "SonarRangeReadingsQuery"});
+}
+
+TEST_CASE("a graph that asks the Scout for a laser is told what it has instead", "[system][scout]") {
+  const Run run = run_deployer(Words{system_graph("laser_from_scout.xml")} + virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  CHECK(run.out.empty());
+  CHECK(run.says("LaserRangeReadingsPush"));
+  CHECK(run.says("SonarRangeReadingsPush"));
+}

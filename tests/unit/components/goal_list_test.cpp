@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "command/goal_list.hpp"
+#include "orca/base/random.hpp"
+
+using Catch::Contains;
+using orca::command::parse_route;
+using orca::command::Route;
+
+TEST_CASE("a route is a name and a goal in metres", "[components][goals]") {
+  const Route route = parse_route("kitchen: 5 -4.5").value();
+  CHECK(route.name == "kitchen");
+  CHECK(route.goal.x == 5.0);
+  CHECK(route.goal.y == -4.5);
+  CHECK(route.via.empty());
+  CHECK_FALSE(route.use_orientation);
+}
+
+TEST_CASE("what stands before the last > are via points, in order", "[components][goals]") {
+  const Route route = parse_route("k_2: 3.1 2 > 5 2 > 5 4.5").value();
+  REQUIRE(route.via.size() == 2);
+  CHECK(route.via[0].x == 3.1);
+  CHECK(route.via[1].y == 2.0);
+  CHECK(route.goal.y == 4.5);
+}
+
+TEST_CASE("what stands after @ is the direction to face, in degrees", "[components][goals]") {
+  const Route route = parse_route("door: 1 2 @ -90").value();
+  CHECK(route.use_orientation);
+  CHECK(route.orientation == Approx(-std::numbers::pi / 2));
+}
+
+TEST_CASE("spaces and tabs do not matter, nor the end of a DOS line", "[components][goals]") {
+  const Route tight = parse_route("a:1 2>3 4@5").value();
+  const Route loose = parse_route("  a :\t1   2 >  3\t4  @  5 \r").value();
+  CHECK(loose.name == tight.name);
+  CHECK(loose.via.at(0).x == tight.via.at(0).x);
+  CHECK(loose.goal.y == tight.goal.y);
+  CHECK(loose.orientation == tight.orientation);
+}
+
+TEST_CASE("a wrong route is refused with what was found and an example", "[components][goals]") {
+  struct Wrong {
+    const char* text;
+    const char* why;
+  };
+  const Wrong wrong =
+      GENERATE(Wrong{"", "no \":\""}, Wrong{"kitchen 1 2", "no \":\""}, Wrong{": 1 2", "\"\" is no name"},
+               Wrong{"2nd: 1 2", "\"2nd\" is no name"}, Wrong{"my goal: 1 2", "\"my goal\" is no name"},
+               Wrong{"a:", "expected \"x y\", found \"\""}, Wrong{"a: 1", "found \"1\""},
+               Wrong{"a: 1 2 3", "\"2 3\" is not a number"}, Wrong{"a: 1,5 2", "\"1,5\" is not a number"},
+               Wrong{"a: 10abc 2", "\"10abc\" is not a number"}, Wrong{"a: nan 2", "\"nan\" is not a number"},
+               Wrong{"a: 1 inf", "\"inf\" is not a number"}, Wrong{"a: 1e999 2", "\"1e999\" is not a number"},
+               Wrong{"a: > 1 2", "found \"\""}, Wrong{"a: 1 2 > > 3 4", "found \"\""},
+               Wrong{"a: 1 2 >", "found \"\""}, Wrong{"a: 1 2 @ north", "\"north\" is not a number"},
+               Wrong{"a: 1 2 @", "\"\" is not a number"}, Wrong{"a: 1 2 @ 3 @ 4", "is not a number"});
+  CAPTURE(wrong.text);
+  const auto route = parse_route(wrong.text);
+  REQUIRE_FALSE(route.has_value());
+  CHECK(route.error().code == orca::Code::invalid_argument);
+  CHECK_THAT(route.error().text(), Contains(wrong.why) && Contains("kitchen: 3.1 2 > 5 4.5"));
+}
+
+TEST_CASE("whatever the text, a route that is read has a name and finite numbers", "[components][goals]") {
+  constexpr std::string_view kLetters = "ab:>@ \t.-+0123456789einf";
+  orca::RandomStream random(1, "test", "goals");
+  int read = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = random.chance(0.5) ? "a: 1 2" : "";
+    for (std::uint64_t n = random() % 12; n > 0; --n) text += kLetters[random() % kLetters.size()];
+    const auto route = parse_route(text);
+    if (!route) continue;
+    ++read;
+    CHECK_FALSE(route->name.empty());
+    CHECK(std::isfinite(route->goal.x + route->goal.y + route->orientation));
+  }
+  CHECK(read > 100);
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "goto/algorithm.hpp"
+#include "orca/base/random.hpp"
+
+using namespace orca::go;
+using Catch::Detail::Approx;
+using std::numbers::pi;
+
+namespace {
+
+const Limits kLimits{.max_speed = 0.5, .slow_down = 0.8, .min_speed = 0.08, .turn_in_place = 1.0};
+
+Target target_at(double x, double y) { return {.x = x, .y = y, .reach_radius = 0.2}; }
+
+Pose random_pose(orca::RandomStream& random) {
+  return {random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-pi, pi)};
+}
+
+// A pose that lies `distance` before the target and faces it.
+Pose facing(const Target& target, double distance, double from_angle) {
+  return {target.x - distance * std::cos(from_angle), target.y - distance * std::sin(from_angle), from_angle};
+}
+
+// Drives a point robot by the steps, 50 ms each; the turn rate is twice the direction asked for.
+struct Drive {
+  Pose pose;
+  bool near = false;
+  int steps = 0;
+
+  Step follow(const Target& target) {
+    Step step;
+    for (steps = 0; steps < 4000; ++steps) {
+      near = near || within_reach(target, pose);
+      step = step_towards(target, pose, kLimits, near);
+      if (step.kind == Step::Kind::reached) break;
+      pose.heading = wrap(pose.heading + std::clamp(2.0 * step.direction, -1.0, 1.0) * 0.05);
+      pose.x += step.speed * std::cos(pose.heading) * 0.05;
+      pose.y += step.speed * std::sin(pose.heading) * 0.05;
+    }
+    return step;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("wrap gives the same angle in (-pi, pi]", "[components][goto]") {
+  CHECK(wrap(0.0) == 0.0);
+  CHECK(wrap(pi) == Approx(pi));
+  CHECK(wrap(-pi) == Approx(pi));
+  CHECK(wrap(1.5 * pi) == Approx(-0.5 * pi));
+  orca::RandomStream random(1, "test", "wrap");
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = random.uniform(-100.0, 100.0);
+    const double wrapped = wrap(angle);
+    CAPTURE(angle);
+    CHECK(wrapped > -pi);
+    CHECK(wrapped <= pi);
+    CHECK(std::abs(std::sin(wrapped - angle)) < 1e-12);
+    CHECK(std::cos(wrapped - angle) > 0.0);
+  }
+}
+
+TEST_CASE("a target without orientation is reached anywhere within its radius, and nowhere else",
+          "[components][goto]") {
+  orca::RandomStream random(2, "test", "reach");
+  for (int i = 0; i < 1000; ++i) {
+    const Pose pose = random_pose(random);
+    Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
+    target.reach_radius = random.uniform(0.0, 10.0);
+    const bool inside = std::hypot(target.x - pose.x, target.y - pose.y) < target.reach_radius;
+    CHECK((step_towards(target, pose, kLimits, false).kind == Step::Kind::reached) == inside);
+    CHECK(within_reach(target, pose) == inside);
+  }
+}
+
+TEST_CASE("a target of radius zero is never reached, not even on the spot", "[components][goto]") {
+  Target target = target_at(1.0, 2.0);
+  target.reach_radius = 0.0;
+  CHECK(step_towards(target, {1.0, 2.0, 0.0}, kLimits, false).kind != Step::Kind::reached);
+}
+
+TEST_CASE("a target with orientation is reached only when the robot faces it", "[components][goto]") {
+  Target target = target_at(0.0, 0.0);
+  target.use_orientation = true;
+  target.orientation = 3.0;
+  target.reach_angle = 0.1;
+  CHECK(step_towards(target, {0.0, 0.0, 3.05}, kLimits, false).kind == Step::Kind::reached);
+  CHECK(step_towards(target, {0.0, 0.0, -3.2}, kLimits, false).kind == Step::Kind::reached);
+  const Step step = step_towards(target, {0.0, 0.0, -3.0}, kLimits, false);
+  CHECK(step.kind == Step::Kind::turn);
+  CHECK(step.speed == 0.0);
+  CHECK(step.direction == Approx(6.0 - 2 * pi));
+}
+
+TEST_CASE("a robot that drifts out of the radius while it turns does not approach again",
+          "[components][goto]") {
+  Target target = target_at(0.0, 0.0);
+  target.use_orientation = true;
+  target.reach_angle = 0.1;
+  const Pose drifted{0.25, 0.0, 1.0};
+  CHECK(step_towards(target, drifted, kLimits, true).kind == Step::Kind::turn);
+  CHECK(step_towards(target, drifted, kLimits, true).direction == Approx(-1.0));
+}
+
+TEST_CASE("a via point needs no orientation, and the robot does not slow down for it", "[components][goto]") {
+  Target via = target_at(3.0, 0.0);
+  via.via = true;
+  via.use_orientation = true;
+  via.orientation = 2.0;
+  CHECK(step_towards(via, {2.9, 0.0, 0.0}, kLimits, false).kind == Step::Kind::reached);
+  for (const double distance : {0.21, 0.5, 5.0})
+    CHECK(step_towards(via, facing(via, distance, 0.0), kLimits, false).speed == kLimits.max_speed);
+}
+
+TEST_CASE("the speed never rises on the straight way to a goal, between its limits", "[components][goto]") {
+  const Target target = target_at(1.0, -2.0);
+  double last = kLimits.max_speed;
+  for (double distance = 3.0; distance > 0.21; distance -= 0.01) {
+    const Step step = step_towards(target, facing(target, distance, 0.7), kLimits, false);
+    CHECK(step.kind == Step::Kind::drive);
+    CHECK(step.speed <= last + 1e-12);
+    CHECK(step.speed >= kLimits.min_speed - 1e-12);
+    last = step.speed;
+  }
+  CHECK(last == Approx(0.8 * 0.21).epsilon(0.1));
+}
+
+TEST_CASE(
+    "the direction is the bearing of the target in the robot frame, and far off ones are turned to first",
+    "[components][goto]") {
+  orca::RandomStream random(3, "test", "direction");
+  for (int i = 0; i < 1000; ++i) {
+    const Pose pose = random_pose(random);
+    const Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
+    if (within_reach(target, pose)) continue;
+    const Step step = step_towards(target, pose, kLimits, false);
+    const double distance = std::hypot(target.x - pose.x, target.y - pose.y);
+    CHECK(pose.x + distance * std::cos(pose.heading + step.direction) == Approx(target.x).margin(1e-9));
+    CHECK(pose.y + distance * std::sin(pose.heading + step.direction) == Approx(target.y).margin(1e-9));
+    CHECK((step.kind == Step::Kind::turn) == (std::abs(step.direction) > kLimits.turn_in_place));
+    CHECK(step.speed >= 0.0);
+    CHECK(step.speed <= kLimits.max_speed);
+    if (step.kind == Step::Kind::turn) CHECK(step.speed == 0.0);
+  }
+}
+
+TEST_CASE("the steps do not depend on where the world's axes lie", "[components][goto]") {
+  orca::RandomStream random(4, "test", "frame");
+  for (int i = 0; i < 200; ++i) {
+    const Pose pose = random_pose(random);
+    const Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
+    const double turned = random.uniform(-pi, pi);
+    const double c = std::cos(turned);
+    const double s = std::sin(turned);
+    const Pose pose2{c * pose.x - s * pose.y, s * pose.x + c * pose.y, wrap(pose.heading + turned)};
+    const Step a = step_towards(target, pose, kLimits, false);
+    const Step b = step_towards(target_at(c * target.x - s * target.y, s * target.x + c * target.y), pose2,
+                                kLimits, false);
+    CHECK(b.kind == a.kind);
+    CHECK(std::abs(wrap(b.direction - a.direction)) < 1e-9);
+    CHECK(b.speed == Approx(a.speed).margin(1e-9));
+  }
+}
+
+TEST_CASE("a point robot arrives from anywhere, and facing as wanted", "[components][goto]") {
+  orca::RandomStream random(5, "test", "arrive");
+  for (int i = 0; i < 200; ++i) {
+    Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
+    target.use_orientation = true;
+    target.orientation = random.uniform(-pi, pi);
+    target.reach_angle = 0.1;
+    Drive drive{random_pose(random)};
+    CAPTURE(i);
+    CHECK(drive.follow(target).kind == Step::Kind::reached);
+    CHECK(std::abs(wrap(drive.pose.heading - target.orientation)) <= 0.1);
+    CHECK(std::hypot(target.x - drive.pose.x, target.y - drive.pose.y) < 0.2 + 1e-9);
+  }
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "orca/base/random.hpp"
+#include "orca/hw/endpoints.hpp"
+
+using namespace orca;
+using namespace orca::hw;
+using Catch::Contains;
+
+namespace {
+
+constexpr DriveLimits kLimits{.max_speed = 1.0,
+                              .max_steer_speed = 2.0,
+                              .steer_gain = 0.5,
+                              .big_turn_angle = 1.0,
+                              .big_turn_speed = 0.2};
+constexpr Duration kAge = 200ms;
+constexpr TimePoint kStart{1000s};
+constexpr DriveSetpoint kStand{};
+
+// What a base with these limits does right after the command.
+DriveSetpoint carried_out(const Loan<idl::MotionCommand>& command, const DriveLimits& limits = kLimits) {
+  MotionHW motion(limits, kAge);
+  CHECK(motion.command(*command, kStart).ok());
+  return motion.due(kStart);
+}
+
+}  // namespace
+
+TEST_CASE("a base stands until the first command", "[hw][motion]") {
+  MotionHW motion(kLimits, kAge);
+  CHECK(motion.due(kStart) == kStand);
+  CHECK(motion.expiry() == kForever);
+}
+
+TEST_CASE("a command within the limits is carried out as it is", "[hw][motion]") {
+  CHECK(carried_out(turn(-1.5, 0.7)) == DriveSetpoint{0.7, -1.5});
+  CHECK(carried_out(turn(1.5, -0.7)) == DriveSetpoint{-0.7, 1.5});
+}
+
+TEST_CASE("a direction is turned to with the base's gain", "[hw][motion]") {
+  CHECK(carried_out(head(0.8, 0.5)) == DriveSetpoint{0.5, 0.4});
+}
+
+TEST_CASE("no command makes the base faster than its limits", "[hw][motion]") {
+  orca::RandomStream random(1, "test", "limits");
+  for (int i = 0; i < 1000; ++i) {
+    const double value = random.uniform(-10.0, 10.0);
+    const double speed = random.uniform(-5.0, 5.0);
+    for (const auto& setpoint : {carried_out(turn(value, speed)), carried_out(head(value, speed))}) {
+      CHECK(std::abs(setpoint.speed) <= kLimits.max_speed);
+      CHECK(std::abs(setpoint.steer_speed) <= kLimits.max_steer_speed);
+      CHECK(setpoint.speed * speed >= 0.0);
+      CHECK(setpoint.steer_speed * value >= 0.0);
+    }
+  }
+}
+
+TEST_CASE("towards directions beyond the big turn angle the base slows down, if it has such an angle",
+          "[hw][motion]") {
+  CHECK(carried_out(head(0.99, 0.5)).speed == 0.5);
+  CHECK(carried_out(head(1.01, 0.5)).speed == 0.2);
+  CHECK(carried_out(head(-1.01, 0.5)).speed == 0.2);
+  CHECK(carried_out(head(-1.01, 0.1)).speed == 0.1);
+  DriveLimits without = kLimits;
+  without.big_turn_angle = 0.0;
+  CHECK(carried_out(head(3.0, 0.5), without).speed == 0.5);
+}
+
+TEST_CASE("a command that grows older than max_command_age expires to zero, and is counted", "[hw][motion]") {
+  MotionHW motion(kLimits, kAge);
+  REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
+  CHECK(motion.expiry() == kStart + kAge);
+  CHECK(motion.due(kStart + kAge - 1ns) == DriveSetpoint{0.5, 0.1});
+  CHECK(motion.expired_count() == 0);
+  CHECK(motion.due(kStart + kAge) == kStand);
+  CHECK(motion.expired_count() == 1);
+  CHECK(motion.expiry() == kForever);
+  CHECK(motion.due(kStart + 2 * kAge) == kStand);
+  CHECK(motion.expired_count() == 1);
+}
+
+TEST_CASE("each new command starts its own age", "[hw][motion]") {
+  MotionHW motion(kLimits, kAge);
+  for (int lap = 0; lap < 10; ++lap) REQUIRE(motion.command(*turn(0.0, 0.5), kStart + lap * 150ms).ok());
+  CHECK(motion.due(kStart + 9 * 150ms + 199ms) == DriveSetpoint{0.5, 0.0});
+  CHECK(motion.expired_count() == 0);
+}
+
+TEST_CASE("a full stop and halt stand at once, and a standing base has nothing to expire", "[hw][motion]") {
+  MotionHW motion(kLimits, kAge);
+  REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
+  REQUIRE(motion.command(*full_stop(), kStart + 1ms).ok());
+  CHECK(motion.due(kStart + 1ms) == kStand);
+  REQUIRE(motion.command(*turn(0.1, 0.5), kStart + 2ms).ok());
+  motion.halt();
+  CHECK(motion.due(kStart + 2ms) == kStand);
+  CHECK(motion.due(kStart + 1s) == kStand);
+  CHECK(motion.expired_count() == 0);
+}
+
+TEST_CASE("a full stop is obeyed whatever its other fields hold", "[hw][motion]") {
+  MotionHW motion(kLimits, kAge);
+  REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
+  auto stop = full_stop();
+  stop->speed(std::numeric_limits<double>::quiet_NaN());
+  stop->direction(std::numeric_limits<double>::infinity());
+  CHECK(motion.command(*stop, kStart).ok());
+  CHECK(motion.due(kStart) == kStand);
+}
+
+TEST_CASE("a command without an opinion is refused with what to do, and changes nothing", "[hw][motion]") {
+  MotionHW motion(kLimits, kAge);
+  REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
+  const Status refused = motion.command(*dont_care(), kStart + 100ms);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().code == Code::invalid_argument);
+  CHECK_THAT(refused.error().text(), Contains("DONTCARE") && Contains("MotionCommandFuser"));
+  CHECK(motion.due(kStart + 100ms) == DriveSetpoint{0.5, 0.1});
+  CHECK(motion.expiry() == kStart + kAge);
+}
+
+TEST_CASE("a command with a number that is not finite, or a negative weight, is refused and changes nothing",
+          "[hw][motion]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  MotionHW motion(kLimits, kAge);
+  std::vector<Loan<idl::MotionCommand>> wrong;
+  for (const double value : {nan, inf, -inf}) {
+    wrong.push_back(turn(value, 0.5));
+    wrong.push_back(turn(0.5, value));
+    wrong.push_back(head(value, 0.5));
+    wrong.push_back(head(0.5, value));
+  }
+  wrong.push_back(turn(0.5, 0.5, -1.0));
+  wrong.push_back(turn(0.5, 0.5, nan));
+  for (const auto& command : wrong) {
+    const Status refused = motion.command(*command, kStart);
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == Code::invalid_argument);
+    CHECK(motion.due(kStart) == kStand);
+  }
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "component_bench.hpp"
+#include "fake_scout.hpp"
+#include "orca/hw/server.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/patterns/local/local_link.hpp"
+
+namespace orca::test {
+
+/// What a RobotBaseServer is besides its description.
+class Base final : public hw::HardwareServer {
+ public:
+  explicit Base(ComponentHost& host) : HardwareServer(host, hw::Source::sensor) { offer_motion(); }
+};
+
+/// Uses a base through all of its interfaces.
+struct Client : Peer {
+  explicit Client(Executive& executive, const std::string& name = "client") : Peer(executive, name) {}
+  PushProxy<idl::Odometry> odometry{*this, "odometry"};
+  PushProxy<idl::SonarRangeReadings> sonar{*this, "sonar"};
+  QueryProxy<idl::Ask, idl::Odometry> ask_odometry{*this, "ask_odometry"};
+  QueryProxy<idl::Ask, idl::SonarRangeReadings> ask_sonar{*this, "ask_sonar"};
+  SendProxy<idl::MotionCommand> motion{*this, "motion"};
+};
+
+/// A scout, a server around it, a client connected to all five interfaces; server and scout run.
+struct ScoutBase {
+  explicit ScoutBase(Executive& used, std::map<std::string, std::function<Status()>> trouble = {})
+      : executive(used),
+        robot(used, std::move(trouble)),
+        bench(used, "base", &robot.scout),
+        server(bench),
+        client(used) {
+    connect("OdometryPush", "odometry");
+    connect("SonarRangeReadingsPush", "sonar");
+    connect("ask_odometry", "OdometryQuery");
+    connect("ask_sonar", "SonarRangeReadingsQuery");
+    connect("motion", "MotionCommandSend");
+    CHECK(server.configure().ok());
+    bench.peer().open();
+  }
+
+  /// From here on the server's strand runs.
+  void run() {
+    service = std::make_unique<Script>(bench.peer(), [this] { bench.run(server); });
+  }
+
+  ~ScoutBase() {
+    service.reset();
+    robot.end();  // before the server's strand, which the scout wakes, is gone
+  }
+
+  [[nodiscard]] bool gets(hw::HardwareState state) { return robot.gets(state); }
+
+  Executive& executive;
+  RunningScout robot;
+  ComponentBench bench;
+  Base server;
+  Client client;
+  std::unique_ptr<Script> service;
+
+ private:
+  void connect(const std::string& from, const std::string& to) {
+    const bool pushed = from.ends_with("Push");
+    Endpoint& first = pushed ? bench.peer().endpoint(from) : client.endpoint(from);
+    Endpoint& second = pushed ? client.endpoint(to) : bench.peer().endpoint(to);
+    CHECK(connect_locally(first, second, {}).ok());
+  }
+};
+
+}  // namespace orca::test

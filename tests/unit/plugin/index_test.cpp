@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orca/plugin/index.hpp"
+
+#include "orca/plugin/describe.hpp"
+#include "places.hpp"
+
+using namespace orca;
+using namespace orca::test;
+using Catch::Contains;
+
+TEST_CASE("the index names the file that holds a type", "[plugin][index]") {
+  const PluginIndex index({kShipped, kForTests});
+  CHECK(index.file_of("orca.Goto").value() == kShipped + "/goto.so");
+  CHECK(index.file_of("test.Statics").value() == test_plugin("test_statics"));
+  CHECK(index.file_of("test.First").value() == test_plugin("test_two"));
+  CHECK(index.file_of("test.hw.Second").value() == test_plugin("test_two"));
+}
+
+TEST_CASE("a type that no plugin holds is not found, and the error names the places searched",
+          "[plugin][index]") {
+  const PluginIndex index({kShipped, "/no/such/folder"});
+  const auto file = index.file_of("orca.Gotto");
+  REQUIRE_FALSE(file.has_value());
+  CHECK(file.error().code == Code::not_found);
+  CHECK_THAT(file.error().text(), Contains("\"orca.Gotto\"") && Contains(kShipped) &&
+                                      Contains("/no/such/folder (no such folder)"));
+}
+
+TEST_CASE("of two folders that hold a type the first one wins", "[plugin][index]") {
+  const std::string copy = kForTests + "/first";
+  std::filesystem::create_directories(copy);
+  for (const char* const extension : {".so", ".types"})
+    std::filesystem::copy_file(kForTests + "/test_two" + extension, copy + "/test_two" + extension,
+                               std::filesystem::copy_options::overwrite_existing);
+  CHECK(PluginIndex({copy, kForTests}).file_of("test.First").value() == copy + "/test_two.so");
+  CHECK(PluginIndex({kForTests, copy}).file_of("test.First").value() == test_plugin("test_two"));
+  std::filesystem::remove_all(copy);
+}
+
+TEST_CASE("what the index says of a plugin is what its manifest says", "[plugin][index]") {
+  for (const std::string& folder : {kShipped, kForTests}) {
+    const PluginIndex index({folder});
+    std::vector<std::string> listed = index.types();
+    std::vector<std::string> held;
+    for (const std::string& type : listed) {
+      const auto library = loaded(index.file_of(type).value());
+      for (const TypeEntry* entry : library->types()) held.emplace_back(entry->type);
+    }
+    std::sort(held.begin(), held.end());
+    held.erase(std::unique(held.begin(), held.end()), held.end());
+    CHECK_FALSE(listed.empty());
+    CHECK(held == listed);
+  }
+}

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loaded, described, unloaded, and proved gone: a plugin that stays in memory would run stale code after a
+// swap.
+#include <spdlog/spdlog.h>
+
+#include <map>
+
+#include "orca/hw/container.hpp"
+#include "orca/plugin/describe.hpp"
+#include "places.hpp"
+
+using namespace orca;
+using namespace orca::test;
+
+namespace {
+
+// What the contract of one type says; for hardware without preparing it.
+Contract contract_of(const TypeEntry& type, const std::string& library) {
+  if (type.kind == PluginKind::hardware) return describe_hardware(type, library, "test").value()->contract();
+  return describe_component(type, library, nullptr).value();
+}
+
+void describe_all(const std::string& path) {
+  const auto library = loaded(path);
+  CHECK(is_mapped(path));
+  CHECK_FALSE(library->types().empty());
+  for (const TypeEntry* type : library->types()) CHECK(contract_of(*type, path).type == type->type);
+}
+
+// Unmaps within the scope and removes the file at its end.
+struct Copy {
+  explicit Copy(const std::string& name) : path(kForTests + "/copy_of_" + name + ".so") {
+    std::filesystem::copy_file(test_plugin(name), path, std::filesystem::copy_options::overwrite_existing);
+  }
+  ~Copy() { std::filesystem::remove(path); }
+  std::string path;
+};
+
+}  // namespace
+
+TEST_CASE("every shipped plugin is loaded, described, unloaded and gone, twice", "[plugin][unload]") {
+  const auto plugins = plugins_in(kShipped);
+  CHECK(plugins.size() >= 6);
+  for (const std::string& path : plugins) {
+    CAPTURE(path);
+    for (int round = 0; round < 2; ++round) {
+      describe_all(path);
+      CHECK_FALSE(is_mapped(path));
+    }
+  }
+}
+
+TEST_CASE("every shipped type says in words what its ports and parameters are for", "[plugin][describe]") {
+  for (const std::string& path : plugins_in(kShipped)) {
+    const auto library = loaded(path);
+    for (const TypeEntry* type : library->types()) {
+      const Contract contract = contract_of(*type, path);
+      for (const PortContract& port : contract.ports) {
+        CAPTURE(contract.type, port.name);
+        CHECK_FALSE(port.text.empty());
+      }
+      for (const ParamContract& param : contract.params) {
+        CAPTURE(contract.type, param.name);
+        CHECK_FALSE(param.text.empty());
+      }
+    }
+  }
+}
+
+TEST_CASE("a plugin full of template, inline and local statics and with make_shared is gone after unloading",
+          "[plugin][unload]") {
+  const std::string path = test_plugin("test_statics");
+  describe_all(path);
+  CHECK_FALSE(is_mapped(path));
+}
+
+TEST_CASE("the same plugin built without the recipe stays in memory, and is_mapped sees it",
+          "[plugin][unload]") {
+  const std::string path = test_plugin("bad_pinned");
+  describe_all(path);
+  CHECK(is_mapped(path));
+}
+
+TEST_CASE("a plugin that uses spdlog and Eigen is gone after unloading, and the host's spdlog lives on",
+          "[plugin][unload]") {
+  const std::string path = test_plugin("test_libraries");
+  describe_all(path);
+  CHECK_FALSE(is_mapped(path));
+  CHECK(spdlog::default_logger() != nullptr);
+}
+
+TEST_CASE("two copies of a plugin have their own statics, and each is unloaded by itself",
+          "[plugin][unload]") {
+  const Copy copy("test_statics");
+  const std::string original = test_plugin("test_statics");
+  {
+    const auto first = loaded(original);
+    {
+      const auto second = loaded(copy.path);
+      CHECK(first->types().front() != second->types().front());
+      CHECK(is_mapped(copy.path));
+    }
+    CHECK_FALSE(is_mapped(copy.path));
+    CHECK(is_mapped(original));
+  }
+  CHECK_FALSE(is_mapped(original));
+}
+
+TEST_CASE("a mapped plugin is seen also when its file has been removed or exchanged", "[plugin][unload]") {
+  const Copy copy("test_statics");
+  const auto library = loaded(copy.path);
+  std::filesystem::remove(copy.path);
+  CHECK(is_mapped(copy.path));
+  std::filesystem::copy_file(test_plugin("test_statics"), copy.path);
+  CHECK(is_mapped(copy.path));
+}
+
+TEST_CASE("only the whole path counts: a file of the same name elsewhere is not mapped", "[plugin][unload]") {
+  const auto library = loaded(test_plugin("test_statics"));
+  CHECK_FALSE(is_mapped("/test_statics.so"));
+  CHECK_FALSE(is_mapped("/tests/unit_plugins/test_statics.so"));
+  CHECK_FALSE(is_mapped(kForTests + "/test_static.so"));
+}
+
+TEST_CASE("a path may be relative to the working folder, also without a slash", "[plugin][unload]") {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(kForTests);
+  const auto library = PluginLibrary::load("test_statics.so");
+  const bool mapped = is_mapped("test_statics.so");
+  std::filesystem::current_path(before);
+  CHECK(library.has_value());
+  CHECK(mapped);
+  CHECK(is_mapped(test_plugin("test_statics")));
+}

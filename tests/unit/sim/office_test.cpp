@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <deque>
+#include <set>
+
+#include "orca/sim/robot_file.hpp"
+#include "orca/sim/world.hpp"
+#include "orca/sim/world_file.hpp"
+
+using namespace orca::sim;
+
+namespace {
+
+constexpr double kCell = 0.05;
+constexpr double kClearance = 0.3;
+
+WorldModel office() {
+  orca::xml::Diagnostics diagnostics;
+  const auto world = read_world(ORCA_SOURCE_DIR "/sim/worlds/office.xml", {}, diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(world);
+  return *world;
+}
+
+// The cells that a disc of radius kClearance can reach from a place.
+class Plan {
+ public:
+  Plan(const WorldModel& world, Vec2 start) : world_(world) {
+    std::deque<Cell> open{cell(start)};
+    if (free(open.front())) reached_.insert(open.front());
+    while (!open.empty()) {
+      const auto [x, y] = open.front();
+      open.pop_front();
+      for (const Cell& next : {Cell{x + 1, y}, Cell{x - 1, y}, Cell{x, y + 1}, Cell{x, y - 1}})
+        if (!reached_.contains(next) && free(next)) {
+          reached_.insert(next);
+          open.push_back(next);
+        }
+    }
+  }
+  [[nodiscard]] bool reaches(Vec2 p) const { return reached_.contains(cell(p)); }
+
+ private:
+  using Cell = std::pair<int, int>;
+  static Cell cell(Vec2 p) {
+    return {static_cast<int>(std::lround(p.x / kCell)), static_cast<int>(std::lround(p.y / kCell))};
+  }
+  [[nodiscard]] bool free(Cell c) const {
+    const Vec2 p{c.first * kCell, c.second * kCell};
+    return world_.obstacle_at(Circle{p, kClearance}, 0.0) == nullptr;
+  }
+  const WorldModel& world_;
+  std::set<Cell> reached_;
+};
+
+}  // namespace
+
+TEST_CASE("every place of the office can be reached with 0.3 m of clearance", "[sim][office]") {
+  const WorldModel world = office();
+  REQUIRE(world.place("start") != nullptr);
+  const Plan plan(world, world.place("start")->pose.position());
+  CHECK(world.places.size() == 20);
+  for (const Place& p : world.places) {
+    INFO(p.name);
+    CHECK(plan.reaches(p.pose.position()));
+  }
+  CHECK_FALSE(plan.reaches({-1.0, 6.0}));
+}
+
+TEST_CASE("the office has six rooms, each with a goal, a door and a place before it", "[sim][office]") {
+  const WorldModel world = office();
+  for (const std::string room : {"office_1", "office_2", "workshop", "kitchen", "library", "meeting"})
+    for (const char* suffix : {"", "_door", "_hall"}) CHECK(world.place(room + suffix) != nullptr);
+  const Bounds b = world.bounds();
+  CHECK(b.high.x - b.low.x == Approx(18.2));
+  CHECK(b.high.y - b.low.y == Approx(12.2));
+}
+
+TEST_CASE("the shipped scout drives from the office's start along the corridor", "[sim][office]") {
+  orca::xml::Diagnostics diagnostics;
+  const auto scout = read_robot(ORCA_SOURCE_DIR "/sim/robots/nomad_scout.urdf", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(scout);
+  World world(office(), {.seed = 1, .realism = Realism::nominal});
+  const auto id = world.add_robot("dewey", *scout, world.model().place("start")->pose);
+  REQUIRE(id);
+  REQUIRE(world.set_velocity_command(*id, 0.5, 0.0));
+  for (int i = 0; i < 1000; ++i) {
+    world.step();
+    REQUIRE(world.contacts().empty());
+  }
+  CHECK(world.pose(*id).x > 5.0);
+  CHECK(world.pose(*id).y == Approx(6.0));
+}
