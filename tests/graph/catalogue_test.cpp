@@ -37,3 +37,13 @@ TEST_CASE("what a world file has wrong is printed as the simulator says it, a wr
         "broken.world:4:3: error W001: two walls cross\nbroken.world:9:3: error W002: the floor has no size\n"
         "test.xml:1:86: error G042: hardware \"robot\": parameter \"world\": it is broken; take another\n");
 }
+
+TEST_CASE("a value that the hardware refuses is told where the graph sets it", "[graph][catalogue]") {
+  const std::string said = said_about(
+      "<graph name='g'>\n<hardware name='robot' type='orca.hw.Sim'>\n<param name='world' "
+      "value='flooded.world'/>"
+      "</hardware></graph>");
+  CHECK(said ==
+        "test.xml:3:28: error G042: hardware \"robot\": parameter \"world\": it is under water; take "
+        "another\n");
+}

@@ -174,10 +174,13 @@ Result<Contract> FakeCatalogue::hardware(const std::string& type) {
 std::vector<orca::HardwareFault> FakeCatalogue::validate_hardware(const graph::HardwareUse& use) {
   calls.push_back("validate " + use.name);
   const auto world = use.params.find("world");
-  if (world == use.params.end() || !std::get<std::string>(world->second).ends_with("broken.world")) return {};
-  return {{"", "broken.world:4:3: error W001: two walls cross"},
-          {"", "broken.world:9:3: error W002: the floor has no size"},
-          {"world", "it is broken; take another"}};
+  const std::string path = world == use.params.end() ? "" : std::get<std::string>(world->second);
+  if (path.ends_with("broken.world")) {
+    return {{"", "broken.world:4:3: error W001: two walls cross"},
+            {"", "broken.world:9:3: error W002: the floor has no size"}};
+  }
+  if (path.ends_with("flooded.world")) return {{"world", "it is under water; take another"}};
+  return {};
 }
 
 Result<Contract> FakeCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {

@@ -9,7 +9,8 @@
 
 /// Contracts as the shipped plugins have them, and some for what can go wrong, without a plugin.
 ///
-/// A hardware whose parameter "world" ends in "broken.world" has a broken world file.
+/// A hardware whose parameter "world" ends in "broken.world" has a broken world file, one where it ends in
+/// "flooded.world" cannot work with that value.
 class FakeCatalogue final : public orca::graph::Catalogue {
  public:
   FakeCatalogue();

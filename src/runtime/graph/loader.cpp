@@ -38,14 +38,20 @@ std::vector<std::string> read_ends(const Node& graph, const Model& model, Report
   return ends;
 }
 
-Graph check(const Structure& structure, const LoadOptions& options, Catalogue& catalogue, Report& report) {
-  const Node& root = structure.graph;
+// What the <graph> element itself says, but for its ends, which are names of components.
+Graph read_root(const Node& root, Report& report) {
   Graph graph;
   check_name(root, "name", report);
   graph.name = root.value("name");
   graph.default_profile = root.value("default_profile");
   graph.plugin_dirs = plugin_folders(root);
   graph.seed = read_seed(root, report);
+  return graph;
+}
+
+Graph check(const Structure& structure, const LoadOptions& options, Catalogue& catalogue, Report& report) {
+  const Node& root = structure.graph;
+  Graph graph = read_root(root, report);
   catalogue.add_folders(graph.plugin_dirs);
   const Parts parts = merge_profiles(root, options.profiles, report);
   Types types(catalogue, report);

@@ -107,20 +107,32 @@ std::map<std::string, const Node*> profiles_of(const Node& graph, Report& report
   return profiles;
 }
 
+// What is asked for, and where.
+std::vector<std::pair<std::string, xml::Position>> wanted_profiles(const Node& graph,
+                                                                   const std::vector<std::string>& chosen) {
+  std::vector<std::pair<std::string, xml::Position>> wanted;
+  for (const std::string& name : chosen) wanted.push_back({name, {"command line", 0, 0}});
+  const Text* default_profile = graph.known("default_profile");
+  if (chosen.empty() && default_profile != nullptr) {
+    wanted.emplace_back(default_profile->value, default_profile->position);
+  }
+  return wanted;
+}
+
 std::vector<const Node*> chosen_profiles(const Node& graph, const std::vector<std::string>& chosen,
                                          Report& report) {
   const auto profiles = profiles_of(graph, report);
   std::vector<std::string> names;
   for (const auto& [name, node] : profiles) names.push_back(name);
   std::vector<const Node*> result;
-  const auto choose = [&](const std::string& wanted, const xml::Position& position) {
-    const auto found = profiles.find(wanted);
-    if (found == profiles.end()) return report_unknown(wanted, position, names, report);
-    result.push_back(found->second);
-  };
-  for (const std::string& wanted : chosen) choose(wanted, {"command line", 0, 0});
-  const Text* default_profile = graph.known("default_profile");
-  if (chosen.empty() && default_profile != nullptr) choose(default_profile->value, default_profile->position);
+  for (const auto& [name, position] : wanted_profiles(graph, chosen)) {
+    const auto found = profiles.find(name);
+    if (found != profiles.end()) {
+      result.push_back(found->second);
+    } else {
+      report_unknown(name, position, names, report);
+    }
+  }
   return result;
 }
 
