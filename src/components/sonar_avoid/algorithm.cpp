@@ -59,8 +59,8 @@ double free_way(std::span<const Echo> echoes, double direction, const Limits& li
   return std::max(0.0, way);
 }
 
-Advice avoid(std::span<const Echo> echoes, double last_direction, const Limits& limits) {
-  const double ahead = free_way(echoes, 0.0, limits);
+Advice avoid(std::span<const Echo> echoes, double last_direction, double turning, const Limits& limits) {
+  const double ahead = std::min(free_way(echoes, 0.0, limits), free_way(echoes, turning, limits));
   if (ahead >= limits.safe_distance) return {};
   Advice advice;
   advice.needed = true;

@@ -44,10 +44,10 @@ def command(args, drive):
     x, y, heading, goal_x, goal_y = drive.places
     settings = {"map": path, "map_width": width, "x": x, "y": y, "heading": heading, "realism": drive.realism,
                 "goals": f"a: {goal_x} {goal_y}"}
-    line = [args.build / "bin/deployer", TREE / "graphs/scout_hospital.xml", "--clock", "virtual", "--log", "off",
+    line = [args.build / "bin/deployer", args.graph, "--clock", "virtual", "--log", "off",
             "--until", f"{args.limit}s", "--seed", drive.seed]
-    for name, value in settings.items():
-        line += ["--set", f"{name}={value}"]
+    for setting in [f"{name}={value}" for name, value in settings.items()] + args.set:
+        line += ["--set", setting]
     return [str(word) for word in line]
 
 
@@ -86,6 +86,9 @@ def report(args, drives, outcomes):
 def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=TREE / "build/release")
+    parser.add_argument("--graph", type=pathlib.Path, default=TREE / "graphs/scout_hospital.xml",
+                        help="with the arguments map, map_width, x, y, heading, realism and goals")
+    parser.add_argument("--set", action="append", default=[], metavar="ARG=VALUE", help="another argument of the graph")
     parser.add_argument("--worlds", default="office,cave,hospital")
     parser.add_argument("--realism", default="nominal,harsh")
     parser.add_argument("--count", type=int, default=200, help="drives per world and realism")
