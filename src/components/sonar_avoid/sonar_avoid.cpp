@@ -61,13 +61,14 @@ class SonarAvoid final : public orca::Component {
     turn_rate_ = odometry.steering_velocity();
   }
 
-  // An echo may come from anywhere on the arc of the cone; its middle is taken. The sonars fire one after the
-  // other: meanwhile the robot moves.
+  // An echo may come from anywhere on the arc of the cone; its middle is taken. What is too near to tell how
+  // near may be at the sonar itself. The sonars fire one after the other: meanwhile the robot moves.
   void listen(const orca::idl::SonarRangeReadings& readings) {
     heard_at_ = now();
     for (std::size_t i = 0; i < readings.ranges().size(); ++i) {
-      const double range = readings.ranges()[i];
-      if (!(range < readings.max_range())) continue;
+      const double heard = readings.ranges()[i];
+      if (!(heard < readings.max_range())) continue;
+      const double range = heard > readings.min_range() ? heard : 0.0;
       const auto& mount = readings.poses()[i];
       const double yaw = mount.rotation().yaw();
       const Echo echo{mount.position().x() + range * std::cos(yaw),
@@ -93,9 +94,9 @@ class SonarAvoid final : public orca::Component {
     }
   }
 
-  // 0 where the way is free, 1 half way, 50 at the stop distance: there no other wish must carry the robot
+  // 0 where the way is free, 1 half way, 1000 at the stop distance: there no other wish must carry the robot
   // on.
-  static double insistence(double urgency) { return urgency / (1.02 - urgency); }
+  static double insistence(double urgency) { return urgency / (1.001 - urgency); }
 
   [[nodiscard]] orca::avoid::EchoMemory::Limits keep() const {
     return {*memory_time_, *echo_time_, *same_place_, *memory_range_};
