@@ -9,9 +9,10 @@
 namespace orca::avoid {
 namespace {
 
-constexpr double kStep = std::numbers::pi / 36;         // candidate directions every 5 degrees
-constexpr double kWidest = std::numbers::pi * 5.0 / 6;  // up to 150 degrees to either side
-constexpr double kOtherSidePenalty = 0.8;               // [rad] for changing the side once chosen
+constexpr double kStep = std::numbers::pi / 36;  // candidate directions every 5 degrees
+constexpr int kSteps = 36;                       // up to half a turn to either side
+constexpr double kOtherSidePenalty = 0.8;        // [rad] for changing the side once chosen
+constexpr double kBlockedPenalty = 4.0;          // [rad] for no free way at all: more than any turn costs
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -25,21 +26,21 @@ double way_to_point(const Echo& echo, double direction, const Limits& limits) {
 double way_to_wall(const Echo& echo, double direction, const Limits& limits) {
   const double gap = std::hypot(echo.x, echo.y) - limits.robot_radius;
   const double closing = std::cos(direction - std::atan2(echo.y, echo.x));
-  return gap >= limits.side_distance || closing < 0.05 ? kNever : gap / closing;
+  return gap >= limits.side_distance || closing < 0.05 ? kNever : (gap - limits.margin) / closing;
 }
 
 // What speaks against a direction: turning far, changing sides, and a short way.
 double cost(double direction, double way, double last_direction, const Limits& limits) {
   const bool changes_side = last_direction * direction < 0.0;
   const double missing = std::max(0.0, limits.safe_distance - way) / limits.safe_distance;
-  return std::abs(direction) + (changes_side ? kOtherSidePenalty : 0.0) + 2.0 * missing;
+  return std::abs(direction) + (changes_side ? kOtherSidePenalty : 0.0) + kBlockedPenalty * missing;
 }
 
 double best_direction(std::span<const Echo> echoes, double last_direction, const Limits& limits) {
   double best = 0.0;
   double lowest = cost(0.0, free_way(echoes, 0.0, limits), last_direction, limits);
-  for (double turn = kStep; turn <= kWidest; turn += kStep) {
-    for (const double direction : {turn, -turn}) {
+  for (int i = 1; i <= kSteps; ++i) {
+    for (const double direction : {kStep * i, -kStep * i}) {
       const double c = cost(direction, free_way(echoes, direction, limits), last_direction, limits);
       if (c < lowest) {
         lowest = c;
@@ -59,8 +60,8 @@ double free_way(std::span<const Echo> echoes, double direction, const Limits& li
   return std::max(0.0, way);
 }
 
-Advice avoid(std::span<const Echo> echoes, double last_direction, const Limits& limits) {
-  const double ahead = free_way(echoes, 0.0, limits);
+Advice avoid(std::span<const Echo> echoes, double last_direction, double turning, const Limits& limits) {
+  const double ahead = std::min(free_way(echoes, 0.0, limits), free_way(echoes, turning, limits));
   if (ahead >= limits.safe_distance) return {};
   Advice advice;
   advice.needed = true;

@@ -3,13 +3,9 @@
 
 #include <span>
 
-namespace orca::avoid {
+#include "echo_memory.hpp"
 
-/// A place from which an echo came, robot frame.
-struct Echo {
-  double x = 0.0;  ///< [m] ahead.
-  double y = 0.0;  ///< [m] to the left.
-};
+namespace orca::avoid {
 
 struct Limits {
   double robot_radius = 0.0;   ///< [m] of the circle that holds the robot.
@@ -38,8 +34,10 @@ struct Advice {
 /// Steers to the nearest direction with a long enough free way when the way ahead is blocked.
 ///
 /// @param last_direction  [rad] advised in the lap before, 0 if none: the side once chosen is kept, so that
-/// the robot
-///                        does not dither in front of something symmetric.
-[[nodiscard]] Advice avoid(std::span<const Echo> echoes, double last_direction, const Limits& limits);
+///                        the robot does not dither in front of something symmetric.
+/// @param turning         [rad] how far the robot will have turned before it can follow the advice: what lies
+///                        there counts as ahead, too.
+[[nodiscard]] Advice avoid(std::span<const Echo> echoes, double last_direction, double turning,
+                           const Limits& limits);
 
 }  // namespace orca::avoid
