@@ -55,7 +55,7 @@ class Run {
     } else {
       system_.open_gates();
       supervise();
-      if (!stop_.requested()) wait_for_rest();
+      if (has_ended() && !stop_.requested()) wait_for_rest();
     }
     take_down();
     stop_.on_request(nullptr);
@@ -88,8 +88,7 @@ class Run {
 
   // Lets the closing phase run its course: the last client has gone, connections close down to the hardware.
   void wait_for_rest() {
-    const bool autonomous_forever = graph_.ends.empty();
-    const TimePoint limit = executive_.now() + (autonomous_forever ? Duration{0} : kRestLimit);
+    const TimePoint limit = executive_.now() + kRestLimit;
     while (!system_.at_rest() && executive_.now() < limit && !stop_.requested()) changed_->wait_until(limit);
   }
 

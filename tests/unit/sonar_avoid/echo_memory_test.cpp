@@ -54,7 +54,8 @@ TEST_CASE("a single echo is forgotten after a moment", "[sonar_avoid][memory]") 
   CHECK(memory.echoes().empty());
 }
 
-TEST_CASE("an echo that was heard twice is kept for seconds and moves with the robot", "[sonar_avoid][memory]") {
+TEST_CASE("an echo that was heard twice is kept for seconds and moves with the robot",
+          "[sonar_avoid][memory]") {
   EchoMemory memory;
   memory.hear({0.5, 0.0}, kLimits);
   memory.hear({0.51, 0.0}, kLimits);
