@@ -20,31 +20,33 @@ class Reader {
     const ElementRule& rule = *find_rule("graph");
     result_.graph = {&rule, root.position(), {}, {}};
     // Arguments first: everything else may use them.
+    const ElementRule* const arg = find_rule("arg");
+    std::vector<std::pair<const xml::Element*, const ElementRule*>> others;
     for (const xml::Element& child : root.children()) {
-      if (is_arg(rule, child)) arguments_.declare(read(child, *find_rule("arg")));
+      const ElementRule* meant = rule.guess_child(child);
+      if (meant == arg) {
+        read_argument(child, rule, *arg);
+      } else {
+        others.emplace_back(&child, meant);
+      }
     }
     read_attributes(root, result_.graph);
     check_text(root);
-    for (const xml::Element& child : root.children()) {
-      if (is_arg(rule, child)) {
-        check_spelling(child, rule, find_rule("arg"));
-      } else {
-        read_child(child, result_.graph);
-      }
-    }
+    for (const auto& [child, meant] : others) read_child(*child, meant, result_.graph);
     return std::move(result_);
   }
 
  private:
-  static bool is_arg(const ElementRule& parent, const xml::Element& element) {
-    return parent.guess_child(element) == find_rule("arg");
+  void read_argument(const xml::Element& element, const ElementRule& parent, const ElementRule& rule) {
+    check_spelling(element, parent, &rule);
+    arguments_.declare(read(element, rule));
   }
 
   Node read(const xml::Element& element, const ElementRule& rule) {
     Node node{&rule, element.position(), {}, {}};
     read_attributes(element, node);
     check_text(element);
-    for (const xml::Element& child : element.children()) read_child(child, node);
+    read_children(element, node);
     drop_duplicates(node);
     if (node.is("component") && node.value("name").empty()) result_.names_incomplete = true;
     return node;
@@ -83,8 +85,14 @@ class Reader {
                       " means nothing; a graph says everything in attributes");
   }
 
-  void read_child(const xml::Element& element, Node& parent) {
-    const ElementRule* rule = parent.rule->guess_child(element);
+  void read_children(const xml::Element& element, Node& parent) {
+    for (const xml::Element& child : element.children()) {
+      read_child(child, parent.rule->guess_child(child), parent);
+    }
+  }
+
+  // @param rule  what the element was meant to be; null: there is no telling
+  void read_child(const xml::Element& element, const ElementRule* rule, Node& parent) {
     check_spelling(element, *parent.rule, rule);
     if (rule == nullptr) return excuse(element);
     if (rule->support == ElementRule::Support::full) {
@@ -102,9 +110,7 @@ class Reader {
                            : "; put the components that it would bring directly into the graph"));
     if (rule.support == ElementRule::Support::none) result_.names_incomplete = true;
     Node inside{&rule, element.position(), {}, {}};
-    if (rule.support == ElementRule::Support::transparent) {
-      for (const xml::Element& child : element.children()) read_child(child, inside);
-    }
+    if (rule.support == ElementRule::Support::transparent) read_children(element, inside);
     for (Node& child : inside.children) parent.children.push_back(std::move(child));
   }
 

@@ -17,13 +17,19 @@ std::string Diagnostic::text() const {
   return position.text() + kind + code + ": " + message;
 }
 
+void Diagnostics::keep(Severity severity, std::string code, Position position, std::string message) {
+  ++reported_;
+  if (items_.size() == kKept) return;
+  items_.push_back({severity, std::move(code), std::move(position), std::move(message)});
+}
+
 void Diagnostics::error(std::string code, Position position, std::string message) {
-  items_.push_back({Severity::error, std::move(code), std::move(position), std::move(message)});
   ++errors_;
+  keep(Severity::error, std::move(code), std::move(position), std::move(message));
 }
 
 void Diagnostics::warning(std::string code, Position position, std::string message) {
-  items_.push_back({Severity::warning, std::move(code), std::move(position), std::move(message)});
+  keep(Severity::warning, std::move(code), std::move(position), std::move(message));
 }
 
 void Diagnostics::line(Position position, std::string finished_line) {
@@ -44,7 +50,7 @@ std::string Diagnostics::text() const {
   const std::vector<Diagnostic> all = sorted();
   std::string result;
   for (std::size_t i = 0; i < std::min(all.size(), kPrinted); ++i) result += all[i].text() + "\n";
-  if (all.size() > kPrinted) result += "... and " + std::to_string(all.size() - kPrinted) + " more\n";
+  if (reported_ > kPrinted) result += "... and " + std::to_string(reported_ - kPrinted) + " more\n";
   return result;
 }
 

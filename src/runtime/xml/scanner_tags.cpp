@@ -47,6 +47,10 @@ void Scanner::start_tag() {
 }
 
 bool Scanner::has_place(std::string_view tag, Mark begin) {
+  if (scan_.elements.size() == Limits::kElements) {
+    stop(codes::kLimit, begin, "there are more than " + std::to_string(Limits::kElements) + " elements");
+    return false;
+  }
   if (open_.size() >= Limits::kNesting) {
     stop(codes::kLimit, begin,
          "<" + std::string(tag) + "> is nested in " + std::to_string(open_.size()) +

@@ -47,3 +47,11 @@ TEST_CASE("after fifty lines the rest is only counted", "[xml][diagnostics]") {
   CHECK(text.find("a.xml:51:1") == std::string::npos);
   CHECK(text.ends_with("... and 3 more\n"));
 }
+
+TEST_CASE("of a flood of errors the first are kept and all are counted", "[xml][diagnostics]") {
+  Diagnostics diagnostics;
+  for (int line = 1; line <= 30'000; ++line) diagnostics.error("E", {"a.xml", line, 1}, "wrong");
+  CHECK(diagnostics.error_count() == 30'000);
+  CHECK(diagnostics.sorted().size() == Diagnostics::kKept);
+  CHECK(diagnostics.text().ends_with("... and 29950 more\n"));
+}

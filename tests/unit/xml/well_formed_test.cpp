@@ -117,7 +117,7 @@ TEST_CASE("several slips are told together", "[xml][reading]") {
     CHECK(found.find(place) != std::string::npos);
 }
 
-TEST_CASE("nesting, attributes and size have limits that are named", "[xml][reading]") {
+TEST_CASE("nesting, attributes, elements and size have limits that are named", "[xml][reading]") {
   const auto nested = [](std::size_t depth) {
     std::string text;
     for (std::size_t i = 0; i < depth; ++i) text += "<a>";
@@ -131,6 +131,10 @@ TEST_CASE("nesting, attributes and size have limits that are named", "[xml][read
   std::string wide = "<a";
   for (std::size_t i = 0; i <= Limits::kAttributes; ++i) wide += " x" + std::to_string(i) + "='1'";
   CHECK(errors_of(wide + "/>").find("error G121: more than 64 attributes") != std::string::npos);
+  std::string many = "<a>";
+  for (std::size_t i = 0; i < Limits::kElements; ++i) many += "<b/>";
+  CHECK(errors_of(many + "</a>").find("error G121: there are more than 500000 elements") !=
+        std::string::npos);
   CHECK(errors_of(std::string(Limits::kBytes + 1, ' ')).find("G103") != std::string::npos);
 }
 

@@ -40,6 +40,8 @@ class Diagnostics {
  public:
   /// More lines than this help nobody.
   static constexpr std::size_t kPrinted = 50;
+  /// More than this are only counted: a file of 16 MB must not cost gigabytes.
+  static constexpr std::size_t kKept = 20'000;
 
   void error(std::string code, Position position, std::string message);
   void warning(std::string code, Position position, std::string message);
@@ -50,15 +52,19 @@ class Diagnostics {
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   [[nodiscard]] std::size_t error_count() const { return errors_; }
 
-  /// Everything, ordered by file, line and column; in the order of reporting within one place.
+  /// Everything (the first kKept), ordered by file, line and column; in the order of reporting within one
+  /// place.
   [[nodiscard]] std::vector<Diagnostic> sorted() const;
 
   /// The sorted lines, each ended by a newline; after kPrinted of them "... and N more".
   [[nodiscard]] std::string text() const;
 
  private:
+  void keep(Severity severity, std::string code, Position position, std::string message);
+
   std::vector<Diagnostic> items_;
   std::size_t errors_ = 0;
+  std::size_t reported_ = 0;
 };
 
 }  // namespace orca::xml

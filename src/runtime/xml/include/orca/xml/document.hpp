@@ -56,7 +56,8 @@ struct Document {
 struct Limits {
   static constexpr std::size_t kBytes = 16 * 1024 * 1024;
   static constexpr std::size_t kNesting = 98;
-  static constexpr std::size_t kAttributes = 64;
+  static constexpr std::size_t kAttributes = 64;  ///< In one tag.
+  static constexpr std::size_t kElements = 500'000;
 };
 
 /// Reads an XML file strictly: UTF-8 without byte order mark, one root, no DTD, only the five predefined
