@@ -11,6 +11,8 @@ const ObjectType* find_object_type(std::string_view name) {
   return found != types.end() && (*found)->name == name ? *found : nullptr;
 }
 
-TypeId type_id(const ObjectType& type) { return {std::string(type.name), type.layout_hash}; }
+TypeId type_id(const ObjectType& type) {
+  return {std::string(type.name), type.layout_hash, std::string(type.layout)};
+}
 
 }  // namespace orca

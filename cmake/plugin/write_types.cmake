@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# Lists the type names that ORCA_COMPONENT and ORCA_HARDWARE declare in SOURCES, one a line, in OUT.
+# Lists the types that ORCA_COMPONENT and ORCA_HARDWARE declare in SOURCES, one a line, in OUT: "component NAME" or
+# "hardware NAME".
 set(types "")
 foreach(source ${SOURCES})
   file(STRINGS ${source} lines REGEX "^ORCA_(COMPONENT|HARDWARE)\\(")
@@ -7,8 +8,10 @@ foreach(source ${SOURCES})
     if(NOT line MATCHES "\"[^\"]+\"")
       message(FATAL_ERROR "${source}: the type's name must be a text on the same line: ${line}")
     endif()
+    string(REGEX REPLACE "^ORCA_([A-Z]+)\\([^\"]*\"([^\"]+)\".*$" "\\1" kind "${line}")
+    string(TOLOWER ${kind} kind)
     string(REGEX REPLACE "^[^\"]*\"([^\"]+)\".*$" "\\1" type "${line}")
-    string(APPEND types "${type}\n")
+    string(APPEND types "${kind} ${type}\n")
   endforeach()
 endforeach()
 file(WRITE ${OUT} "${types}")

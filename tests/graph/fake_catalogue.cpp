@@ -10,7 +10,7 @@ PortContract port(const char* name, Pattern pattern, Role role, const char* type
   result.name = name;
   result.pattern = pattern;
   result.role = role;
-  result.type = {type, 0x1000};
+  result.type = {type, 0x1000, std::string(type) + "{ranges:sequence<double> {m},half_lobe:double {rad}}"};
   return result;
 }
 
@@ -29,7 +29,7 @@ PortContract accepts(const char* name, const char* type) {
 
 PortContract query(const char* name, Role role, const char* request, const char* reply) {
   PortContract result = port(name, Pattern::query, role, request);
-  result.reply = TypeId{reply, 0x2000};
+  result.reply = TypeId{reply, 0x2000, std::string(reply) + "{}"};
   return result;
 }
 
@@ -120,6 +120,7 @@ Contract base_server(bool bound) {
 Contract old_logger() {
   PortContract sonar = receives("sonar", "SonarRangeReadings");
   sonar.type.hash = 0x999;
+  sonar.type.layout = "SonarRangeReadings{ranges:sequence<double> {cm},half_lobe:double {rad}}";
   return component("orca.OldLogger", {sonar});
 }
 

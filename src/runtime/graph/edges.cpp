@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edges.hpp"
 
-#include <array>
-#include <cstdio>
-
 #include "codes.hpp"
+#include "layout.hpp"
 #include "orca/xml/number.hpp"
 #include "values.hpp"
 
 namespace orca::graph {
 namespace {
-
-std::string hash_text(const TypeId& type) {
-  std::array<char, 20> hex{};
-  std::snprintf(hex.data(), hex.size(), "%016llx", static_cast<unsigned long long>(type.hash));
-  return hex.data();
-}
 
 // One reason why two ends do not fit, the most basic first; nothing if they do.
 struct Misfit {
@@ -40,9 +32,9 @@ std::optional<Misfit> type_misfit(const TypeId& from, const TypeId& to, const st
                   "the " + what + " is " + from.name + " at one end and " + to.name + " at the other"};
   }
   if (from.hash == to.hash) return std::nullopt;
-  return Misfit{codes::kLayout, "both ends call the " + what + " " + from.name +
-                                    ", but its fields differ (layout " + hash_text(from) + " and " +
-                                    hash_text(to) + "); build both plugins against the same types"};
+  return Misfit{codes::kLayout, "both ends call the " + what + " " + from.name + ", but " +
+                                    layout_difference(from.layout, to.layout) +
+                                    "; build both plugins against the same types"};
 }
 
 std::optional<Misfit> misfit(const Endpoint& from, const Endpoint& to) {

@@ -71,7 +71,7 @@ Result<Contract> PluginCatalogue::component(const std::string& type, const graph
   return describe_component(**entry, (*library_of(type))->path(), container);
 }
 
-std::vector<std::string> PluginCatalogue::type_names(PluginKind /*kind*/) const { return index_.types(); }
+std::vector<std::string> PluginCatalogue::type_names(PluginKind kind) const { return index_.types(kind); }
 
 std::vector<std::string> PluginCatalogue::loaded_files() const {
   std::vector<std::string> files;

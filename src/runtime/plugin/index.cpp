@@ -22,22 +22,25 @@ void PluginIndex::read_folder(const std::string& folder) {
   std::sort(lists.begin(), lists.end());
   for (fs::path list : lists) {
     std::ifstream lines(list);
-    for (std::string type; std::getline(lines, type);)
-      if (!type.empty()) file_by_type_.emplace(type, fs::path(list).replace_extension(".so").string());
+    const std::string file = list.replace_extension(".so").string();
+    for (std::string kind, type; lines >> kind >> type;)
+      place_by_type_.emplace(type,
+                             Place{kind == "hardware" ? PluginKind::hardware : PluginKind::component, file});
   }
 }
 
 Result<std::string> PluginIndex::file_of(const std::string& type) const {
-  const auto found = file_by_type_.find(type);
-  if (found != file_by_type_.end()) return found->second;
+  const auto found = place_by_type_.find(type);
+  if (found != place_by_type_.end()) return found->second.file;
   std::string places;
   for (const std::string& place : searched_) places += (places.empty() ? "" : ", ") + place;
   return fail(Code::not_found, "no plugin holds the type \"" + type + "\"; searched: " + places);
 }
 
-std::vector<std::string> PluginIndex::types() const {
+std::vector<std::string> PluginIndex::types(PluginKind kind) const {
   std::vector<std::string> names;
-  for (const auto& [type, file] : file_by_type_) names.push_back(type);
+  for (const auto& [type, place] : place_by_type_)
+    if (place.kind == kind) names.push_back(type);
   return names;
 }
 

@@ -36,7 +36,8 @@ TEST_CASE("the type hash is FNV-1a of the flattened layout, and no two types sha
     hash.add_text(type->layout);
     CHECK(type->layout_hash == hash.value());
     hashes.insert(type->layout_hash);
-    CHECK(orca::type_id(*type) == orca::TypeId{std::string(type->name), hash.value()});
+    CHECK(orca::type_id(*type) == orca::TypeId{std::string(type->name), hash.value(), ""});
+    CHECK(orca::type_id(*type).layout == type->layout);
   }
   CHECK(hashes.size() == object_types().size());
 }

@@ -26,7 +26,8 @@ enum class Role { server, proxy };
 struct TypeId {
   std::string name;        ///< e.g. "SonarRangeReadings".
   std::uint64_t hash = 0;  ///< FNV-1a of the flattened layout.
-  friend bool operator==(const TypeId&, const TypeId&) = default;
+  std::string layout;      ///< The flattened layout, for people: "Name{field:type {unit},...}".
+  friend bool operator==(const TypeId& a, const TypeId& b) { return a.name == b.name && a.hash == b.hash; }
 };
 
 /// How an edge buffers: the author of a port sets the default, the integrator decides in the graph.

@@ -5,18 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/contract.hpp"
 #include "orca/base/result.hpp"
 
 namespace orca {
 
-/// Which plugin file holds which type, read from the NAME.types files that the build writes beside NAME.so.
+/// Which plugin file holds which type, read from the NAME.types files that the build writes beside NAME.so:
+/// lines of "component TYPE" or "hardware TYPE".
 ///
 /// A plain value.
 class PluginIndex {
  public:
-  /// @param folders  searched in this order; the first that knows a type wins. Missing folders are remembered
-  /// for
-  ///                 error texts.
+  /// @param folders  searched in this order; the first that knows a type wins. Missing folders
+  ///                 are remembered for error texts.
   explicit PluginIndex(const std::vector<std::string>& folders) { add(folders); }
 
   /// More folders, searched after those there are.
@@ -26,13 +27,18 @@ class PluginIndex {
   /// @errors  not_found, naming the places searched.
   [[nodiscard]] Result<std::string> file_of(const std::string& type) const;
 
-  [[nodiscard]] std::vector<std::string> types() const;
+  /// The names of all types of one kind, sorted.
+  [[nodiscard]] std::vector<std::string> types(PluginKind kind) const;
 
  private:
+  struct Place {
+    PluginKind kind;
+    std::string file;
+  };
   void read_folder(const std::string& folder);
 
   std::vector<std::string> searched_;
-  std::map<std::string, std::string> file_by_type_;
+  std::map<std::string, Place> place_by_type_;
 };
 
 }  // namespace orca

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "layout.hpp"
+
+#include <catch2/catch.hpp>
+
+using orca::graph::layout_difference;
+
+TEST_CASE("two layouts of one type differ in their first different field", "[graph][layout]") {
+  const std::string pose = "Odometry{stamp:TimeValue{ns:int64 {ns}},pose:Point{x:double {m},y:double {m}}}";
+
+  SECTION("in its type or its unit") {
+    CHECK(layout_difference("A{x:double {m},y:double {m}}", "A{x:double {m},y:double {cm}}") ==
+          R"x(the field "y" is "double {m}" at the from end and "double {cm}" at the to end)x");
+    CHECK(layout_difference("A{e:Mode(on,off)}", "A{e:Mode(on,off,auto)}") ==
+          R"x(the field "e" is "Mode(on,off)" at the from end and "Mode(on,off,auto)" at the to end)x");
+  }
+  SECTION("in its name") {
+    CHECK(layout_difference("A{x:double,y:double}", "A{x:double,z:double}") ==
+          R"x(the field "y" at the from end is "z" at the to end)x");
+  }
+  SECTION("which only one of them has") {
+    CHECK(layout_difference("A{x:double}", "A{x:double,y:double}") ==
+          R"x(the field "y" is only at the to end)x");
+    CHECK(layout_difference("A{x:double,y:double}", "A{x:double}") ==
+          R"x(the field "y" is only at the from end)x");
+    CHECK(layout_difference("A{}", "A{x:double}") == R"x(the field "x" is only at the to end)x");
+  }
+  SECTION("deep inside") {
+    CHECK(layout_difference(
+              pose, "Odometry{stamp:TimeValue{ns:int64 {ns}},pose:Point{x:double {m},y:float {m}}}") ==
+          R"x(the field "pose.y" is "double {m}" at the from end and "float {m}" at the to end)x");
+    CHECK(
+        layout_difference("A{p:sequence<P{x:double {m}}>}", "A{p:sequence<P{x:double {m},y:double {m}}>}") ==
+        R"x(the field "p.y" is only at the to end)x");
+  }
+  SECTION("a struct of another name") {
+    CHECK(layout_difference("A{p:P{x:double}}", "A{p:Q{x:double}}") ==
+          R"x(the field "p" is "P{x:double}" at the from end and "Q{x:double}" at the to end)x");
+  }
+}
