@@ -72,11 +72,15 @@ std::string component_text(const ComponentNode& node) {
 std::string edge_text(const Edge& edge) {
   std::string attributes = attribute("from", edge.from.text()) + attribute("to", edge.to.text());
   if (edge.pattern != Pattern::query) {
-    const bool newest = edge.queue.overflow == QueuePolicy::Overflow::drop_newest;
     attributes += attribute("queue", std::to_string(edge.queue.depth));
-    attributes += attribute("overflow", newest ? "drop_newest" : "drop_oldest");
+    attributes += attribute("overflow", to_string(edge.queue.overflow));
+    if (edge.queue.overflow == QueuePolicy::Overflow::block)
+      attributes += attribute("block_limit", seconds_text(edge.queue.block_limit));
   }
-  if (edge.pattern == Pattern::push) attributes += attribute("interval", seconds_text(edge.interval));
+  if (edge.pattern == Pattern::push) {
+    attributes += attribute("interval", seconds_text(edge.interval));
+    attributes += attribute("deadline", seconds_text(edge.queue.deadline));
+  }
   return element("connect", attributes, "");
 }
 

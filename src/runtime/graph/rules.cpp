@@ -24,8 +24,10 @@ constexpr std::array kComponent{
     AttributeRule{"process"},    AttributeRule{"priority"}, AttributeRule{"autonomous"},
     AttributeRule{"period"},     AttributeRule{"on"},       AttributeRule{"start_after"}};
 constexpr std::array kParam{AttributeRule{"name", true}, AttributeRule{"value", true}};
-constexpr std::array kConnect{AttributeRule{"from", true}, AttributeRule{"to", true}, AttributeRule{"queue"},
-                              AttributeRule{"overflow"}, AttributeRule{"interval"}};
+constexpr std::array kConnect{AttributeRule{"from", true}, AttributeRule{"to", true},
+                              AttributeRule{"queue"},      AttributeRule{"overflow"},
+                              AttributeRule{"interval"},   AttributeRule{"deadline"},
+                              AttributeRule{"block_limit"}};
 
 constexpr std::array<std::string_view, 9> kInGraph{"arg",     "profile", "hardware", "component", "connect",
                                                    "include", "use",     "machine",  "process"};

@@ -107,6 +107,9 @@ enum class Backend { thread, fiber, baton };
 struct ExecutiveOptions {
   ClockKind clock = ClockKind::steady;
   Backend backend = Backend::thread;
+  /// How long a thread spins before it sleeps, at most [s]. It adapts itself: it spins only where waits tend
+  /// to end within this time, and never where the process has a single processor. 0: sleep at once.
+  Duration spin{0};
 };
 
 /// @errors  invalid_argument for a combination that cannot work (virtual clock on free-running threads).
