@@ -3,16 +3,26 @@
 
 namespace orca {
 
+void Provenance::begin_handling(const idl::OrcaObject& object) {
+  mission_ = object.mission();
+  note(object);
+}
+
+void Provenance::begin_task(const idl::OrcaObject& object) {
+  task_mission_ = object.mission();
+  begin_handling(object);
+}
+
 void Provenance::note(const idl::OrcaObject& received) {
-  mission = received.mission();
-  origin = received.origin();
-  seq = received.seq();
+  if (received.mission() != 0) mission_ = received.mission();
+  origin_ = received.origin();
+  seq_ = received.seq();
 }
 
 void Provenance::stamp(idl::OrcaObject& sent) const {
-  if (sent.mission() == 0) sent.mission(mission);
-  sent.cause().origin() = origin;
-  sent.cause().seq(seq);
+  if (sent.mission() == 0) sent.mission(mission_);
+  sent.cause().origin() = origin_;
+  sent.cause().seq(seq_);
 }
 
 Endpoint::Endpoint(PortHome& home, PortContract contract) : home_(home), contract_(std::move(contract)) {}
@@ -23,10 +33,6 @@ void Endpoint::stamp(ObjectLoan& loan, const Provenance* provenance) {
   header.origin() = home_.component;
   header.seq(next_seq_++);
   if (provenance != nullptr) provenance->stamp(header);
-}
-
-void Endpoint::observe(const ObjectRef& object) const {
-  if (home_.observer != nullptr) home_.observer->delivered(home_.component, contract_.name, object);
 }
 
 }  // namespace orca

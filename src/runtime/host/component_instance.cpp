@@ -197,6 +197,7 @@ void ComponentInstance::enter_work() {
 void ComponentInstance::leave_work(ComponentState next) {
   const auto fault = call("stop", [&] { component_->stop(); });
   release_clients();
+  home_.provenance.end_task();
   if (fault && !fault->interrupted) {
     fail_with("stop", fault->text);
   } else {
@@ -210,6 +211,7 @@ void ComponentInstance::lap() {
     if (next_lap_ < now()) next_lap_ = now();  // laps that were missed are not made up for
   }
   Outcome outcome;
+  home_.provenance.begin_lap();
   in_lap_ = true;
   const auto fault = call("work", [&] { outcome = component_->work(); });
   in_lap_ = false;
@@ -274,6 +276,7 @@ void ComponentInstance::fail_with(const char* hook, const std::string& what) {
     if (fault && !fault->interrupted) write_log(log::Level::error, "stop() " + fault->text);
   }
   release_clients();
+  home_.provenance.end_task();
   close_intakes("it has failed: " + text);
   set_state(ComponentState::work_failed);
 }
