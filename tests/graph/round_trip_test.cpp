@@ -46,7 +46,7 @@ class RandomGraph {
            maybe("<property name='room' value=\"" + free_text() + "\"/>") + "</component>" +
            connect("base.SonarRangeReadingsPush", name + ".sonar",
                    maybe(queue()) + maybe(" interval='" + real(0, 10) + "'") +
-                       maybe(" deadline='" + real(0, 10) + "'")) +
+                       maybe(" deadline='" + real(10, 20) + "'")) +
            connect(name + ".motion", "fuser.motion",
                    pick(2) == 0 ? " queue='latest'" : maybe(" queue='2' overflow='block'" + block_limit()));
   }

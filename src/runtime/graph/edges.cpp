@@ -74,6 +74,7 @@ class PolicyReader {
     good = read_overflow() && good;
     good = read_time("interval", 0.0, edge_.interval) && good;
     good = read_time("deadline", 0.0, edge_.queue.deadline) && good;
+    good = check_deadline() && good;
     return read_time("block_limit", 1e-6, edge_.queue.block_limit) && good;
   }
 
@@ -143,6 +144,13 @@ class PolicyReader {
                   "overflow: \"block\" is not possible, because a device pushes at " +
                       in_quotes(edge_.from.text()) +
                       " and waits for nobody; take drop_oldest or drop_newest and a longer queue");
+  }
+
+  bool check_deadline() {
+    if (edge_.queue.deadline == Duration{0} || edge_.queue.deadline >= edge_.interval) return true;
+    return refuse("deadline",
+                  "deadline: it is shorter than the interval and could never be kept; make it longer, "
+                  "0 for none");
   }
 
   bool read_time(const char* attribute, double min, Duration& time) {
