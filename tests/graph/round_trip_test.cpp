@@ -26,7 +26,7 @@ class RandomGraph {
               "/><component name='fuser' type='orca.MotionCommandFuser'/>" +
               "<component name='planner' type='orca.Planner'/>" +
               connect("planner.limits", "base.LimitsQuery", "") +
-              connect("fuser.base", "base.MotionCommandSend", maybe(queue()));
+              connect("fuser.base", "base.MotionCommandSend", maybe(room()));
     for (int i = 0; i < avoiders; ++i) result += avoider(i);
     return result + "</graph>";
   }
@@ -54,6 +54,9 @@ class RandomGraph {
   std::string queue() {
     return " queue='" + integer(1, 100) + "' overflow='" + (pick(2) == 0 ? "drop_oldest" : "drop_newest") +
            "'";
+  }
+  std::string room() {
+    return " queue='" + integer(1, 100) + "' overflow='" + (pick(2) == 0 ? "refuse" : "block") + "'";
   }
   std::string block_limit() { return maybe(" block_limit='" + integer(1, 5000) + " ms'"); }
   static std::string connect(const std::string& from, const std::string& to, const std::string& policy) {
