@@ -15,7 +15,7 @@ void Provenance::begin_task(const idl::OrcaObject& object) {
 
 void Provenance::note(const idl::OrcaObject& received) {
   if (received.mission() != 0) mission_ = received.mission();
-  origin_ = received.origin();
+  if (origin_ != received.origin()) origin_ = received.origin();
   seq_ = received.seq();
 }
 

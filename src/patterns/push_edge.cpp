@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "orca/patterns/push_endpoint.hpp"
 
 namespace orca {
 
 PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy)
-    : client_(client), source_(source), policy_(policy), ring_(policy.depth) {
+    : client_(client),
+      source_(source),
+      policy_(policy),
+      mutex_(client.home().strand.executive()),
+      ring_(policy.depth) {
   assert(policy.depth > 0);
 }
 
 void PushEdge::subscribe() {
-  if (subscribed_.exchange(true, std::memory_order_acq_rel)) return;
-  if (policy_.deadline > Duration{0}) {
-    const std::lock_guard lock(mutex_);
-    last_arrival_ = now();
-  }
+  if (subscribed()) return;
+  if (policy_.deadline > Duration{0}) last_arrival_ = now().time_since_epoch().count();
+  subscribed_.store(true, std::memory_order_release);
   if (LinkObserver* observer = client_.home().observer)
     observer->link_changed(client_.path(), source_.path(), true);
   source_.attach(*this, rate());
@@ -27,10 +30,10 @@ void PushEdge::unsubscribe() {
   source_.detach(*this);
   if (LinkObserver* observer = client_.home().observer)
     observer->link_changed(client_.path(), source_.path(), false);
-  const std::lock_guard lock(mutex_);
+  if (policy_.deadline > Duration{0}) counts_.missed_deadlines = missed_until(now());
   subscribed_.store(false, std::memory_order_release);
-  counters_.missed_deadlines = missed_until(now());
-  counters_.left_behind += count_;
+  const std::lock_guard lock(mutex_);
+  counts_.left_behind += count_;
   count_.store(0, std::memory_order_release);
   std::fill(ring_.begin(), ring_.end(), ObjectRef{});
   newest_ = ObjectRef{};  // what was true before is not news to the next subscription
@@ -47,23 +50,24 @@ UpdateRate PushEdge::rate() const {
 }
 
 UpdateGrant PushEdge::grant() const {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(grant_mutex_);
   return grant_;
 }
 
 void PushEdge::granted(const UpdateGrant& grant) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(grant_mutex_);
   grant_ = grant;
 }
 
 std::optional<Duration> PushEdge::deliver(const ObjectRef& object) {
   {
     const std::lock_guard lock(mutex_);
-    if (count_.load(std::memory_order_relaxed) == ring_.size() && !make_room()) {
-      if (!publisher_waits_) return std::nullopt;
-      return policy_.block_limit;
+    std::uint32_t count = count_.load(std::memory_order_relaxed);
+    if (count == policy_.depth) {
+      if (!make_room()) return publisher_waits_ ? std::optional(policy_.block_limit) : std::nullopt;
+      --count;
     }
-    put(object);
+    put(object, count);
   }
   client_.observe(object);
   client_.home().strand.wake();
@@ -74,42 +78,42 @@ std::optional<Duration> PushEdge::deliver(const ObjectRef& object) {
 bool PushEdge::make_room() {
   switch (policy_.overflow) {
     case QueuePolicy::Overflow::drop_oldest:
-      ++counters_.dropped_oldest;
-      first_ = (first_ + 1) % policy_.depth;
-      count_.store(policy_.depth - 1, std::memory_order_release);
+      ++counts_.dropped_oldest;
+      if (++first_ == policy_.depth) first_ = 0;
       return true;
     case QueuePolicy::Overflow::block:
       if (subscriber_stuck_) {
-        ++counters_.dropped_blocked;
-      } else if (!publisher_waits_) {
-        publisher_waits_ = true;
-        ++counters_.waits;
+        ++counts_.dropped_blocked;
+      } else if (!std::exchange(publisher_waits_, true)) {
+        ++counts_.waits;
       }
       return false;
-    default: ++counters_.dropped_newest; return false;
+    default: ++counts_.dropped_newest; return false;
   }
 }
 
-void PushEdge::put(const ObjectRef& object) {
-  const std::uint32_t count = count_.load(std::memory_order_relaxed);
+// Into the queue, which holds `count` objects.
+void PushEdge::put(const ObjectRef& object, std::uint32_t count) {
   std::uint32_t last = first_ + count;
   if (last >= policy_.depth) last -= policy_.depth;
   ring_[last] = object;
-  newest_ = object;
+  if (newest_) newest_ = ObjectRef{};
   publisher_waits_ = false;
   count_.store(count + 1, std::memory_order_release);
-  counters_.high_water = std::max(counters_.high_water, count + 1);
-  ++counters_.delivered;
-  if (policy_.deadline > Duration{0}) {
-    const TimePoint time = now();
-    counters_.missed_deadlines = missed_until(time);
-    last_arrival_ = time;
-  }
+  if (count + 1 > counts_.high_water) counts_.high_water = count + 1;
+  ++counts_.delivered;
+  if (policy_.deadline > Duration{0}) arrive(now());
+}
+
+void PushEdge::arrive(TimePoint time) {
+  const std::uint64_t missed = missed_until(time);
+  last_arrival_ = time.time_since_epoch().count();
+  counts_.missed_deadlines = missed;
 }
 
 void PushEdge::give_up(const ObjectRef& /*object*/) {
   const std::lock_guard lock(mutex_);
-  ++counters_.dropped_blocked;
+  ++counts_.dropped_blocked;
   publisher_waits_ = false;
   subscriber_stuck_ = true;
 }
@@ -121,8 +125,8 @@ ObjectRef PushEdge::take() {
   {
     const std::lock_guard lock(mutex_);
     const std::uint32_t count = count_.load(std::memory_order_relaxed);
-    if (count == 0) return {};
     object = std::move(ring_[first_]);
+    if (count == 1) newest_ = object;
     if (++first_ == policy_.depth) first_ = 0;
     count_.store(count - 1, std::memory_order_release);
     subscriber_stuck_ = false;
@@ -134,29 +138,37 @@ ObjectRef PushEdge::take() {
 
 ObjectRef PushEdge::latest() const {
   const std::lock_guard lock(mutex_);
-  return newest_;
+  const std::uint32_t count = count_.load(std::memory_order_relaxed);
+  return count == 0 ? newest_ : ring_[(first_ + count - 1) % policy_.depth];
 }
 
+// With a deadline only.
 std::uint64_t PushEdge::missed_until(TimePoint time) const {
-  const Duration since = time - last_arrival_;
-  if (policy_.deadline <= Duration{0} || since <= Duration{0}) return counters_.missed_deadlines;
-  return counters_.missed_deadlines + static_cast<std::uint64_t>((since - Duration{1}) / policy_.deadline);
+  const Duration since = time.time_since_epoch() - Duration(last_arrival_);
+  if (since <= Duration{0}) return counts_.missed_deadlines;
+  return counts_.missed_deadlines + static_cast<std::uint64_t>((since - Duration{1}) / policy_.deadline);
 }
 
 bool PushEdge::deadline_missed() const {
   if (policy_.deadline <= Duration{0} || !subscribed()) return false;
-  const std::lock_guard lock(mutex_);
-  return now() - last_arrival_ > policy_.deadline;
+  return now().time_since_epoch() - Duration(last_arrival_) > policy_.deadline;
 }
 
 EdgeCounters PushEdge::counters() const {
-  const std::lock_guard lock(mutex_);
-  EdgeCounters now_counted = counters_;
-  if (subscribed()) now_counted.missed_deadlines = missed_until(now());
-  now_counted.queued = count_.load(std::memory_order_relaxed);
-  now_counted.dropped =
-      counters_.dropped_oldest + counters_.dropped_newest + counters_.dropped_blocked + counters_.left_behind;
-  return now_counted;
+  EdgeCounters counted;
+  counted.delivered = counts_.delivered;
+  counted.dropped_oldest = counts_.dropped_oldest;
+  counted.dropped_newest = counts_.dropped_newest;
+  counted.dropped_blocked = counts_.dropped_blocked;
+  counted.left_behind = counts_.left_behind;
+  counted.dropped =
+      counted.dropped_oldest + counted.dropped_newest + counted.dropped_blocked + counted.left_behind;
+  counted.waits = counts_.waits;
+  const bool due = policy_.deadline > Duration{0} && subscribed();
+  counted.missed_deadlines = due ? missed_until(now()) : std::uint64_t{counts_.missed_deadlines};
+  counted.queued = count_.load(std::memory_order_relaxed);
+  counted.high_water = counts_.high_water;
+  return counted;
 }
 
 PushClientEndpoint::PushClientEndpoint(PortHome& home, PortContract contract)

@@ -6,17 +6,19 @@
 namespace orca {
 
 PushServerEndpoint::PushServerEndpoint(PortHome& home, PortContract contract)
-    : Endpoint(home, std::move(contract)), base_period_(Endpoint::contract().period.count()) {}
+    : Endpoint(home, std::move(contract)),
+      base_period_(Endpoint::contract().period.count()),
+      mutex_(home.strand.executive()) {}
 
 void PushServerEndpoint::announce(Duration base_period) {
   const std::lock_guard lock(mutex_);
-  base_period_.store(base_period.count(), std::memory_order_release);
+  base_period_ = base_period.count();
   for (Subscription& subscription : subscriptions_) subscription.regrant(base_period);
 }
 
 ObjectRef PushServerEndpoint::push(ObjectLoan loan, const Provenance* provenance) {
   stamp(loan, provenance);
-  pushed_.store(pushed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  ++pushed_;
   ObjectRef object = std::move(loan).seal();
   if (subscriber_count() > 0 && !hand_out(object)) wait_for_room(object);
   return object;

@@ -14,7 +14,7 @@ namespace orca::detail {
 
 // The executive whose tasks run on this thread, if any: tells notifications from inside from those of
 // strangers.
-static thread_local const CooperativeExecutive* t_inside = nullptr;
+[[gnu::tls_model("initial-exec")]] static thread_local const CooperativeExecutive* t_inside = nullptr;
 
 struct CooperativeExecutive::Fiber {
   std::string name;

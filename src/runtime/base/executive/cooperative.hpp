@@ -25,6 +25,7 @@ class CooperativeExecutive final : public Executive {
 
   [[nodiscard]] TimePoint now() const override;
   [[nodiscard]] bool is_virtual() const override { return clock_ == ClockKind::virtual_time; }
+  [[nodiscard]] bool tasks_overlap() const override { return false; }
   [[nodiscard]] std::unique_ptr<Event> make_event() override;
   [[nodiscard]] std::unique_ptr<Task> spawn(TaskOptions options, std::function<void()> body) override;
   void run(std::function<void()> main) override;

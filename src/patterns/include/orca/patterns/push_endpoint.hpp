@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/task_mutex.hpp"
 #include "orca/patterns/counters.hpp"
 #include "orca/patterns/endpoint.hpp"
 #include "orca/patterns/update_rate.hpp"
@@ -16,7 +17,8 @@ namespace orca {
 
 /// Where pushed objects go: one per edge, at the client's side of a link.
 ///
-/// Thread contract: called with the server's lock held, so nothing here may block or call the source back.
+/// Thread contract: tasks of the client's executive; a link that receives on a thread of its own hands over
+/// to a task. Called with the server's lock held, so nothing here may block or call the source back.
 class PushSink {
  public:
   virtual ~PushSink() = default;
@@ -37,7 +39,7 @@ class PushSink {
 
 /// Where a client subscribes: the server's side of a link.
 ///
-/// Thread contract: any strand.
+/// Thread contract: any task of the server's executive; base_period() and path() from any thread.
 class PushSource {
  public:
   virtual ~PushSource() = default;
@@ -56,16 +58,15 @@ class PushSource {
 
 /// Server side of Push: hands every object to all subscribers, each with a queue of its own.
 ///
-/// Thread contract: push() from one strand at a time; the rest from any.
+/// Thread contract: push() from one task at a time; announce() and the source from any task; the rest from
+/// any thread.
 class PushServerEndpoint final : public Endpoint {
  public:
   PushServerEndpoint(PortHome& home, PortContract contract);
 
   /// Says how often objects come, in future; 0: irregularly. All subscribers are granted their rates anew.
   void announce(Duration base_period);
-  [[nodiscard]] Duration base_period() const {
-    return Duration(base_period_.load(std::memory_order_acquire));
-  }
+  [[nodiscard]] Duration base_period() const { return Duration(base_period_); }
 
   /// Stamps the object and hands it on. Only edges whose policy is `block` can make it wait, after all others
   /// have the object; that wait ends early when the component must leave its lap, and the object is dropped
@@ -77,7 +78,7 @@ class PushServerEndpoint final : public Endpoint {
 
   [[nodiscard]] std::size_t subscriber_count() const { return subscribers_.load(std::memory_order_acquire); }
   /// Objects pushed so far, with or without subscribers.
-  [[nodiscard]] std::uint64_t pushed_count() const { return pushed_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t pushed_count() const { return pushed_; }
 
   /// The source that a local client attaches to.
   [[nodiscard]] PushSource& source() { return source_; }
@@ -101,8 +102,8 @@ class PushServerEndpoint final : public Endpoint {
     PushSink* sink;
     UpdateRate asked;
     UpdateGrant grant{};
-    std::uint32_t to_skip = 0;            // objects until the next one is due
-    TimePoint next_due{};                 // for irregular servers
+    std::uint32_t to_skip = 0;              // objects until the next one is due
+    TimePoint next_due{};                   // for irregular servers
     std::optional<TimePoint> owed_until{};  // the publisher waits for room there
 
     [[nodiscard]] bool is_due(const ObjectRef& object);
@@ -118,10 +119,10 @@ class PushServerEndpoint final : public Endpoint {
 
   Source source_{*this};
   std::atomic<std::size_t> subscribers_{0};
-  std::atomic<std::uint64_t> pushed_{0};
-  std::atomic<Duration::rep> base_period_{0};
+  Published<std::uint64_t> pushed_;
+  Published<Duration::rep> base_period_;
 
-  mutable std::mutex mutex_;
+  mutable TaskMutex mutex_;
   std::vector<Subscription> subscriptions_;  // guarded by mutex_
 };
 
@@ -163,8 +164,21 @@ class PushEdge final : public PushSink {
   [[nodiscard]] Duration base_period() const { return source_.base_period(); }
 
  private:
+  // EdgeCounters, each readable at any time.
+  struct Counts {
+    Published<std::uint64_t> delivered;
+    Published<std::uint64_t> dropped_oldest;
+    Published<std::uint64_t> dropped_newest;
+    Published<std::uint64_t> dropped_blocked;
+    Published<std::uint64_t> left_behind;
+    Published<std::uint64_t> waits;
+    Published<std::uint64_t> missed_deadlines;
+    Published<std::uint32_t> high_water;
+  };
+
   bool make_room();
-  void put(const ObjectRef& object);
+  void put(const ObjectRef& object, std::uint32_t count);
+  void arrive(TimePoint time);
   [[nodiscard]] UpdateRate rate() const;
   [[nodiscard]] TimePoint now() const { return client_.home().strand.executive().now(); }
   [[nodiscard]] std::uint64_t missed_until(TimePoint time) const;
@@ -174,18 +188,20 @@ class PushEdge final : public PushSink {
   const QueuePolicy policy_;
   UpdateRate asked_;
   std::atomic<bool> subscribed_{false};
-  std::atomic<std::uint32_t> count_{0};  // written with the lock held
+  Counts counts_;
+  Published<Duration::rep> last_arrival_;  // of an object, or of the subscription; only kept with a deadline
 
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::vector<ObjectRef> ring_;  // never grows: no allocation per object
+  mutable std::mutex grant_mutex_;
+  UpdateGrant grant_;  // guarded by grant_mutex_
+
+  mutable TaskMutex mutex_;
+  // Below: guarded by mutex_. The count may be read at any time.
+  std::atomic<std::uint32_t> count_{0};
   std::uint32_t first_ = 0;
-  ObjectRef newest_;
-  TimePoint last_arrival_{};       // of an object, or of the subscription; only kept with a deadline
+  std::vector<ObjectRef> ring_;    // never grows: no allocation per object
+  ObjectRef newest_;               // as long as it is not in the ring
   bool publisher_waits_ = false;   // for room
   bool subscriber_stuck_ = false;  // it took nothing during a whole wait: nobody waits for it until it does
-  EdgeCounters counters_;
-  UpdateGrant grant_;
 };
 
 /// Client side of Push: the edges that end at one PushProxy; at most one unless the port is an array.

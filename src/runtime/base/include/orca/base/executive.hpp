@@ -81,6 +81,9 @@ class Executive {
 
   [[nodiscard]] virtual TimePoint now() const = 0;
   [[nodiscard]] virtual bool is_virtual() const = 0;
+  /// Whether two tasks can run at the same time. With fibers and batons they cannot: between two waits a task
+  /// has everything to itself that only tasks touch.
+  [[nodiscard]] virtual bool tasks_overlap() const = 0;
   [[nodiscard]] virtual std::unique_ptr<Event> make_event() = 0;
 
   /// Starts a task. `body` must not throw.
