@@ -15,7 +15,13 @@ Nanoseconds Samples::quantile(double share) const {
 
 std::optional<double> Row::ratio() const {
   if (subject.empty() || reference.empty()) return std::nullopt;
-  return judge_p99 ? subject.p99() / reference.p99() : subject.median() / reference.median();
+  return judges_p99() ? subject.p99() / reference.p99() : subject.median() / reference.median();
+}
+
+bool Row::missed() const {
+  if (!target) return false;
+  if (target->of == Target::Of::median) return subject.median() > target->limit;
+  return ratio() && *ratio() > target->limit;
 }
 
 std::vector<Row*>& rows() {

@@ -31,15 +31,26 @@ class Samples {
 /// One row of the table: something of Orca's beside the barest thing that does the like.
 struct Row {
   std::string name;
-  std::string reference_name;   ///< Empty: nothing to compare with.
-  std::optional<double> limit;  ///< Largest ratio that is good enough; nothing: not judged.
-  bool judge_p99 = false;       ///< The ratio is that of the p99, not of the medians.
-  Samples subject;
-  Samples reference;
+  std::string reference_name;  ///< Empty: nothing to compare with.
+  /// What is good enough; nothing: not judged.
+  struct Target {
+    enum class Of { median_ratio, p99_ratio, median };  ///< The last one in ns.
+    Of of = Of::median_ratio;
+    double limit = 0.0;
+  };
+  std::optional<Target> target{};
+  Samples subject{};
+  Samples reference{};
 
+  /// Of the p99 where the target is about them, otherwise of the medians.
   [[nodiscard]] std::optional<double> ratio() const;
-  [[nodiscard]] bool missed() const { return limit && ratio() && *ratio() > *limit; }
+  [[nodiscard]] bool judges_p99() const { return target && target->of == Target::Of::p99_ratio; }
+  [[nodiscard]] bool missed() const;
 };
+
+constexpr Row::Target ratio_at_most(double limit) { return {Row::Target::Of::median_ratio, limit}; }
+constexpr Row::Target p99_ratio_at_most(double limit) { return {Row::Target::Of::p99_ratio, limit}; }
+constexpr Row::Target median_at_most(Nanoseconds limit) { return {Row::Target::Of::median, limit}; }
 
 /// All rows of this run, in the order in which they were registered.
 std::vector<Row*>& rows();

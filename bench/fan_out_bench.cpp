@@ -77,12 +77,8 @@ void beside_one(benchmark::State& state, Row& row, int subscribers) {
 
 void register_fan_out() {
   for (const int subscribers : {10, 100, 1000}) {
-    add_row({"fan-out to " + std::to_string(subscribers) + ", per subscriber",
-             "fan-out to 1",
-             1.1,
-             false,
-             {},
-             {}},
+    add_row({"fan-out to " + std::to_string(subscribers) + ", per subscriber", "fan-out to 1",
+             ratio_at_most(1.1)},
             subscribers < 1000 ? 1000 : 300,
             [subscribers](auto& state, Row& row) { beside_one(state, row, subscribers); });
   }

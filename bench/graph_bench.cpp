@@ -36,14 +36,13 @@ Nanoseconds check(const std::string& text, int components) {
 }  // namespace
 
 void register_graph() {
-  add_row({"graph check of 1000 components, per component", "of 10 components", {}, false, {}, {}}, 30,
-          [](auto& state, Row& row) {
-            const std::string large = graph_of(1000);
-            const std::string small = graph_of(10);
-            alternate(
-                state, row, 1, [&](int) { return check(large, 1000); },
-                [&](int) { return check(small, 10); });
-          });
+  add_row(
+      {"graph check of 1000 components, per component", "of 10 components"}, 30, [](auto& state, Row& row) {
+        const std::string large = graph_of(1000);
+        const std::string small = graph_of(10);
+        alternate(
+            state, row, 1, [&](int) { return check(large, 1000); }, [&](int) { return check(small, 10); });
+      });
 }
 
 }  // namespace orca::bench

@@ -62,18 +62,17 @@ void jump(benchmark::State& state, Row& row) {
 
 void register_hand_over() {
   using Clock = ClockKind;
-  add_row({"Boost.Context: into a fiber and back", "", {}, false, {}, {}}, 500, jump);
-  add_row({"hand-over: fibers", "bare fiber hand-over", {}, false, {}, {}}, 2000, [](auto& state, Row& row) {
+  add_row({"Boost.Context: into a fiber and back", ""}, 500, jump);
+  add_row({"hand-over: fibers", "bare fiber hand-over"}, 2000, [](auto& state, Row& row) {
     compare_with<BareFiberPair>(state, row, {Clock::steady, Backend::fiber}, 50);
   });
-  add_row({"hand-over: fibers, virtual time", "bare fiber hand-over", {}, false, {}, {}}, 2000,
-          [](auto& state, Row& row) {
-            compare_with<BareFiberPair>(state, row, {Clock::virtual_time, Backend::fiber}, 50);
-          });
-  add_row({"hand-over: threads", "ring + futex", {}, false, {}, {}}, 2000, [](auto& state, Row& row) {
+  add_row({"hand-over: fibers, virtual time", "bare fiber hand-over"}, 2000, [](auto& state, Row& row) {
+    compare_with<BareFiberPair>(state, row, {Clock::virtual_time, Backend::fiber}, 50);
+  });
+  add_row({"hand-over: threads", "ring + futex"}, 2000, [](auto& state, Row& row) {
     compare_with<FutexRingPair>(state, row, {Clock::steady, Backend::thread}, 5);
   });
-  add_row({"hand-over: baton threads", "ring + futex", {}, false, {}, {}}, 2000, [](auto& state, Row& row) {
+  add_row({"hand-over: baton threads", "ring + futex"}, 2000, [](auto& state, Row& row) {
     compare_with<FutexRingPair>(state, row, {Clock::virtual_time, Backend::baton}, 5);
   });
 }

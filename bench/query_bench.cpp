@@ -58,9 +58,9 @@ void beside_condition_variables(benchmark::State& state, Row& row, const Executi
 }  // namespace
 
 void register_query() {
-  add_row({"query between threads", "the same with condition variables", 1.25, false, {}, {}}, 2000,
+  add_row({"query between threads", "the same with condition variables", ratio_at_most(1.25)}, 2000,
           [](auto& state, Row& row) { beside_condition_variables(state, row, kThreads, 5); });
-  add_row({"query, same executor", "condition variables, two threads", {}, false, {}, {}}, 1000,
+  add_row({"query, same executor", "condition variables, two threads"}, 1000,
           [](auto& state, Row& row) { beside_condition_variables(state, row, kFibers, 20); });
 }
 

@@ -22,15 +22,16 @@ std::string time_text(Nanoseconds time) {
 std::string ratio_text(const Row& row) {
   if (!row.ratio()) return "";
   char text[32];
-  std::snprintf(text, sizeof text, "%.2f%s", *row.ratio(), row.judge_p99 ? " (p99)" : "");
+  std::snprintf(text, sizeof text, "%.2f%s", *row.ratio(), row.judges_p99() ? " (p99)" : "");
   return text;
 }
 
 std::string target_text(const Row& row) {
-  if (!row.limit) return "";
-  char text[48];
-  std::snprintf(text, sizeof text, "<= %.2f %s", *row.limit, row.missed() ? "MISSED" : "met");
-  return text;
+  if (!row.target) return "";
+  const bool time = row.target->of == Row::Target::Of::median;
+  char ratio[16];
+  std::snprintf(ratio, sizeof ratio, "%.2f", row.target->limit);
+  return "<= " + (time ? time_text(row.target->limit) : ratio) + (row.missed() ? " MISSED" : " met");
 }
 
 using Line = std::vector<std::string>;

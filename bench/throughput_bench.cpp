@@ -62,7 +62,7 @@ void run(benchmark::State& state, Row& row) {
 }  // namespace
 
 void register_throughput() {
-  add_row({"a 3 KB scan made, pushed, taken (queue of 64)", "memcpy of 3 KB", {}, false, {}, {}}, 500, run);
+  add_row({"a 3 KB scan made, pushed, taken (queue of 64)", "memcpy of 3 KB"}, 500, run);
 }
 
 }  // namespace orca::bench

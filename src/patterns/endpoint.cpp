@@ -14,15 +14,17 @@ void Provenance::begin_task(const idl::OrcaObject& object) {
 }
 
 void Provenance::note(const idl::OrcaObject& received) {
-  if (received.mission() != 0) mission_ = received.mission();
-  if (origin_ != received.origin()) origin_ = received.origin();
+  if (const std::uint64_t mission = received.mission(); mission != 0) mission_ = mission;
+  if (const std::string& origin = received.origin(); origin_ != origin) origin_ = origin;
   seq_ = received.seq();
 }
 
 void Provenance::stamp(idl::OrcaObject& sent) const {
-  if (sent.mission() == 0) sent.mission(mission_);
-  sent.cause().origin() = origin_;
-  sent.cause().seq(seq_);
+  if (mission_ != 0 && sent.mission() == 0) sent.mission(mission_);
+  if (seq_ == 0) return;  // nothing was received yet
+  idl::Cause& cause = sent.cause();
+  cause.origin() = origin_;
+  cause.seq(seq_);
 }
 
 Endpoint::Endpoint(PortHome& home, PortContract contract) : home_(home), contract_(std::move(contract)) {}
