@@ -48,6 +48,5 @@ inline constexpr const char* kTooManyComponents = "G040";
 inline constexpr const char* kUnusedArgument = "G041";
 inline constexpr const char* kHardwareRefuses = "G042";
 inline constexpr const char* kLoading = "G060";
-inline constexpr const char* kFixedParameter = "G061";
 
 }  // namespace orca::graph::codes

@@ -52,8 +52,8 @@ Result<Params> read_settings(const std::vector<ParamContract>& contracts,
       report.error(codes::kUnknownParameter, {},
                    "there is no " + title + "; there are: " + xml::listed(names) + report.hint(name, names));
     } else if (declared->fixed) {
-      report.error(codes::kFixedParameter, {},
-                   title + " cannot change while the component runs; change it in the graph and start anew");
+      report.line({},
+                  title + " cannot change while the component runs; change it in the graph and start anew");
     } else if (auto value = read_value({text, {}, true, true}, *declared, title, report)) {
       result[name] = std::move(*value);
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -44,12 +43,6 @@ struct PortHome {
   std::string component;
   LinkObserver* observer = nullptr;  ///< May be null.
   Provenance provenance;             ///< Touched by the component's strand only.
-  /// Counts what the component takes and sends: while it stays the same nothing is lost if a lap is given up.
-  std::atomic<std::uint64_t> activity{0};
-
-  void note_activity() {
-    activity.store(activity.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  }
 };
 
 /// The part of a port that belongs to the host process and survives a swap of the plugin behind it. The

@@ -39,7 +39,8 @@ class Component : public PortOwner {
   /// error leads to WORK_FAILED.
   virtual Status start() { return ok(); }
 
-  /// WORK: one lap. Blocking calls on ports are welcome.
+  /// WORK: one lap. Blocking calls on ports are welcome. While a lap waits and has not taken or sent anything
+  /// yet, handlers of this component are let in: the wait throws Interrupted, and the lap begins anew after.
   virtual Outcome work() = 0;
 
   /// After the last lap, when nobody uses the component any more, before its providers are let go.
