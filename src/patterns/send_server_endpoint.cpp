@@ -150,6 +150,11 @@ void SendServerEndpoint::count_failure(Edge& edge) {
   ++edge.counters.failed;
 }
 
+bool SendServerEndpoint::has_waiting() const {
+  const std::lock_guard lock(mutex_);
+  return !waiting_.empty();
+}
+
 IntakeCounters SendServerEndpoint::counters() const {
   IntakeCounters all;
   for (std::size_t edge = 0; edge < edges_.size(); ++edge) all += counters(edge);

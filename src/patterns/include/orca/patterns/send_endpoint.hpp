@@ -72,6 +72,8 @@ class SendServerEndpoint final : public Endpoint {
   /// what it throws is counted and passes.
   bool handle_one(Status& outcome);
 
+  /// Whether something waits to be handled.
+  [[nodiscard]] bool has_waiting() const;
   /// Of all edges together.
   [[nodiscard]] IntakeCounters counters() const;
   /// Of one edge, in the order of connect().
