@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include <fstream>
 #include <numbers>
 
 #include "all_objects.hpp"
@@ -148,4 +149,15 @@ TEST_CASE("an object within a sequence has the fields of its type", "[text][xml]
 TEST_CASE("to_xml of a view is that of its object", "[text][xml]") {
   const ObjectRef ref = ObjectPtr<idl::MotionCommand>(orca::full_stop());
   CHECK(to_xml(ref) == written(*object_cast<idl::MotionCommand>(ref)));
+}
+
+TEST_CASE("the examples of docs/objects.md can be read", "[text][xml][docs]") {
+  std::ifstream page(std::string(ORCA_SOURCE_DIR) + "/docs/objects.md");
+  int examples = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with('<')) continue;
+    ++examples;
+    CHECK(reading(line).errors == "");
+  }
+  CHECK(examples == 4);
 }
