@@ -57,6 +57,15 @@ std::string trigger_text(const std::optional<Trigger>& trigger) {
   return trigger->kind == Trigger::Kind::period ? attribute("period", seconds_text(trigger->period)) : "";
 }
 
+std::string port_text(const std::string& name, const PortSetting& setting) {
+  std::string candidates;
+  for (const PortRef& candidate : setting.candidates)
+    candidates += (candidates.empty() ? "" : " ") + candidate.text();
+  return "    <port" + attribute("name", name) + optional_attribute("as", setting.alias) +
+         (setting.disabled ? attribute("disabled", "true") : "") +
+         optional_attribute("candidates", candidates) + "/>\n";
+}
+
 std::string component_text(const ComponentNode& node) {
   std::string attributes = attribute("name", node.name) + attribute("type", node.type);
   attributes += optional_attribute("hardware", node.hardware) + optional_attribute("process", node.process);
@@ -66,6 +75,7 @@ std::string component_text(const ComponentNode& node) {
   attributes += optional_attribute("start_after", joined(node.start_after, " "));
   std::string content = params_text(node.params);
   for (const auto& [name, value] : node.properties) content += named_value("property", name, value);
+  for (const auto& [name, setting] : node.ports) content += port_text(name, setting);
   return element("component", attributes, content);
 }
 
@@ -97,7 +107,8 @@ std::string print(const Graph& graph) {
                       params_text(node.params));
   }
   for (const ComponentNode& node : graph.components) result += component_text(node);
-  for (const Edge& edge : graph.edges) result += edge_text(edge);
+  for (const Edge& edge : graph.edges)
+    if (!edge.late_bound) result += edge_text(edge);
   return result + "</graph>\n";
 }
 

@@ -27,12 +27,18 @@ constexpr std::array kParam{AttributeRule{"name", true}, AttributeRule{"value", 
 constexpr std::array kConnect{AttributeRule{"from", true}, AttributeRule{"to", true}, AttributeRule{"queue"},
                               AttributeRule{"overflow"}, AttributeRule{"interval"}};
 
+constexpr std::array kPort{AttributeRule{"name", true}, AttributeRule{"as"}, AttributeRule{"disabled"},
+                           AttributeRule{"candidates"}};
+constexpr std::array kInclude{AttributeRule{"file", true}};
+constexpr std::array kUse{AttributeRule{"graph", true}, AttributeRule{"prefix", true}};
+
 constexpr std::array<std::string_view, 9> kInGraph{"arg",     "profile", "hardware", "component", "connect",
                                                    "include", "use",     "machine",  "process"};
 constexpr std::array<std::string_view, 7> kInProfile{"hardware", "component", "connect", "include",
                                                      "use",      "machine",   "process"};
 constexpr std::array<std::string_view, 1> kInHardware{"param"};
-constexpr std::array<std::string_view, 2> kInComponent{"param", "property"};
+constexpr std::array<std::string_view, 3> kInComponent{"param", "property", "port"};
+constexpr std::array<std::string_view, 1> kInBringer{"arg"};
 
 constexpr std::array kRules{
     ElementRule{"graph", kGraph, kInGraph},
@@ -45,9 +51,11 @@ constexpr std::array kRules{
     ElementRule{"connect", kConnect, {}},
     ElementRule{"machine", Attributes{}, kInProfile, Support::transparent},
     ElementRule{"process", Attributes{}, kInProfile, Support::transparent},
-    ElementRule{"include", Attributes{}, {}, Support::none},
-    ElementRule{"use", Attributes{}, {}, Support::none},
+    ElementRule{"port", kPort, {}},
+    ElementRule{"include", kInclude, kInBringer},
+    ElementRule{"use", kUse, kInBringer},
 };
+constexpr ElementRule kGivenArg{"arg", kParam, {}};
 
 }  // namespace
 
@@ -60,10 +68,14 @@ bool ElementRule::allows(std::string_view child) const {
   return std::ranges::find(children, child) != children.end();
 }
 
+const ElementRule* ElementRule::child(std::string_view element) const {
+  return brings_file(*this) ? &kGivenArg : find_rule(element);
+}
+
 const ElementRule* ElementRule::guess_child(const xml::Element& element) const {
-  if (allows(element.name())) return find_rule(element.name());
+  if (allows(element.name())) return child(element.name());
   if (find_rule(element.name()) != nullptr) return nullptr;
-  if (const auto near = xml::nearest_name(element.name(), child_names())) return find_rule(*near);
+  if (const auto near = xml::nearest_name(element.name(), child_names())) return child(*near);
   const bool has_ends = element.attribute("from") != nullptr && element.attribute("to") != nullptr;
   return has_ends && allows("connect") ? find_rule("connect") : nullptr;
 }
@@ -75,6 +87,10 @@ std::vector<std::string> ElementRule::attribute_names() const {
 }
 
 std::vector<std::string> ElementRule::child_names() const { return {children.begin(), children.end()}; }
+
+bool brings_file(const ElementRule& rule) { return rule.name == "include" || rule.name == "use"; }
+
+const char* file_attribute(const ElementRule& rule) { return rule.name == "use" ? "graph" : "file"; }
 
 const ElementRule* find_rule(std::string_view element) {
   const auto found = std::ranges::find(kRules, element, &ElementRule::name);

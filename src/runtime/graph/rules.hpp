@@ -20,7 +20,6 @@ struct ElementRule {
   enum class Support {
     full,
     transparent,  // not yet, but its content can be looked at as if it stood outside
-    none,         // not yet, and it may bring in names that nobody can know
   };
   std::string_view name;
   std::span<const AttributeRule> attributes;
@@ -29,6 +28,8 @@ struct ElementRule {
 
   [[nodiscard]] const AttributeRule* attribute(std::string_view wanted) const;
   [[nodiscard]] bool allows(std::string_view child) const;
+  // The rule of an allowed child.
+  [[nodiscard]] const ElementRule* child(std::string_view element) const;
   // The child that `element` was probably meant to be: the one with the nearest name, or <connect> if it has
   // its two ends. Null if there is no telling.
   [[nodiscard]] const ElementRule* guess_child(const xml::Element& element) const;
@@ -36,7 +37,13 @@ struct ElementRule {
   [[nodiscard]] std::vector<std::string> child_names() const;
 };
 
-// The rule of an element, or null.
+// Whether the element brings in another file.
+bool brings_file(const ElementRule& rule);
+// The attribute of such an element that names the file.
+const char* file_attribute(const ElementRule& rule);
+
+// The rule of an element, or null. An <arg> may also be what an <include> or a <use> gives to its file, which
+// only ElementRule::child() tells.
 const ElementRule* find_rule(std::string_view element);
 
 // The elements that may contain `child`, for people: "<hardware> or <component>".

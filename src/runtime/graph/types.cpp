@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+
 #include "checks.hpp"
 #include "codes.hpp"
 #include "naming.hpp"
@@ -54,18 +56,32 @@ void Types::report_failure(const Node& node, const Error& error, PluginKind kind
 void check_name(const Node& node, const char* attribute, Report& report) {
   const Text* name = node.known(attribute);
   if (name == nullptr) return;
-  if (const auto fault = name_fault(name->value)) {
+  const auto fault = name_fault(name->value);
+  if (fault && !report.tolerates(name->value)) {
     report.error(codes::kBadName, name->position,
                  "the " + std::string(attribute) + " " + in_quotes(name->value) + " of a " +
                      std::string(node.rule->name) + ": " + *fault);
   }
 }
 
+namespace {
+
+// A name of a sub-graph may lack its context only.
+std::string hint_for(const std::string& name, const Model& model, Report& report) {
+  const auto near = report.nearest(name, model.component_names);
+  if (near) return xml::did_you_mean(near);
+  const auto in_context = [&](const std::string& known) { return known.ends_with("/" + name); };
+  const auto found = std::ranges::find_if(model.component_names, in_context);
+  return found == model.component_names.end() ? "" : xml::did_you_mean(*found);
+}
+
+}  // namespace
+
 bool check_component_exists(const std::string& name, const xml::Position& place, const std::string& title,
                             const Model& model, Report& report) {
   if (model.component(name) != nullptr) return true;
   if (model.excused.contains(name)) return false;
-  const std::string hint = report.hint(name, model.component_names);
+  const std::string hint = hint_for(name, model, report);
   if (model.names_incomplete && hint.empty()) return false;
   report.error(codes::kUnknownComponent, place,
                title + ": there is no component " + in_quotes(name) +
