@@ -59,4 +59,13 @@ std::string Report::hint(std::string_view word, std::span<const std::string> can
   return xml::did_you_mean(nearest(word, candidates));
 }
 
+std::string Report::hint_in_contexts(std::string_view name, std::span<const std::string> candidates) {
+  if (hints_left_ == 0) return {};
+  if (const auto near = nearest(name, candidates)) return xml::did_you_mean(near);
+  const std::string ending = "/" + std::string(name);
+  const auto fits = [&](const std::string& candidate) { return candidate.ends_with(ending); };
+  const auto found = std::ranges::find_if(candidates, fits);
+  return found == candidates.end() ? "" : xml::did_you_mean(*found);
+}
+
 }  // namespace orca::graph

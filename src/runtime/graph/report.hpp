@@ -41,6 +41,8 @@ class Report {
   std::optional<std::string> nearest(std::string_view word, std::span<const std::string> candidates);
   // The same as the end of a message.
   std::string hint(std::string_view word, std::span<const std::string> candidates);
+  // The same for a name that may only lack its context: "avoid" for "left/avoid".
+  std::string hint_in_contexts(std::string_view name, std::span<const std::string> candidates);
 
  private:
   bool told_already(const char* code, const xml::Position& position, const std::string& message);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
-
 #include "checks.hpp"
 #include "codes.hpp"
 #include "naming.hpp"
@@ -64,24 +62,11 @@ void check_name(const Node& node, const char* attribute, Report& report) {
   }
 }
 
-namespace {
-
-// A name of a sub-graph may lack its context only.
-std::string hint_for(const std::string& name, const Model& model, Report& report) {
-  const auto near = report.nearest(name, model.component_names);
-  if (near) return xml::did_you_mean(near);
-  const auto in_context = [&](const std::string& known) { return known.ends_with("/" + name); };
-  const auto found = std::ranges::find_if(model.component_names, in_context);
-  return found == model.component_names.end() ? "" : xml::did_you_mean(*found);
-}
-
-}  // namespace
-
 bool check_component_exists(const std::string& name, const xml::Position& place, const std::string& title,
                             const Model& model, Report& report) {
   if (model.component(name) != nullptr) return true;
   if (model.excused.contains(name)) return false;
-  const std::string hint = hint_for(name, model, report);
+  const std::string hint = report.hint_in_contexts(name, model.component_names);
   if (model.names_incomplete && hint.empty()) return false;
   report.error(codes::kUnknownComponent, place,
                title + ": there is no component " + in_quotes(name) +

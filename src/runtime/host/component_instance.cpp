@@ -48,7 +48,14 @@ Status ComponentInstance::construct() {
   return ok();
 }
 
+const std::string& ComponentInstance::name_in_graph(const std::string& port) const {
+  const auto renamed = settings_.port_names.find(port);
+  return renamed == settings_.port_names.end() ? port : renamed->second;
+}
+
+// The author's trigger names a port as the author does, the graph's as the graph does.
 Status ComponentInstance::resolve_trigger() {
+  trigger_.port = name_in_graph(trigger_.port);
   if (settings_.trigger) trigger_ = *settings_.trigger;
   if (trigger_.kind != Trigger::Kind::on_port) return ok();
   trigger_port_ = dynamic_cast<PushClientEndpoint*>(endpoint(trigger_.port));
@@ -66,6 +73,7 @@ Kind& ComponentInstance::add_endpoint(const PortContract& contract) {
 }
 
 void ComponentInstance::declare_port(PortDeclaration declaration) {
+  declaration.contract.name = name_in_graph(declaration.contract.name);
   const PortContract& contract = declaration.contract;
   const bool server = contract.role == Role::server;
   if (contract.pattern == Pattern::push && server) {

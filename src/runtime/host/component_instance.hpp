@@ -29,6 +29,7 @@ struct ComponentSettings {
   std::optional<bool> autonomous;
   std::optional<Trigger> trigger;  ///< Instead of the author's.
   std::map<std::string, ParamValue> params;
+  std::map<std::string, std::string> port_names;  ///< What the graph calls a port, by the author's name for it.
 };
 
 /// One component in this process: its ports, its strand, and the state machine that calls it.
@@ -85,6 +86,7 @@ class ComponentInstance final : public ComponentHost {
   void main();
   bool configure();
   Status resolve_trigger();
+  [[nodiscard]] const std::string& name_in_graph(const std::string& port) const;
   void turn();
   void follow_clients();
   void enter_work();

@@ -42,7 +42,9 @@ Status System::build_components(PluginCatalogue& catalogue) {
   for (const graph::ComponentNode& node : graph_.components) {
     const Result<const TypeEntry*> type = catalogue.find(PluginKind::component, node.type);
     if (!type) return type.error();
-    ComponentSettings settings{node.name, node.priority, node.autonomous, node.trigger, node.params};
+    ComponentSettings settings{node.name, node.priority, node.autonomous, node.trigger, node.params, {}};
+    for (const auto& [port, setting] : node.ports)
+      if (!setting.alias.empty()) settings.port_names[port] = setting.alias;
     auto instance =
         std::make_unique<ComponentInstance>(run_, std::move(settings), **type, container(node.hardware));
     if (Status made = instance->construct(); !made.ok()) return made;
