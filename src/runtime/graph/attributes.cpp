@@ -52,6 +52,9 @@ Attributes attributes_of(const ComponentNode& node) {
   if (node.trigger && node.trigger->kind == Trigger::Kind::on_port) add(result, "on", node.trigger->port);
   if (node.trigger && node.trigger->kind == Trigger::Kind::period)
     add(result, "period", seconds_text(node.trigger->period));
+  add(result, "start", node.on_demand ? "on_demand" : "");
+  add(result, "stay", node.stay_warm ? "warm" : "");
+  if (node.on_demand && !node.stay_warm) add(result, "idle_time", seconds_text(node.idle_time));
   add(result, "start_after", joined(node.start_after, " "));
   return result;
 }

@@ -58,5 +58,6 @@ inline constexpr const char* kCandidate = "G050";
 inline constexpr const char* kNoInfluence = "G051";
 inline constexpr const char* kUnusedHardware = "G052";
 inline constexpr const char* kNeverTriggered = "G053";
+inline constexpr const char* kLoading = "G060";
 
 }  // namespace orca::graph::codes

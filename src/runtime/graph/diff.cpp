@@ -114,8 +114,8 @@ std::string shown(const std::string& value) { return value.empty() ? "nothing" :
 
 std::vector<Change> diff(const Graph& before, const Graph& after) {
   std::vector<Change> changes;
-  for (const auto part : {Change::Part::graph, Change::Part::hardware, Change::Part::component,
-                          Change::Part::connection})
+  for (const auto part :
+       {Change::Part::graph, Change::Part::hardware, Change::Part::component, Change::Part::connection})
     compare(part, parts_of(before, part), parts_of(after, part), changes);
   return changes;
 }

@@ -103,7 +103,8 @@ std::string ports_text(const std::vector<ListedPort>& ports) {
     for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   std::string text;
   for (const Row& row : rows) {
-    for (std::size_t i = 0; i < widths.size(); ++i) text += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      text += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
     text += row.back() + "\n";
   }
   return text;

@@ -13,6 +13,8 @@ namespace orca::graph {
 struct AttributeRule {
   std::string_view name;
   bool required = false;
+  std::string_view text;                           // for people: what it says
+  std::span<const std::string_view> choices = {};  // the only values; empty: any
 };
 
 // What the graph's XML may look like, one entry per element.
@@ -24,6 +26,7 @@ struct ElementRule {
   std::string_view name;
   std::span<const AttributeRule> attributes;
   std::span<const std::string_view> children;
+  std::string_view text;  // for people: what the element is
   Support support = Support::full;
 
   [[nodiscard]] const AttributeRule* attribute(std::string_view wanted) const;
@@ -45,6 +48,9 @@ const char* file_attribute(const ElementRule& rule);
 // The rule of an element, or null. An <arg> may also be what an <include> or a <use> gives to its file, which
 // only ElementRule::child() tells.
 const ElementRule* find_rule(std::string_view element);
+
+// All elements, in the order of the schema.
+std::span<const ElementRule> all_rules();
 
 // The elements that may contain `child`, for people: "<hardware> or <component>".
 std::string parents_of(std::string_view child);

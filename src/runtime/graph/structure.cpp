@@ -55,6 +55,7 @@ class Reader {
 
   void read_attributes(const xml::Element& element, Node& node) {
     for (const xml::Attribute& attribute : element.attributes()) {
+      if (node.is("graph") && leads_to_schema(attribute)) continue;
       const std::string name = attribute_meant(element, attribute, *node.rule);
       if (!name.empty()) node.attributes.emplace(name, arguments_.replaced(attribute));
     }
@@ -63,6 +64,11 @@ class Reader {
       report_.error(codes::kMissingAttribute, element.position(),
                     tag(element.name()) + " needs the attribute " + in_quotes(rule.name));
     }
+  }
+
+  // How editors find graphs/orca-graph.xsd.
+  static bool leads_to_schema(const xml::Attribute& attribute) {
+    return attribute.name == "xmlns:xsi" || attribute.name == "xsi:noNamespaceSchemaLocation";
   }
 
   // The attribute's name; for an unknown one the one it was meant to be, if that is not there as well.

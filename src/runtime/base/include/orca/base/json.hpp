@@ -9,7 +9,8 @@
 
 namespace orca {
 
-/// Writes one JSON value (RFC 8259), indented, for the --json of the programs. What it is given must be UTF-8.
+/// Writes one JSON value (RFC 8259), indented, for the --json of the programs. What it is given must be
+/// UTF-8.
 ///
 /// Thread contract: not synchronised; one thread.
 class JsonWriter {
@@ -28,10 +29,7 @@ class JsonWriter {
   /// null if it is infinite or no number.
   void value(double number);
   template <std::integral Integer>
-    requires(!std::same_as<Integer, bool>)
-  void value(Integer number) {
-    raw(std::to_string(number));
-  }
+  requires(!std::same_as<Integer, bool>) void value(Integer number) { raw(std::to_string(number)); }
   void value(const std::vector<std::string>& texts);
 
   template <class Value>

@@ -27,8 +27,8 @@ struct Change {
   friend bool operator==(const Change&, const Change&) = default;
 };
 
-/// What leads from one graph to another, by meaning: neither the order of parts counts, nor how the files were
-/// written, nor the default profile, whose content is merged already. Sorted by part and name.
+/// What leads from one graph to another, by meaning: neither the order of parts counts, nor how the files
+/// were written, nor the default profile, whose content is merged already. Sorted by part and name.
 /// @return nothing if both describe the same system.
 /// @thread  pure function; any thread.
 [[nodiscard]] std::vector<Change> diff(const Graph& before, const Graph& after);

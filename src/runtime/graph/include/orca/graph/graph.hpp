@@ -53,6 +53,9 @@ struct ComponentNode {
   std::string process;   ///< Name of the process it lives in; empty: the graph does not say.
   int priority = 0;      ///< -100 to 100; of components that are ready together the higher goes first.
   std::optional<bool> autonomous;        ///< Works without clients; nothing: as its author wants.
+  bool on_demand = false;                ///< Loaded when first asked for, and unloaded when long unused.
+  bool stay_warm = false;                ///< Once loaded it stays.
+  Duration idle_time{0};                 ///< So long unused it is unloaded; on demand and not warm only.
   std::optional<Trigger> trigger;        ///< What starts a lap; nothing: as its author wants.
   std::vector<std::string> start_after;  ///< Components that must be up before.
   Params params;
@@ -97,5 +100,9 @@ struct Graph {
 /// The graph as XML again, with profiles merged, arguments replaced, defaults filled in and values in SI.
 /// Loading that text gives an equal Graph.
 [[nodiscard]] std::string print(const Graph& graph);
+
+/// The same for programs: an object with hardware, components and connections; attributes as in XML,
+/// parameters as numbers, flags and texts, in SI.
+[[nodiscard]] std::string graph_json(const Graph& graph);
 
 }  // namespace orca::graph

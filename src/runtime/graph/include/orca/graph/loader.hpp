@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -65,6 +66,13 @@ struct LoadOptions {
 
 /// Where the text of a file comes from that a graph includes. The path starts at the current folder.
 using FileReader = std::function<Result<std::string>(const std::string& path)>;
+
+/// Reads new values for some of a component's parameters as a graph would, for a change at run time.
+///
+/// @param texts  by name: "0.5 m", "true", ...
+/// @errors  invalid_argument with everything that is wrong, a line each.
+[[nodiscard]] Result<Params> read_settings(const std::vector<ParamContract>& contracts,
+                                           const std::map<std::string, std::string>& texts);
 
 /// Reads a system graph and checks it against the contracts of its plugins. It loads nothing and starts
 /// nothing.
