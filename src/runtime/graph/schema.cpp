@@ -62,7 +62,7 @@ std::string schema() {
       "<!-- Orca's system graphs, for editors. Made by: deployer --schema -->\n"
       "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n"
       "  <xs:simpleType name=\"with_argument\">\n"
-      "    <xs:restriction base=\"xs:string\"><xs:pattern value=\".*\\$\\{.*\\}.*\"/></xs:restriction>\n"
+      "    <xs:restriction base=\"xs:string\"><xs:pattern value=\".*[$]\\{.*\\}.*\"/></xs:restriction>\n"
       "  </xs:simpleType>\n"
       "  <xs:element name=\"graph\" type=\"graph\"/>\n";
   for (const ElementRule& rule : all_rules())
