@@ -141,6 +141,8 @@ FakeCatalogue::FakeCatalogue() {
   add(::component("orca.MotionCommandFuser",
                   {many(receives("motion", "MotionCommand")), sends("base", "MotionCommand"),
                    accepts("ClientListSend", "ClientList")}));
+  add(::component("orca.Relay", {many(receives("in", "RobotPose")), pushes("out", "RobotPose")}));
+  add(::component("orca.TwinGoto", {pushes("slow", "MotionCommand"), pushes("fast", "MotionCommand")}));
   add(::component("orca.Localizer", {pushes("pose", "RobotPose"), receives("odometry", "Odometry")}));
   add(::component("orca.Planner", {query("limits", Role::proxy, "LimitsRequest", "Limits"),
                                    query("area", Role::proxy, "LimitsRequest", "Area")}));

@@ -77,9 +77,13 @@ class MotionCommandFuser final : public orca::Component {
     refused_ = !sent.ok();
   }
 
-  static bool is_called(const PushEdge& edge, const std::string& name) {
+  // Whether the edge comes from the behaviour or port `name`, seen from the fuser's own context or from the
+  // top: a Command beside it in a sub-graph "left" says "goto" for "left/goto".
+  [[nodiscard]] bool is_called(const PushEdge& edge, const std::string& name) const {
     const std::string path = edge.source_path();
-    return path == name || path.substr(0, path.rfind('.')) == name;
+    const std::string behaviour = path.substr(0, path.rfind('.'));
+    const std::string here = this->name().substr(0, this->name().rfind('/') + 1) + name;
+    return path == here || behaviour == here || path == name || behaviour == name;
   }
 
   [[nodiscard]] bool names_an_edge(const std::string& name) const {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "orca/base/result.hpp"
 #include "orca/xml/diagnostics.hpp"
 
 namespace orca::xml {
@@ -59,6 +60,10 @@ struct Limits {
   static constexpr std::size_t kAttributes = 64;  ///< In one tag.
   static constexpr std::size_t kElements = 500'000;
 };
+
+/// The bytes of a file; of one beyond Limits::kBytes only the first, and at least one too many.
+/// @errors  not_found or data_loss, the message is the system's word for what is wrong.
+[[nodiscard]] Result<std::string> read_bytes(const std::string& path);
 
 /// Reads an XML file strictly: UTF-8 without byte order mark, one root, no DTD, only the five predefined
 /// entities and character references, nothing beyond Limits.
