@@ -18,8 +18,8 @@ namespace orca::test {
 
 /// Every object type; object_type_test.cpp checks that none is missing.
 using AllObjects = std::tuple<idl::Actuator, idl::Arrived, idl::Ask, idl::ClientList, idl::Door, idl::Drive,
-                              idl::GoalPoint, idl::LaserRangeReadings, idl::LaserSensor, idl::MotionCommand,
-                              idl::Odometry, idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor,
-                              idl::SonarRangeReadings, idl::SonarRing>;
+                              idl::FusionReason, idl::GoalPoint, idl::LaserRangeReadings, idl::LaserSensor,
+                              idl::MotionCommand, idl::Odometry, idl::RangeReadings, idl::Robot,
+                              idl::RobotPose, idl::Sensor, idl::SonarRangeReadings, idl::SonarRing>;
 
 }  // namespace orca::test

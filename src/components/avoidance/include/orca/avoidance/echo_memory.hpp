@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,13 @@ class EchoMemory {
 
   /// An echo from `echo`, seen from where the robot is now.
   void hear(const Echo& echo, const Limits& limits);
+
+  /// Forgets the echoes that `unwanted` names.
+  template <class Predicate>
+  void forget_if(Predicate unwanted) {
+    for (std::size_t i = echoes_.size(); i-- > 0;)
+      if (unwanted(echoes_[i])) erase(i);
+  }
 
   void clear();
 

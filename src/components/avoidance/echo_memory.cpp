@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "echo_memory.hpp"
+#include "orca/avoidance/echo_memory.hpp"
 
 #include <algorithm>
 #include <cmath>
