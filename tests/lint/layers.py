@@ -28,6 +28,7 @@ LAYERS = (
     Layer("executive", ("src/runtime/base/executive",), (), ("base",), ("boost",)),
     Layer("idl", ("idl",), ("orca/idl/",), ("base",), ("fastcdr",), ("fastcdr",)),
     Layer("xml", ("src/runtime/xml",), ("orca/xml/",), ("base",), ("tinyxml2", "fmt")),
+    Layer("text", ("src/runtime/text",), ("orca/text/",), ("idl", "xml", "base")),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ("idl", "base"), ("fmt",)),
     Layer("patterns_local", ("src/patterns/local",), ("orca/patterns/local/",), ("patterns", "idl", "base"), ("fmt",)),
     Layer("patterns_dds", ("src/patterns/dds",), ("orca/patterns/dds/",), ("patterns", "idl", "base"),
@@ -43,8 +44,8 @@ LAYERS = (
     Layer("sim", ("sim",), ("orca/sim/",), ("xml", *DEVICE),
           ("bullet", "urdfdom", "eigen", "png", "fmt")),
     Layer("host", ("src/runtime/host",), ("orca/host/",),
-          ("graph", "plugin", "xml", "patterns_local", "patterns_dds", *DEVICE), ("cairo", "fmt")),
-    Layer("apps", ("src/apps",), (), ("host", "graph", "plugin", "xml", *DEVICE), ("fmt",)),
+          ("graph", "plugin", "text", "xml", "patterns_local", "patterns_dds", *DEVICE), ("cairo", "fmt")),
+    Layer("apps", ("src/apps",), (), ("host", "graph", "plugin", "text", "xml", *DEVICE), ("fmt",)),
 )
 
 # Library -> how its headers begin. A header that no line names (the standard library, POSIX) is free for all.
