@@ -56,9 +56,13 @@ Avoider::Avoider(ComponentHost& host, const Defaults& defaults)
       goal_max_age_(*this, "goal_max_age", 0.5,
                     {.unit = "s", .min = 0.0, .text = "An older goal is disregarded."}) {}
 
+Status Avoider::params_changed() {
+  if (*stop_distance_ < *safe_distance_) return ok();
+  return fail(Code::invalid_argument, "stop_distance must be less than safe_distance");
+}
+
 Status Avoider::configure() {
-  if (*stop_distance_ >= *safe_distance_)
-    return fail(Code::invalid_argument, "stop_distance must be less than safe_distance");
+  if (Status sound = params_changed(); !sound.ok()) return sound;
   if (goal_.connected() && !localizer_.connected() && !odometry_.connected())
     return fail(Code::failed_precondition,
                 "with a goal, connect its port localizer or odometry too: it must know where it is");

@@ -15,6 +15,12 @@ double distance(const Echo& one, const Echo& other) { return std::hypot(one.x - 
 
 }  // namespace
 
+std::optional<Echo> echo_of(double range, double min_range, double max_range, const Motion& mount) {
+  if (!(range < max_range)) return std::nullopt;
+  const double way = range > min_range ? range : 0.0;
+  return Echo{mount.x + way * std::cos(mount.yaw), mount.y + way * std::sin(mount.yaw)};
+}
+
 Echo seen_after(const Echo& echo, const Motion& motion) {
   const double dx = echo.x - motion.x;
   const double dy = echo.y - motion.y;

@@ -11,11 +11,8 @@ namespace {
 
 // Where a beam ends; nothing if it met nothing.
 std::optional<Echo> place_of(const Scan& scan, std::size_t i) {
-  const double seen = scan.ranges[i];
-  if (!(seen < scan.max_range)) return std::nullopt;
-  const double range = seen > scan.min_range ? seen : 0.0;
   const double yaw = scan.mount.yaw + scan.angle_start + scan.angle_increment * static_cast<double>(i);
-  return Echo{scan.mount.x + range * std::cos(yaw), scan.mount.y + range * std::sin(yaw)};
+  return echo_of(scan.ranges[i], scan.min_range, scan.max_range, {scan.mount.x, scan.mount.y, yaw});
 }
 
 double distance(const Echo& echo) { return std::hypot(echo.x, echo.y); }

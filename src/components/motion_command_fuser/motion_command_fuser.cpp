@@ -43,11 +43,18 @@ class MotionCommandFuser final : public orca::Component {
     } else {
       lap_on("motion");
     }
-    rules_ = rules();
-    if (Status wired = read_wiring(); !wired.ok()) return wired;
-    if (rules_.mode == orca::fuse::Mode::priority && order_->empty())
-      return orca::fail(orca::Code::invalid_argument, "mode priority needs the parameter order");
+    if (Status sound = params_changed(); !sound.ok()) return sound;
     return first_clients_->empty() ? orca::ok() : choose(*first_clients_);
+  }
+
+  Status params_changed() override {
+    orca::fuse::Rules rules = this->rules();
+    if (rules.mode == orca::fuse::Mode::priority && rules.order.empty())
+      return orca::fail(orca::Code::invalid_argument, "mode priority needs the parameter order");
+    if (Status read = read_nodes(*suppress_, rules.wiring.suppress); !read.ok()) return read;
+    if (Status read = read_nodes(*inhibit_, rules.wiring.inhibit); !read.ok()) return read;
+    rules_ = std::move(rules);
+    return orca::ok();
   }
 
   Status start() override {
@@ -207,16 +214,15 @@ class MotionCommandFuser final : public orca::Component {
     if (was_silent && !is_silent) log_info("all required behaviours are heard again");
   }
 
-  Status read_wiring() {
-    for (const auto& [texts, nodes] :
-         {std::pair(&*suppress_, &rules_.wiring.suppress), std::pair(&*inhibit_, &rules_.wiring.inhibit)})
-      for (const std::string& text : *texts) {
-        const auto node = orca::fuse::parse_node(text);
-        if (!node)
-          return orca::fail(orca::Code::invalid_argument,
-                            "cannot read \"" + text + "\"; expected \"higher > lower\", as \"avoid > goto\"");
-        nodes->push_back(*node);
-      }
+  static Status read_nodes(const std::vector<std::string>& texts, std::vector<orca::fuse::Node>& nodes) {
+    for (const std::string& text : texts) {
+      const auto node = orca::fuse::parse_node(text);
+      if (!node)
+        return orca::fail(orca::Code::invalid_argument, "cannot read \"" + text +
+                                                            "\"; expected \"higher > lower\", as "
+                                                            "\"avoid > goto\"");
+      nodes.push_back(*node);
+    }
     return orca::ok();
   }
 
@@ -264,16 +270,20 @@ class MotionCommandFuser final : public orca::Component {
       "sync",
       "any",
       {.choices = {"any", "all", "period"},
+       .fixed = true,
        .text = "Fuse when any behaviour speaks, when all have spoken, or once a period."}};
   orca::Param<double> period_{
-      *this, "period", 0.05, {.unit = "s", .min = 0.001, .text = "Between two commands, with sync period."}};
+      *this,
+      "period",
+      0.05,
+      {.unit = "s", .min = 0.001, .fixed = true, .text = "Between two commands, with sync period."}};
   orca::Param<double> all_wait_{
       *this,
       "all_wait",
       0.2,
       {.unit = "s", .min = 0.001, .text = "With sync all, how long the others wait for one that is silent."}};
   orca::Param<std::vector<std::string>> first_clients_{
-      *this, "clients", {}, {.text = "Behaviours to listen to until a client list comes."}};
+      *this, "clients", {}, {.fixed = true, .text = "Behaviours to listen to until a client list comes."}};
   orca::Param<std::vector<std::string>> required_{
       *this, "required", {}, {.text = "Behaviours without which the robot must not move."}};
   orca::Param<double> required_max_age_{

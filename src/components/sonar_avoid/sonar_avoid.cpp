@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 
 #include "orca/avoidance/avoider.hpp"
 #include "orca/idl/time.hpp"
 
 namespace {
-
-using orca::avoid::Echo;
 
 /// Keeps the robot from driving into what its sonars hear (thesis 11.1). README.md tells how.
 class SonarAvoid final : public orca::avoid::Avoider {
@@ -23,17 +20,15 @@ class SonarAvoid final : public orca::avoid::Avoider {
     const auto readings = sonar_.get_update();
     const std::size_t count = std::min(readings->ranges().size(), readings->poses().size());
     for (std::size_t i = 0; i < count; ++i) {
-      const double heard = readings->ranges()[i];
-      if (!(heard < readings->max_range())) continue;
-      const double range = heard > readings->min_range() ? heard : 0.0;
       const auto& mount = readings->poses()[i];
-      const double yaw = mount.rotation().yaw();
-      const Echo echo{mount.position().x() + range * std::cos(yaw),
-                      mount.position().y() + range * std::sin(yaw)};
+      const auto echo =
+          orca::avoid::echo_of(readings->ranges()[i], readings->min_range(), readings->max_range(),
+                               {mount.position().x(), mount.position().y(), mount.rotation().yaw()});
+      if (!echo) continue;
       const double age = i < readings->stamps().size()
                              ? orca::to_seconds(now() - orca::to_time_point(readings->stamps()[i]))
                              : 0.0;
-      memory.hear(moved_since(echo, age), keep());
+      memory.hear(moved_since(*echo, age), keep());
     }
   }
 

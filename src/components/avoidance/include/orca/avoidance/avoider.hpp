@@ -46,6 +46,7 @@ class Avoider : public Component {
 
  private:
   Status configure() override;
+  Status params_changed() override;
   Status start() override;
   Outcome work() override;
 

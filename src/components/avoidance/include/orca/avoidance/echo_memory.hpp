@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct Motion {
   double y = 0.0;    ///< [m] to the left.
   double yaw = 0.0;  ///< [rad] counter-clockwise positive.
 };
+
+/// Where the echo of a range reading comes from: on the x axis of a sensor that is mounted at `mount` in the
+/// robot frame, `range` [m] away. Below `min_range` the sensor cannot tell how near something is: it may be
+/// at the sensor itself. Nothing at or above `max_range`, and for what is no number.
+[[nodiscard]] std::optional<Echo> echo_of(double range, double min_range, double max_range,
+                                          const Motion& mount);
 
 /// The same place seen from where the robot is now.
 [[nodiscard]] Echo seen_after(const Echo& echo, const Motion& motion);
