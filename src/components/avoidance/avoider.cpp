@@ -15,7 +15,7 @@ double insistence(double urgency) { return urgency / (1.001 - urgency); }
 
 }  // namespace
 
-Avoider::Avoider(ComponentHost& host, const Defaults& defaults)
+Avoider::Avoider(ComponentHost& host, double echo_time)
     : Component(host),
       odometry_(
           *this, "odometry",
@@ -30,7 +30,7 @@ Avoider::Avoider(ComponentHost& host, const Defaults& defaults)
                     {.unit = "m", .min = 0.0, .text = "Circle that holds the robot, bumpers too."}),
       margin_(*this, "margin", 0.1, {.unit = "m", .min = 0.0, .text = "Kept free on both sides."}),
       side_distance_(
-          *this, "side_distance", defaults.side_distance,
+          *this, "side_distance", 0.2,
           {.unit = "m", .min = 0.0, .text = "Nearer than this an echo stands for a wall across its beam."}),
       safe_distance_(*this, "safe_distance", 0.8,
                      {.unit = "m", .min = 0.1, .text = "A free way this long needs no avoiding."}),
@@ -43,7 +43,7 @@ Avoider::Avoider(ComponentHost& host, const Defaults& defaults)
                      {.unit = "s", .min = 0.0, .text = "From an echo to the robot's following the advice."}),
       memory_time_(*this, "memory_time", 4.0,
                    {.unit = "s", .min = 0.0, .text = "How long an echo counts that was heard twice."}),
-      echo_time_(*this, "echo_time", defaults.echo_time,
+      echo_time_(*this, "echo_time", echo_time,
                  {.unit = "s", .min = 0.0, .text = "How long a single echo counts."}),
       same_place_(
           *this, "same_place", 0.15,

@@ -10,7 +10,7 @@ namespace {
 /// Keeps the robot from driving into what its laser sees (thesis 11.1). README.md tells how.
 class LaserAvoid final : public orca::avoid::Avoider {
  public:
-  explicit LaserAvoid(orca::ComponentHost& host) : Avoider(host, {.side_distance = 0.0, .echo_time = 4.0}) {}
+  explicit LaserAvoid(orca::ComponentHost& host) : Avoider(host, 4.0) {}
 
  private:
   static constexpr double kSector = std::numbers::pi / 36;

@@ -66,6 +66,7 @@ class MotionCommandFuser final : public orca::Component {
     for (Listened& behaviour : listened_) behaviour = {behaviour.edge, behaviour.name, {}, {}};
     decision_ = {};
     voices_.clear();
+    refused_ = true;  // at the very end the base takes nothing any more
     explain(send());  // nobody is listened to any more: the robot must not go on with the last command
   }
 
@@ -229,7 +230,7 @@ class MotionCommandFuser final : public orca::Component {
   [[nodiscard]] orca::fuse::Rules rules() const {
     return {.mode = orca::fuse::mode_of(*mode_),
             .max_age = *max_age_,
-            .ballot = {*steer_gain_, *max_turn_rate_, *rate_spread_, *speed_spread_},
+            .ballot = {*steer_gain_, *max_turn_rate_, *rate_spread_, *speed_spread_, *inertia_},
             .order = *order_,
             .wiring = {{}, {}, *max_age_, *hold_},
             .required = *required_,
@@ -314,6 +315,11 @@ class MotionCommandFuser final : public orca::Component {
       "speed_spread",
       0.1,
       {.unit = "m/s", .min = 0.01, .text = "Mode vote: how far a wish's votes reach over speeds."}};
+  orca::Param<double> inertia_{
+      *this,
+      "inertia",
+      0.2,
+      {.min = 0.0, .max = 1.0, .text = "Mode vote: share of the votes that its last choice has."}};
   orca::Param<std::vector<std::string>> order_{
       *this, "order", {}, {.text = "Mode priority: the behaviours, the one that goes first first."}};
   orca::Param<std::vector<std::string>> suppress_{

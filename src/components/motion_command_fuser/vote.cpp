@@ -34,13 +34,20 @@ Votes count(std::span<const Wish> wishes, const Ballot& ballot, double all) {
   return votes;
 }
 
+double at(const Votes& votes, int i) {
+  return i < 0 || i >= kRates ? 0.0 : votes[static_cast<std::size_t>(i)];
+}
+
+// The highest peak.
 int winner(const Votes& votes, const Ballot& ballot, double last_rate) {
-  const double most = *std::max_element(votes.begin(), votes.end());
   int best = -1;
+  double most = 0.0;
   for (int i = kRates - 1; i >= 0; --i) {  // from the left
-    if (votes[static_cast<std::size_t>(i)] < most - kEqual) continue;
-    const auto off = [&](int j) { return std::abs(candidate(j, ballot) - last_rate); };
-    if (best < 0 || off(i) < off(best) - kEqual) best = i;
+    if (at(votes, i) < at(votes, i - 1) || at(votes, i) < at(votes, i + 1)) continue;
+    const double kept = ballot.inertia * bell(candidate(i, ballot) - last_rate, ballot.rate_spread);
+    if (best >= 0 && at(votes, i) + kept <= most + kEqual) continue;
+    best = i;
+    most = at(votes, i) + kept;
   }
   return best;
 }
@@ -48,10 +55,9 @@ int winner(const Votes& votes, const Ballot& ballot, double last_rate) {
 // Where the peak lies between the candidates: exact for a single bell.
 double peak(const Votes& votes, int best, const Ballot& ballot) {
   if (best == 0 || best == kRates - 1) return candidate(best, ballot);
-  const auto at = static_cast<std::size_t>(best);
-  const double before = std::log(votes[at - 1]);
-  const double after = std::log(votes[at + 1]);
-  const double curvature = before - 2.0 * std::log(votes[at]) + after;
+  const double before = std::log(at(votes, best - 1));
+  const double after = std::log(at(votes, best + 1));
+  const double curvature = before - 2.0 * std::log(at(votes, best)) + after;
   if (!(curvature < 0.0)) return candidate(best, ballot);
   const double aside = std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
   return candidate(best, ballot) + aside * ballot.max_turn_rate / kSide;

@@ -13,6 +13,7 @@ struct Ballot {
   double max_turn_rate = 0.0;  ///< [rad/s] the candidates lie between this to the right and to the left.
   double rate_spread = 0.0;    ///< [rad/s] standard deviation of the bell that a wish is spread to.
   double speed_spread = 0.0;   ///< [m/s] likewise over the candidate speeds.
+  double inertia = 0.0;        ///< [1] share of all votes that the last choice has in choosing between peaks.
 };
 
 /// A vote (DAMN): each wish gives votes to the candidate turn rates, most to its own and the fewer the
@@ -20,8 +21,8 @@ struct Ballot {
 /// each in proportion to its votes, then choose the speed in the same way. Where a mean would drive between
 /// two wishes, into what both want to avoid, a vote takes one of them.
 ///
-/// Of candidates with equally many votes the one nearest to `last_rate` [rad/s] wins, so that the robot keeps
-/// to its choice, then the one to the left.
+/// Between several peaks the last choice, `last_rate` [rad/s], has votes too, so that the robot keeps to its
+/// side while the behaviours speak one after the other. Of equal peaks the one to the left wins.
 ///
 /// @param wishes  at least one, each with a weight above 0.
 /// @source  Rosenblatt, "DAMN: A Distributed Architecture for Mobile Navigation", J. Experimental and

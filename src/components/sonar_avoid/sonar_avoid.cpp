@@ -9,7 +9,7 @@ namespace {
 /// Keeps the robot from driving into what its sonars hear (thesis 11.1). README.md tells how.
 class SonarAvoid final : public orca::avoid::Avoider {
  public:
-  explicit SonarAvoid(orca::ComponentHost& host) : Avoider(host, {.side_distance = 0.2, .echo_time = 0.25}) {}
+  explicit SonarAvoid(orca::ComponentHost& host) : Avoider(host, 0.25) {}
 
  private:
   orca::PushProxyHandle& sensor() override { return sonar_; }

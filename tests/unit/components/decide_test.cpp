@@ -16,7 +16,11 @@ namespace {
 Rules rules_of(const std::string& mode) {
   return {.mode = mode_of(mode),
           .max_age = 0.5,
-          .ballot = {.steer_gain = 1.0, .max_turn_rate = 1.0, .rate_spread = 0.15, .speed_spread = 0.1},
+          .ballot = {.steer_gain = 1.0,
+                     .max_turn_rate = 1.0,
+                     .rate_spread = 0.15,
+                     .speed_spread = 0.1,
+                     .inertia = 0.2},
           .order = {"avoid", "goto"},
           .wiring = {.suppress = {{"avoid", "goto"}}, .inhibit = {}, .max_age = 0.5, .hold = 0.3},
           .required = {},

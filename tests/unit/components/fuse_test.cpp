@@ -19,7 +19,8 @@ using std::numbers::pi;
 namespace {
 
 constexpr double kGain = 1.5;
-constexpr Ballot kBallot{.steer_gain = kGain, .max_turn_rate = 1.0, .rate_spread = 0.15, .speed_spread = 0.1};
+constexpr Ballot kBallot{
+    .steer_gain = kGain, .max_turn_rate = 1.0, .rate_spread = 0.15, .speed_spread = 0.1, .inertia = 0.2};
 
 Wish heading(double direction, double speed, double weight) {
   return {Wish::Kind::direction, direction, speed, weight};
@@ -153,7 +154,7 @@ TEST_CASE("a vote for left and one for right of something symmetric pass it, the
 }
 
 TEST_CASE("the same holds beside a lighter wish to drive straight on", "[components][fuser]") {
-  const std::vector wishes{heading(0.6, 0.2, 1.0), heading(-0.6, 0.2, 1.0), heading(0.0, 0.5, 0.6)};
+  const std::vector wishes{heading(0.6, 0.2, 1.0), heading(-0.6, 0.2, 1.0), heading(0.0, 0.5, 0.4)};
   CHECK(std::abs(fuse_weighted(wishes, kGain).command.value) < 1e-12);
   const Fused voted = vote(wishes, kBallot, 0.0);
   CHECK(std::abs(voted.command.value) == Approx(kGain * 0.6).margin(0.01));
@@ -164,8 +165,16 @@ TEST_CASE("a vote that is a tie goes to where the robot turns already, else to t
           "[components][fuser]") {
   const std::vector wishes{heading(0.5, 0.2, 1.0), heading(-0.5, 0.2, 1.0)};
   CHECK(vote(wishes, kBallot, 0.0).command.value > 0.5);
-  CHECK(vote(wishes, kBallot, -0.1).command.value < -0.5);
-  CHECK(vote(wishes, kBallot, 0.1).command.value > 0.5);
+  CHECK(vote(wishes, kBallot, -0.7).command.value < -0.5);
+  CHECK(vote(wishes, kBallot, 0.7).command.value > 0.5);
+}
+
+TEST_CASE("a side once voted for is kept until the other has clearly more votes", "[components][fuser]") {
+  const auto turn = [](double left, double right) {
+    return vote(std::vector{heading(0.5, 0.2, left), heading(-0.5, 0.2, right)}, kBallot, 0.75).command.value;
+  };
+  CHECK(turn(1.0, 1.4) > 0.5);   // 0.42 + 0.2 against 0.58
+  CHECK(turn(1.0, 1.6) < -0.5);  // 0.38 + 0.2 against 0.62
 }
 
 TEST_CASE("a vote stays within the fastest turn that is voted on", "[components][fuser]") {
@@ -181,7 +190,7 @@ TEST_CASE("wishes nearly alike are voted to a turn between them, and the heavier
   const Fused alike = vote(std::vector{turning(0.30, 0.2, 1.0), turning(0.36, 0.2, 1.0)}, kBallot, 0.0);
   CHECK(alike.command.value > 0.30);
   CHECK(alike.command.value < 0.36);
-  const Fused apart = vote(std::vector{turning(0.8, 0.1, 1.0), turning(-0.8, 0.4, 1.2)}, kBallot, 0.5);
+  const Fused apart = vote(std::vector{turning(0.8, 0.1, 1.0), turning(-0.8, 0.4, 1.2)}, kBallot, 0.0);
   CHECK(apart.command.value == Approx(-0.8).margin(1e-3));
   CHECK(apart.command.speed == Approx(0.4).margin(1e-3));
   CHECK(apart.shares[1] > 0.99);

@@ -22,13 +22,8 @@ namespace orca::avoid {
 /// Thread contract: as every component.
 class Avoider : public Component {
  protected:
-  /// What differs between sensors.
-  struct Defaults {
-    double side_distance = 0.0;  ///< [m]
-    double echo_time = 0.0;      ///< [s]
-  };
-
-  Avoider(ComponentHost& host, const Defaults& defaults);
+  /// @param echo_time  [s] the sensor's default for how long what it heard only once counts.
+  Avoider(ComponentHost& host, double echo_time);
 
   /// The port of the sensor.
   [[nodiscard]] virtual PushProxyHandle& sensor() = 0;
