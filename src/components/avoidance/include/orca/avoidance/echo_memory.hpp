@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +20,12 @@ struct Motion {
   double y = 0.0;    ///< [m] to the left.
   double yaw = 0.0;  ///< [rad] counter-clockwise positive.
 };
+
+/// Where the echo of a range reading comes from: on the x axis of a sensor that is mounted at `mount` in the
+/// robot frame, `range` [m] away. Below `min_range` the sensor cannot tell how near something is: it may be
+/// at the sensor itself. Nothing at or above `max_range`, and for what is no number.
+[[nodiscard]] std::optional<Echo> echo_of(double range, double min_range, double max_range,
+                                          const Motion& mount);
 
 /// The same place seen from where the robot is now.
 [[nodiscard]] Echo seen_after(const Echo& echo, const Motion& motion);
@@ -56,6 +64,13 @@ class EchoMemory {
 
   /// An echo from `echo`, seen from where the robot is now.
   void hear(const Echo& echo, const Limits& limits);
+
+  /// Forgets the echoes that `unwanted` names.
+  template <class Predicate>
+  void forget_if(Predicate unwanted) {
+    for (std::size_t i = echoes_.size(); i-- > 0;)
+      if (unwanted(echoes_[i])) erase(i);
+  }
 
   void clear();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "echo_memory.hpp"
+#include "orca/avoidance/echo_memory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,12 @@ constexpr double kNoNews = 0.04;  // [m] An echo this near to a known one moves 
 double distance(const Echo& one, const Echo& other) { return std::hypot(one.x - other.x, one.y - other.y); }
 
 }  // namespace
+
+std::optional<Echo> echo_of(double range, double min_range, double max_range, const Motion& mount) {
+  if (!(range < max_range)) return std::nullopt;
+  const double way = range > min_range ? range : 0.0;
+  return Echo{mount.x + way * std::cos(mount.yaw), mount.y + way * std::sin(mount.yaw)};
+}
 
 Echo seen_after(const Echo& echo, const Motion& motion) {
   const double dx = echo.x - motion.x;

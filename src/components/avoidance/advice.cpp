@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "algorithm.hpp"
+#include "orca/avoidance/advice.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@ namespace {
 constexpr double kStep = std::numbers::pi / 36;  // candidate directions every 5 degrees
 constexpr int kSteps = 36;                       // up to half a turn to either side
 constexpr double kOtherSidePenalty = 0.8;        // [rad] for changing the side once chosen
+constexpr double kGoalShare = 0.8;               // of the angle off the goal; the rest: off the robot's axis
 constexpr double kBlockedPenalty = 4.0;          // [rad] for no free way at all: more than any turn costs
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -29,19 +30,22 @@ double way_to_wall(const Echo& echo, double direction, const Limits& limits) {
   return gap >= limits.side_distance || closing < 0.05 ? kNever : (gap - limits.margin) / closing;
 }
 
-// What speaks against a direction: turning far, changing sides, and a short way.
-double cost(double direction, double way, double last_direction, const Limits& limits) {
-  const bool changes_side = last_direction * direction < 0.0;
+// What speaks against a direction: leaving the goal aside, turning far, changing sides, and a short way.
+double cost(double direction, double way, const Situation& situation, const Limits& limits) {
+  const double goal = situation.goal.value_or(0.0);
+  const double off = std::remainder(direction - goal, 2.0 * std::numbers::pi);
+  const bool changes_side = situation.last_direction * direction < 0.0;
   const double missing = std::max(0.0, limits.safe_distance - way) / limits.safe_distance;
-  return std::abs(direction) + (changes_side ? kOtherSidePenalty : 0.0) + kBlockedPenalty * missing;
+  return kGoalShare * std::abs(off) + (1.0 - kGoalShare) * std::abs(direction) +
+         (changes_side ? kOtherSidePenalty : 0.0) + kBlockedPenalty * missing;
 }
 
-double best_direction(std::span<const Echo> echoes, double last_direction, const Limits& limits) {
+double best_direction(std::span<const Echo> echoes, const Situation& situation, const Limits& limits) {
   double best = 0.0;
-  double lowest = cost(0.0, free_way(echoes, 0.0, limits), last_direction, limits);
+  double lowest = cost(0.0, free_way(echoes, 0.0, limits), situation, limits);
   for (int i = 1; i <= kSteps; ++i) {
     for (const double direction : {kStep * i, -kStep * i}) {
-      const double c = cost(direction, free_way(echoes, direction, limits), last_direction, limits);
+      const double c = cost(direction, free_way(echoes, direction, limits), situation, limits);
       if (c < lowest) {
         lowest = c;
         best = direction;
@@ -60,12 +64,12 @@ double free_way(std::span<const Echo> echoes, double direction, const Limits& li
   return std::max(0.0, way);
 }
 
-Advice avoid(std::span<const Echo> echoes, double last_direction, double turning, const Limits& limits) {
-  const double ahead = std::min(free_way(echoes, 0.0, limits), free_way(echoes, turning, limits));
+Advice avoid(std::span<const Echo> echoes, const Situation& situation, const Limits& limits) {
+  const double ahead = std::min(free_way(echoes, 0.0, limits), free_way(echoes, situation.turning, limits));
   if (ahead >= limits.safe_distance) return {};
   Advice advice;
   advice.needed = true;
-  advice.direction = best_direction(echoes, last_direction, limits);
+  advice.direction = best_direction(echoes, situation, limits);
   const double span = limits.safe_distance - limits.stop_distance;
   const double room = std::clamp((ahead - limits.stop_distance) / span, 0.0, 1.0);
   advice.speed = limits.max_speed * room;
