@@ -235,119 +235,116 @@ class MotionCommandFuser final : public orca::Component {
             .wiring = {{}, {}, *max_age_, *hold_},
             .required = *required_,
             .required_max_age = *required_max_age_};
-    // Whether the edge comes from the behaviour or port `name`, seen from the fuser's own context or from the
-    // top: a Command beside it in a sub-graph "left" says "goto" for "left/goto".
-    [[nodiscard]] bool is_called(const PushEdge& edge, const std::string& name) const {
-      const std::string path = edge.source_path();
-      const std::string behaviour = path.substr(0, path.rfind('.'));
-      const std::string here = this->name().substr(0, this->name().rfind('/') + 1) + name;
-      return path == here || behaviour == here || path == name || behaviour == name;
-    }
+  }
 
-    [[nodiscard]] PushEdge* edge_of(const std::string& name) const {
-      for (const auto& edge : motion_.edges())
-        if (is_called(*edge, name)) return edge.get();
-      return nullptr;
-    }
+  // Whether the edge comes from the behaviour or port `name`, seen from the fuser's own context or from the
+  // top: a Command beside it in a sub-graph "left" says "goto" for "left/goto".
+  [[nodiscard]] bool is_called(const PushEdge& edge, const std::string& name) const {
+    const std::string path = edge.source_path();
+    const std::string behaviour = path.substr(0, path.rfind('.'));
+    const std::string here = this->name().substr(0, this->name().rfind('/') + 1) + name;
+    return path == here || behaviour == here || path == name || behaviour == name;
+  }
 
-    [[nodiscard]] std::string connected_names() const {
-      std::string names;
-      for (const auto& edge : motion_.edges()) names += (names.empty() ? "" : ", ") + edge->source_path();
-      return names.empty() ? "none" : names;
-    }
+  [[nodiscard]] PushEdge* edge_of(const std::string& name) const {
+    for (const auto& edge : motion_.edges())
+      if (is_called(*edge, name)) return edge.get();
+    return nullptr;
+  }
 
-    MotionPort motion_{
-        *this,
-        "motion",
-        {.text = "Wishes of the behaviours that may be named in a client list.", .optional = true}};
-    orca::SendServer<orca::idl::ClientList> clients_{*this,
-                                                     "ClientListSend",
-                                                     &MotionCommandFuser::on_client_list,
-                                                     {.text = "Which behaviours to listen to from now on."}};
-    orca::SendProxy<orca::idl::MotionCommand> base_{*this, "base", {.text = "Where the fused command goes."}};
+  [[nodiscard]] std::string connected_names() const {
+    std::string names;
+    for (const auto& edge : motion_.edges()) names += (names.empty() ? "" : ", ") + edge->source_path();
+    return names.empty() ? "none" : names;
+  }
 
-    orca::PushServer<orca::idl::FusionReason> reason_{
-        *this, "FusionReasonPush", {.text = "Why it commanded what it did, for every command."}};
+  MotionPort motion_{
+      *this,
+      "motion",
+      {.text = "Wishes of the behaviours that may be named in a client list.", .optional = true}};
+  orca::SendServer<orca::idl::ClientList> clients_{*this,
+                                                   "ClientListSend",
+                                                   &MotionCommandFuser::on_client_list,
+                                                   {.text = "Which behaviours to listen to from now on."}};
+  orca::SendProxy<orca::idl::MotionCommand> base_{*this, "base", {.text = "Where the fused command goes."}};
 
-    orca::Param<std::string> mode_{
-        *this, "mode", "weighted", {.choices = orca::fuse::kModes, .text = "How wishes become one command."}};
-    orca::Param<std::string> sync_{
-        *this,
-        "sync",
-        "any",
-        {.choices = {"any", "all", "period"},
-         .fixed = true,
-         .text = "Fuse when any behaviour speaks, when all have spoken, or once a period."}};
-    orca::Param<double> period_{
-        *this,
-        "period",
-        0.05,
-        {.unit = "s", .min = 0.001, .fixed = true, .text = "Between two commands, with sync period."}};
-    orca::Param<double> all_wait_{
-        *this,
-        "all_wait",
-        0.2,
-        {.unit = "s",
-         .min = 0.001,
-         .text = "With sync all, how long the others wait for one that is silent."}};
-    orca::Param<std::vector<std::string>> first_clients_{
-        *this, "clients", {}, {.fixed = true, .text = "Behaviours to listen to until a client list comes."}};
-    orca::Param<std::vector<std::string>> required_{
-        *this, "required", {}, {.text = "Behaviours without which the robot must not move."}};
-    orca::Param<double> required_max_age_{
-        *this,
-        "required_max_age",
-        0.5,
-        {.unit = "s", .min = 0.0, .text = "Silence of a required behaviour that stops the robot."}};
-    orca::Param<double> max_age_{
-        *this, "max_age", 0.5, {.unit = "s", .min = 0.0, .text = "Older wishes are disregarded."}};
-    orca::Param<double> steer_gain_{
-        *this,
-        "steer_gain",
-        1.0,
-        {.unit = "1/s", .min = 0.01, .text = "Turn rate per radian when directions and rates are mixed."}};
+  orca::PushServer<orca::idl::FusionReason> reason_{
+      *this, "FusionReasonPush", {.text = "Why it commanded what it did, for every command."}};
 
-    orca::Param<double> max_turn_rate_{
-        *this,
-        "max_turn_rate",
-        1.0,
-        {.unit = "rad/s", .min = 0.01, .text = "Mode vote: the fastest turns that are voted on."}};
-    orca::Param<double> rate_spread_{
-        *this,
-        "rate_spread",
-        0.15,
-        {.unit = "rad/s", .min = 0.01, .text = "Mode vote: how far a wish's votes reach over turn rates."}};
-    orca::Param<double> speed_spread_{
-        *this,
-        "speed_spread",
-        0.1,
-        {.unit = "m/s", .min = 0.01, .text = "Mode vote: how far a wish's votes reach over speeds."}};
-    orca::Param<double> inertia_{
-        *this,
-        "inertia",
-        0.2,
-        {.min = 0.0, .max = 1.0, .text = "Mode vote: share of the votes that its last choice has."}};
-    orca::Param<std::vector<std::string>> order_{
-        *this, "order", {}, {.text = "Mode priority: the behaviours, the one that goes first first."}};
-    orca::Param<std::vector<std::string>> suppress_{
-        *this, "suppress", {}, {.text = "Mode subsumption: \"avoid > goto\" puts avoid's wish for goto's."}};
-    orca::Param<std::vector<std::string>> inhibit_{
-        *this,
-        "inhibit",
-        {},
-        {.text = "Mode subsumption: \"arm > goto\" silences goto while arm has a wish."}};
-    orca::Param<double> hold_{
-        *this,
-        "hold",
-        0.5,
-        {.unit = "s", .min = 0.0, .text = "Mode subsumption: how long a node acts after the last wish."}};
+  orca::Param<std::string> mode_{
+      *this, "mode", "weighted", {.choices = orca::fuse::kModes, .text = "How wishes become one command."}};
+  orca::Param<std::string> sync_{
+      *this,
+      "sync",
+      "any",
+      {.choices = {"any", "all", "period"},
+       .fixed = true,
+       .text = "Fuse when any behaviour speaks, when all have spoken, or once a period."}};
+  orca::Param<double> period_{
+      *this,
+      "period",
+      0.05,
+      {.unit = "s", .min = 0.001, .fixed = true, .text = "Between two commands, with sync period."}};
+  orca::Param<double> all_wait_{
+      *this,
+      "all_wait",
+      0.2,
+      {.unit = "s", .min = 0.001, .text = "With sync all, how long the others wait for one that is silent."}};
+  orca::Param<std::vector<std::string>> first_clients_{
+      *this, "clients", {}, {.fixed = true, .text = "Behaviours to listen to until a client list comes."}};
+  orca::Param<std::vector<std::string>> required_{
+      *this, "required", {}, {.text = "Behaviours without which the robot must not move."}};
+  orca::Param<double> required_max_age_{
+      *this,
+      "required_max_age",
+      0.5,
+      {.unit = "s", .min = 0.0, .text = "Silence of a required behaviour that stops the robot."}};
+  orca::Param<double> max_age_{
+      *this, "max_age", 0.5, {.unit = "s", .min = 0.0, .text = "Older wishes are disregarded."}};
+  orca::Param<double> steer_gain_{
+      *this,
+      "steer_gain",
+      1.0,
+      {.unit = "1/s", .min = 0.01, .text = "Turn rate per radian when directions and rates are mixed."}};
 
-    orca::fuse::Rules rules_;
-    std::vector<Listened> listened_;
-    std::vector<Voice> voices_;
-    Decision decision_;  // the last one
-    bool refused_ = false;
-  };
+  orca::Param<double> max_turn_rate_{
+      *this,
+      "max_turn_rate",
+      1.0,
+      {.unit = "rad/s", .min = 0.01, .text = "Mode vote: the fastest turns that are voted on."}};
+  orca::Param<double> rate_spread_{
+      *this,
+      "rate_spread",
+      0.15,
+      {.unit = "rad/s", .min = 0.01, .text = "Mode vote: how far a wish's votes reach over turn rates."}};
+  orca::Param<double> speed_spread_{
+      *this,
+      "speed_spread",
+      0.1,
+      {.unit = "m/s", .min = 0.01, .text = "Mode vote: how far a wish's votes reach over speeds."}};
+  orca::Param<double> inertia_{
+      *this,
+      "inertia",
+      0.2,
+      {.min = 0.0, .max = 1.0, .text = "Mode vote: share of the votes that its last choice has."}};
+  orca::Param<std::vector<std::string>> order_{
+      *this, "order", {}, {.text = "Mode priority: the behaviours, the one that goes first first."}};
+  orca::Param<std::vector<std::string>> suppress_{
+      *this, "suppress", {}, {.text = "Mode subsumption: \"avoid > goto\" puts avoid's wish for goto's."}};
+  orca::Param<std::vector<std::string>> inhibit_{
+      *this, "inhibit", {}, {.text = "Mode subsumption: \"arm > goto\" silences goto while arm has a wish."}};
+  orca::Param<double> hold_{
+      *this,
+      "hold",
+      0.5,
+      {.unit = "s", .min = 0.0, .text = "Mode subsumption: how long a node acts after the last wish."}};
+
+  orca::fuse::Rules rules_;
+  std::vector<Listened> listened_;
+  std::vector<Voice> voices_;
+  Decision decision_;  // the last one
+  bool refused_ = false;
+};
 
 }  // namespace
 
