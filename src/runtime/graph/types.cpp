@@ -45,8 +45,11 @@ std::optional<Contract> Types::component_without_hardware(const Node& node) {
 void Types::report_failure(const Node& node, const Error& error, PluginKind kind) {
   const std::string what = node.title() + ": " + error.text();
   if (error.code == Code::not_found) {
+    // A type that is known and not found after all has lost its plugin.
+    std::vector<std::string> names = catalogue_.type_names(kind);
+    std::erase(names, node.value("type"));
     return report_.error(codes::kUnknownType, node.place("type"),
-                         what + report_.hint(node.value("type"), catalogue_.type_names(kind)));
+                         what + report_.hint(node.value("type"), names));
   }
   if (broken_.insert(error.text()).second) report_.error(codes::kPlugin, node.place("type"), what);
 }
