@@ -18,11 +18,10 @@ class Samples {
  public:
   void add(Nanoseconds per_operation) { values_.push_back(per_operation); }
   [[nodiscard]] bool empty() const { return values_.empty(); }
-  [[nodiscard]] std::size_t size() const { return values_.size(); }
-  /// @param share  0.5 for the median, 0.99 for p99.
-  [[nodiscard]] Nanoseconds quantile(double share) const;
-  [[nodiscard]] Nanoseconds median() const { return quantile(0.5); }
-  [[nodiscard]] Nanoseconds p99() const { return quantile(0.99); }
+  [[nodiscard]] Nanoseconds median() const;
+  /// The median of the p99 of each thousand samples in a row: what another program does to this one for a
+  /// moment spoils one of them, not all.
+  [[nodiscard]] Nanoseconds p99() const;
 
  private:
   std::vector<Nanoseconds> values_;

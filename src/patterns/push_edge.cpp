@@ -134,6 +134,7 @@ ObjectRef PushEdge::take() {
     waited_for = std::exchange(publisher_waits_, false);
   }
   if (waited_for) source_.room(*this);
+  client_.home().strand.note_activity();
   return object;
 }
 
