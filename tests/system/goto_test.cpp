@@ -27,8 +27,9 @@ TEST_CASE("without a localizer Goto drives by odometry, in the frame in which th
   CHECK(std::hypot(arrivals[1].x - 1.0, arrivals[1].y - 1.0) < 0.2);
 }
 
-TEST_CASE("a goal a little above the floor is reached nearer to it, one out of reach is refused with a reason",
-          "[system][goto]") {
+TEST_CASE(
+    "a goal a little above the floor is reached nearer to it, one out of reach is refused with a reason",
+    "[system][goto]") {
   const Run low = by_odometry("low: 1 0 0.15");
   INFO(low.err);
   REQUIRE(low.arrivals().size() == 1);
