@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <memory>
 #include <thread>
 
 #include "deployer.hpp"
@@ -86,7 +87,6 @@ TEST_CASE("a key drives the robot, letting go stops it, Q ends the run and the t
   CHECK(program.wait_for_output("FUSED by teleop speed 0.30 turn 0.00", kLimit));
   terminal.press("\x1b[D");
   CHECK(program.wait_for_output("turn 0.80", kLimit));
-  const std::string driven = program.err();
   terminal.press("q");
   const Run run = finish(program, kLimit);
   INFO(run.err);
@@ -173,4 +173,10 @@ TEST_CASE("a device that is not there is named, and describing teleop opens none
   const Run described = run_deployer({"--describe", ORCA_BINARY_DIR "/plugins/teleop.so"});
   CHECK(described.exit_code() == 0);
   CHECK(described.out.find("dead_man = 0.3 s") != std::string::npos);
+}
+
+TEST_CASE("the shipped graph for a person is sound", "[system][teleop]") {
+  const Run run = run_deployer({source_file("graphs/scout_teleop.xml"), "--check"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
 }
