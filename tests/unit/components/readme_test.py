@@ -18,8 +18,10 @@ BLOCK = re.compile(r"(<!-- deployer --describe (\w+\.so) -->\n\n?```\w*\n)(.*?)(
 
 
 def described(build, plugin):
-    return subprocess.run([build / "bin/deployer", "--describe", build / "plugins" / plugin],
+    """Without the heading, which tells where the file is and which version built it."""
+    text = subprocess.run([build / "bin/deployer", "--describe", build / "plugins" / plugin],
                           capture_output=True, text=True, check=True).stdout
+    return text.split("\n\n", 1)[1]
 
 
 def main():
