@@ -35,6 +35,7 @@ void Endpoint::stamp(ObjectLoan& loan, const Provenance* provenance) {
   header.origin() = home_.component;
   header.seq(next_seq_++);
   home_.strand.note_activity();
+  home_.strand.note_activity();
   if (provenance != nullptr) provenance->stamp(header);
 }
 

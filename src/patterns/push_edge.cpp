@@ -120,6 +120,7 @@ void PushEdge::give_up(const ObjectRef& /*object*/) {
 
 ObjectRef PushEdge::take() {
   if (!has_new()) return {};
+  client_.home().strand.note_activity();
   ObjectRef object;
   bool waited_for = false;
   {

@@ -129,6 +129,13 @@ Contract old_logger() {
   return component("orca.OldLogger", {sonar});
 }
 
+Contract older_logger() {
+  PortContract sonar = receives("sonar", "SonarRangeReadings");
+  sonar.type.hash = 0x888;
+  sonar.type.layout = "SonarRangeReadings{ranges:sequence<double> {m}}";
+  return component("orca.OlderLogger", {sonar});
+}
+
 }  // namespace
 
 FakeCatalogue::FakeCatalogue() {
@@ -146,11 +153,14 @@ FakeCatalogue::FakeCatalogue() {
   add(::component("orca.MotionCommandFuser",
                   {many(receives("motion", "MotionCommand")), sends("base", "MotionCommand"),
                    accepts("ClientListSend", "ClientList")}));
+  add(::component("orca.Relay", {many(receives("in", "RobotPose")), pushes("out", "RobotPose")}));
+  add(::component("orca.TwinGoto", {pushes("slow", "MotionCommand"), pushes("fast", "MotionCommand")}));
   add(::component("orca.Localizer", {pushes("pose", "RobotPose"), receives("odometry", "Odometry")}));
   add(::component("orca.Planner", {query("limits", Role::proxy, "LimitsRequest", "Limits"),
                                    query("area", Role::proxy, "LimitsRequest", "Area")}));
   add(::component("orca.Label", {}, {param("label", ParamType::text, std::string())}));
   add(old_logger());
+  add(older_logger());
   add(base_server(true));
   add(device("orca.hw.Sim",
              {file("world"), file("robot"), choice("realism", {"ideal", "nominal", "harsh"})}));

@@ -57,8 +57,26 @@ Status ComponentInstance::load() {
 }
 
 void ComponentInstance::declare(const Contract& contract) {
-  for (const PortContract& port : contract.ports) ports_.add(port);
+  for (PortContract port : contract.ports) {
+    port.name = name_in_graph(port.name);
+    ports_.add(port);
+  }
   param_contracts_ = contract.params;
+}
+
+const std::string& ComponentInstance::name_in_graph(const std::string& port) const {
+  const auto renamed = settings_.port_names.find(port);
+  return renamed == settings_.port_names.end() ? port : renamed->second;
+}
+
+void ComponentInstance::declare_port(PortDeclaration declaration) {
+  declaration.contract.name = name_in_graph(declaration.contract.name);
+  loaded_->ports.push_back(std::move(declaration));
+}
+
+void ComponentInstance::set_default_trigger(const Trigger& trigger) {
+  loaded_->trigger = trigger;
+  loaded_->trigger.port = name_in_graph(trigger.port);
 }
 
 RandomStream ComponentInstance::random(std::string_view stream) const {
@@ -205,8 +223,8 @@ void ComponentInstance::lap() {
     if (next_lap_ < now()) next_lap_ = now();  // laps that were missed are not made up for
   }
   Outcome outcome;
-  home_.provenance.begin_lap();
   activity_before_lap_ = strand_.activity();
+  home_.provenance.begin_lap();
   in_lap_ = true;
   const auto fault = call("work", [&] { outcome = loaded_->object->work(); });
   in_lap_ = false;
