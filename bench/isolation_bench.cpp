@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a subscriber that has got stuck costs its publisher and its siblings: the same with a healthy one in
-// its place.
+// What a subscriber that has got stuck costs its publisher and its siblings: the same without it.
 #include <memory>
 #include <semaphore>
 
