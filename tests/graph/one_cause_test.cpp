@@ -141,6 +141,12 @@ TEST_CASE("a duplicate component is checked like any other", "[graph][one cause]
       Codes{"G010", "G032"});
 }
 
+TEST_CASE("a text that is shown in part is not cut in a character", "[graph][one cause]") {
+  const std::string said =
+      said_about(graph("<component name='l' type='orca.Label'>nineteen characters\u00e4\u00f6</component>"));
+  CHECK(said.find("the text \"nineteen characters...\" inside") != std::string::npos);
+}
+
 TEST_CASE("two circles of start_after are two errors", "[graph][one cause]") {
   const auto after = [](const char* name, const char* before) {
     return "<component name='" + std::string(name) + "' type='orca.Localizer' start_after='" + before + "'/>";

@@ -13,6 +13,12 @@ namespace {
 
 std::string tag(std::string_view name) { return "<" + std::string(name) + ">"; }
 
+// At most so many bytes, and no character cut in two.
+std::string beginning_of(std::string_view text, std::size_t length) {
+  while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;
+  return std::string(text.substr(0, length));
+}
+
 class Reader {
  public:
   Reader(Arguments& arguments, Report& report) : arguments_(arguments), report_(report) {}
@@ -86,7 +92,7 @@ class Reader {
   void check_text(const xml::Element& element) {
     const std::string_view text = xml::trimmed(element.text());
     if (text.empty()) return;
-    const std::string shown = text.size() > 20 ? std::string(text.substr(0, 20)) + "..." : std::string(text);
+    const std::string shown = text.size() > 20 ? beginning_of(text, 20) + "..." : std::string(text);
     report_.error(codes::kStrayText, element.text_position(),
                   "the text " + in_quotes(shown) + " inside " + tag(element.name()) +
                       " means nothing; a graph says everything in attributes");
