@@ -17,7 +17,8 @@ void LiveSystem::with(Executive& executive, const std::function<void(LiveSystem&
   INFO(diagnostics.text());
   REQUIRE(graph);
   executive_ = &executive;
-  changed_ = executive.make_event();
+  const std::unique_ptr<Event> changed = executive.make_event();  // ends before the executive does
+  changed_ = changed.get();
   Trace trace(executive);
   RunContext context{executive, trace, 1, [this](const Announcement& a) { diary.note(a.name); },
                      [this] { changed_->notify(); }};

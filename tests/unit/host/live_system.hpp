@@ -47,7 +47,7 @@ class LiveSystem {
 
   std::string elements_;
   Executive* executive_ = nullptr;
-  std::unique_ptr<Event> changed_;
+  Event* changed_ = nullptr;
   System* system_ = nullptr;
   std::size_t read_ = 0;
 };
