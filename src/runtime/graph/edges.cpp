@@ -2,7 +2,7 @@
 #include "edges.hpp"
 
 #include "codes.hpp"
-#include "layout.hpp"
+#include "orca/base/layout.hpp"
 #include "orca/xml/number.hpp"
 #include "values.hpp"
 

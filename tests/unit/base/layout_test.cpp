@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "layout.hpp"
+#include "orca/base/layout.hpp"
 
 #include <catch2/catch.hpp>
 
-using orca::graph::layout_difference;
+using orca::layout_difference;
 
-TEST_CASE("two layouts of one type differ in their first different field", "[graph][layout]") {
+TEST_CASE("two layouts of one type differ in their first different field", "[base][layout]") {
   const std::string pose = "Odometry{stamp:TimeValue{ns:int64 {ns}},pose:Point{x:double {m},y:double {m}}}";
 
   SECTION("in its type or its unit") {

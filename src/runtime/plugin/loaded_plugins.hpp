@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "orca/plugin/loaded_plugins.hpp"
+
+namespace orca {
+
+/// Makes the plugin that an address lies in known to plugin_at(), as long as this lives. Beyond 256 plugins
+/// the rest stays unknown.
+///
+/// Thread contract: one thread makes and destroys.
+class LoadedPlugin {
+ public:
+  LoadedPlugin(const std::string& path, const void* address);
+  ~LoadedPlugin();
+  LoadedPlugin(const LoadedPlugin&) = delete;
+  LoadedPlugin& operator=(const LoadedPlugin&) = delete;
+
+ private:
+  int place_ = -1;
+};
+
+}  // namespace orca
