@@ -9,6 +9,7 @@
 #include "describe.hpp"
 #include "options.hpp"
 #include "orca/graph/loader.hpp"
+#include "orca/host/last_words.hpp"
 
 namespace {
 
@@ -41,7 +42,7 @@ int with_graph(const Options& options) {
   std::optional<orca::StopSignal> stop;
   if (options.action == Options::Action::run) stop.emplace();
   orca::xml::Diagnostics diagnostics;
-  orca::PluginCatalogue catalogue{orca::PluginIndex({plugin_folder()})};
+  orca::PluginCatalogue catalogue{orca::PluginIndex({plugin_folder()}), options.run.executive.clock};
   const auto graph =
       orca::graph::load_file(options.file, {options.profiles, options.settings}, catalogue, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
@@ -64,6 +65,7 @@ int main(int argc, char** argv) {
   const orca::Result<Options> options = orca::deployer::parse_options({argv + 1, argv + argc});
   if (!options) return refuse("error: " + options.error().text());
   orca::log::set_level(options->log_level);
+  const orca::LastWords last_words;
   switch (options->action) {
     case Options::Action::help: std::fputs(orca::deployer::help_text(), stdout); return 0;
     case Options::Action::version: std::puts("orca deployer " ORCA_VERSION); return 0;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/catalogue.hpp"
 
+#include <filesystem>
 #include <utility>
 
 namespace orca {
 
-PluginCatalogue::PluginCatalogue(PluginIndex index) : index_(std::move(index)) {}
+PluginCatalogue::PluginCatalogue(PluginIndex index, ClockKind clock)
+    : index_(std::move(index)), clock_(clock) {}
 
 PluginCatalogue::~PluginCatalogue() {
   hardware_.clear();  // before the code that made it
@@ -69,6 +71,16 @@ Result<Contract> PluginCatalogue::component(const std::string& type, const graph
     container = &(*made)->container();
   }
   return describe_component(**entry, (*library_of(type))->path(), container);
+}
+
+std::vector<std::string> PluginCatalogue::unfit(PluginKind /*kind*/, const std::string& type) {
+  const Result<PluginLibrary*> library = library_of(type);
+  if (clock_ == ClockKind::steady || !library) return {};
+  std::vector<std::string> reasons;
+  for (const std::string& fault : (*library)->virtual_time_faults())
+    reasons.push_back("cannot run in virtual time: " +
+                      std::filesystem::path((*library)->path()).filename().string() + " " + fault);
+  return reasons;
 }
 
 std::vector<std::string> PluginCatalogue::type_names(PluginKind kind) const { return index_.types(kind); }

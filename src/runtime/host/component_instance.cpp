@@ -29,17 +29,21 @@ ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings
       home_{strand_, settings_.name, &run.trace, {}},
       component_(nullptr, type.destroy_component),
       stays_active_(settings_.autonomous.value_or(false)) {
-  strand_.set_leave_condition(
-      [this] { return exit_requested_.load(std::memory_order_acquire) || (in_lap_ && !wanted()); });
+  strand_.set_leave_condition([this] {
+    pause_plugin_turn();
+    return exit_requested_.load(std::memory_order_acquire) || (in_lap_ && !wanted());
+  });
 }
 
 ComponentInstance::~ComponentInstance() {
-  if (const auto fault = guarded_call([this] { type_.destroy_component(component_.release()); }))
+  if (const auto fault = guarded_call({name().c_str(), "its destructor", &type_},
+                                      [this] { type_.destroy_component(component_.release()); }))
     write_log(log::Level::error, "its destructor " + fault->text);
 }
 
 Status ComponentInstance::construct() {
-  if (const auto fault = guarded_call([this] { component_.reset(type_.create_component(*this)); }))
+  if (const auto fault = guarded_call({name().c_str(), "its constructor", &type_},
+                                      [this] { component_.reset(type_.create_component(*this)); }))
     return fail(Code::internal, "its constructor " + fault->text, settings_.name);
   for (const ParamDeclaration& param : params_) {
     const auto value = settings_.params.find(param.contract.name);
@@ -257,7 +261,7 @@ bool ComponentInstance::handle_asked(QueryServerEndpoint& endpoint) {
 
 std::optional<PluginFault> ComponentInstance::call(const char* hook, const std::function<void()>& body) {
   hook_.store(hook, std::memory_order_release);
-  std::optional<PluginFault> fault = guarded_call(body);
+  std::optional<PluginFault> fault = guarded_call({name().c_str(), hook, &type_}, body);
   hook_.store("", std::memory_order_release);
   return fault;
 }

@@ -11,13 +11,14 @@ HardwareInstance::HardwareInstance(RunContext& run, std::string name, const Type
     : run_(run), name_(std::move(name)), type_(type), container_(nullptr, type.destroy_hardware) {}
 
 HardwareInstance::~HardwareInstance() {
-  if (const auto fault = guarded_call([this] { type_.destroy_hardware(container_.release()); }))
+  if (const auto fault = guarded_call({name_.c_str(), "its destructor", &type_},
+                                      [this] { type_.destroy_hardware(container_.release()); }))
     write_log(log::Level::error, "its destructor " + fault->text);
 }
 
 Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
   std::vector<HardwareFault> errors;
-  const auto fault = guarded_call([&] {
+  const auto fault = guarded_call({name_.c_str(), "its constructor", &type_}, [&] {
     container_.reset(type_.create_hardware(*this));
     for (const ParamDeclaration& param : params_)
       if (const auto value = params.find(param.contract.name); value != params.end())
@@ -30,6 +31,7 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
 }
 
 void HardwareInstance::state_changed(hw::HardwareState state) {
+  LastWords::prepare_thread();  // the first that is heard of from its strand
   run_.trace.state_changed(name_, to_string(traced_), to_string(state));
   traced_ = state;
   run_.changed();

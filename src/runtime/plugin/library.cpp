@@ -2,6 +2,7 @@
 #include "orca/plugin/library.hpp"
 
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -59,6 +60,15 @@ std::size_t thread_count() {
   return static_cast<std::size_t>(std::distance(begin(tasks), end(tasks)));
 }
 
+// How many threads there are more than there were. A thread that has been joined can still be seen for a
+// moment.
+std::size_t more_threads_than(std::size_t before) {
+  constexpr int kPatienceMs = 200;
+  for (int i = 0; i < kPatienceMs && thread_count() > before; ++i) usleep(1000);
+  const std::size_t now = thread_count();
+  return now > before ? now - before : 0;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& path) {
@@ -89,18 +99,22 @@ PluginLibrary::PluginLibrary(std::string path, void* handle, const Manifest* man
       entry_(std::make_unique<LoadedPlugin>(path_, manifest)) {}
 
 PluginLibrary::~PluginLibrary() {
-  const std::size_t threads = thread_count();
-  if (threads_before_ && threads > *threads_before_) {
-    log::error(
-        fs::path(path_).filename().string(),
-        "alarm PLUGIN_PINNED: it can start threads, and " + std::to_string(threads - *threads_before_) +
-            " more than before it was loaded are running; it stays in memory, because they would crash "
-            "without it. A component must have ended its threads when it is destroyed");
+  if (const std::size_t left = threads_before_ ? more_threads_than(*threads_before_) : 0; left > 0) {
     entry_.release();  // stays known for ever, as the plugin does
+    tell_pinned("it can start threads, and " + std::to_string(left) +
+                " more than before it was loaded are running; it stays in memory, because they would crash "
+                "without it. A component must have ended its threads when it is destroyed");
     return;
   }
   entry_.reset();
   dlclose(handle_);
+  const bool loaded_elsewhere = plugin_at(manifest_) != nullptr;
+  if (!loaded_elsewhere && is_mapped(path_))
+    tell_pinned("it is still in memory after it was unloaded, and so are its variables");
+}
+
+void PluginLibrary::tell_pinned(const std::string& why) const {
+  log::error(fs::path(path_).filename().string(), "alarm PLUGIN_PINNED: " + why);
 }
 
 std::vector<const TypeEntry*> PluginLibrary::types() const {

@@ -78,9 +78,10 @@ class Needed {
 };
 
 std::string joined(const std::vector<std::string>& texts) {
+  constexpr std::size_t kMost = 20;
   std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all;
+  for (std::size_t i = 0; i < texts.size() && i < kMost; ++i) all += (i == 0 ? "" : ", ") + texts[i];
+  return texts.size() <= kMost ? all : all + " and " + std::to_string(texts.size() - kMost) + " more";
 }
 
 std::vector<std::string> unprovided_symbols(const ElfFile& library, const Needed& needed) {

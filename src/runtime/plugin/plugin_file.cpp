@@ -201,10 +201,11 @@ std::vector<std::string> PluginFile::virtual_time_faults() const {
     faults.push_back("runs with the steady clock only: " + reason);
   if (!faults.empty()) return faults;
   std::vector<std::string> allowed = notes("allows ");
-  for (std::string& note : allowed) note = note.substr(0, note.find(':'));
+  for (std::string& note : allowed) note = note.substr(0, note.find(": "));
   for (const ElfSymbol& symbol : elf_.symbols()) {
     const auto use = symbol.defined ? std::nullopt : unfit_for_virtual_time(symbol.name);
-    const std::string name = demangled(symbol.name);
+    std::string name = demangled(symbol.name);
+    name = name.substr(0, name.find('('));
     if (use && std::ranges::find(allowed, name) == allowed.end())
       faults.push_back("uses " + name + ", which " + use->does + "; use " + use->instead);
   }

@@ -48,6 +48,7 @@ class CooperativeExecutive final : public Executive {
   using Key = std::tuple<TimePoint, int, std::uint64_t, Fiber*>;
   using Queue = std::set<Key>;
 
+  [[nodiscard]] bool sleeps_too_long(const Fiber& fiber, Duration limit);
   std::unique_ptr<Fiber> make_fiber(TaskOptions options, std::function<void()> body);
   void run_one();
   static void enqueue(Queue& queue, Queue::node_type& place, const Key& key);
@@ -79,6 +80,7 @@ class CooperativeExecutive final : public Executive {
   std::atomic<std::uint64_t> switches_{0};
   std::uint64_t observed_switches_ = 0;
   Duration cpu_at_observation_{0};
+  TimePoint awake_at_{};  // when the running task was last seen to do something
 };
 
 }  // namespace orca::detail

@@ -16,7 +16,8 @@ namespace orca {
 class LoadedPlugin;
 
 /// A plugin in memory, from load() until the object is destroyed. Whatever was made from its types must be
-/// gone by then. A plugin whose threads still run then stays, with an alarm PLUGIN_PINNED in the log.
+/// gone by then. A plugin that does not go, or whose threads still run, is told by an alarm PLUGIN_PINNED in
+/// the log.
 ///
 /// Thread contract: one thread.
 class PluginLibrary {
@@ -45,6 +46,7 @@ class PluginLibrary {
 
  private:
   PluginLibrary(std::string path, void* handle, const Manifest* manifest);
+  void tell_pinned(const std::string& why) const;
 
   std::string path_;
   void* handle_;
