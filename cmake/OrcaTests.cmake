@@ -2,11 +2,15 @@
 
 # orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds])
 #
-# A Catch2 binary, one ctest entry. The main function is compiled once, in tests/support.
+# A Catch2 binary, one ctest entry. The main function is compiled once, in tests/support. TIMEOUT is a bound on hangs, for
+# the release build; the default is 60 s.
 function(orca_add_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 60)
+  endif()
+  if(ORCA_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
+    math(EXPR arg_TIMEOUT "5 * ${arg_TIMEOUT}")  # that code is many times slower
   endif()
   if(NOT arg_LABELS)
     set(arg_LABELS unit)

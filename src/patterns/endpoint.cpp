@@ -22,6 +22,7 @@ void Endpoint::stamp(ObjectLoan& loan, const Provenance* provenance) {
   header.creation_time().ns(home_.strand.executive().now().time_since_epoch().count());
   header.origin() = home_.component;
   header.seq(next_seq_++);
+  home_.strand.note_activity();
   if (provenance != nullptr) provenance->stamp(header);
 }
 

@@ -95,6 +95,7 @@ ObjectRef PushEdge::take() {
   ObjectRef object = std::move(ring_[first_]);
   first_ = (first_ + 1) % ring_.size();
   --count_;
+  client_.home().strand.note_activity();
   return object;
 }
 

@@ -85,6 +85,11 @@ void QueryServerEndpoint::answer(const Question& question, Result<ObjectLoan> an
   question.reply_to->reply(question.id, answer.error());
 }
 
+bool QueryServerEndpoint::has_waiting() const {
+  const std::lock_guard lock(mutex_);
+  return !waiting_.empty();
+}
+
 IntakeCounters QueryServerEndpoint::counters() const {
   const std::lock_guard lock(mutex_);
   return counters_;

@@ -63,6 +63,11 @@ void SendServerEndpoint::count_failure() {
   ++counters_.failed;
 }
 
+bool SendServerEndpoint::has_waiting() const {
+  const std::lock_guard lock(mutex_);
+  return !waiting_.empty();
+}
+
 IntakeCounters SendServerEndpoint::counters() const {
   const std::lock_guard lock(mutex_);
   return counters_;

@@ -32,8 +32,8 @@ double seconds_for(const std::string& text, std::size_t& errors) {
   return seconds;
 }
 
-// Sanitizers cost ten times and more; the bound is for what people run.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// Sanitizers and builds without optimisation cost ten times and more; the bound is for what people run.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
 constexpr double kBound = 20.0;
 #else
 constexpr double kBound = 1.0;

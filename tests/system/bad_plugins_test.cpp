@@ -17,6 +17,7 @@ struct Thrown {
 const std::vector<Thrown> kThings{{"exception", "the wheels came off"},
                                   {"int", "the int 42"},
                                   {"text", "plain words"},
+                                  {"nullptr", "of type decltype(nullptr)"},
                                   {"object", "Oddity"}};
 
 Run misbehave(const std::string& where, const std::string& what, const Words& more = virtual_clock()) {

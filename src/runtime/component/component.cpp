@@ -4,6 +4,7 @@
 namespace orca {
 
 void Component::sleep(Duration time) {
+  host_.strand().note_activity();
   host_.strand().wait_for(saturating_add(now(), time), [] { return false; });
 }
 

@@ -47,6 +47,7 @@ inline constexpr const char* kTriggerPort = "G039";
 inline constexpr const char* kTooManyComponents = "G040";
 inline constexpr const char* kUnusedArgument = "G041";
 inline constexpr const char* kHardwareRefuses = "G042";
-inline constexpr const char* kUnfit = "G060";
+inline constexpr const char* kLoading = "G060";
+inline constexpr const char* kUnfit = "G061";
 
 }  // namespace orca::graph::codes

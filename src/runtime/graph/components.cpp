@@ -39,6 +39,7 @@ class ComponentReader {
     check_name(node_, "process", report_);
     read_contract();
     read_scheduling();
+    read_loading();
     read_trigger();
     read_content();
     return std::move(checked_);
@@ -111,6 +112,37 @@ class ComponentReader {
     const auto autonomous = attribute("autonomous", attribute_contract(ParamType::boolean, "", 0, 0));
     if (autonomous) checked_.value.autonomous = std::get<bool>(*autonomous);
     checked_.value.start_after = split_names(node_.value("start_after"));
+  }
+
+  std::string choice(const char* name, std::vector<std::string> choices) {
+    ParamContract contract = attribute_contract(ParamType::text, "", 0, 0);
+    contract.choices = std::move(choices);
+    const auto value = attribute(name, contract);
+    return value ? std::get<std::string>(*value) : contract.choices.front();
+  }
+
+  void read_loading() {
+    constexpr double kDay = 86400.0;
+    constexpr Duration kIdleTime = std::chrono::seconds(10);
+    checked_.value.on_demand = choice("start", {"at_once", "on_demand"}) == "on_demand";
+    const bool warm = choice("stay", {"cold", "warm"}) == "warm";
+    const auto idle_time = attribute("idle_time", attribute_contract(ParamType::real, "s", 0.0, kDay));
+    if (!checked_.value.on_demand) return check_never_unloaded();
+    checked_.value.stay_warm = warm;
+    if (!warm) checked_.value.idle_time = idle_time ? from_seconds(std::get<double>(*idle_time)) : kIdleTime;
+    if (checked_.value.autonomous.value_or(false))
+      report_.error(codes::kLoading, node_.place("start"),
+                    node_.title() +
+                        ": it is autonomous, so it works from the start, whether asked for or not; "
+                        "take start=\"on_demand\" or autonomous=\"true\" away");
+  }
+
+  void check_never_unloaded() {
+    if (node_.find("idle_time") != nullptr)
+      report_.error(codes::kLoading, node_.place("idle_time"),
+                    node_.title() +
+                        ": idle_time is for components with start=\"on_demand\"; this one stays "
+                        "loaded all the time");
   }
 
   void read_trigger() {

@@ -57,12 +57,18 @@ std::string trigger_text(const std::optional<Trigger>& trigger) {
   return trigger->kind == Trigger::Kind::period ? attribute("period", seconds_text(trigger->period)) : "";
 }
 
+std::string loading_text(const ComponentNode& node) {
+  if (!node.on_demand) return {};
+  return attribute("start", "on_demand") +
+         (node.stay_warm ? attribute("stay", "warm") : attribute("idle_time", seconds_text(node.idle_time)));
+}
+
 std::string component_text(const ComponentNode& node) {
   std::string attributes = attribute("name", node.name) + attribute("type", node.type);
   attributes += optional_attribute("hardware", node.hardware) + optional_attribute("process", node.process);
   if (node.priority != 0) attributes += attribute("priority", std::to_string(node.priority));
   if (node.autonomous) attributes += attribute("autonomous", ValueText{}(*node.autonomous));
-  attributes += trigger_text(node.trigger);
+  attributes += trigger_text(node.trigger) + loading_text(node);
   attributes += optional_attribute("start_after", joined(node.start_after, " "));
   std::string content = params_text(node.params);
   for (const auto& [name, value] : node.properties) content += named_value("property", name, value);

@@ -22,7 +22,8 @@ constexpr std::array kHardware{AttributeRule{"name", true}, AttributeRule{"type"
 constexpr std::array kComponent{
     AttributeRule{"name", true}, AttributeRule{"type"},     AttributeRule{"hardware"},
     AttributeRule{"process"},    AttributeRule{"priority"}, AttributeRule{"autonomous"},
-    AttributeRule{"period"},     AttributeRule{"on"},       AttributeRule{"start_after"}};
+    AttributeRule{"period"},     AttributeRule{"on"},       AttributeRule{"start_after"},
+    AttributeRule{"start"},      AttributeRule{"stay"},     AttributeRule{"idle_time"}};
 constexpr std::array kParam{AttributeRule{"name", true}, AttributeRule{"value", true}};
 constexpr std::array kConnect{AttributeRule{"from", true}, AttributeRule{"to", true}, AttributeRule{"queue"},
                               AttributeRule{"overflow"}, AttributeRule{"interval"}};

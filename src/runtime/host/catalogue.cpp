@@ -9,26 +9,31 @@ namespace orca {
 PluginCatalogue::PluginCatalogue(PluginIndex index, ClockKind clock)
     : index_(std::move(index)), clock_(clock) {}
 
-PluginCatalogue::~PluginCatalogue() {
+PluginCatalogue::~PluginCatalogue() { forget_answers(); }
+
+void PluginCatalogue::forget_answers() {
   hardware_.clear();  // before the code that made it
+  const std::lock_guard lock(mutex_);
+  held_.clear();
 }
 
-Result<PluginLibrary*> PluginCatalogue::library_of(const std::string& type) {
+Result<std::shared_ptr<PluginLibrary>> PluginCatalogue::library_of(const std::string& type) {
   const Result<std::string> file = index_.file_of(type);
   if (!file) return file.error();
-  std::unique_ptr<PluginLibrary>& library = libraries_[*file];
-  if (library == nullptr) {
-    Result<std::unique_ptr<PluginLibrary>> loaded = PluginLibrary::load(*file);
-    if (!loaded) return loaded.error();
-    library = std::move(loaded).value();
-  }
-  return library.get();
+  std::weak_ptr<PluginLibrary>& known = libraries_[*file];
+  if (std::shared_ptr<PluginLibrary> library = known.lock()) return library;
+  Result<std::unique_ptr<PluginLibrary>> loaded = PluginLibrary::load(*file);
+  if (!loaded) return loaded.error();
+  std::shared_ptr<PluginLibrary> library = std::move(loaded).value();
+  known = library;
+  return library;
 }
 
-Result<const TypeEntry*> PluginCatalogue::find(PluginKind kind, const std::string& type) {
-  const Result<PluginLibrary*> library = library_of(type);
+Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& type) {
+  const std::lock_guard lock(mutex_);
+  const Result<std::shared_ptr<PluginLibrary>> library = library_of(type);
   if (!library) return library.error();
-  if (const TypeEntry* entry = (*library)->find(kind, type)) return entry;
+  if (const TypeEntry* entry = (*library)->find(kind, type)) return LoadedType{*library, entry};
   std::string known;
   for (const TypeEntry* entry : (*library)->types())
     known += (known.empty() ? "" : ", ") + std::string(entry->type);
@@ -37,10 +42,28 @@ Result<const TypeEntry*> PluginCatalogue::find(PluginKind kind, const std::strin
                                    type + "\"; it has: " + known);
 }
 
+Status PluginCatalogue::release(LoadedType type) {
+  const std::lock_guard lock(mutex_);
+  const std::string file = type.library->path();
+  const std::weak_ptr<PluginLibrary> rest = type.library;
+  type.library.reset();
+  if (!rest.expired() || !is_mapped(file)) return ok();
+  return fail(Code::failed_precondition,
+              "PLUGIN_PINNED: nobody uses this plugin any more, but it cannot be unloaded; is it built with "
+              "orca_add_component(), and do its threads end?",
+              file);
+}
+
+Result<LoadedType> PluginCatalogue::find(PluginKind kind, const std::string& type) {
+  Result<LoadedType> loaded = acquire(kind, type);
+  if (loaded) held_[type] = *loaded;
+  return loaded;
+}
+
 Result<Contract> PluginCatalogue::hardware(const std::string& type) {
-  const Result<const TypeEntry*> entry = find(PluginKind::hardware, type);
-  if (!entry) return entry.error();
-  const auto described = describe_hardware(**entry, (*library_of(type))->path(), type);
+  const Result<LoadedType> found = find(PluginKind::hardware, type);
+  if (!found) return found.error();
+  const auto described = describe_hardware(*found->entry, found->library->path(), type);
   if (!described) return described.error();
   return (*described)->contract();
 }
@@ -48,9 +71,9 @@ Result<Contract> PluginCatalogue::hardware(const std::string& type) {
 Result<DescribedHardware*> PluginCatalogue::described(const graph::HardwareUse& use) {
   const auto known = hardware_.find(use.name);
   if (known != hardware_.end()) return known->second.get();
-  const Result<const TypeEntry*> entry = find(PluginKind::hardware, use.type);
-  if (!entry) return entry.error();
-  auto made = describe_hardware(**entry, (*library_of(use.type))->path(), use.name);
+  const Result<LoadedType> found = find(PluginKind::hardware, use.type);
+  if (!found) return found.error();
+  auto made = describe_hardware(*found->entry, found->library->path(), use.name);
   if (!made) return made.error();
   return hardware_.emplace(use.name, std::move(made).value()).first->second.get();
 }
@@ -62,34 +85,27 @@ std::vector<HardwareFault> PluginCatalogue::validate_hardware(const graph::Hardw
 }
 
 Result<Contract> PluginCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {
-  const Result<const TypeEntry*> entry = find(PluginKind::component, type);
-  if (!entry) return entry.error();
+  const Result<LoadedType> found = find(PluginKind::component, type);
+  if (!found) return found.error();
   hw::HardwareContainer* container = nullptr;
   if (hardware != nullptr) {
     const Result<DescribedHardware*> made = described(*hardware);
     if (!made) return made.error();
     container = &(*made)->container();
   }
-  return describe_component(**entry, (*library_of(type))->path(), container);
+  return describe_component(*found->entry, found->library->path(), container);
 }
 
-std::vector<std::string> PluginCatalogue::unfit(PluginKind /*kind*/, const std::string& type) {
-  const Result<PluginLibrary*> library = library_of(type);
-  if (clock_ == ClockKind::steady || !library) return {};
+std::vector<std::string> PluginCatalogue::unfit(PluginKind kind, const std::string& type) {
+  const Result<LoadedType> found = find(kind, type);
+  if (clock_ == ClockKind::steady || !found) return {};
+  const std::string file = std::filesystem::path(found->library->path()).filename().string();
   std::vector<std::string> reasons;
-  for (const std::string& fault : (*library)->virtual_time_faults())
-    reasons.push_back("cannot run in virtual time: " +
-                      std::filesystem::path((*library)->path()).filename().string() + " " + fault);
+  for (const std::string& fault : found->library->virtual_time_faults())
+    reasons.push_back("cannot run in virtual time: " + file + " " + fault);
   return reasons;
 }
 
 std::vector<std::string> PluginCatalogue::type_names(PluginKind kind) const { return index_.types(kind); }
-
-std::vector<std::string> PluginCatalogue::loaded_files() const {
-  std::vector<std::string> files;
-  for (const auto& [file, library] : libraries_)
-    if (library != nullptr) files.push_back(file);
-  return files;
-}
 
 }  // namespace orca

@@ -1,103 +1,67 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "component_instance.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace orca {
 
 const char* to_string(ComponentState state) {
   switch (state) {
+    case ComponentState::unloaded: return "UNLOADED";
     case ComponentState::init: return "INIT";
     case ComponentState::idle: return "IDLE";
     case ComponentState::connect: return "CONNECT";
     case ComponentState::work: return "WORK";
     case ComponentState::work_done: return "WORK_DONE";
     case ComponentState::work_failed: return "WORK_FAILED";
+    case ComponentState::suspended: return "SUSPENDED";
     case ComponentState::exit: return "EXIT";
   }
   return "?";
 }
 
-ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings, const TypeEntry& type,
-                                     hw::HardwareContainer* hardware)
+ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings, Loader loader,
+                                     Unloader unloader, hw::HardwareContainer* hardware)
     : run_(run),
       settings_(std::move(settings)),
-      type_(type),
+      loader_(std::move(loader)),
+      unloader_(std::move(unloader)),
       hardware_(hardware),
       strand_(run.executive, {settings_.name, settings_.priority}),
       home_{strand_, settings_.name, &run.trace, {}},
-      component_(nullptr, type.destroy_component),
-      stays_active_(settings_.autonomous.value_or(false)) {
-  strand_.set_leave_condition([this] {
-    pause_plugin_turn();
-    return exit_requested_.load(std::memory_order_acquire) || (in_lap_ && !wanted());
-  });
+      ports_(home_),
+      stays_active_(settings_.autonomous.value_or(false)),
+      state_(settings_.on_demand ? ComponentState::unloaded : ComponentState::init),
+      values_(settings_.params) {
+  strand_.set_leave_condition([this] { return must_leave_lap(); });
 }
 
 ComponentInstance::~ComponentInstance() {
-  if (const auto fault = guarded_call({name().c_str(), "its destructor", &type_},
-                                      [this] { type_.destroy_component(component_.release()); }))
+  ports_.unbind();  // handlers are the component's code
+  if (loaded_ == nullptr) return;
+  if (const auto fault = loaded_->destroy(name()))
     write_log(log::Level::error, "its destructor " + fault->text);
 }
 
-Status ComponentInstance::construct() {
-  if (const auto fault = guarded_call({name().c_str(), "its constructor", &type_},
-                                      [this] { component_.reset(type_.create_component(*this)); }))
-    return fail(Code::internal, "its constructor " + fault->text, settings_.name);
-  for (const ParamDeclaration& param : params_) {
-    const auto value = settings_.params.find(param.contract.name);
-    if (value != settings_.params.end()) param.set(value->second);
+Status ComponentInstance::load() {
+  Result<LoadedType> type = loader_();
+  if (!type) return type.error();
+  loaded_ = std::make_unique<LoadedComponent>(std::move(type).value());
+  const TypeEntry* const entry = loaded_->type.entry;
+  const auto fault = guarded_call({name().c_str(), "its constructor", entry},
+                                  [&] { loaded_->object = entry->create_component(*this); });
+  if (fault) return fail(Code::internal, "its constructor " + fault->text, settings_.name);
+  if (!settings_.on_demand) {
+    for (const PortDeclaration& port : loaded_->ports) ports_.add(port.contract);
+    for (const ParamDeclaration& param : loaded_->params) param_contracts_.push_back(param.contract);
   }
-  return ok();
+  apply(params());
+  return ports_.bind(loaded_->ports);
 }
 
-Status ComponentInstance::resolve_trigger() {
-  if (settings_.trigger) trigger_ = *settings_.trigger;
-  if (trigger_.kind != Trigger::Kind::on_port) return ok();
-  trigger_port_ = dynamic_cast<PushClientEndpoint*>(endpoint(trigger_.port));
-  if (trigger_port_ != nullptr) return ok();
-  return fail(Code::invalid_argument,
-              "its laps start on port \"" + trigger_.port + "\", which is no PushProxy of it");
-}
-
-template <class Kind>
-Kind& ComponentInstance::add_endpoint(const PortContract& contract) {
-  auto endpoint = std::make_unique<Kind>(home_, contract);
-  Kind& added = *endpoint;
-  endpoints_.push_back(std::move(endpoint));
-  return added;
-}
-
-void ComponentInstance::declare_port(PortDeclaration declaration) {
-  const PortContract& contract = declaration.contract;
-  const bool server = contract.role == Role::server;
-  if (contract.pattern == Pattern::push && server) {
-    push_servers_.push_back(&add_endpoint<PushServerEndpoint>(contract));
-  } else if (contract.pattern == Pattern::push) {
-    push_clients_.push_back(&add_endpoint<PushClientEndpoint>(contract));
-    if (!declaration.manual) automatic_clients_.push_back(push_clients_.back());
-  } else if (contract.pattern == Pattern::send && server) {
-    send_servers_.push_back({&add_endpoint<SendServerEndpoint>(contract), std::move(declaration.on_object)});
-  } else if (contract.pattern == Pattern::send) {
-    add_endpoint<SendClientEndpoint>(contract);
-  } else if (server) {
-    query_servers_.push_back(
-        {&add_endpoint<QueryServerEndpoint>(contract), std::move(declaration.on_request)});
-  } else {
-    add_endpoint<QueryClientEndpoint>(contract);
-  }
-  *declaration.slot = endpoints_.back().get();
-}
-
-void ComponentInstance::declare_param(ParamDeclaration declaration) {
-  params_.push_back(std::move(declaration));
-}
-
-Endpoint* ComponentInstance::endpoint(const std::string& port) const {
-  for (const auto& endpoint : endpoints_)
-    if (endpoint->contract().name == port) return endpoint.get();
-  return nullptr;
+void ComponentInstance::declare(const Contract& contract) {
+  for (const PortContract& port : contract.ports) ports_.add(port);
+  param_contracts_ = contract.params;
 }
 
 RandomStream ComponentInstance::random(std::string_view stream) const {
@@ -128,39 +92,62 @@ bool ComponentInstance::at_rest() const {
 }
 
 std::string ComponentInstance::failure() const {
-  const std::lock_guard lock(failure_mutex_);
+  const std::lock_guard lock(mutex_);
   return failure_;
 }
 
-// --- On the strand
-// -------------------------------------------------------------------------------------------------
+std::map<std::string, ParamValue> ComponentInstance::params() const {
+  const std::lock_guard lock(mutex_);
+  return values_;
+}
+
+// --- On the strand: the state machine -------------------------------------------------------------------
 
 void ComponentInstance::main() {
-  if (configure()) {
-    open_intakes();
+  if (state() == ComponentState::unloaded) {
+    ports_.hold();
+    run_.changed();
+  } else if (configure()) {
+    ports_.open();
     set_state(ComponentState::idle);
   }
   while (!exit_requested_.load(std::memory_order_acquire)) turn();
+  if (state() == ComponentState::suspended) set_state(before_suspension_);
   if (state() == ComponentState::work) leave_work(ComponentState::idle);
-  close_intakes("the system is being stopped");
+  refuse_orders();
+  ports_.close("the system is being stopped");
   set_state(ComponentState::exit);
 }
 
 bool ComponentInstance::configure() {
   Status configured;
-  const auto fault = call("configure", [&] { configured = component_->configure(); });
+  const auto fault = call("configure", [&] { configured = loaded_->object->configure(); });
   if (!fault && configured.ok()) configured = resolve_trigger();
   if (!fault && configured.ok()) return true;
   fail_with("configure", fault ? fault->text : "said: " + configured.error().text());
   return false;
 }
 
+Status ComponentInstance::resolve_trigger() {
+  trigger_ = settings_.trigger.value_or(loaded_->trigger);
+  if (trigger_.kind != Trigger::Kind::on_port) return ok();
+  trigger_port_ = dynamic_cast<PushClientEndpoint*>(endpoint(trigger_.port));
+  if (trigger_port_ != nullptr) return ok();
+  return fail(Code::invalid_argument,
+              "its laps start on port \"" + trigger_.port + "\", which is no PushProxy of it");
+}
+
 void ComponentInstance::turn() {
+  if (carry_out_order()) return;
+  if (state() == ComponentState::suspended) return strand_.pause_until(kForever);
+  if (state() == ComponentState::unloaded) return be_unloaded();
   if (handle_one_intake()) return;
   const ComponentState before = state();
   follow_clients();
   if (state() != before) return;
-  if (before == ComponentState::work && lap_is_due()) {
+  if (unload_is_due()) {
+    unload();
+  } else if (before == ComponentState::work && lap_is_due()) {
     lap();
   } else {
     strand_.pause_until(next_wake_up());
@@ -179,19 +166,25 @@ void ComponentInstance::follow_clients() {
     case ComponentState::work_done:  // a new client, after the last one has gone, starts the task anew
       if (!want) set_state(ComponentState::idle);
       break;
+    case ComponentState::work_failed:
+      if (want || !may_try_again_) break;
+      ports_.open();
+      set_state(ComponentState::idle);
+      break;
     default: break;
   }
 }
 
 void ComponentInstance::enter_work() {
   set_state(ComponentState::connect);
-  for (PushClientEndpoint* client : automatic_clients_) client->subscribe_all();
+  ports_.subscribe();
   Status started;
-  const auto fault = call("start", [&] { started = component_->start(); });
+  const auto fault = call("start", [&] { started = loaded_->object->start(); });
   if (fault && fault->interrupted) {
     leave_work(ComponentState::idle);
   } else if (fault || !started.ok()) {
     fail_with("start", fault ? fault->text : "said: " + started.error().text());
+    may_try_again_ = !fault;
   } else {
     next_lap_ = now();
     set_state(ComponentState::work);
@@ -199,8 +192,8 @@ void ComponentInstance::enter_work() {
 }
 
 void ComponentInstance::leave_work(ComponentState next) {
-  const auto fault = call("stop", [&] { component_->stop(); });
-  release_clients();
+  const auto fault = call("stop", [&] { loaded_->object->stop(); });
+  ports_.unsubscribe();
   if (fault && !fault->interrupted) {
     fail_with("stop", fault->text);
   } else {
@@ -214,8 +207,9 @@ void ComponentInstance::lap() {
     if (next_lap_ < now()) next_lap_ = now();  // laps that were missed are not made up for
   }
   Outcome outcome;
+  activity_before_lap_ = strand_.activity();
   in_lap_ = true;
-  const auto fault = call("work", [&] { outcome = component_->work(); });
+  const auto fault = call("work", [&] { outcome = loaded_->object->work(); });
   in_lap_ = false;
   if (!fault) {
     conclude(outcome);
@@ -229,16 +223,19 @@ void ComponentInstance::conclude(const Outcome& outcome) {
     leave_work(ComponentState::work_done);
   } else if (outcome.kind == Outcome::Kind::failed) {
     fail_with("work", "failed: " + outcome.reason);
+    may_try_again_ = true;
   }
 }
 
 bool ComponentInstance::handle_one_intake() {
   if (state() == ComponentState::work_failed) return false;
-  for (const auto& intake : send_servers_)
-    if (handle_sent(*intake.endpoint)) return true;
-  for (const auto& intake : query_servers_)
-    if (handle_asked(*intake.endpoint)) return true;
-  return false;
+  bool handled = false;
+  for (const auto& intake : ports_.send_servers())
+    if (!handled) handled = handle_sent(*intake.endpoint);
+  for (const auto& intake : ports_.query_servers())
+    if (!handled) handled = handle_asked(*intake.endpoint);
+  if (handled) idle_since_ = now();
+  return handled;
 }
 
 bool ComponentInstance::handle_sent(SendServerEndpoint& endpoint) {
@@ -261,7 +258,8 @@ bool ComponentInstance::handle_asked(QueryServerEndpoint& endpoint) {
 
 std::optional<PluginFault> ComponentInstance::call(const char* hook, const std::function<void()>& body) {
   hook_.store(hook, std::memory_order_release);
-  std::optional<PluginFault> fault = guarded_call({name().c_str(), hook, &type_}, body);
+  const TypeEntry* const code = loaded_ != nullptr ? loaded_->type.entry : nullptr;
+  std::optional<PluginFault> fault = guarded_call({name().c_str(), hook, code}, body);
   hook_.store("", std::memory_order_release);
   return fault;
 }
@@ -269,44 +267,40 @@ std::optional<PluginFault> ComponentInstance::call(const char* hook, const std::
 void ComponentInstance::fail_with(const char* hook, const std::string& what) {
   const std::string text = std::string(hook) + "() " + what;
   {
-    const std::lock_guard lock(failure_mutex_);
+    const std::lock_guard lock(mutex_);
     failure_ = text;
   }
   write_log(log::Level::error, text);
   if (state() == ComponentState::work || state() == ComponentState::connect) {
-    const auto fault = call("stop", [&] { component_->stop(); });
+    const auto fault = call("stop", [&] { loaded_->object->stop(); });
     if (fault && !fault->interrupted) write_log(log::Level::error, "stop() " + fault->text);
   }
-  release_clients();
-  close_intakes("it has failed: " + text);
+  ports_.unsubscribe();
+  ports_.close("it has failed: " + text);
+  may_try_again_ = false;
+  has_failed_.store(true, std::memory_order_release);
   set_state(ComponentState::work_failed);
 }
 
 void ComponentInstance::set_state(ComponentState state) {
+  if (state == ComponentState::idle) idle_since_ = now();
   const ComponentState before = state_.exchange(state, std::memory_order_acq_rel);
   run_.trace.state_changed(settings_.name, to_string(before), to_string(state));
   run_.changed();
 }
 
-void ComponentInstance::open_intakes() {
-  for (const auto& intake : send_servers_) intake.endpoint->open(intake.handler);
-  for (const auto& intake : query_servers_) intake.endpoint->open(intake.handler);
-}
-
-void ComponentInstance::close_intakes(const std::string& reason) {
-  for (const auto& intake : send_servers_) intake.endpoint->close(reason);
-  for (const auto& intake : query_servers_) intake.endpoint->close(reason);
-}
-
-void ComponentInstance::release_clients() {
-  for (PushClientEndpoint* client : push_clients_) client->unsubscribe_all();
-}
-
 bool ComponentInstance::wanted() const {
   if (!gate_open_.load(std::memory_order_acquire)) return false;
-  if (stays_active_) return true;
-  return std::any_of(push_servers_.begin(), push_servers_.end(),
-                     [](const PushServerEndpoint* server) { return server->subscriber_count() > 0; });
+  return stays_active_ || ports_.has_subscribers();
+}
+
+bool ComponentInstance::must_leave_lap() const {
+  pause_plugin_turn();
+  if (exit_requested_.load(std::memory_order_acquire)) return true;
+  if (!in_lap_) return false;
+  // Nothing is lost with a lap that has only waited so far.
+  const bool clean = strand_.activity() == activity_before_lap_;
+  return !wanted() || (clean && (order_waits_.load(std::memory_order_acquire) || ports_.has_intake()));
 }
 
 bool ComponentInstance::lap_is_due() const {
@@ -319,8 +313,42 @@ bool ComponentInstance::lap_is_due() const {
 }
 
 TimePoint ComponentInstance::next_wake_up() const {
-  const bool timed = state() == ComponentState::work && trigger_.kind == Trigger::Kind::period;
-  return timed ? next_lap_ : kForever;
+  if (state() == ComponentState::work && trigger_.kind == Trigger::Kind::period) return next_lap_;
+  const bool may_unload = settings_.on_demand && !settings_.stay_warm && state() == ComponentState::idle;
+  return may_unload ? saturating_add(idle_since_, settings_.idle_time) : kForever;
+}
+
+// --- On the strand: loading on demand --------------------------------------------------------------------
+
+void ComponentInstance::be_unloaded() {
+  const bool asked_for = wanted() || (gate_open_.load(std::memory_order_acquire) && ports_.has_intake());
+  if (!asked_for) return strand_.pause_until(kForever);
+  set_state(ComponentState::init);
+  Status loaded;
+  if (const auto fault = call("load", [&] { loaded = load(); })) loaded = fail(Code::internal, fault->text);
+  if (!loaded.ok()) return fail_with("load", "said: " + loaded.error().text());
+  if (!configure()) return;
+  ports_.open();
+  set_state(ComponentState::idle);
+}
+
+bool ComponentInstance::unload_is_due() const {
+  return settings_.on_demand && !settings_.stay_warm && state() == ComponentState::idle && !wanted() &&
+         now() >= saturating_add(idle_since_, settings_.idle_time);
+}
+
+void ComponentInstance::unload() {
+  ports_.hold();
+  ports_.unbind();
+  stays_active_ = settings_.autonomous.value_or(false);
+  trigger_port_ = nullptr;
+  if (const auto fault = loaded_->destroy(name()))
+    write_log(log::Level::error, "its destructor " + fault->text);
+  LoadedType type = std::move(loaded_->type);
+  loaded_.reset();
+  if (const Status gone = unloader_(std::move(type)); !gone.ok())
+    write_log(log::Level::error, gone.error().text());
+  set_state(ComponentState::unloaded);
 }
 
 }  // namespace orca

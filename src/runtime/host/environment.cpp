@@ -37,7 +37,7 @@ std::string current_folder() {
 // The hooks that open and close things, and that run seldom enough to be looked at closely.
 bool is_rare(const Activity& turn) {
   const std::string_view what = turn.what();
-  return what == "configure" || what == "start" || what == "stop";
+  return what == "configure" || what == "start" || what == "stop" || what == "suspend" || what == "resume";
 }
 
 bool same_handler(const struct sigaction& a, const struct sigaction& b) {

@@ -7,19 +7,22 @@
 
 namespace orca {
 
-HardwareInstance::HardwareInstance(RunContext& run, std::string name, const TypeEntry& type)
-    : run_(run), name_(std::move(name)), type_(type), container_(nullptr, type.destroy_hardware) {}
+HardwareInstance::HardwareInstance(RunContext& run, std::string name, LoadedType type)
+    : run_(run),
+      name_(std::move(name)),
+      type_(std::move(type)),
+      container_(nullptr, type_.entry->destroy_hardware) {}
 
 HardwareInstance::~HardwareInstance() {
-  if (const auto fault = guarded_call({name_.c_str(), "its destructor", &type_},
-                                      [this] { type_.destroy_hardware(container_.release()); }))
+  if (const auto fault = guarded_call({name_.c_str(), "its destructor", type_.entry},
+                                      [this] { type_.entry->destroy_hardware(container_.release()); }))
     write_log(log::Level::error, "its destructor " + fault->text);
 }
 
 Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
   std::vector<HardwareFault> errors;
-  const auto fault = guarded_call({name_.c_str(), "its constructor", &type_}, [&] {
-    container_.reset(type_.create_hardware(*this));
+  const auto fault = guarded_call({name_.c_str(), "its constructor", type_.entry}, [&] {
+    container_.reset(type_.entry->create_hardware(*this));
     for (const ParamDeclaration& param : params_)
       if (const auto value = params.find(param.contract.name); value != params.end())
         param.set(value->second);

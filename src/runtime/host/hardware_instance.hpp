@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "orca/component/manifest.hpp"
+#include "orca/host/catalogue.hpp"
 #include "orca/hw/container.hpp"
 #include "run_context.hpp"
 
@@ -17,7 +17,7 @@ namespace orca {
 /// Thread contract: as HardwareContainer.
 class HardwareInstance final : public hw::HardwareHost {
  public:
-  HardwareInstance(RunContext& run, std::string name, const TypeEntry& type);
+  HardwareInstance(RunContext& run, std::string name, LoadedType type);
   ~HardwareInstance() override;
 
   /// Constructs the container, sets its parameters and declares its endpoints.
@@ -43,7 +43,7 @@ class HardwareInstance final : public hw::HardwareHost {
  private:
   RunContext& run_;
   const std::string name_;
-  const TypeEntry& type_;
+  const LoadedType type_;  // outlives the container
   std::vector<ParamDeclaration> params_;
   std::unique_ptr<hw::HardwareContainer, void (*)(hw::HardwareContainer*)> container_;
   hw::HardwareState traced_ = hw::HardwareState::closed;

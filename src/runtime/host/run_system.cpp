@@ -77,12 +77,12 @@ class Run {
   bool has_ended() {
     bool all_done = !graph_.ends.empty();
     for (const std::string& name : graph_.ends) {
-      const ComponentState state = system_.component(name)->state();
-      if (state == ComponentState::work_failed) {
+      const ComponentInstance& component = *system_.component(name);
+      if (component.has_failed()) {
         code_ = ExitCode::failed_running;
         return true;
       }
-      all_done = all_done && state == ComponentState::work_done;
+      all_done = all_done && component.state() == ComponentState::work_done;
     }
     return all_done;
   }

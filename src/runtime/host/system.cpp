@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "orca/patterns/local/local_link.hpp"
+#include "orca/xml/names.hpp"
 
 namespace orca {
 namespace {
@@ -19,19 +20,33 @@ bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline, 
   return true;
 }
 
+ComponentSettings settings_of(const graph::ComponentNode& node) {
+  ComponentSettings settings;
+  settings.name = node.name;
+  settings.priority = node.priority;
+  settings.autonomous = node.autonomous;
+  settings.trigger = node.trigger;
+  settings.on_demand = node.on_demand;
+  settings.stay_warm = node.stay_warm;
+  settings.idle_time = node.idle_time;
+  settings.params = node.params;
+  return settings;
+}
+
 }  // namespace
 
 Status System::build(PluginCatalogue& catalogue) {
   if (Status built = build_hardware(catalogue); !built.ok()) return built;
   if (Status built = build_components(catalogue); !built.ok()) return built;
+  catalogue.forget_answers();
   return connect();
 }
 
 Status System::build_hardware(PluginCatalogue& catalogue) {
   for (const graph::HardwareNode& node : graph_.hardware) {
-    const Result<const TypeEntry*> type = catalogue.find(PluginKind::hardware, node.type);
+    Result<LoadedType> type = catalogue.acquire(PluginKind::hardware, node.type);
     if (!type) return type.error();
-    auto instance = std::make_unique<HardwareInstance>(run_, node.name, **type);
+    auto instance = std::make_unique<HardwareInstance>(run_, node.name, std::move(type).value());
     if (Status made = instance->construct(node.params); !made.ok()) return made;
     hardware_.push_back(std::move(instance));
   }
@@ -40,14 +55,27 @@ Status System::build_hardware(PluginCatalogue& catalogue) {
 
 Status System::build_components(PluginCatalogue& catalogue) {
   for (const graph::ComponentNode& node : graph_.components) {
-    const Result<const TypeEntry*> type = catalogue.find(PluginKind::component, node.type);
-    if (!type) return type.error();
-    ComponentSettings settings{node.name, node.priority, node.autonomous, node.trigger, node.params};
-    auto instance =
-        std::make_unique<ComponentInstance>(run_, std::move(settings), **type, container(node.hardware));
-    if (Status made = instance->construct(); !made.ok()) return made;
+    auto instance = std::make_unique<ComponentInstance>(
+        run_, settings_of(node),
+        [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
+        [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
+        container(node.hardware));
+    const Status made = node.on_demand ? declare(node, *instance, catalogue) : instance->load();
+    if (!made.ok()) return made;
     components_.push_back(std::move(instance));
   }
+  return ok();
+}
+
+// The ports are there from the start, the code comes when somebody asks for it.
+Status System::declare(const graph::ComponentNode& node, ComponentInstance& instance,
+                       PluginCatalogue& catalogue) {
+  std::optional<graph::HardwareUse> use;
+  if (const graph::HardwareNode* hardware = graph_.find_hardware(node.hardware))
+    use = {hardware->name, hardware->type, hardware->params};
+  const Result<Contract> contract = catalogue.component(node.type, use ? &*use : nullptr);
+  if (!contract) return contract.error();
+  instance.declare(*contract);
   return ok();
 }
 
@@ -144,6 +172,45 @@ ComponentInstance* System::find(const std::string& name) const {
   for (const auto& component : components_)
     if (component->name() == name) return component.get();
   return nullptr;
+}
+
+Status System::suspend(const std::string& name, Event& changed, TimePoint deadline) {
+  return carry_out(name, changed, deadline, [](ComponentInstance& c) { return c.order_suspend(); });
+}
+
+Status System::resume(const std::string& name, Event& changed, TimePoint deadline) {
+  return carry_out(name, changed, deadline, [](ComponentInstance& c) { return c.order_resume(); });
+}
+
+Status System::set_params(const std::string& name, const std::map<std::string, std::string>& texts,
+                          Event& changed, TimePoint deadline) {
+  ComponentInstance* const component = find(name);
+  if (component == nullptr) return no_such(name);
+  Result<graph::Params> values = graph::read_settings(component->param_contracts(), texts);
+  if (!values) return values.error();
+  return carry_out(name, changed, deadline,
+                   [&](ComponentInstance& c) { return c.order_params(std::move(values).value()); });
+}
+
+Status System::carry_out(const std::string& name, Event& changed, TimePoint deadline,
+                         const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make) {
+  ComponentInstance* const component = find(name);
+  if (component == nullptr) return no_such(name);
+  const std::shared_ptr<Order> order = make(*component);
+  if (wait_until_holds(run_.executive, changed, deadline, [&] { return order->done(); }))
+    return order->result();
+  const std::string hook = component->current_hook();
+  return fail(
+      Code::deadline_exceeded,
+      "it has not come to the end of a lap in time" + (hook.empty() ? "" : "; it is in " + hook + "()"),
+      name);
+}
+
+Error System::no_such(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const auto& component : components_) names.push_back(component->name());
+  return fail(Code::not_found,
+              "there is no component \"" + name + "\"; the system has: " + xml::listed(names));
 }
 
 const ComponentInstance* System::component(const std::string& name) const { return find(name); }

@@ -45,6 +45,20 @@ class System {
   /// @return the names of those that did not end in time, with what they are doing.
   std::vector<std::string> take_down(TimePoint deadline);
 
+  /// Pauses a component between two laps, and lets it go on.
+  /// @errors  not_found; failed_precondition if it cannot be suspended now; deadline_exceeded if a lap does
+  /// not
+  ///          end in time: it is carried out then when the lap does end.
+  Status suspend(const std::string& component, Event& changed, TimePoint deadline);
+  Status resume(const std::string& component, Event& changed, TimePoint deadline);
+
+  /// Gives parameters new values, all together between two laps or none.
+  /// @param texts  as a graph would say them, with units.
+  /// @errors  not_found; invalid_argument with everything that is wrong; what the component itself says
+  ///          against the values; deadline_exceeded as above.
+  Status set_params(const std::string& component, const std::map<std::string, std::string>& texts,
+                    Event& changed, TimePoint deadline);
+
   [[nodiscard]] const ComponentInstance* component(const std::string& name) const;
   [[nodiscard]] const std::vector<std::unique_ptr<ComponentInstance>>& components() const {
     return components_;
@@ -54,9 +68,13 @@ class System {
  private:
   Status build_hardware(PluginCatalogue& catalogue);
   Status build_components(PluginCatalogue& catalogue);
+  Status declare(const graph::ComponentNode& node, ComponentInstance& instance, PluginCatalogue& catalogue);
   Status connect();
   Status open_hardware(Event& changed, TimePoint deadline);
   Status configure(ComponentInstance& component, Event& changed, TimePoint deadline);
+  Status carry_out(const std::string& name, Event& changed, TimePoint deadline,
+                   const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make);
+  [[nodiscard]] Error no_such(const std::string& name) const;
   [[nodiscard]] ComponentInstance* find(const std::string& name) const;
   [[nodiscard]] hw::HardwareContainer* container(const std::string& name) const;
   [[nodiscard]] std::vector<ComponentInstance*> start_order() const;

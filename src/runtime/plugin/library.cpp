@@ -2,10 +2,12 @@
 #include "orca/plugin/library.hpp"
 
 #include <dlfcn.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "load_error.hpp"
@@ -13,6 +15,7 @@
 #include "orca/base/log.hpp"
 #include "orca/plugin/describe.hpp"
 #include "plugin_file.hpp"
+#include "plugin_threads.hpp"
 #include "trial.hpp"
 
 namespace orca {
@@ -54,19 +57,40 @@ void load_and_describe(const std::string& path, const std::function<void(const s
   dlclose(handle);
 }
 
-std::size_t thread_count() {
-  std::error_code unused;
-  const fs::directory_iterator tasks("/proc/self/task", unused);
-  return static_cast<std::size_t>(std::distance(begin(tasks), end(tasks)));
+// What a file that has passed its checks and its trial is known for.
+struct Judgement {
+  std::vector<std::string> virtual_time_faults;
+  bool may_start_threads = false;
+};
+
+Result<Judgement> judge(const std::string& path, const std::string& file) {
+  const Result<PluginFile> read = PluginFile::read(path);
+  if (!read) return read.error();
+  if (const auto faults = read->faults(known_type); !faults.empty()) return refuse(path, joined(faults));
+  const auto attempt = [&](const auto& step) { load_and_describe(file, step); };
+  if (const Status survived = survives_trial(attempt, kTrialLimit); !survived.ok())
+    return fail(survived.error().code, survived.error().message + ", when it was tried out", path);
+  return Judgement{read->virtual_time_faults(), read->may_start_threads()};
 }
 
-// How many threads there are more than there were. A thread that has been joined can still be seen for a
-// moment.
-std::size_t more_threads_than(std::size_t before) {
-  constexpr int kPatienceMs = 200;
-  for (int i = 0; i < kPatienceMs && thread_count() > before; ++i) usleep(1000);
-  const std::size_t now = thread_count();
-  return now > before ? now - before : 0;
+// The same for the same file, as long as it has not been written or exchanged: it may be asked for again
+// while a robot drives, when there is no time for it.
+Result<Judgement> judge_once(const std::string& path, const std::string& file) {
+  using Identity = std::tuple<std::string, dev_t, ino_t, off_t, time_t, long>;
+  static std::map<Identity, Judgement> known;
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) return fail(Code::not_found, "there is no such plugin", path);
+  const Identity identity{file,           status.st_dev,         status.st_ino,
+                          status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+  if (const auto found = known.find(identity); found != known.end()) return found->second;
+  Result<Judgement> judged = judge(path, file);
+  if (judged) known.emplace(identity, *judged);
+  return judged;
+}
+
+Error cannot_load(const std::string& path, const std::string& file, const std::string& words) {
+  const Result<PluginFile> read = PluginFile::read(path);
+  return refuse(path, "cannot be loaded: " + (read ? explain_load_error(read->elf(), file, words) : words));
 }
 
 }  // namespace
@@ -76,19 +100,13 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& pa
   if (!fs::is_regular_file(path, unused)) return fail(Code::not_found, "there is no such plugin", path);
   // Absolute: a name without a slash would be searched where shared libraries are.
   const std::string file = fs::absolute(path).string();
-  const Result<PluginFile> read = PluginFile::read(path);
-  if (!read) return read.error();
-  if (const auto faults = read->faults(known_type); !faults.empty()) return refuse(path, joined(faults));
-  const auto attempt = [&](const auto& step) { load_and_describe(file, step); };
-  if (const Status survived = survives_trial(attempt, kTrialLimit); !survived.ok())
-    return fail(survived.error().code, survived.error().message + ", when it was tried out", path);
-  const std::size_t threads = thread_count();
+  const Result<Judgement> judged = judge_once(path, file);
+  if (!judged) return judged.error();
   void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr)
-    return refuse(path, "cannot be loaded: " + explain_load_error(read->elf(), file, dlerror()));
+  if (handle == nullptr) return cannot_load(path, file, dlerror());
   auto library = std::unique_ptr<PluginLibrary>(new PluginLibrary(file, handle, manifest_of(handle)));
-  library->virtual_time_faults_ = read->virtual_time_faults();
-  if (read->may_start_threads()) library->threads_before_ = threads;
+  library->virtual_time_faults_ = judged->virtual_time_faults;
+  library->may_start_threads_ = judged->may_start_threads;
   return library;
 }
 
@@ -99,11 +117,12 @@ PluginLibrary::PluginLibrary(std::string path, void* handle, const Manifest* man
       entry_(std::make_unique<LoadedPlugin>(path_, manifest)) {}
 
 PluginLibrary::~PluginLibrary() {
-  if (const std::size_t left = threads_before_ ? more_threads_than(*threads_before_) : 0; left > 0) {
+  if (may_start_threads_ && threads_may_run_in(entry_->start(), entry_->end())) {
     entry_.release();  // stays known for ever, as the plugin does
-    tell_pinned("it can start threads, and " + std::to_string(left) +
-                " more than before it was loaded are running; it stays in memory, because they would crash "
-                "without it. A component must have ended its threads when it is destroyed");
+    tell_pinned(
+        "a thread runs in it, and would crash without it, so it stays in memory. A component must have ended "
+        "its "
+        "threads when it is destroyed");
     return;
   }
   entry_.reset();

@@ -58,6 +58,8 @@ const char* plugin_at(const void* address) noexcept {
 LoadedPlugin::LoadedPlugin(const std::string& path, const void* address) {
   Range range{reinterpret_cast<std::uintptr_t>(address)};
   if (dl_iterate_phdr(take_range, &range) == 0) return;
+  start_ = range.start;
+  end_ = range.end;
   for (std::size_t i = 0; i < g_places.size() && place_ < 0; ++i) {
     Place& place = g_places[i];
     if (place.end.load(std::memory_order_relaxed) != 0) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "orca/plugin/loaded_plugins.hpp"
@@ -18,7 +19,13 @@ class LoadedPlugin {
   LoadedPlugin(const LoadedPlugin&) = delete;
   LoadedPlugin& operator=(const LoadedPlugin&) = delete;
 
+  /// Its extent in memory.
+  [[nodiscard]] std::uintptr_t start() const { return start_; }
+  [[nodiscard]] std::uintptr_t end() const { return end_; }
+
  private:
+  std::uintptr_t start_ = 0;
+  std::uintptr_t end_ = 0;
   int place_ = -1;
 };
 

@@ -1,46 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "allocation_counter.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
 
-namespace {
-
-std::atomic<long> g_allocations = 0;
-
-void* counted(std::size_t size, std::size_t align) {
-  ++g_allocations;
-  void* memory = std::aligned_alloc(align, (size + align - 1) / align * align);
-  if (memory == nullptr) std::abort();
-  return memory;
-}
-
-}  // namespace
-
-// Every allocation of the process passes here, those within liborca_idl.so too.
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t align) {
-  return counted(size, static_cast<std::size_t>(align));
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return counted(size, alignof(std::max_align_t));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+using orca::test::allocations;
 
 namespace {
 
 template <class F>
 long allocations_of_hundred(F&& lap) {
-  const long before = g_allocations;
+  const long before = allocations();
   for (int i = 0; i < 100; ++i) lap();
-  return g_allocations - before;
+  return allocations() - before;
 }
 
 void fill(orca::idl::SonarRangeReadings& sonar) {
@@ -54,11 +27,11 @@ void fill(orca::idl::SonarRangeReadings& sonar) {
 }  // namespace
 
 TEST_CASE("the counter sees the allocations of liborca_idl.so", "[idl][allocation]") {
-  const long before = g_allocations;
+  const long before = allocations();
   std::vector<orca::ObjectPtr<orca::idl::SonarRangeReadings>> kept;
   for (int i = 0; i < 100; ++i) kept.push_back(orca::make_object<orca::idl::SonarRangeReadings>());
   kept.clear();
-  CHECK(g_allocations > before);
+  CHECK(allocations() > before);
 }
 
 TEST_CASE("after warm-up, making and dropping motion commands takes nothing from the heap",

@@ -54,6 +54,8 @@ class QueryServerEndpoint final : public Endpoint, public QueryTarget {
   /// told.
   bool handle_one();
 
+  /// Whether something waits to be handled.
+  [[nodiscard]] bool has_waiting() const;
   [[nodiscard]] IntakeCounters counters() const;
 
  private:

@@ -48,6 +48,8 @@ class SendServerEndpoint final : public Endpoint, public SendTarget {
   /// what it throws is counted and passes.
   bool handle_one(Status& outcome);
 
+  /// Whether something waits to be handled.
+  [[nodiscard]] bool has_waiting() const;
   [[nodiscard]] IntakeCounters counters() const;
 
  private:

@@ -75,6 +75,7 @@ struct ParamContract {
   std::optional<double> max;         ///< Largest allowed value, in `unit`.
   std::vector<std::string> choices;  ///< Allowed values of a text; empty: any.
   bool file = false;                 ///< A text that names a file; relative to the graph file that sets it.
+  bool fixed = false;                ///< Cannot change while the component runs.
   ParamValue default_value;          ///< Of the type `type` says.
   std::string text;                  ///< One sentence for people.
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -49,6 +51,14 @@ class Strand {
   /// The same for the runtime's own loop, which is not interrupted: returns when woken or at the deadline.
   void pause_until(TimePoint deadline) { event_->wait_until(deadline); }
 
+  /// Something has happened that cannot be had again: an object was taken or sent, or time was slept away.
+  /// While the number stays the same, a lap that waits can be given up and begun anew without a loss.
+  /// @thread  any.
+  void note_activity() {
+    activity_.store(activity_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+  [[nodiscard]] std::uint64_t activity() const { return activity_.load(std::memory_order_relaxed); }
+
   /// @return true if the task has ended by the deadline.
   bool join_until(TimePoint deadline) { return task_ == nullptr || task_->join_until(deadline); }
 
@@ -61,6 +71,7 @@ class Strand {
   std::unique_ptr<Event> event_;
   std::function<bool()> leave_;
   std::unique_ptr<Task> task_;
+  std::atomic<std::uint64_t> activity_{0};
 };
 
 }  // namespace orca

@@ -15,8 +15,9 @@ namespace orca {
 /// The base of every component (thesis 9.3): an equal peer that talks through ports only.
 ///
 /// The state machine (thesis 9.4) calls the hooks: INIT configure(), CONNECT start(), WORK work() lap by lap,
-/// and stop() on the way back to IDLE. A component works while somebody subscribes to one of its PushServers,
-/// or while it has asked for it with stay_active(); the graph may say `autonomous`.
+/// and stop() on the way back to IDLE; suspend() and resume() around SUSPENDED. A component works while
+/// somebody subscribes to one of its PushServers, or while it has asked for it with stay_active(); the graph
+/// may say `autonomous`.
 ///
 /// Two rules make this sound. The constructor only declares: ports and parameters are members, and nothing is
 /// opened or started, so that a process may construct a component only to describe it. And all hooks, laps
@@ -38,11 +39,24 @@ class Component : public PortOwner {
   /// error leads to WORK_FAILED.
   virtual Status start() { return ok(); }
 
-  /// WORK: one lap. Blocking calls on ports are welcome.
+  /// WORK: one lap. Blocking calls on ports are welcome. While a lap waits and has not taken or sent anything
+  /// yet, handlers of this component are let in: the wait throws Interrupted, and the lap begins anew after.
   virtual Outcome work() = 0;
 
   /// After the last lap, when nobody uses the component any more, before its providers are let go.
   virtual void stop() {}
+
+  /// An operator pauses the component, between two laps: SUSPENDED. It stays subscribed, what comes in waits
+  /// in its queues, and nothing is called before resume(). Robots stop by themselves when their commands
+  /// cease.
+  virtual void suspend() {}
+
+  /// Before the first lap after SUSPENDED.
+  virtual void resume() {}
+
+  /// Parameters have new values, all at once and between two laps. An error puts the old ones back, and goes
+  /// to whoever wanted the new ones.
+  virtual Status params_changed() { return ok(); }
 
   // For the handles that are members of a component.
   void declare_port(PortDeclaration declaration) final { host_.declare_port(std::move(declaration)); }

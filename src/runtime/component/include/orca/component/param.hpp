@@ -19,10 +19,12 @@ struct ParamOptions {
   std::optional<double> max{};         ///< In that unit.
   std::vector<std::string> choices{};  ///< Allowed texts; empty: any.
   bool file = false;                   ///< The text names a file.
+  bool fixed = false;                  ///< Used by configure() only: cannot change while the component runs.
   std::string text{};                  ///< One sentence for people.
 };
 
 /// A parameter of a component: declared as a member, set by the graph before configure(), read with `*`.
+/// Unless it is `fixed` it may get another value between two laps, see Component::params_changed().
 ///
 /// @tparam T  bool, std::int64_t, double, std::string or std::vector<std::string>. Numbers are in SI units.
 /// Thread contract: the component's strand.
@@ -39,6 +41,7 @@ class Param {
     contract.max = options.max;
     contract.choices = std::move(options.choices);
     contract.file = options.file;
+    contract.fixed = options.fixed;
     contract.default_value = ParamValue(std::move(default_value));
     contract.text = std::move(options.text);
     owner.declare_param(

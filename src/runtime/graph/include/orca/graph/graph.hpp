@@ -34,6 +34,9 @@ struct ComponentNode {
   std::string process;   ///< Name of the process it lives in; empty: the graph does not say.
   int priority = 0;      ///< -100 to 100; of components that are ready together the higher goes first.
   std::optional<bool> autonomous;        ///< Works without clients; nothing: as its author wants.
+  bool on_demand = false;                ///< Loaded when first asked for, and unloaded when long unused.
+  bool stay_warm = false;                ///< Once loaded it stays.
+  Duration idle_time{0};                 ///< So long unused it is unloaded; on demand and not warm only.
   std::optional<Trigger> trigger;        ///< What starts a lap; nothing: as its author wants.
   std::vector<std::string> start_after;  ///< Components that must be up before.
   Params params;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,6 +64,13 @@ struct LoadOptions {
   std::vector<std::string> profiles;  ///< Merged in this order; none: the graph's default_profile.
   std::vector<std::string> settings;  ///< "ARG=VALUE"; a relative path in VALUE starts at the current folder.
 };
+
+/// Reads new values for some of a component's parameters as a graph would, for a change at run time.
+///
+/// @param texts  by name: "0.5 m", "true", ...
+/// @errors  invalid_argument with everything that is wrong, a line each.
+[[nodiscard]] Result<Params> read_settings(const std::vector<ParamContract>& contracts,
+                                           const std::map<std::string, std::string>& texts);
 
 /// Reads a system graph and checks it against the contracts of its plugins. It loads nothing and starts
 /// nothing.

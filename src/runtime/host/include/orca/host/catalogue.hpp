@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,16 @@
 
 namespace orca {
 
-/// Answers the graph checker's questions from the plugins themselves, and keeps those that it has loaded.
+/// A type, and the plugin that holds its code: it stays in memory for as long as somebody holds this.
+struct LoadedType {
+  std::shared_ptr<PluginLibrary> library;
+  const TypeEntry* entry = nullptr;
+};
+
+/// Answers the graph checker's questions from the plugins themselves, and loads and unloads them for those
+/// who run them.
 ///
-/// Thread contract: one thread.
+/// Thread contract: acquire() and release() from anywhere, the rest from one thread.
 class PluginCatalogue final : public graph::Catalogue {
  public:
   /// @param clock  of the run that the plugins are for.
@@ -31,20 +39,27 @@ class PluginCatalogue final : public graph::Catalogue {
   [[nodiscard]] std::vector<std::string> unfit(PluginKind kind, const std::string& type) override;
   [[nodiscard]] std::vector<std::string> type_names(PluginKind kind) const override;
 
-  /// The entry of a type, its plugin loaded.
+  /// A type, its plugin loaded if nobody has done so before.
   /// @errors  not_found with the places searched, and PluginLibrary::load()'s.
-  Result<const TypeEntry*> find(PluginKind kind, const std::string& type);
+  Result<LoadedType> acquire(PluginKind kind, const std::string& type);
 
-  /// The plugins that are loaded now.
-  [[nodiscard]] std::vector<std::string> loaded_files() const;
+  /// Lets a type go, and unloads its plugin if nobody else holds it.
+  /// @errors  failed_precondition if nobody holds the plugin and it is in memory all the same.
+  Status release(LoadedType type);
+
+  /// Lets go of all that was loaded and constructed only to answer questions.
+  void forget_answers();
 
  private:
-  Result<PluginLibrary*> library_of(const std::string& type);
+  Result<std::shared_ptr<PluginLibrary>> library_of(const std::string& type);
+  Result<LoadedType> find(PluginKind kind, const std::string& type);
   Result<DescribedHardware*> described(const graph::HardwareUse& use);
 
   PluginIndex index_;
   const ClockKind clock_;
-  std::map<std::string, std::unique_ptr<PluginLibrary>> libraries_;     // by file
+  mutable std::mutex mutex_;
+  std::map<std::string, std::weak_ptr<PluginLibrary>> libraries_;       // by file
+  std::map<std::string, LoadedType> held_;                              // by type: what answers came from
   std::map<std::string, std::unique_ptr<DescribedHardware>> hardware_;  // by name in the graph
 };
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,7 +21,9 @@ class LoadedPlugin;
 class PluginLibrary {
  public:
   /// Checks a plugin's file, has it loaded and its types constructed in a copy of the process, and loads it.
+  /// A file that has passed is not checked again as long as it is not changed.
   ///
+  /// @thread  any; one call at a time.
   /// @errors  not_found if there is no such file; invalid_argument, with all that is wrong and what to do,
   /// for a
   ///          file that cannot be loaded, that is not an Orca plugin, that was built for another ABI version
@@ -53,7 +53,7 @@ class PluginLibrary {
   const Manifest* manifest_;
   std::unique_ptr<LoadedPlugin> entry_;
   std::vector<std::string> virtual_time_faults_;
-  std::optional<std::size_t> threads_before_;  // only of a plugin that can start some
+  bool may_start_threads_ = false;
 };
 
 /// Whether any part of the file is still mapped into this process, be it that the file itself has been
