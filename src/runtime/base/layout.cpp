@@ -23,7 +23,9 @@ std::vector<Field> fields_of(std::string_view layout) {
   std::vector<Field> fields;
   const std::size_t open = layout.find('{');
   const std::size_t close = layout.rfind('}');
-  if (open == std::string_view::npos || layout.find(':') == std::string_view::npos) return fields;
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open ||
+      layout.find(':') == std::string_view::npos)
+    return fields;
   int depth = 0;
   std::size_t start = open + 1;
   for (std::size_t i = start; i <= close; ++i) {

@@ -38,3 +38,11 @@ TEST_CASE("two layouts of one type differ in their first different field", "[bas
           R"x(the field "p" is "P{x:double}" at the from end and "Q{x:double}" at the to end)x");
   }
 }
+
+TEST_CASE("a layout that is damaged is compared as far as it goes", "[base][layout]") {
+  for (const std::string damaged : {"", "A{", "A{x:", "A}x:{", "}", "x:", "A{x:double", "A{x:P{y:double}"}) {
+    CAPTURE(damaged);
+    CHECK_FALSE(layout_difference(damaged, "A{x:double}").empty());
+    CHECK_FALSE(layout_difference("A{x:double}", damaged).empty());
+  }
+}
