@@ -43,19 +43,30 @@ class SimHardware final : public orca::hw::HardwareContainer {
     orca::xml::Diagnostics diagnostics;
     std::optional<WorldModel> world =
         read_world(*world_file_, *map_width_ > 0.0 ? std::optional(*map_width_) : std::nullopt, diagnostics);
-    append(diagnostics, errors);
+    append(diagnostics, "world", errors);
     return diagnostics.has_errors() ? std::nullopt : std::move(world);
   }
 
   std::optional<RobotModel> read_robot_file(std::vector<orca::HardwareFault>& errors) const {
     orca::xml::Diagnostics diagnostics;
     std::optional<RobotModel> robot = read_robot(*robot_file_, diagnostics);
-    append(diagnostics, errors);
+    append(diagnostics, "robot", errors);
     return diagnostics.has_errors() ? std::nullopt : std::move(robot);
   }
 
-  static void append(const orca::xml::Diagnostics& diagnostics, std::vector<orca::HardwareFault>& errors) {
-    for (const auto& diagnostic : diagnostics.sorted()) errors.push_back({"", diagnostic.text()});
+  // What is wrong inside a file is told with its place there; what is wrong with the file as a whole, such as
+  // that there is none, at the parameter that names it.
+  static void append(const orca::xml::Diagnostics& diagnostics, const char* param,
+                     std::vector<orca::HardwareFault>& errors) {
+    for (const auto& diagnostic : diagnostics.sorted()) {
+      const bool whole_file = diagnostic.position.line == 0 || diagnostic.code == "G101";
+      const std::string& file = diagnostic.position.file;
+      if (whole_file) {
+        errors.push_back({param, "\"" + file + "\": " + diagnostic.message});
+      } else {
+        errors.push_back({"", diagnostic.text()});
+      }
+    }
   }
 
   void find_start(std::vector<orca::HardwareFault>& errors) {

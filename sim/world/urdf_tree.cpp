@@ -26,6 +26,9 @@ class Tree {
     if (links_.size() > kMaxLinks)
       return of(robot_).error(
           11, "the robot has " + std::to_string(links_.size()) + " links; at most 1000 are read");
+    if (joints_.size() > kMaxLinks)
+      return of(robot_).error(
+          11, "the robot has " + std::to_string(joints_.size()) + " joints; at most 1000 are read");
     for (const auto& [name, joint] : joints_) connect(name, *joint);
     for (const auto& [name, joint] : joints_) check_mimic(name, *joint);
     if (links_.empty()) return of(robot_).error(11, "the robot has no <link>");
@@ -36,14 +39,15 @@ class Tree {
   using Named = std::map<std::string, const xml::Element*>;
   [[nodiscard]] Attributes of(const xml::Element& e) const { return {e, 'R', diagnostics_}; }
 
-  void collect(const xml::Element& e, Named& into, int code) const {
+  void collect(const xml::Element& e, Named& into, int code) {
     const auto name = of(e).text("name");
     if (!name) return;
     const auto [first, is_new] = into.emplace(*name, &e);
-    if (!is_new)
-      of(e).error_at("name", code,
-                     "there is a " + e.name() + " \"" + *name + "\" already, at " +
-                         first->second->position().text() + "; choose another name");
+    if (is_new) return;
+    complete_ = false;  // what a second joint of the name joins is not looked at
+    of(e).error_at("name", code,
+                   "there is a " + e.name() + " \"" + *name + "\" already, at " +
+                       first->second->position().text() + "; choose another name");
   }
 
   // The link that a joint's <parent> or <child> names, or empty after an error.
@@ -56,15 +60,14 @@ class Tree {
     const auto link = of(*end).text("link");
     if (!link) return {};
     if (links_.contains(*link)) return *link;
-    of(*end).error_at("link", 12,
-                      "there is no link \"" + *link + "\"" + xml::did_you_mean(nearest(*link, links_)));
+    of(*end).error_at("link", 12, "there is no link \"" + *link + "\"" + what_there_is(*link, links_));
     return {};
   }
 
-  [[nodiscard]] static std::optional<std::string> nearest(const std::string& word, const Named& named) {
+  [[nodiscard]] static std::string what_there_is(const std::string& word, const Named& named) {
     std::vector<std::string> names;
     for (const auto& entry : named) names.push_back(entry.first);
-    return xml::nearest_name(word, names);
+    return "; there is: " + xml::listed(names) + xml::did_you_mean(xml::nearest_name(word, names));
   }
 
   void connect(const std::string& name, const xml::Element& joint) {
@@ -115,23 +118,29 @@ class Tree {
     const auto master = mimic != nullptr ? of(*mimic).text("joint") : std::nullopt;
     if (!master) return;
     if (!joints_.contains(*master))
-      return of(*mimic).error_at(
-          "joint", 12,
-          "there is no joint \"" + *master + "\"" + xml::did_you_mean(nearest(*master, joints_)));
-    if (mimics_itself(name)) of(*mimic).error(15, "joint \"" + name + "\" mimics itself in the end");
+      return of(*mimic).error_at("joint", 12,
+                                 "there is no joint \"" + *master + "\"" + what_there_is(*master, joints_));
+    const std::vector<std::string> circle = mimic_circle(name);
+    if (circle.empty() || *std::ranges::min_element(circle) != name) return;  // told once
+    std::string text = name;
+    for (const std::string& next : circle) text += " mimics " + next;
+    of(*mimic).error(15, "joint \"" + name + "\" mimics itself in the end: " + text);
   }
 
-  [[nodiscard]] bool mimics_itself(const std::string& name) const {
+  // The joints that this one mimics, up to itself; empty if it does not come back to itself.
+  [[nodiscard]] std::vector<std::string> mimic_circle(const std::string& name) const {
+    std::vector<std::string> circle;
     std::string at = name;
-    for (std::size_t i = 0; i <= joints_.size(); ++i) {
+    while (circle.size() <= joints_.size()) {
       const auto joint = joints_.find(at);
       const xml::Element* mimic = joint != joints_.end() ? only_child(*joint->second, "mimic") : nullptr;
       const xml::Attribute* next = mimic != nullptr ? mimic->attribute("joint") : nullptr;
-      if (next == nullptr) return false;
+      if (next == nullptr) return {};
       at = next->value;
-      if (at == name) return true;
+      circle.push_back(at);
+      if (at == name) return circle;
     }
-    return false;
+    return {};
   }
 
   const xml::Element& robot_;

@@ -33,6 +33,10 @@ std::string polygon_fault(const std::vector<Vec2>& corners) {
   return b.low.x < b.high.x && b.low.y < b.high.y ? "" : "the polygon has no area";
 }
 
+// Each place is compared with each obstacle.
+constexpr std::size_t kMaxObstacles = 100'000;
+constexpr std::size_t kMaxPlaces = 1000;
+
 const std::vector<std::string> kElements{"wall", "room", "box", "cylinder", "polygon", "bitmap", "place"};
 
 }  // namespace
@@ -40,6 +44,7 @@ const std::vector<std::string> kElements{"wall", "room", "box", "cylinder", "pol
 WorldModel WorldReader::read(const xml::Element& root) {
   const Attributes world = of(root);
   header(world);
+  if (!within_limits(world)) return std::move(world_);
   constexpr std::array<Read, 7> kReaders{&WorldReader::wall,     &WorldReader::room,    &WorldReader::box,
                                          &WorldReader::cylinder, &WorldReader::polygon, &WorldReader::bitmap,
                                          &WorldReader::place};
@@ -59,6 +64,20 @@ void WorldReader::header(const Attributes& world) {
   if (version && *version != "1")
     world.error_at("version", 10,
                    "version \"" + *version + "\" of the world format is not known; this Orca reads \"1\"");
+}
+
+bool WorldReader::within_limits(const Attributes& world) const {
+  const auto& elements = world.element().children();
+  const auto is_place = [](const xml::Element& e) { return e.name() == "place"; };
+  const auto places = static_cast<std::size_t>(std::ranges::count_if(elements, is_place));
+  const auto too_many = [&](std::size_t count, const char* what, std::size_t limit) {
+    if (count <= limit) return false;
+    world.error(14, "the world has " + std::to_string(count) + " " + what + ", at most " +
+                        std::to_string(limit) + " are read");
+    return true;
+  };
+  const bool obstacles_fit = !too_many(elements.size() - places, "obstacles", kMaxObstacles);
+  return !too_many(places, "places", kMaxPlaces) && obstacles_fit;
 }
 
 std::optional<double> WorldReader::height(const Attributes& element) const {

@@ -23,6 +23,7 @@ class WorldReader {
   [[nodiscard]] Attributes of(const xml::Element& element) const { return {element, 'W', diagnostics_}; }
 
   void header(const Attributes& world);
+  bool within_limits(const Attributes& world) const;
   void wall(const Attributes& element);
   void room(const Attributes& element);
   void box(const Attributes& element);

@@ -17,6 +17,11 @@ PortContract port(const char* name, Pattern pattern, Role role, const char* type
 PortContract pushes(const char* name, const char* type) {
   return port(name, Pattern::push, Role::server, type);
 }
+PortContract reads(const char* name, const char* type) {
+  PortContract result = pushes(name, type);
+  result.from_device = true;
+  return result;
+}
 PortContract receives(const char* name, const char* type) {
   return port(name, Pattern::push, Role::proxy, type);
 }
@@ -112,7 +117,7 @@ Contract base_server(bool bound) {
   result.needs_hardware = true;
   if (!bound) return result;
   result.ports = {accepts("MotionCommandSend", "MotionCommand"),
-                  pushes("SonarRangeReadingsPush", "SonarRangeReadings"), pushes("OdometryPush", "Odometry"),
+                  reads("SonarRangeReadingsPush", "SonarRangeReadings"), reads("OdometryPush", "Odometry"),
                   query("LimitsQuery", Role::server, "LimitsRequest", "Limits")};
   return result;
 }
@@ -122,6 +127,13 @@ Contract old_logger() {
   sonar.type.hash = 0x999;
   sonar.type.layout = "SonarRangeReadings{ranges:sequence<double> {cm},half_lobe:double {rad}}";
   return component("orca.OldLogger", {sonar});
+}
+
+Contract older_logger() {
+  PortContract sonar = receives("sonar", "SonarRangeReadings");
+  sonar.type.hash = 0x888;
+  sonar.type.layout = "SonarRangeReadings{ranges:sequence<double> {m}}";
+  return component("orca.OlderLogger", {sonar});
 }
 
 }  // namespace
@@ -141,12 +153,15 @@ FakeCatalogue::FakeCatalogue() {
   add(::component("orca.MotionCommandFuser",
                   {many(receives("motion", "MotionCommand")), sends("base", "MotionCommand"),
                    accepts("ClientListSend", "ClientList")}));
+  add(::component("orca.Relay", {many(receives("in", "RobotPose")), pushes("out", "RobotPose")}));
+  add(::component("orca.TwinGoto", {pushes("slow", "MotionCommand"), pushes("fast", "MotionCommand")}));
   add(::component("orca.Localizer", {pushes("pose", "RobotPose"), receives("odometry", "Odometry")}));
   add(::component("orca.Planner", {query("limits", Role::proxy, "LimitsRequest", "Limits"),
                                    query("area", Role::proxy, "LimitsRequest", "Area")}));
   add(::component("orca.Label", {}, {param("label", ParamType::text, std::string())}));
   add(::component("test.Clock", {}));
   add(old_logger());
+  add(older_logger());
   add(base_server(true));
   add(device("orca.hw.Sim",
              {file("world"), file("robot"), choice("realism", {"ideal", "nominal", "harsh"})}));

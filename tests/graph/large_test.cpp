@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/resource.h>
+
 #include <chrono>
 
 #include "loading.hpp"
@@ -77,4 +79,72 @@ TEST_CASE("more than ten thousand components are refused", "[graph][large]") {
     text += "<component name='c" + std::to_string(i) + "' type='orca.Localizer'/>\n";
   const std::string said = said_about(text + "</graph>");
   CHECK(said == "test.xml:10002:1: error G040: the graph has 10001 components, the limit is 10000\n");
+}
+
+namespace {
+
+// The most memory that this process has had [MB].
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// 10,000 components in a chain that forks, 20,000 connections.
+std::string widest_graph() {
+  std::string text = "<graph name='wide'>\n";
+  for (int i = 0; i < 10'000; ++i)
+    text += "<component name='c" + std::to_string(i) + "' type='orca.Relay'/>\n";
+  for (int i = 0; i < 20'000; ++i)
+    text += "<connect from='c" + std::to_string(i / 2) + ".out' to='c" + std::to_string((i + 1) % 10'000) +
+            ".in'/>\n";
+  return text + "</graph>\n";
+}
+
+}  // namespace
+
+TEST_CASE("ten thousand components with twenty thousand connections are checked in two seconds and 500 MB",
+          "[graph][large]") {
+  const std::string text = widest_graph();
+  std::size_t errors = 0;
+  const double seconds = seconds_for(text, errors);
+  WARN("checked in " << seconds << " s; the test program had " << peak_memory() << " MB at most");
+  CHECK(errors == 0);
+  CHECK(seconds < 2 * kBound);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  CHECK(peak_memory() < 500.0);
+#endif
+}
+
+TEST_CASE("a file that a graph includes a thousand times is read once", "[graph][large]") {
+  int reads = 0;
+  std::string text = "<graph name='g'>";
+  for (int i = 0; i < 1000; ++i) text += "<use graph='p.xml' prefix='p" + std::to_string(i) + "'/>";
+  FakeCatalogue catalogue;
+  orca::xml::Diagnostics diagnostics;
+  const auto read = [&](const std::string&) -> orca::Result<std::string> {
+    ++reads;
+    return std::string("<graph name='p'><component name='a' type='orca.Label'/></graph>");
+  };
+  const auto graph = load_text(text + "</graph>", "g.xml", {}, catalogue, diagnostics, read);
+  REQUIRE(graph.has_value());
+  CHECK(graph->components.size() == 1000);
+  CHECK(reads == 1);
+}
+
+TEST_CASE("files that include each other tenfold, ten deep, end in one error and in no time",
+          "[graph][large]") {
+  Files files;
+  for (int i = 0; i < 10; ++i) {
+    std::string content;
+    for (int k = 0; k < 10; ++k) content += "<use graph='f" + std::to_string(i + 1) + ".xml' prefix='p'/>";
+    files[i == 0 ? "main.xml" : "f" + std::to_string(i) + ".xml"] = "<graph name='g'>" + content + "</graph>";
+  }
+  files["f10.xml"] = "<graph name='g'/>";
+  orca::xml::Diagnostics diagnostics;
+  const auto start = std::chrono::steady_clock::now();
+  CHECK_FALSE(load_files(files, diagnostics).has_value());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  CHECK(diagnostics.error_count() == 1);
+  CHECK(seconds < 5 * kBound);
 }

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <map>
 #include <string>
 
 #include "fake_catalogue.hpp"
@@ -17,6 +18,36 @@ inline orca::graph::Graph must_load(const std::string& text, const orca::graph::
   INFO(text << "\n" << diagnostics.text());
   REQUIRE(graph.has_value());
   return *graph;
+}
+
+/// Files by name; "main.xml" is the one that is loaded, the others are what it includes.
+using Files = std::map<std::string, std::string>;
+
+inline std::optional<orca::graph::Graph> load_files(const Files& files, orca::xml::Diagnostics& diagnostics,
+                                                    const orca::graph::LoadOptions& options = {}) {
+  FakeCatalogue catalogue;
+  const auto read = [&](const std::string& path) -> orca::Result<std::string> {
+    const auto found = files.find(path);
+    if (found == files.end()) return orca::fail(orca::Code::not_found, "No such file or directory");
+    return found->second;
+  };
+  return orca::graph::load_text(files.at("main.xml"), "main.xml", options, catalogue, diagnostics, read);
+}
+
+inline orca::graph::Graph must_load(const Files& files, const orca::graph::LoadOptions& options = {}) {
+  orca::xml::Diagnostics diagnostics;
+  auto graph = load_files(files, diagnostics, options);
+  INFO(diagnostics.text());
+  REQUIRE(graph.has_value());
+  return *graph;
+}
+
+/// What is said about files, "" if nothing.
+inline std::string said_about(const Files& files, const orca::graph::LoadOptions& options = {}) {
+  orca::xml::Diagnostics diagnostics;
+  const bool loaded = load_files(files, diagnostics, options).has_value();
+  CHECK(loaded == !diagnostics.has_errors());
+  return diagnostics.text();
 }
 
 /// What is said about a text, "" if nothing.

@@ -16,27 +16,42 @@ class RandomGraph {
 
   std::string text() {
     const int avoiders = 1 + pick(4);
+    late_bound_ = pick(2) == 0;
     std::string result = "<graph name='r" + std::to_string(pick(100)) + "'" +
                          maybe(" seed='" + integer(0, 1000) + "'") + maybe(" plugins='x;/y z;../q$$'") +
                          maybe(" ends='avoid0'") + ">";
     result += "<hardware name='robot' type='orca.hw.Sim'>" + maybe(param("world", free_text())) +
               maybe(param("realism", "harsh")) + "</hardware>" +
               "<component name='base' type='orca.RobotBaseServer' hardware='robot'" +
-              maybe(" period='" + real(0.001, 9) + "'") +
-              "/><component name='fuser' type='orca.MotionCommandFuser'/>" +
+              maybe(" period='" + real(0.001, 9) + "'") + ">" +
+              maybe("<port name='OdometryPush' as='odom'/>") +
+              "</component><component name='fuser' type='orca.MotionCommandFuser'>" +
+              maybe("<port name='ClientListSend' disabled='true'/>") + candidates(avoiders) + "</component>" +
               "<component name='planner' type='orca.Planner'/>" +
               connect("planner.limits", "base.LimitsQuery", "") +
-              connect("fuser.base", "base.MotionCommandSend", maybe(queue()));
+              connect("fuser.base", "base.MotionCommandSend", maybe(room()));
     for (int i = 0; i < avoiders; ++i) result += avoider(i);
     return result + "</graph>";
   }
 
  private:
+  // All avoiders may be named at run time, or all are connected.
+  std::string candidates(int avoiders) {
+    if (!late_bound_) return {};
+    std::string names;
+    for (int i = avoiders - 1; i >= 0; --i) names += " avoid" + std::to_string(i) + maybe(".motion");
+    return "<port name='motion'" + maybe(" as='motion'") + " candidates='" + names + "'/>";
+  }
+  std::string loading() {
+    return " start='on_demand'" + (pick(2) == 0 ? " stay='warm'" : maybe(" idle_time='" + real(0, 9) + "'"));
+  }
+
   std::string avoider(int i) {
     const std::string name = "avoid" + std::to_string(i);
     return "<component name='" + name + "' type='orca.SonarAvoid'" +
-           maybe(" priority='" + integer(-100, 100) + "'") + maybe(" autonomous='true'") +
-           maybe(" process='p/q'") + maybe(" start_after='base fuser'") +
+           maybe(" priority='" + integer(-100, 100) + "'") +
+           (pick(2) == 0 ? loading() : maybe(" autonomous='true'")) + maybe(" process='p/q'") +
+           maybe(" start_after='base fuser'") +
            maybe(pick(2) == 0 ? " on='sonar'" : " period='" + integer(1, 5000) + " ms'") + ">" +
            maybe(param("stop_distance", real(0.05, 5.0))) + maybe(param("sector", integer(0, 180) + " deg")) +
            maybe(param("gain", real(0.0, 1e6))) + maybe(param("samples", integer(1, 64))) +
@@ -45,14 +60,22 @@ class RandomGraph {
            maybe(param("zones", "a; b $$ c ;d&amp;e")) +
            maybe("<property name='room' value=\"" + free_text() + "\"/>") + "</component>" +
            connect("base.SonarRangeReadingsPush", name + ".sonar",
-                   maybe(queue()) + maybe(" interval='" + real(0, 10) + "'")) +
-           connect(name + ".motion", "fuser.motion", maybe(" queue='latest'"));
+                   maybe(queue()) + maybe(" interval='" + real(0, 10) + "'") +
+                       maybe(" deadline='" + real(10, 20) + "'")) +
+           (late_bound_ ? ""
+                        : connect(name + ".motion", "fuser.motion",
+                                  pick(2) == 0 ? " queue='latest'"
+                                               : maybe(" queue='2' overflow='block'" + block_limit())));
   }
 
   std::string queue() {
     return " queue='" + integer(1, 100) + "' overflow='" + (pick(2) == 0 ? "drop_oldest" : "drop_newest") +
            "'";
   }
+  std::string room() {
+    return " queue='" + integer(1, 100) + "' overflow='" + (pick(2) == 0 ? "refuse" : "block") + "'";
+  }
+  std::string block_limit() { return maybe(" block_limit='" + integer(1, 5000) + " ms'"); }
   static std::string connect(const std::string& from, const std::string& to, const std::string& policy) {
     return "<connect from='" + from + "' to='" + to + "'" + policy + "/>";
   }
@@ -75,6 +98,7 @@ class RandomGraph {
   int pick(int n) { return static_cast<int>(random_() % static_cast<std::uint64_t>(n)); }
 
   RandomStream random_;
+  bool late_bound_ = false;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "describe.hpp"
 
 #include <filesystem>
+#include <iomanip>
 #include <sstream>
 
 #include "orca/plugin/describe.hpp"
@@ -27,12 +28,26 @@ std::string text_of(const ParamValue& value) {
   return std::visit(Visitor{}, value);
 }
 
+std::string queue_text(const PortContract& port) {
+  if (port.pattern == Pattern::query || (port.pattern == Pattern::push) == (port.role == Role::server))
+    return {};
+  const bool newest = port.queue.overflow == QueuePolicy::Overflow::drop_newest;
+  if (port.queue.depth == 1 && !newest) return ", the latest";
+  return ", queue of " + std::to_string(port.queue.depth) + (newest ? " that drops the newest" : "");
+}
+
+std::string type_text(const TypeId& type) {
+  std::ostringstream out;
+  out << type.name << "#" << std::hex << std::setw(16) << std::setfill('0') << type.hash;
+  return out.str();
+}
+
 void write_port(std::ostream& out, const PortContract& port) {
   out << "    " << port.name << (port.many ? "[]" : "") << "  " << to_string(port.pattern)
-      << to_string(port.role) << " of " << port.type.name;
-  if (port.reply) out << " -> " << port.reply->name;
+      << to_string(port.role) << " of " << type_text(port.type);
+  if (port.reply) out << " -> " << type_text(*port.reply);
   if (port.role == Role::proxy) out << (port.required ? ", required" : ", optional");
-  out << (port.text.empty() ? "" : ": " + port.text) << "\n";
+  out << queue_text(port) << (port.text.empty() ? "" : ": " + port.text) << "\n";
 }
 
 void write_param(std::ostream& out, const ParamContract& param) {
@@ -43,12 +58,21 @@ void write_param(std::ostream& out, const ParamContract& param) {
   if (param.max) out << ", to " << xml::number_text(*param.max) << unit;
   for (const std::string& choice : param.choices)
     out << (&choice == &param.choices.front() ? ", one of " : " | ") << choice;
-  out << ")" << (param.text.empty() ? "" : ": " + param.text) << "\n";
+  out << (param.file ? ", a file" : "") << (param.fixed ? ", fixed while it runs" : "") << ")"
+      << (param.text.empty() ? "" : ": " + param.text) << "\n";
+}
+
+void write_trigger(std::ostream& out, const Contract& contract) {
+  const Trigger& trigger = contract.default_trigger;
+  if (trigger.kind == Trigger::Kind::period)
+    out << "  a lap every " << xml::number_text(to_seconds(trigger.period)) << " s\n";
+  if (trigger.kind == Trigger::Kind::on_port) out << "  a lap for each object on " << trigger.port << "\n";
 }
 
 void write_contract(std::ostream& out, const Contract& contract) {
   out << contract.type << "  (" << (contract.kind == PluginKind::component ? "component" : "hardware") << ", "
       << contract.library << ")\n";
+  write_trigger(out, contract);
   if (contract.needs_hardware) out << "  wraps hardware: more ports come from what the graph binds to it\n";
   if (!contract.ports.empty()) out << "  ports\n";
   for (const PortContract& port : contract.ports) write_port(out, port);
@@ -56,25 +80,35 @@ void write_contract(std::ostream& out, const Contract& contract) {
   for (const ParamContract& param : contract.params) write_param(out, param);
 }
 
+Result<Contract> contract_of(const TypeEntry& type, const std::string& path) {
+  if (type.kind == PluginKind::component) return describe_component(type, path, nullptr);
+  const auto hardware = describe_hardware(type, path, type.type);
+  if (!hardware) return hardware.error();
+  return (*hardware)->contract();
+}
+
 }  // namespace
 
-Result<std::string> describe_plugin(const std::string& path) {
+Result<PluginDescription> describe_plugin(const std::string& path) {
   // With a folder in its name, so that the system's loader takes this file and does not search.
   const Result<std::unique_ptr<PluginLibrary>> library =
       PluginLibrary::load(std::filesystem::absolute(path).string());
   if (!library) return library.error();
-  std::ostringstream out;
+  const Manifest& manifest = (*library)->manifest();
+  PluginDescription plugin{path, manifest.abi_version, manifest.build_id, {}};
   for (const TypeEntry* type : (*library)->types()) {
-    if (type->kind == PluginKind::component) {
-      const Result<Contract> contract = describe_component(*type, path, nullptr);
-      if (!contract) return contract.error();
-      write_contract(out, *contract);
-    } else {
-      const auto hardware = describe_hardware(*type, path, type->type);
-      if (!hardware) return hardware.error();
-      write_contract(out, (*hardware)->contract());
-    }
+    Result<Contract> contract = contract_of(*type, path);
+    if (!contract) return contract.error();
+    plugin.types.push_back(*std::move(contract));
   }
+  return plugin;
+}
+
+std::string text(const PluginDescription& plugin) {
+  std::ostringstream out;
+  out << plugin.file << ": plugin for ABI version " << plugin.abi_version << ", built with Orca "
+      << plugin.build_id << "\n\n";
+  for (const Contract& contract : plugin.types) write_contract(out, contract);
   return out.str();
 }
 

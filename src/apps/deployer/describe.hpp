@@ -2,13 +2,29 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "orca/base/contract.hpp"
 #include "orca/base/result.hpp"
 
 namespace orca::deployer {
 
-/// What `--describe` prints: the types of a plugin with their ports and parameters.
-[[nodiscard]] Result<std::string> describe_plugin(const std::string& path);
+/// What a plugin says of itself.
+struct PluginDescription {
+  std::string file;
+  std::uint32_t abi_version = 0;
+  std::string build_id;  ///< Of the Orca that it was built with.
+  std::vector<Contract> types;
+};
+
+/// Loads a plugin and asks it; constructs its types only to describe them.
+[[nodiscard]] Result<PluginDescription> describe_plugin(const std::string& path);
+
+/// What `--describe` prints: the types with their ports and parameters.
+[[nodiscard]] std::string text(const PluginDescription& plugin);
+/// The same for programs: {file, abi_version, build_id, types: [{type, kind, ports, parameters, ...}]}.
+[[nodiscard]] std::string json(const PluginDescription& plugin);
 
 }  // namespace orca::deployer

@@ -14,6 +14,7 @@
 namespace orca::deployer {
 namespace {
 
+using Action = Options::Action;
 using Setter = std::function<Status(Options&, const std::string&)>;
 
 struct Option {
@@ -25,9 +26,22 @@ Error expected(const std::string& option, const std::string& what, const std::st
   return fail(Code::invalid_argument, option + " expects " + what + ", not \"" + found + "\"");
 }
 
+// Asking for help outweighs everything; any other two things to do exclude each other.
 Option action(Options::Action action) {
   return {false, [action](Options& options, const std::string&) {
-            options.action = action;
+            const bool asks_for_help = options.action == Action::help || action == Action::help;
+            if (options.action != Action::run && options.action != action && !asks_for_help)
+              return Status(fail(Code::invalid_argument,
+                                 "one thing to do only, two are given; --help lists them under \"Instead of "
+                                 "running\""));
+            options.action = asks_for_help ? Action::help : action;
+            return ok();
+          }};
+}
+
+Option flag(bool Options::*member) {
+  return {false, [member](Options& options, const std::string&) {
+            options.*member = true;
             return ok();
           }};
 }
@@ -78,12 +92,19 @@ using Words = std::optional<std::string>;
 
 std::map<std::string, Option> option_table(Words& executor) {
   return {
-      {"--check", action(Options::Action::check)},
-      {"--print", action(Options::Action::print)},
-      {"--describe", action(Options::Action::describe)},
-      {"--help", action(Options::Action::help)},
-      {"-h", action(Options::Action::help)},
-      {"--version", action(Options::Action::version)},
+      {"--check", action(Action::check)},
+      {"--print", action(Action::print)},
+      {"--dot", action(Action::dot)},
+      {"--mermaid", action(Action::mermaid)},
+      {"--list-ports", action(Action::list_ports)},
+      {"--diff", action(Action::diff)},
+      {"--describe", action(Action::describe)},
+      {"--schema", action(Action::schema)},
+      {"--help", action(Action::help)},
+      {"-h", action(Action::help)},
+      {"--version", action(Action::version)},
+      {"--strict", flag(&Options::strict)},
+      {"--json", flag(&Options::json)},
       {"--profile", {true, [](Options& o, const std::string& v) { return o.profiles.push_back(v), ok(); }}},
       {"--set", {true, set_argument}},
       {"--clock", {true, set_clock}},
@@ -121,16 +142,36 @@ Error unknown(const std::string& word, const std::map<std::string, Option>& tabl
                                           " (see --help)");
 }
 
-bool needs_file(Options::Action action) {
-  return action != Options::Action::help && action != Options::Action::version;
+bool takes_no_file(Action action) {
+  return action == Action::help || action == Action::version || action == Action::schema;
 }
 
-Status take_word(Options& options, const std::string& word) {
-  if (!options.file.empty())
+bool speaks_json(Action action) {
+  return action == Action::check || action == Action::print || action == Action::list_ports ||
+         action == Action::diff || action == Action::describe;
+}
+
+// Which files there are is known only when all options are read.
+Status take_files(Options& options, const std::vector<std::string>& files) {
+  if (takes_no_file(options.action)) return ok();
+  const std::size_t wanted = options.action == Action::diff ? 2 : 1;
+  if (files.empty())
+    return fail(Code::invalid_argument, "no file given; try: deployer graphs/scout_goto.xml (or --help)");
+  if (files.size() > wanted)
     return fail(Code::invalid_argument,
-                "one file only: there is \"" + options.file + "\" and \"" + word + "\"");
-  options.file = word;
+                std::string(wanted == 1 ? "one file only: there is" : "two files only:") + " \"" +
+                    files[wanted - 1] + "\" and \"" + files[wanted] + "\"");
+  if (files.size() < wanted)
+    return fail(Code::invalid_argument, "--diff compares two graphs: deployer --diff OLD.xml NEW.xml");
+  options.file = files.front();
+  if (wanted == 2) options.other_file = files.back();
   return ok();
+}
+
+Status check_json(const Options& options) {
+  if (!options.json || speaks_json(options.action) || options.action == Action::help) return ok();
+  return fail(Code::invalid_argument,
+              "--json goes with --check, --print, --list-ports, --diff or --describe");
 }
 
 }  // namespace
@@ -138,12 +179,13 @@ Status take_word(Options& options, const std::string& word) {
 Result<Options> parse_options(const std::vector<std::string>& words) {
   Options options;
   Words executor;
+  std::vector<std::string> files;
   const std::map<std::string, Option> table = option_table(executor);
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     Status taken;
     if (!word.starts_with("-")) {
-      taken = take_word(options, word);
+      files.push_back(word);
     } else if (const auto found = table.find(word); found == table.end()) {
       return unknown(word, table);
     } else if (found->second.takes_value && i + 1 == words.size()) {
@@ -153,44 +195,10 @@ Result<Options> parse_options(const std::vector<std::string>& words) {
     }
     if (!taken.ok()) return taken.error();
   }
-  if (needs_file(options.action) && options.file.empty())
-    return fail(Code::invalid_argument, "no file given; try: deployer graphs/scout_goto.xml (or --help)");
+  if (Status taken = take_files(options, files); !taken.ok()) return taken.error();
+  if (Status checked = check_json(options); !checked.ok()) return checked.error();
   if (Status chosen = choose_executor(options, executor); !chosen.ok()) return chosen.error();
   return options;
-}
-
-const char* help_text() {
-  return R"(deployer GRAPH.xml [options]      bring up the system that a graph describes, run it, take it down
-
-  deployer graphs/scout_goto.xml                          in real time, with the graph's default profile
-  deployer graphs/scout_goto.xml --clock virtual          the same run, as fast as the machine can
-  deployer graphs/scout_goto.xml --check                  only say what is wrong with the graph
-
-What to run
-  --profile NAME        select a profile of the graph; may be repeated (default: the graph's default_profile)
-  --set ARG=VALUE       set an <arg> of the graph; may be repeated
-  --until DURATION      end after this time of the run's clock, e.g. 60s
-  --seed N              seed of all random streams (default 1)
-
-How to run it
-  --clock KIND          steady: real time (default); virtual: simulated time, bit-identical for the same seed
-  --executor KIND       thread (default of steady), fiber (default of virtual) or baton
-
-What to write
-  --trace FILE          one line per delivery, connection and change of state
-  --picture FILE        what the world looked like in the end: .svg or .png
-  --log LEVEL           debug, info (default), warning, error or off; logs go to stderr
-
-Instead of running
-  --check               check the graph against the plugins; all errors at once
-  --print               the graph as it is after arguments and profiles
-  --describe PLUGIN.so  ports and parameters of the types in a plugin
-  --version, --help
-
-stdout  arrived NAME x y t | contact NAME t | trace-hash HASH (virtual clock, last line)
-exit    0 finished or stopped on request   1 failed while running   2 graph or arguments wrong, nothing started
-        3 could not start, all taken down again
-)";
 }
 
 }  // namespace orca::deployer

@@ -13,9 +13,12 @@ namespace orca::deployer {
 
 /// What the command line asks for.
 struct Options {
-  enum class Action { run, check, print, describe, help, version };
+  enum class Action { run, check, print, dot, mermaid, list_ports, diff, describe, schema, help, version };
   Action action = Action::run;
-  std::string file;  ///< The graph, or the plugin to describe.
+  std::string file;        ///< The graph, or the plugin to describe.
+  std::string other_file;  ///< The graph to compare it with.
+  bool strict = false;     ///< Warnings are errors.
+  bool json = false;       ///< For programs.
   std::vector<std::string> profiles;
   std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
   RunOptions run;

@@ -12,15 +12,28 @@ const xml::Position kCommandLine{"command line", 0, 0};
 
 }  // namespace
 
-Arguments::Arguments(const std::vector<std::string>& settings, Report& report) : report_(report) {
+Arguments::Arguments(const std::vector<std::string>& settings, Budget& budget, Report& report)
+    : budget_(budget), report_(report) {
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals != std::string::npos && equals > 0) {
-      settings_[setting.substr(0, equals)] = {setting.substr(equals + 1)};
+      settings_[setting.substr(0, equals)] = {{setting.substr(equals + 1), kCommandLine, true, ""},
+                                              kCommandLine};
     } else {
       report_.error(codes::kBadSetting, kCommandLine,
                     "--set " + setting + " has no value: write --set ARG=VALUE");
     }
+  }
+}
+
+Arguments::Arguments(const Node& bringer, Budget& budget, Report& report)
+    : budget_(budget), report_(report), bringer_(&bringer) {
+  for (const Node& arg : bringer.children) {
+    const Text* name = arg.known("name");
+    if (name == nullptr) continue;
+    const Text* value = arg.find("value");  // a missing one is reported
+    const Text unknown{"", arg.position, false, arg.position.file};
+    settings_[name->value] = {value == nullptr ? unknown : *value, name->position};
   }
 }
 
@@ -44,16 +57,25 @@ Text Arguments::value_of(const std::string& name, const Node& arg) {
   const auto setting = settings_.find(name);
   if (setting != settings_.end()) {
     setting->second.used = true;
-    return {setting->second.value, kCommandLine, true, true};
+    return setting->second.value;
   }
   if (const Text* default_value = arg.find("default")) return *default_value;
-  report_.error(codes::kArgumentWithoutValue, arg.position,
-                arg.title() + " has no default and is not set: add --set " + name + "=VALUE");
-  return {"", arg.position, false, false};
+  report_without_value(name, arg);
+  return {"", arg.position, false, arg.position.file};
+}
+
+void Arguments::report_without_value(const std::string& name, const Node& arg) {
+  if (bringer_ == nullptr) {
+    return report_.error(codes::kArgumentWithoutValue, arg.position,
+                         arg.title() + " has no default and is not set: add --set " + name + "=VALUE");
+  }
+  report_.error(codes::kArgumentWithoutValue, bringer_->position,
+                arg.title() + " of " + arg.position.file + " has no default and is not set: add <arg name=" +
+                    in_quotes(name) + " value=\"...\"/> to this <" + std::string(bringer_->rule->name) + ">");
 }
 
 Text Arguments::replaced(const xml::Attribute& attribute) {
-  Text text{"", attribute.value_position, attribute.intact, false};
+  Text text{"", attribute.value_position, attribute.intact, attribute.value_position.file};
   std::string_view rest = attribute.value;
   for (;;) {
     const std::size_t dollar = rest.find('$');
@@ -88,9 +110,13 @@ void Arguments::append(const std::string& name, Text& text) {
   }
   Argument& argument = found->second;
   argument.used = true;
-  if (text.value.empty()) text.from_command_line = argument.value.from_command_line;
+  if (text.value.empty()) text.named_in = argument.value.named_in;
   text.known = text.known && argument.value.known;
-  text.value += argument.value.value;
+  if (budget_.take_characters(argument.value.value.size(), text.position, report_)) {
+    text.value += argument.value.value;
+  } else {
+    text.known = false;
+  }
 }
 
 void Arguments::report_undefined(const std::string& name, const Text& text) {
@@ -101,13 +127,19 @@ void Arguments::report_undefined(const std::string& name, const Text& text) {
       "${" + name + "} is not defined; there is <arg> for: " + xml::listed(names_) + xml::did_you_mean(near));
 }
 
+void Arguments::report_no_such_argument(const std::string& name, const Setting& setting) {
+  const bool from_line = bringer_ == nullptr;
+  const std::string what = from_line ? "--set " + name : "arg " + in_quotes(name);
+  const std::string whose =
+      from_line ? "the graph" : "the file that this <" + std::string(bringer_->rule->name) + "> names";
+  report_.error(codes::kBadSetting, setting.position,
+                what + ": " + whose + " has no such argument; it has: " + xml::listed(names_) +
+                    report_.hint(name, names_));
+}
+
 void Arguments::check_use() {
-  for (const auto& [name, setting] : settings_) {
-    if (setting.used) continue;
-    report_.error(codes::kBadSetting, kCommandLine,
-                  "--set " + name + ": the graph has no such argument; it has: " + xml::listed(names_) +
-                      report_.hint(name, names_));
-  }
+  for (const auto& [name, setting] : settings_)
+    if (!setting.used) report_no_such_argument(name, setting);
   for (const auto& [name, argument] : arguments_) {
     if (!argument.used) {
       report_.warning(codes::kUnusedArgument, argument.position,

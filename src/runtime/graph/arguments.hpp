@@ -6,17 +6,21 @@
 #include <string_view>
 #include <vector>
 
+#include "budget.hpp"
 #include "node.hpp"
 #include "orca/xml/document.hpp"
 #include "report.hpp"
 
 namespace orca::graph {
 
-// The <arg>s of a graph with what the command line sets, and their replacement in attribute values.
+// The <arg>s of one file with what the command line, or the <include> or <use> that names the file, sets; and
+// their replacement in attribute values.
 class Arguments {
  public:
-  // @param settings  "ARG=VALUE" each.
-  Arguments(const std::vector<std::string>& settings, Report& report);
+  // @param settings  "ARG=VALUE" each, from the command line.
+  Arguments(const std::vector<std::string>& settings, Budget& budget, Report& report);
+  // @param bringer  the <include> or <use>; its <arg>s are the settings.
+  Arguments(const Node& bringer, Budget& budget, Report& report);
 
   // Declares an <arg>. Its default may refer to arguments declared before.
   void declare(const Node& arg);
@@ -34,18 +38,23 @@ class Arguments {
     bool used = false;
   };
   struct Setting {
-    std::string value;
+    Text value;
+    xml::Position position;  // of the setting's name
     bool used = false;
   };
 
   void report_duplicate(const std::string& name, const Node& arg);
+  void report_without_value(const std::string& name, const Node& arg);
+  void report_no_such_argument(const std::string& name, const Setting& setting);
   Text value_of(const std::string& name, const Node& arg);
   // Replaces what stands at the '$' that `rest` starts with, and takes it off.
   void replace_one(std::string_view& rest, Text& text);
   void append(const std::string& name, Text& text);
   void report_undefined(const std::string& name, const Text& text);
 
+  Budget& budget_;
   Report& report_;
+  const Node* bringer_ = nullptr;  // null: the command line
   std::map<std::string, Setting> settings_;
   std::map<std::string, Argument> arguments_;
   std::vector<std::string> names_;  // of arguments_, in the order of the file

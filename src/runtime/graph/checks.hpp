@@ -50,6 +50,8 @@ bool check_component_exists(const std::string& name, const xml::Position& place,
 void check_hardware(const std::vector<Node>& nodes, Types& types, Model& model, Report& report);
 void check_components(const std::vector<Node>& nodes, Types& types, Model& model, Report& report);
 void check_start_order(const Model& model, Report& report);
+// Warns about parts of a sound graph that can have no effect.
+void check_influence(const Model& model, const Graph& graph, Report& report);
 std::vector<Edge> check_wiring(const std::vector<Node>& connections, const Model& model, Report& report);
 
 }  // namespace orca::graph

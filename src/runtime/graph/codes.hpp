@@ -47,6 +47,17 @@ inline constexpr const char* kTriggerPort = "G039";
 inline constexpr const char* kTooManyComponents = "G040";
 inline constexpr const char* kUnusedArgument = "G041";
 inline constexpr const char* kHardwareRefuses = "G042";
+inline constexpr const char* kCannotInclude = "G043";
+inline constexpr const char* kIncludeCycle = "G044";
+inline constexpr const char* kExpansion = "G045";
+inline constexpr const char* kPortDisabled = "G046";
+inline constexpr const char* kPortNeeded = "G047";
+inline constexpr const char* kPortSetting = "G048";
+inline constexpr const char* kNoLateBinding = "G049";
+inline constexpr const char* kCandidate = "G050";
+inline constexpr const char* kNoInfluence = "G051";
+inline constexpr const char* kUnusedHardware = "G052";
+inline constexpr const char* kNeverTriggered = "G053";
 inline constexpr const char* kLoading = "G060";
 inline constexpr const char* kUnfit = "G061";
 

@@ -6,6 +6,7 @@
 #include "naming.hpp"
 #include "orca/xml/names.hpp"
 #include "parameters.hpp"
+#include "ports.hpp"
 #include "values.hpp"
 
 namespace orca::graph {
@@ -38,6 +39,7 @@ class ComponentReader {
     check_name(node_, "name", report_);
     check_name(node_, "process", report_);
     read_contract();
+    read_ports(node_, checked_, report_);
     read_scheduling();
     read_loading();
     read_trigger();

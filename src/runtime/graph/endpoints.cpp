@@ -3,22 +3,11 @@
 
 #include "checks.hpp"
 #include "codes.hpp"
-#include "naming.hpp"
 #include "orca/xml/names.hpp"
+#include "ports.hpp"
 
 namespace orca::graph {
 namespace {
-
-std::string ports_of(const Contract& contract) {
-  std::vector<std::string> in;
-  std::vector<std::string> out;
-  for (const PortContract& port : contract.ports) (is_from_end(port) ? out : in).push_back(port.name);
-  if (in.empty() && out.empty()) return "no ports";
-  std::string result;
-  if (!in.empty()) result = "in: " + xml::listed(in);
-  if (!out.empty()) result += (result.empty() ? "out: " : "; out: ") + xml::listed(out);
-  return result;
-}
 
 void report_bad_form(const Node& connection, const char* attribute, const Model& model, Report& report) {
   const Text& text = *connection.find(attribute);
@@ -31,10 +20,29 @@ void report_bad_form(const Node& connection, const char* attribute, const Model&
   report.error(codes::kBadPort, text.position, message);
 }
 
+// The graph has taken the port away, or given it another name. False if it has not.
+bool report_changed_port(Endpoint& end, const CheckedComponent& component, const xml::Position& place,
+                         Report& report) {
+  const std::string port = "component " + in_quotes(end.ref.component) + ": port " + in_quotes(end.ref.port);
+  if (const auto off = component.disabled.find(end.ref.port); off != component.disabled.end()) {
+    report.error(codes::kPortDisabled, place,
+                 port + " is disabled at " + off->second.text() + "; enable it there to connect it");
+    return true;
+  }
+  const auto renaming = component.renamed.find(end.ref.port);
+  if (renaming == component.renamed.end()) return false;
+  const auto& [name, where] = renaming->second;
+  report.error(codes::kUnknownPort, place,
+               port + " is called " + in_quotes(name) + " in this graph, see " + where.text() + "; write " +
+                   in_quotes(end.ref.component + "." + name));
+  end.guessed = name;
+  return true;
+}
+
 void find_port(Endpoint& end, const CheckedComponent& component, const xml::Position& place, Report& report) {
   const Contract& contract = *component.contract;
   end.port = contract.port(end.ref.port);
-  if (end.port != nullptr) return;
+  if (end.port != nullptr || report_changed_port(end, component, place, report)) return;
   std::vector<std::string> names;
   for (const PortContract& port : contract.ports) names.push_back(port.name);
   end.guessed = report.nearest(end.ref.port, names);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "node.hpp"
 #include "orca/base/contract.hpp"
 #include "orca/graph/graph.hpp"
 
@@ -17,11 +18,26 @@ struct CheckedHardware {
   bool sound = false;  // it may be shown to components
 };
 
+// A port whose peers are chosen at run time, from candidates.
+struct LateBinding {
+  std::string port;  // its name in the graph
+  Text candidates;
+};
+
+// The name that the graph gives a port.
+struct Renaming {
+  std::string name;
+  xml::Position position;
+};
+
 struct CheckedComponent {
   ComponentNode value;
   std::optional<Contract> contract;  // nothing if the type is missing or unknown
   bool ports_known = false;          // false: its ports cannot be judged, for a reason already reported
   bool duplicate = false;
+  std::map<std::string, xml::Position> disabled;  // ports, and where that is said
+  std::map<std::string, Renaming> renamed;        // by the name that the author gave
+  std::vector<LateBinding> late;
 };
 
 // What the checks know about the graph so far. Nodes stay in the order of the file.

@@ -25,6 +25,17 @@ const xml::Position& Node::place(std::string_view attribute) const {
   return text == nullptr ? position : text->position;
 }
 
+std::string Origin::text() const {
+  std::string result = position.text();
+  for (const Origin* up = parent; up != nullptr; up = up->parent)
+    result += ", included at " + up->position.text();
+  return result;
+}
+
+std::string Node::whereabouts() const {
+  return position.text() + (origin == nullptr ? "" : ", included at " + origin->text());
+}
+
 std::string Node::title() const {
   const Text* name = known("name");
   return std::string(rule->name) + (name == nullptr ? " without a name" : " " + in_quotes(name->value));

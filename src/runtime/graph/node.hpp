@@ -15,8 +15,17 @@ namespace orca::graph {
 struct Text {
   std::string value;
   xml::Position position;
-  bool known = true;               // false: an error about it is reported, whatever follows from it is not
-  bool from_command_line = false;  // it starts with a value given by --set
+  bool known = true;     // false: an error about it is reported, whatever follows from it is not
+  std::string named_in;  // the file in which its beginning is written; empty: the command line
+};
+
+// How a file came into the graph: the <include> or <use> that names it, and how the file with that came in.
+struct Origin {
+  xml::Position position;
+  const Origin* parent = nullptr;
+
+  // "main.xml:4:3", then what that was included by: "b.xml:2:3, included at main.xml:4:3".
+  [[nodiscard]] std::string text() const;
 };
 
 // An element whose name and attributes follow the rules; slips that could be guessed are put right already.
@@ -25,7 +34,8 @@ struct Node {
   xml::Position position;
   std::map<std::string, Text, std::less<>> attributes;
   std::vector<Node> children;
-  bool duplicate = false;  // its name is taken; it is checked, but never found by name
+  bool duplicate = false;          // its name is taken; it is checked, but never found by name
+  const Origin* origin = nullptr;  // null: the file on the command line
 
   [[nodiscard]] bool is(std::string_view element) const { return rule->name == element; }
   [[nodiscard]] const Text* find(std::string_view attribute) const;
@@ -37,6 +47,8 @@ struct Node {
   [[nodiscard]] const xml::Position& place(std::string_view attribute) const;
   // "component "avoid"": how messages call it.
   [[nodiscard]] std::string title() const;
+  // Where it stands and how that file came in, for people.
+  [[nodiscard]] std::string whereabouts() const;
 };
 
 }  // namespace orca::graph

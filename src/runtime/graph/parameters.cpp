@@ -54,7 +54,7 @@ Result<Params> read_settings(const std::vector<ParamContract>& contracts,
     } else if (declared->fixed) {
       report.line({},
                   title + " cannot change while the component runs; change it in the graph and start anew");
-    } else if (auto value = read_value({text, {}, true, true}, *declared, title, report)) {
+    } else if (auto value = read_value({text, {}, true, ""}, *declared, title, report)) {
       result[name] = std::move(*value);
     }
   }

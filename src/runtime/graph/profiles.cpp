@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "codes.hpp"
 #include "naming.hpp"
@@ -54,7 +56,7 @@ class Merger {
   void add(const Node& node) {
     const auto key = identity(node);
     if (!key) return nodes_.push_back(node);
-    const auto [first, fresh] = section_.try_emplace(*key, node.position);
+    const auto [first, fresh] = section_.try_emplace(*key, node.whereabouts());
     if (!fresh) return add_duplicate(node, first->second);
     const auto [index, is_new] = index_.try_emplace(*key, nodes_.size());
     if (is_new) {
@@ -65,14 +67,16 @@ class Merger {
   }
 
  private:
-  void add_duplicate(const Node& node, const xml::Position& first) {
+  // @param first  where the other one is
+  void add_duplicate(const Node& node, const std::string& first) {
+    const std::string here = node.origin == nullptr ? "" : " (included at " + node.origin->text() + ")";
     if (node.is("connect")) {
       report_.error(codes::kDuplicateEdge, node.position,
                     "the connection from " + in_quotes(node.value("from")) + " to " +
-                        in_quotes(node.value("to")) + " exists already at " + first.text());
+                        in_quotes(node.value("to")) + here + " exists already at " + first);
     } else {
       report_.error(codes::kDuplicateName, node.place("name"),
-                    "the name of " + node.title() + " is taken already at " + first.text());
+                    "the name of " + node.title() + here + " is taken already at " + first);
     }
     nodes_.push_back(node);
     nodes_.back().duplicate = true;
@@ -80,7 +84,7 @@ class Merger {
 
   std::vector<Node>& nodes_;
   Report& report_;
-  std::map<std::string, xml::Position> section_;  // what the present section has defined
+  std::map<std::string, std::string> section_;  // what the present section has defined, and where
   std::map<std::string, std::size_t> index_;
 };
 
@@ -91,18 +95,23 @@ void report_unknown(const std::string& wanted, const xml::Position& position,
                    report.hint(wanted, names));
 }
 
-std::map<std::string, const Node*> profiles_of(const Node& graph, Report& report) {
-  std::map<std::string, const Node*> profiles;
+// The profiles of a graph, in its order. Those of one name add up if they come from different files.
+std::vector<const Node*> profiles_of(const Node& graph, Report& report) {
+  std::vector<const Node*> profiles;
+  std::map<std::pair<std::string, const Origin*>, xml::Position> seen;
   for (const Node& child : graph.children) {
     const Text* name = child.is("profile") ? child.known("name") : nullptr;
     if (name == nullptr) continue;
     if (const auto fault = name_fault(name->value)) {
       report.error(codes::kBadName, name->position, child.title() + ": " + *fault);
     }
-    const auto [first, fresh] = profiles.try_emplace(name->value, &child);
-    if (fresh) continue;
-    report.error(codes::kDuplicateName, name->position,
-                 "the name of " + child.title() + " is taken already at " + first->second->position.text());
+    const auto [first, fresh] = seen.try_emplace({name->value, child.origin}, child.position);
+    if (fresh) {
+      profiles.push_back(&child);
+    } else {
+      report.error(codes::kDuplicateName, name->position,
+                   "the name of " + child.title() + " is taken already at " + first->second.text());
+    }
   }
   return profiles;
 }
@@ -119,22 +128,45 @@ std::vector<std::pair<std::string, xml::Position>> wanted_profiles(const Node& g
   return wanted;
 }
 
-std::vector<const Node*> chosen_profiles(const Node& graph, const std::vector<std::string>& chosen,
-                                         Report& report) {
-  const auto profiles = profiles_of(graph, report);
-  std::vector<std::string> names;
-  for (const auto& [name, node] : profiles) names.push_back(name);
-  std::vector<const Node*> result;
-  for (const auto& [name, position] : wanted_profiles(graph, chosen)) {
-    const auto found = profiles.find(name);
-    if (found != profiles.end()) {
-      result.push_back(found->second);
-    } else {
-      report_unknown(name, position, names, report);
+// The profiles that are chosen, in the order of the choice, then of the graph.
+class Choice {
+ public:
+  Choice(const Node& graph, const std::vector<std::string>& chosen, Report& report)
+      : wanted_(wanted_profiles(graph, chosen)), report_(report) {
+    collect_names(graph);
+    const std::vector<const Node*> profiles = profiles_of(graph, report_);
+    for (const auto& [name, position] : wanted_) {
+      if (!names_.contains(name)) report_unknown(name, position, {names_.begin(), names_.end()}, report_);
+      for (const Node* profile : profiles)
+        if (profile->value("name") == name) add(*profile);
     }
   }
-  return result;
-}
+
+  std::vector<const Node*> profiles() && { return std::move(result_); }
+
+ private:
+  void collect_names(const Node& parent) {
+    for (const Node& child : parent.children) {
+      if (!child.is("profile")) continue;
+      if (child.known("name") != nullptr) names_.insert(child.value("name"));
+      collect_names(child);
+    }
+  }
+
+  // With those of a file that it includes.
+  void add(const Node& profile) {
+    result_.push_back(&profile);
+    for (const Node* inner : profiles_of(profile, report_)) {
+      const auto is_wanted = [&](const auto& wanted) { return wanted.first == inner->value("name"); };
+      if (std::ranges::any_of(wanted_, is_wanted)) add(*inner);
+    }
+  }
+
+  const std::vector<std::pair<std::string, xml::Position>> wanted_;
+  Report& report_;
+  std::set<std::string> names_;
+  std::vector<const Node*> result_;
+};
 
 }  // namespace
 
@@ -143,7 +175,7 @@ Parts merge_profiles(const Node& graph, const std::vector<std::string>& chosen, 
   Merger hardware(parts.hardware, report);
   Merger components(parts.components, report);
   Merger connections(parts.connections, report);
-  std::vector<const Node*> sections = chosen_profiles(graph, chosen, report);
+  std::vector<const Node*> sections = Choice(graph, chosen, report).profiles();
   sections.insert(sections.begin(), &graph);
   for (const Node* section : sections) {
     for (Merger* merger : {&hardware, &components, &connections}) merger->start_section();

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "checks.hpp"
 #include "codes.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
@@ -54,6 +55,7 @@ class Reader {
 
   void read_attributes(const xml::Element& element, Node& node) {
     for (const xml::Attribute& attribute : element.attributes()) {
+      if (node.is("graph") && leads_to_schema(attribute)) continue;
       const std::string name = attribute_meant(element, attribute, *node.rule);
       if (!name.empty()) node.attributes.emplace(name, arguments_.replaced(attribute));
     }
@@ -62,6 +64,11 @@ class Reader {
       report_.error(codes::kMissingAttribute, element.position(),
                     tag(element.name()) + " needs the attribute " + in_quotes(rule.name));
     }
+  }
+
+  // How editors find graphs/orca-graph.xsd.
+  static bool leads_to_schema(const xml::Attribute& attribute) {
+    return attribute.name == "xmlns:xsi" || attribute.name == "xsi:noNamespaceSchemaLocation";
   }
 
   // The attribute's name; for an unknown one the one it was meant to be, if that is not there as well.
@@ -104,13 +111,9 @@ class Reader {
 
   void read_unsupported(const xml::Element& element, const ElementRule& rule, Node& parent) {
     report_.error(codes::kUnsupported, element.position(),
-                  tag(rule.name) + " is not supported yet" +
-                      (rule.support == ElementRule::Support::transparent
-                           ? "; put what it contains directly into the graph"
-                           : "; put the components that it would bring directly into the graph"));
-    if (rule.support == ElementRule::Support::none) result_.names_incomplete = true;
+                  tag(rule.name) + " is not supported yet; put what it contains directly into the graph");
     Node inside{&rule, element.position(), {}, {}};
-    if (rule.support == ElementRule::Support::transparent) read_children(element, inside);
+    read_children(element, inside);
     for (Node& child : inside.children) parent.children.push_back(std::move(child));
   }
 
@@ -134,11 +137,16 @@ class Reader {
     for (const xml::Element& child : element.children()) excuse(child);
   }
 
+  // What may be said once inside an element, under its name.
+  static bool is_setting(const Node& node) {
+    return node.is("param") || node.is("property") || node.is("port") || node.is("arg");
+  }
+
   void drop_duplicates(Node& node) {
     std::map<std::pair<std::string_view, std::string>, xml::Position> seen;
     std::erase_if(node.children, [&](const Node& child) {
       const Text* name = child.known("name");
-      if (name == nullptr || !(child.is("param") || child.is("property"))) return false;
+      if (name == nullptr || !is_setting(child)) return false;
       const auto [first, fresh] = seen.try_emplace({child.rule->name, name->value}, child.position);
       if (fresh) return false;
       report_.error(codes::kDuplicateName, name->position,
@@ -175,6 +183,7 @@ std::optional<Structure> read_structure(const xml::Document& document, Arguments
   if (!check_root(document.root, report)) return std::nullopt;
   Structure structure = Reader(arguments, report).read_graph(document.root);
   check_version(structure.graph, report);
+  check_name(structure.graph, "name", report);
   arguments.check_use();
   return structure;
 }

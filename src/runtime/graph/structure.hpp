@@ -12,13 +12,13 @@
 
 namespace orca::graph {
 
-// The file as nodes that follow the rules, and what is known about the parts that had to be left out.
+// One file as nodes that follow the rules, and what is known about the parts that had to be left out.
 struct Structure {
   Node graph;
   // Names given to elements that could not be understood: to miss such a component would be a second error
   // for one cause.
   std::set<std::string> excused;
-  // An <include> or a component without a name: there may be names that nobody knows.
+  // A component without a name, or a file that could not be included: there may be names that nobody knows.
   bool names_incomplete = false;
 };
 

@@ -48,8 +48,11 @@ std::optional<Contract> Types::component_without_hardware(const Node& node) {
 void Types::report_failure(const Node& node, const Error& error, PluginKind kind) {
   const std::string what = node.title() + ": " + error.text();
   if (error.code == Code::not_found) {
+    // A type that is known and not found after all has lost its plugin.
+    std::vector<std::string> names = catalogue_.type_names(kind);
+    std::erase(names, node.value("type"));
     return report_.error(codes::kUnknownType, node.place("type"),
-                         what + report_.hint(node.value("type"), catalogue_.type_names(kind)));
+                         what + report_.hint(node.value("type"), names));
   }
   if (broken_.insert(error.text()).second) report_.error(codes::kPlugin, node.place("type"), what);
 }
@@ -63,7 +66,8 @@ void Types::report_unfit(const Node& node, const std::string& type, PluginKind k
 void check_name(const Node& node, const char* attribute, Report& report) {
   const Text* name = node.known(attribute);
   if (name == nullptr) return;
-  if (const auto fault = name_fault(name->value)) {
+  const auto fault = name_fault(name->value);
+  if (fault && !report.tolerates(name->value)) {
     report.error(codes::kBadName, name->position,
                  "the " + std::string(attribute) + " " + in_quotes(name->value) + " of a " +
                      std::string(node.rule->name) + ": " + *fault);
@@ -74,7 +78,7 @@ bool check_component_exists(const std::string& name, const xml::Position& place,
                             const Model& model, Report& report) {
   if (model.component(name) != nullptr) return true;
   if (model.excused.contains(name)) return false;
-  const std::string hint = report.hint(name, model.component_names);
+  const std::string hint = report.hint_in_contexts(name, model.component_names);
   if (model.names_incomplete && hint.empty()) return false;
   report.error(codes::kUnknownComponent, place,
                title + ": there is no component " + in_quotes(name) +

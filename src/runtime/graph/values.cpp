@@ -119,8 +119,7 @@ std::optional<ParamValue> read_value(const Text& text, const ParamContract& cont
 
 std::string resolved_path(const std::string& path, const Text& origin) {
   namespace fs = std::filesystem;
-  const fs::path folder =
-      origin.from_command_line ? fs::path() : fs::path(origin.position.file).parent_path();
+  const fs::path folder = fs::path(origin.named_in).parent_path();
   std::error_code problem;
   const fs::path absolute = fs::absolute(folder / path, problem);
   return (problem ? folder / path : absolute).lexically_normal().string();

@@ -15,8 +15,8 @@ namespace orca::graph {
 std::optional<ParamValue> read_value(const Text& text, const ParamContract& contract,
                                      const std::string& title, Report& report);
 
-// A path as the text means it: absolute and without "..". It starts at the folder of the file that says it,
-// or at the current one if the command line says it.
+// A path as the text means it: absolute and without "..". It starts at the folder of the file that names it,
+// or at the current one if the command line does.
 std::string resolved_path(const std::string& path, const Text& origin);
 
 }  // namespace orca::graph

@@ -4,10 +4,12 @@
 #include <set>
 #include <tuple>
 
+#include "candidates.hpp"
 #include "checks.hpp"
 #include "codes.hpp"
 #include "edges.hpp"
 #include "endpoints.hpp"
+#include "naming.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::graph {
@@ -21,15 +23,30 @@ class Wiring {
  public:
   Wiring(const Model& model, Report& report) : model_(model), report_(report) {}
 
-  void connect(const Node& connection) {
+  void connect(const Node& connection, bool late_bound = false) {
     const Endpoint from = resolve_endpoint(connection, "from", model_, report_);
     const Endpoint to = resolve_endpoint(connection, "to", model_, report_);
     touch(from, to);
     touch(to, from);
     if (from.port == nullptr || to.port == nullptr) return;
-    const auto edge = make_edge(connection, from, to, report_);
+    auto edge = make_edge(connection, from, to, report_);
     if (!edge || connection.duplicate) return;
-    if (takes_one_more(*edge, from, to)) edges_.push_back(*edge);
+    edge->late_bound = late_bound;
+    if (late_bound && is_there_already(*edge)) return;
+    if (takes_one_more(*edge, from, to)) edges_.push_back(*std::move(edge));
+  }
+
+  // The candidates of late-bound ports, after everything that is written as a connection.
+  void connect_candidates() {
+    for (const CheckedComponent& component : model_.components) {
+      for (const LateBinding& late : component.late) {
+        if (component.duplicate || !candidates_are_names(late, report_)) continue;
+        for (const std::string& name : split_names(late.candidates.value)) {
+          const auto connection = candidate_connection(component, late, name, model_, report_);
+          if (connection) connect(*connection, true);
+        }
+      }
+    }
   }
 
   void check_required() {
@@ -61,6 +78,16 @@ class Wiring {
 
   std::string known_component(const std::string& name) const {
     return model_.component(name) == nullptr ? "" : name;
+  }
+
+  bool is_there_already(const Edge& edge) {
+    const auto same = [&](const Edge& other) { return other.from == edge.from && other.to == edge.to; };
+    const auto found = std::ranges::find_if(edges_, same);
+    if (found == edges_.end()) return false;
+    report_.error(codes::kDuplicateEdge, edge.position,
+                  "the candidate " + in_quotes(edge.from.text()) + " of " + in_quotes(edge.to.text()) +
+                      " is connected already at " + found->position.text());
+    return true;
   }
 
   bool takes_one_more(const Edge& edge, const Endpoint& from, const Endpoint& to) {
@@ -130,6 +157,7 @@ class Wiring {
 std::vector<Edge> check_wiring(const std::vector<Node>& connections, const Model& model, Report& report) {
   Wiring wiring(model, report);
   for (const Node& connection : connections) wiring.connect(connection);
+  wiring.connect_candidates();
   wiring.check_required();
   return std::move(wiring).edges();
 }

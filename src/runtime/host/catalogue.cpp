@@ -36,7 +36,10 @@ Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& 
   if (const TypeEntry* entry = (*library)->find(kind, type)) return LoadedType{*library, entry};
   std::string known;
   for (const TypeEntry* entry : (*library)->types())
-    known += (known.empty() ? "" : ", ") + std::string(entry->type);
+    known += (known.empty() ? "" : ", ") + std::string(entry->type) +
+             (entry->kind == kind                   ? ""
+              : entry->kind == PluginKind::hardware ? " (hardware)"
+                                                    : " (a component)");
   return fail(Code::not_found, "the plugin " + (*library)->path() + " has no " +
                                    (kind == PluginKind::component ? "component" : "hardware") + " type \"" +
                                    type + "\"; it has: " + known);

@@ -60,8 +60,26 @@ Status ComponentInstance::load() {
 }
 
 void ComponentInstance::declare(const Contract& contract) {
-  for (const PortContract& port : contract.ports) ports_.add(port);
+  for (PortContract port : contract.ports) {
+    port.name = name_in_graph(port.name);
+    ports_.add(port);
+  }
   param_contracts_ = contract.params;
+}
+
+const std::string& ComponentInstance::name_in_graph(const std::string& port) const {
+  const auto renamed = settings_.port_names.find(port);
+  return renamed == settings_.port_names.end() ? port : renamed->second;
+}
+
+void ComponentInstance::declare_port(PortDeclaration declaration) {
+  declaration.contract.name = name_in_graph(declaration.contract.name);
+  loaded_->ports.push_back(std::move(declaration));
+}
+
+void ComponentInstance::set_default_trigger(const Trigger& trigger) {
+  loaded_->trigger = trigger;
+  loaded_->trigger.port = name_in_graph(trigger.port);
 }
 
 RandomStream ComponentInstance::random(std::string_view stream) const {
@@ -194,6 +212,7 @@ void ComponentInstance::enter_work() {
 void ComponentInstance::leave_work(ComponentState next) {
   const auto fault = call("stop", [&] { loaded_->object->stop(); });
   ports_.unsubscribe();
+  home_.provenance.end_task();
   if (fault && !fault->interrupted) {
     fail_with("stop", fault->text);
   } else {
@@ -208,6 +227,7 @@ void ComponentInstance::lap() {
   }
   Outcome outcome;
   activity_before_lap_ = strand_.activity();
+  home_.provenance.begin_lap();
   in_lap_ = true;
   const auto fault = call("work", [&] { outcome = loaded_->object->work(); });
   in_lap_ = false;
@@ -276,6 +296,7 @@ void ComponentInstance::fail_with(const char* hook, const std::string& what) {
     if (fault && !fault->interrupted) write_log(log::Level::error, "stop() " + fault->text);
   }
   ports_.unsubscribe();
+  home_.provenance.end_task();
   ports_.close("it has failed: " + text);
   may_try_again_ = false;
   has_failed_.store(true, std::memory_order_release);

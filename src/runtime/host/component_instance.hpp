@@ -44,6 +44,8 @@ struct ComponentSettings {
   bool stay_warm = false;          ///< Once loaded it stays.
   Duration idle_time{0};           ///< An on-demand component that nobody has used for so long is unloaded.
   std::map<std::string, ParamValue> params;
+  std::map<std::string, std::string>
+      port_names;  ///< What the graph calls a port, by the author's name for it.
 };
 
 /// One component in this process: its ports, its strand, and the state machine that calls it.
@@ -98,13 +100,11 @@ class ComponentInstance final : public ComponentHost {
   [[nodiscard]] std::map<std::string, ParamValue> params() const;
 
   // ComponentHost
-  void declare_port(PortDeclaration declaration) override {
-    loaded_->ports.push_back(std::move(declaration));
-  }
+  void declare_port(PortDeclaration declaration) override;
   void declare_param(ParamDeclaration declaration) override {
     loaded_->params.push_back(std::move(declaration));
   }
-  void set_default_trigger(const Trigger& trigger) override { loaded_->trigger = trigger; }
+  void set_default_trigger(const Trigger& trigger) override;
   [[nodiscard]] const std::string& name() const override { return settings_.name; }
   [[nodiscard]] TimePoint now() const override { return run_.executive.now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override;
@@ -118,6 +118,7 @@ class ComponentInstance final : public ComponentHost {
   void main();
   bool configure();
   Status resolve_trigger();
+  [[nodiscard]] const std::string& name_in_graph(const std::string& port) const;
   void turn();
   void follow_clients();
   void enter_work();

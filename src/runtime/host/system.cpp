@@ -30,6 +30,8 @@ ComponentSettings settings_of(const graph::ComponentNode& node) {
   settings.stay_warm = node.stay_warm;
   settings.idle_time = node.idle_time;
   settings.params = node.params;
+  for (const auto& [port, setting] : node.ports)
+    if (!setting.alias.empty()) settings.port_names[port] = setting.alias;
   return settings;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "orca/base/json.hpp"
+
 namespace orca::xml {
 
 std::string Position::text() const {
@@ -52,6 +54,27 @@ std::string Diagnostics::text() const {
   for (std::size_t i = 0; i < std::min(all.size(), kPrinted); ++i) result += all[i].text() + "\n";
   if (reported_ > kPrinted) result += "... and " + std::to_string(reported_ - kPrinted) + " more\n";
   return result;
+}
+
+std::string Diagnostics::json() const {
+  JsonWriter json;
+  json.begin_object();
+  json.member("errors", errors_);
+  json.member("warnings", reported_ - errors_);
+  json.key("messages").begin_array();
+  for (const Diagnostic& diagnostic : sorted()) {
+    json.begin_object();
+    json.member("severity", diagnostic.severity == Severity::error ? "error" : "warning");
+    json.member("code", diagnostic.code);
+    json.member("file", diagnostic.position.file);
+    json.member("line", diagnostic.position.line);
+    json.member("column", diagnostic.position.column);
+    json.member("message", diagnostic.message);
+    json.end();
+  }
+  json.end();
+  json.end();
+  return json.text();
 }
 
 }  // namespace orca::xml

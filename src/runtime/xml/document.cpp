@@ -9,7 +9,6 @@
 
 #include "codes.hpp"
 #include "encoding.hpp"
-#include "orca/base/result.hpp"
 #include "scanner.hpp"
 #include "tree.hpp"
 
@@ -20,8 +19,9 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-// The bytes of a file, one buffer more than allowed at most. The error's message is the system's word for it.
-Result<std::string> bytes_of(const std::string& path) {
+}  // namespace
+
+Result<std::string> read_bytes(const std::string& path) {
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) return fail(Code::not_found, std::strerror(errno));
   std::string bytes;
@@ -34,8 +34,6 @@ Result<std::string> bytes_of(const std::string& path) {
   if (std::ferror(file.get()) != 0) return fail(Code::data_loss, std::strerror(errno));
   return bytes;
 }
-
-}  // namespace
 
 const Attribute* Element::attribute(std::string_view name) const {
   for (const Attribute& attribute : attributes_)
@@ -53,7 +51,7 @@ std::optional<Document> read_text(std::string_view text, const std::string& file
 }
 
 std::optional<Document> read_file(const std::string& path, Diagnostics& diagnostics) {
-  const Result<std::string> bytes = bytes_of(path);
+  const Result<std::string> bytes = read_bytes(path);
   if (bytes) return read_text(*bytes, path, diagnostics);
   diagnostics.error(codes::kUnreadable, {path, 1, 1}, "the file cannot be read: " + bytes.error().message);
   return std::nullopt;

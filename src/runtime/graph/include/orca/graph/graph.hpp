@@ -26,6 +26,25 @@ struct HardwareNode {
   friend bool operator==(const HardwareNode& a, const HardwareNode& b);
 };
 
+/// A port of a component of the graph, by its name in the graph.
+struct PortRef {
+  std::string component;
+  std::string port;
+
+  /// "avoid.laser"
+  [[nodiscard]] std::string text() const { return component + "." + port; }
+  friend auto operator<=>(const PortRef&, const PortRef&) = default;
+};
+
+/// What the graph says about a port of one component.
+struct PortSetting {
+  std::string alias;                ///< Its name in the graph; empty: the one its author gave it.
+  bool disabled = false;            ///< Nothing may be connected to it.
+  std::vector<PortRef> candidates;  ///< Ports that the component may subscribe to at run time, by name.
+
+  friend bool operator==(const PortSetting&, const PortSetting&) = default;
+};
+
 /// One peer of the system.
 struct ComponentNode {
   std::string name;
@@ -41,19 +60,10 @@ struct ComponentNode {
   std::vector<std::string> start_after;  ///< Components that must be up before.
   Params params;
   std::map<std::string, std::string> properties;  ///< Exported for trading.
-  xml::Position position;                         ///< Of its element; takes no part in comparisons.
+  std::map<std::string, PortSetting> ports;  ///< By the author's name; those the graph says something about.
+  xml::Position position;                    ///< Of its element; takes no part in comparisons.
 
   friend bool operator==(const ComponentNode& a, const ComponentNode& b);
-};
-
-/// A port of a component of the graph.
-struct PortRef {
-  std::string component;
-  std::string port;
-
-  /// "avoid.laser"
-  [[nodiscard]] std::string text() const { return component + "." + port; }
-  friend auto operator<=>(const PortRef&, const PortRef&) = default;
 };
 
 /// A connection.
@@ -64,7 +74,8 @@ struct Edge {
   QueuePolicy queue;     ///< Of this edge alone, its min_interval always 0; where the graph does not say, the
                          ///< receiving port's default.
   Duration interval{0};  ///< Push: deliver at most one object per interval; 0: every one.
-  xml::Position position;  ///< Of its element; takes no part in comparisons.
+  xml::Position position;   ///< Of its element; takes no part in comparisons.
+  bool late_bound = false;  ///< From a candidate: subscribed to only once the component names it.
 
   friend bool operator==(const Edge& a, const Edge& b);
 };
@@ -89,5 +100,9 @@ struct Graph {
 /// The graph as XML again, with profiles merged, arguments replaced, defaults filled in and values in SI.
 /// Loading that text gives an equal Graph.
 [[nodiscard]] std::string print(const Graph& graph);
+
+/// The same for programs: an object with hardware, components and connections; attributes as in XML,
+/// parameters as numbers, flags and texts, in SI.
+[[nodiscard]] std::string graph_json(const Graph& graph);
 
 }  // namespace orca::graph

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/xml/diagnostics.hpp"
+#include "orca/xml/document.hpp"
 
 namespace orca::graph {
 
@@ -63,7 +65,11 @@ class Catalogue {
 struct LoadOptions {
   std::vector<std::string> profiles;  ///< Merged in this order; none: the graph's default_profile.
   std::vector<std::string> settings;  ///< "ARG=VALUE"; a relative path in VALUE starts at the current folder.
+  bool strict = false;                ///< Warnings are errors.
 };
+
+/// Where the text of a file comes from that a graph includes. The path starts at the current folder.
+using FileReader = std::function<Result<std::string>(const std::string& path)>;
 
 /// Reads new values for some of a component's parameters as a graph would, for a change at run time.
 ///
@@ -83,8 +89,11 @@ struct LoadOptions {
                                              Catalogue& catalogue, xml::Diagnostics& diagnostics);
 
 /// The same for text in memory. `file_name` appears in positions, and relative paths start at its folder.
+///
+/// @param read  for the files that it includes.
 [[nodiscard]] std::optional<Graph> load_text(std::string_view text, const std::string& file_name,
                                              const LoadOptions& options, Catalogue& catalogue,
-                                             xml::Diagnostics& diagnostics);
+                                             xml::Diagnostics& diagnostics,
+                                             const FileReader& read = xml::read_bytes);
 
 }  // namespace orca::graph

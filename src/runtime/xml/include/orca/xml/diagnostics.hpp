@@ -59,6 +59,10 @@ class Diagnostics {
   /// The sorted lines, each ended by a newline; after kPrinted of them "... and N more".
   [[nodiscard]] std::string text() const;
 
+  /// The same for programs: {errors, warnings, messages: [{severity, code, file, line, column, message}]},
+  /// sorted, and none left out of the first kKept.
+  [[nodiscard]] std::string json() const;
+
  private:
   void keep(Severity severity, std::string code, Position position, std::string message);
 

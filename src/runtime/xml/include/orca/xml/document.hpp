@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "orca/base/result.hpp"
 #include "orca/xml/diagnostics.hpp"
 
 namespace orca::xml {
@@ -60,6 +61,10 @@ struct Limits {
   static constexpr std::size_t kElements = 500'000;
 };
 
+/// The bytes of a file; of one beyond Limits::kBytes only the first, and at least one too many.
+/// @errors  not_found or data_loss, the message is the system's word for what is wrong.
+[[nodiscard]] Result<std::string> read_bytes(const std::string& path);
+
 /// Reads an XML file strictly: UTF-8 without byte order mark, one root, no DTD, only the five predefined
 /// entities and character references, nothing beyond Limits.
 ///
@@ -73,6 +78,10 @@ struct Limits {
 /// The same for text in memory; `file_name` only appears in positions.
 [[nodiscard]] std::optional<Document> read_text(std::string_view text, const std::string& file_name,
                                                 Diagnostics& diagnostics);
+
+/// The bytes of the character that `text` starts with; 0 if it starts with none that may stand in an XML
+/// file: a control character, broken UTF-8, the end.
+[[nodiscard]] std::size_t character_size(std::string_view text);
 
 /// `text` with the characters that mean something in XML written as references, for an attribute value in
 /// double quotes. read_text() gives `text` back, whatever blanks it holds.

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include "options.hpp"
+
+namespace orca::deployer {
+
+/// Does what the command line asks for.
+/// @return how the program ends.
+ExitCode act(const Options& options);
+
+}  // namespace orca::deployer

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "options.hpp"
+
+namespace orca::deployer {
+
+const char* help_text() {
+  return R"(deployer GRAPH.xml [options]      bring up the system that a graph describes, run it, take it down
+
+  deployer graphs/scout_goto.xml                          in real time, with the graph's default profile
+  deployer graphs/scout_goto.xml --clock virtual          the same run, as fast as the machine can
+  deployer graphs/scout_goto.xml --check                  only say what is wrong with the graph
+
+What to run
+  --profile NAME        select a profile of the graph; may be repeated (default: the graph's default_profile)
+  --set ARG=VALUE       set an <arg> of the graph; may be repeated
+  --until DURATION      end after this time of the run's clock, e.g. 60s
+  --seed N              seed of all random streams (default 1)
+
+How to run it
+  --clock KIND          steady: real time (default); virtual: simulated time, bit-identical for the same seed
+  --executor KIND       thread (default of steady), fiber (default of virtual) or baton
+
+What to write
+  --trace FILE          one line per delivery, connection and change of state
+  --picture FILE        what the world looked like in the end: .svg or .png
+  --log LEVEL           debug, info (default), warning, error or off; logs go to stderr
+
+Instead of running
+  --check               only check the graph against the plugins; all errors at once
+  --print               the graph as it is: files, arguments and profiles merged, defaults filled in, in SI
+  --list-ports          every port of every component: pattern, role, type, and what it is connected to
+  --dot, --mermaid      the graph as a picture, for Graphviz (| dot -Tsvg > graph.svg) or for a web page
+  --diff OLD NEW        what differs between two graphs, by meaning: exit 0 the same, 1 different
+  --describe PLUGIN.so  types of a plugin with their ports, parameters, units, ranges and defaults
+  --schema              the graph's language as an XML schema, for editors
+  --version, --help
+
+How to check
+  --strict              warnings are errors: nothing starts with one
+  --json                for programs; with --check, --print, --list-ports, --diff and --describe
+
+stdout  arrived NAME x y t | contact NAME t | trace-hash HASH (virtual clock, last line)
+exit    0 finished or stopped on request   1 failed while running, or --diff found a difference
+        2 graph or arguments wrong, nothing started   3 could not start, all taken down again
+)";
+}
+
+}  // namespace orca::deployer

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "node.hpp"
+#include "orca/graph/loader.hpp"
+#include "report.hpp"
+
+namespace orca::graph {
+
+// A graph with all the files that it includes and uses, as if everything stood in one.
+struct Assembly {
+  Node graph;
+  std::vector<std::string> plugin_folders;  // of all its files, absolute
+  std::set<std::string> excused;            // see Structure
+  bool names_incomplete = false;            // see Structure
+  std::deque<Origin> origins;               // what the nodes point to
+};
+
+// Nothing if the document is no graph at all.
+std::optional<Assembly> assemble(const xml::Document& document, const LoadOptions& options,
+                                 const FileReader& read, Report& report, xml::Diagnostics& diagnostics);
+
+}  // namespace orca::graph

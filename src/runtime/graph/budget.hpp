@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+#include "orca/xml/diagnostics.hpp"
+#include "orca/xml/document.hpp"
+#include "report.hpp"
+
+namespace orca::graph {
+
+// How much a graph may grow by what it includes and by its arguments: a few small files that name each other
+// ten times over must not cost gigabytes.
+class Budget {
+ public:
+  // False, after one report, when all that was left is taken.
+  bool take_elements(std::size_t count, const xml::Position& position, Report& report);
+  bool take_characters(std::size_t count, const xml::Position& position, Report& report);
+
+ private:
+  std::size_t elements_ = xml::Limits::kElements;
+  std::size_t characters_ = xml::Limits::kBytes;
+  bool elements_told_ = false;
+  bool characters_told_ = false;
+};
+
+}  // namespace orca::graph

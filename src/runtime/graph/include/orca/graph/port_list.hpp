@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orca/graph/graph.hpp"
+#include "orca/graph/loader.hpp"
+
+namespace orca::graph {
+
+/// A port of a component of a graph, and who is at its other end.
+struct ListedPort {
+  PortRef ref;            ///< By its name in the graph.
+  PortContract contract;  ///< As its author declares it.
+  bool disabled = false;
+  std::vector<PortRef> peers;       ///< Connected to it, in the order of the graph.
+  std::vector<PortRef> candidates;  ///< That it may be connected to at run time.
+};
+
+/// All ports of all components of a checked graph, in its order.
+/// @param catalogue  that the graph was checked against.
+[[nodiscard]] std::vector<ListedPort> list_ports(const Graph& graph, Catalogue& catalogue);
+
+/// One line per port, in columns: name, pattern and role, type, what it is connected to.
+[[nodiscard]] std::string ports_text(const std::vector<ListedPort>& ports);
+
+/// The same for programs: an array of {port, declared_as, pattern, role, type, reply, required, many,
+/// disabled, connected_to, candidates, text}.
+[[nodiscard]] std::string ports_json(const std::vector<ListedPort>& ports);
+
+}  // namespace orca::graph

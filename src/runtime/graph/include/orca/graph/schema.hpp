@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace orca::graph {
+
+/// The graph's language as an XML schema, for editors: graphs/orca-graph.xsd. It is made from the rules that
+/// the reader follows, and says less than the reader checks: any value may be "${arg}".
+[[nodiscard]] std::string schema();
+
+}  // namespace orca::graph

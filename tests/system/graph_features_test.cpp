@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a graph can say beyond components and connections, shown by running it.
+#include <catch2/catch.hpp>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+using Replacements = std::vector<std::pair<std::string, std::string>>;
+
+const std::string kOneGoal = "kitchen: 3.6 6 &gt; 3.6 7.6 &gt; 4.2 9.8";
+
+// scout_goto.xml with one goal, the world and the robot still where they are.
+std::string scout_graph(const Replacements& replacements) {
+  std::string text = read_text(source_file("graphs/scout_goto.xml"));
+  Replacements all{{"\"../sim/worlds", "\"" + source_file("sim/worlds")},
+                   {"\"../sim/robots", "\"" + source_file("sim/robots")}};
+  all.insert(all.end(), replacements.begin(), replacements.end());
+  for (const auto& [from, to] : all) {
+    const std::size_t at = text.find(from);
+    INFO(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+  }
+  const std::size_t goals = text.find("default=\"kitchen:") + 9;
+  return text.replace(goals, text.find('"', goals) - goals, kOneGoal);
+}
+
+Run drive(const TempFolder& folder, const std::string& text, const Words& more = {}) {
+  return run_deployer(Words{folder.write("graph.xml", text)} + virtual_clock() + more);
+}
+
+void check_arrives(const Run& run) {
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(run.arrivals().front().name == "kitchen");
+}
+
+// The fuser's behaviours as candidates instead of connections.
+const Replacements kLateBound{
+    {"<component name=\"fuser\" type=\"orca.MotionCommandFuser\"/>",
+     "<component name=\"fuser\" type=\"orca.MotionCommandFuser\"><port name=\"motion\" "
+     "candidates=\"goto avoid\"/></component>"},
+    {"<connect from=\"goto.MotionCmdPush\" to=\"fuser.motion\"/>", ""},
+    {"<connect from=\"avoid.motion\" to=\"fuser.motion\"/>", ""}};
+
+}  // namespace
+
+TEST_CASE("behaviours that are only candidates of the fuser drive the robot to its goal", "[system][graph]") {
+  const TempFolder folder;
+  check_arrives(drive(folder, scout_graph(kLateBound)));
+}
+
+TEST_CASE("a behaviour that is no candidate is refused at run time, and the reason is told",
+          "[system][graph]") {
+  const TempFolder folder;
+  Replacements lurker = kLateBound;
+  lurker.emplace_back("value=\"goto; avoid\"", "value=\"goto; lurker\"");
+  const Run run = drive(folder, scout_graph(lurker));
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.says("no behaviour \"lurker\" is connected to fuser.motion"));
+  CHECK(run.says("goto.MotionCmdPush, avoid.motion"));
+}
+
+TEST_CASE("a system runs with renamed and disabled ports, and calls them by their new names",
+          "[system][graph]") {
+  const TempFolder folder;
+  const Run run = drive(
+      folder,
+      scout_graph({{"<component name=\"avoid\" type=\"orca.SonarAvoid\"/>",
+                    "<component name=\"avoid\" type=\"orca.SonarAvoid\"><port name=\"sonar\" as=\"echoes\"/>"
+                    "<port name=\"motion\" as=\"wish\"/></component>"},
+                   {"hardware=\"scout\"/>",
+                    "hardware=\"scout\"><port name=\"OdometryPush\" as=\"odom\"/><port "
+                    "name=\"RobotQuery\" disabled=\"true\"/></component>"},
+                   {"\"avoid.motion\"", "\"avoid.wish\""},
+                   {"\"avoid.sonar\"", "\"avoid.echoes\""},
+                   {"\"base.OdometryPush\"", "\"base.odom\""}}),
+      {"--trace", folder.file("trace.txt")});
+  check_arrives(run);
+  const std::string trace = read_text(folder.file("trace.txt"));
+  CHECK(trace.find("avoid echoes") != std::string::npos);
+  CHECK(trace.find("avoid sonar") == std::string::npos);
+}
+
+TEST_CASE("a whole robot runs as a sub-graph, its own names local to it", "[system][graph]") {
+  const TempFolder folder;
+  folder.write("robot.xml", scout_graph({}));
+  const Run run = drive(folder,
+                        "<graph name=\"fleet\" ends=\"Platforms/Dewey/command\" default_profile=\"sim\">"
+                        "<use graph=\"robot.xml\" prefix=\"Platforms/Dewey\"><arg name=\"realism\" "
+                        "value=\"ideal\"/></use></graph>");
+  check_arrives(run);
+}
+
+TEST_CASE("a graph that is printed and loaded again runs bit for bit the same", "[system][graph]") {
+  const TempFolder folder;
+  const std::string text = scout_graph(kLateBound);
+  const Run printed = run_deployer({folder.write("first.xml", text), "--print"});
+  REQUIRE(printed.exit_code() == 0);
+  const Run one = drive(folder, text);
+  const Run other = drive(folder, printed.out);
+  check_arrives(one);
+  check_arrives(other);
+  CHECK(one.trace_hash());
+  CHECK(one.trace_hash() == other.trace_hash());
+}
+
+TEST_CASE("--diff says by its exit code whether two graphs are the same", "[system][graph]") {
+  const TempFolder folder;
+  const std::string same = folder.write("same.xml", scout_graph({}));
+  const std::string other = folder.write("other.xml", scout_graph(kLateBound));
+  const Run equal = run_deployer({"--diff", same, same});
+  CHECK(equal.exit_code() == 0);
+  CHECK(equal.out.empty());
+  const Run different = run_deployer({"--diff", same, other});
+  CHECK(different.exit_code() == 1);
+  CHECK(different.out.find("~ component fuser") != std::string::npos);
+  const Run broken = run_deployer({"--diff", same, folder.file("missing.xml")});
+  CHECK(broken.exit_code() == 2);
+  CHECK(broken.out.empty());
+}
+
+TEST_CASE("--strict starts nothing when there is a warning", "[system][graph]") {
+  const TempFolder folder;
+  const std::string text = scout_graph({{"<component name=\"command\"",
+                                         "<arg name=\"spare\" default=\"1\"/>"
+                                         "<component name=\"command\""}});
+  const std::string file = folder.write("graph.xml", text);
+  const Run run = run_deployer({file, "--strict"});
+  CHECK(run.exit_code() == 2);
+  CHECK(run.out.empty());
+  CHECK(run.says("error G041"));
+  const Run lenient = run_deployer({file, "--check"});
+  CHECK(lenient.exit_code() == 0);
+  CHECK(lenient.says("warning G041"));
+}
+
+TEST_CASE("--check --json tells errors on stdout, and nothing else does", "[system][graph]") {
+  const TempFolder folder;
+  const Run run = run_deployer(
+      {folder.write("graph.xml", "<graph name=\"g\"><component name=\"a\" type=\"orca.Nothing\"/></graph>"),
+       "--check", "--json"});
+  CHECK(run.exit_code() == 2);
+  CHECK(run.err.empty());
+  CHECK(run.out.find("\"errors\": 1") != std::string::npos);
+  CHECK(run.out.find("\"code\": \"G027\"") != std::string::npos);
+  CHECK(run.out.find("\"line\": 1") != std::string::npos);
+}
+
+TEST_CASE("the shipped graphs raise no warning", "[system][graph]") {
+  const Run run = run_deployer({source_file("graphs/scout_goto.xml"), "--check", "--strict"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+}
+
+TEST_CASE("each way to look at a graph prints it and starts nothing", "[system][graph]") {
+  for (const auto& [option, start] : {std::pair<std::string, std::string>{"--dot", "digraph"},
+                                      {"--mermaid", "---\ntitle: scout_goto, profile sim"},
+                                      {"--list-ports", "command.goto"},
+                                      {"--print", "<?xml"}}) {
+    const Run run = run_deployer({source_file("graphs/scout_goto.xml"), option});
+    CAPTURE(option);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.out.starts_with(start));
+    CHECK(run.err.empty());
+  }
+}
+
+TEST_CASE("--schema prints the schema that is shipped", "[system][graph]") {
+  CHECK(run_deployer({"--schema"}).out == read_text(source_file("graphs/orca-graph.xsd")));
+}
+
+TEST_CASE("two things to do at once, and --json where it means nothing, are refused", "[system][graph]") {
+  const std::string graph = source_file("graphs/scout_goto.xml");
+  for (const Words& words :
+       {Words{graph, "--check", "--dot"}, Words{graph, "--json"}, Words{graph, "--dot", "--json"},
+        Words{"--diff", graph}, Words{"--diff", graph, graph, graph}}) {
+    const Run run = run_deployer(words);
+    CAPTURE(words);
+    CHECK(run.exit_code() == 2);
+    CHECK(run.out.empty());
+    CHECK(run.err.starts_with("error: "));
+  }
+}
