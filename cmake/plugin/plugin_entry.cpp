@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Added to every plugin by orca_add_component(): exports the table of the types that the plugin holds.
+// Added to every plugin by orca_add_component(): exports the table of the types that the plugin holds, and
+// keeps the layouts of the objects that it was built with, so that a loader with other layouts can tell what
+// has changed.
 #include "orca/component/manifest.hpp"
+#include "orca/idl/generated/object_layouts.hpp"
 
 extern "C" {
 // Set by the linker: the bounds of the section in which ORCA_COMPONENT and ORCA_HARDWARE gather their
@@ -12,3 +15,10 @@ extern "C" {
 const orca::Manifest orca_plugin_manifest{orca::kAbiVersion, sizeof(orca::Manifest), ORCA_BUILD_ID,
                                           __start_orca_types, __stop_orca_types};
 }
+
+namespace {
+
+[[gnu::section("orca_layouts"), gnu::used, gnu::retain]] constexpr auto layouts =
+    orca::detail::object_layouts;
+
+}  // namespace

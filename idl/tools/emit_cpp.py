@@ -55,11 +55,23 @@ def objects_of(file: IdlFile) -> list[Struct]:
     return [s for s in file.structs if s.is_object and s.name != "OrcaObject"]
 
 
+def type_key(struct: Struct) -> str:
+    return f"detail::object_type_of<idl::{struct.name}, 0x{layout_hash(struct.layout):016x}U>()"
+
+
+def type_declaration(struct: Struct) -> str:
+    """The hash is part of the symbol that users of the type refer to: built for another layout, they do not load."""
+    return (
+        f"template <>\nconst ObjectType& {type_key(struct)};\n"
+        f"template <>\ninline const ObjectType& object_type<idl::{struct.name}>() {{ return {type_key(struct)}; }}\n"
+    )
+
+
 def types_header(file: IdlFile) -> str:
     stem = Path(file.name).stem
     parts = [HEAD, "#pragma once\n\n", '#include "orca/idl/object_type.hpp"\n', f'#include "{PLACE}/{stem}.h"\n\n']
     parts.append("namespace orca {\n\n")
-    parts += [f"template <>\nconst ObjectType& object_type<idl::{s.name}>();\n" for s in objects_of(file)]
+    parts += map(type_declaration, objects_of(file))
     parts.append("\n}  // namespace orca\n")
     return "".join(parts)
 
@@ -86,6 +98,16 @@ def type_table(files: list[IdlFile]) -> str:
     parts += [f"    &type_of_{s.name},\n" for s in structs]
     parts.append("};\n\n}  // namespace\n\n")
     for s in structs:
-        parts.append(f"template <>\nconst ObjectType& object_type<idl::{s.name}>() {{ return type_of_{s.name}; }}\n")
+        parts.append(f"template <>\nconst ObjectType& {type_key(s)} {{ return type_of_{s.name}; }}\n")
     parts.append("\nstd::span<const ObjectType* const> object_types() { return kTypes; }\n\n}  // namespace orca\n")
     return "".join(parts)
+
+
+def layouts_header(files: list[IdlFile]) -> str:
+    """What a plugin carries, so that it can be told what has changed in a type since it was built."""
+    structs = sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name)
+    texts = "\n".join(f"    {quoted(s.layout)} \"\\0\"" for s in structs)
+    return (
+        f"{HEAD}#pragma once\n\n#include <array>\n\nnamespace orca::detail {{\n\n"
+        f"inline constexpr auto object_layouts = std::to_array(\n{texts});\n\n}}  // namespace orca::detail\n"
+    )

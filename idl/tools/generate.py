@@ -47,6 +47,7 @@ def write_reflection(sources: list[Path], out: Path):
         write_if_changed(out / f"{stem}.reflection.hpp", emit_cpp.reflection_header(file))
         write_if_changed(out / f"{stem}.types.hpp", emit_cpp.types_header(file))
     write_if_changed(out / "object_types.cpp", emit_cpp.type_table(files))
+    write_if_changed(out / "object_layouts.hpp", emit_cpp.layouts_header(files))
 
 
 def main() -> int:

@@ -159,6 +159,7 @@ FakeCatalogue::FakeCatalogue() {
   add(::component("orca.Planner", {query("limits", Role::proxy, "LimitsRequest", "Limits"),
                                    query("area", Role::proxy, "LimitsRequest", "Area")}));
   add(::component("orca.Label", {}, {param("label", ParamType::text, std::string())}));
+  add(::component("test.Clock", {}));
   add(old_logger());
   add(older_logger());
   add(base_server(true));
@@ -203,6 +204,12 @@ Result<Contract> FakeCatalogue::component(const std::string& type, const graph::
   calls.push_back("component " + type + (hardware == nullptr ? "" : " with " + hardware->name));
   if (type == "orca.RobotBaseServer") return base_server(hardware != nullptr);
   return find(type, PluginKind::component);
+}
+
+std::vector<std::string> FakeCatalogue::unfit(PluginKind /*kind*/, const std::string& type) {
+  if (type != "test.Clock") return {};
+  return {"uses time, which reads the machine's clock; use now()",
+          "uses rand, which draws random numbers that the run's seed does not decide; use random(\"name\")"};
 }
 
 std::vector<std::string> FakeCatalogue::type_names(PluginKind kind) const {

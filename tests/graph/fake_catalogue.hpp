@@ -10,7 +10,7 @@
 /// Contracts as the shipped plugins have them, and some for what can go wrong, without a plugin.
 ///
 /// A hardware whose parameter "world" ends in "broken.world" has a broken world file, one where it ends in
-/// "flooded.world" cannot work with that value.
+/// "flooded.world" cannot work with that value. "test.Clock" is unfit for any run, for two reasons.
 class FakeCatalogue final : public orca::graph::Catalogue {
  public:
   FakeCatalogue();
@@ -20,6 +20,7 @@ class FakeCatalogue final : public orca::graph::Catalogue {
   std::vector<orca::HardwareFault> validate_hardware(const orca::graph::HardwareUse& use) override;
   orca::Result<orca::Contract> component(const std::string& type,
                                          const orca::graph::HardwareUse* hardware) override;
+  std::vector<std::string> unfit(orca::PluginKind kind, const std::string& type) override;
   [[nodiscard]] std::vector<std::string> type_names(orca::PluginKind kind) const override;
 
   void add(orca::Contract contract) { types_[contract.type] = std::move(contract); }

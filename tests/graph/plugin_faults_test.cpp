@@ -26,10 +26,11 @@ void lay_out_plugins(const TempFolder& folder) {
     if (!built.empty()) fs::create_symlink(ORCA_BINARY_DIR "/tests/" + built, folder.file(name + ".so"));
   };
   add("gone", "component test.Gone\n", "");
-  add("no_manifest", "component test.NoManifest\n", "unit_plugins/bad_no_manifest.so");
-  add("abi_version", "component test.AbiVersion\n", "unit_plugins/bad_abi_version.so");
-  add("manifest_size", "component test.ManifestSize\n", "unit_plugins/bad_manifest_size.so");
-  add("undefined", "component test.Undefined\n", "unit_plugins/bad_undefined_symbol.so");
+  add("no_manifest", "component test.NoManifest\n", "unit_plugins/bad/bad_no_manifest.so");
+  add("abi_version", "component test.AbiVersion\n", "unit_plugins/bad/bad_abi_newer.so");
+  add("layout", "component test.Layout\n", "unit_plugins/bad/bad_layout.so");
+  add("manifest_size", "component test.ManifestSize\n", "unit_plugins/bad/bad_manifest_size.so");
+  add("undefined", "component test.Undefined\n", "unit_plugins/bad/bad_undefined_symbol.so");
   add("avoid", "component test.Forgotten\nhardware test.hw.Forgotten\n", "plugins/avoid.so");
   add("throws", "component test.ThrowsInConstructor\ncomponent test.ThrowsIntInConstructor\n",
       "plugins/test_components.so");

@@ -17,6 +17,7 @@ struct Thrown {
 const std::vector<Thrown> kThings{{"exception", "the wheels came off"},
                                   {"int", "the int 42"},
                                   {"text", "plain words"},
+                                  {"nullptr", "of type decltype(nullptr)"},
                                   {"object", "Oddity"}};
 
 Run misbehave(const std::string& where, const std::string& what, const Words& more = virtual_clock()) {
@@ -185,4 +186,44 @@ TEST_CASE("--describe of something that is no plugin says what it is not", "[sys
     CHECK(run.out.empty());
     CHECK(run.says(file));
   }
+}
+
+TEST_CASE(
+    "with the virtual clock a plugin that uses the machine's time is refused where it stands, with all that "
+    "it uses",
+    "[system][plugins]") {
+  const Run run = alone("test.WallClock");
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  CHECK(run.out.empty());
+  for (const char* used : {"uses usleep, which waits for the machine's clock; use sleep() or lap_every()",
+                           "uses rand, which draws random numbers that the run's seed does not decide"}) {
+    const std::string said = line_with(used, run);
+    CHECK(said.find("one_component.xml:8:") != std::string::npos);
+    CHECK(said.find("\"guest\": test.WallClock cannot run in virtual time: test_wall_clock.so") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("a plugin for the steady clock only is refused with its own words, and runs with the steady clock",
+          "[system][plugins]") {
+  const Run refused = alone("test.Joystick");
+  INFO(refused.err);
+  CHECK(refused.exit_code() == 2);
+  CHECK(refused.says("runs with the steady clock only: a joystick moves in real time"));
+  const Run run = run_deployer(Words{system_graph("one_component.xml"), "--set", "type=test.Joystick"} +
+                               with_test_plugins());
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+}
+
+TEST_CASE(
+    "a plugin whose static initialisation throws is an error of the graph, and the deployer survives it",
+    "[system][plugins]") {
+  const Run run = alone("test.StaticThrower");
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  const std::string said = line_with("the static initialisation smokes", run);
+  CHECK(said.find("one_component.xml:8:") != std::string::npos);
+  CHECK(said.find("test_static_thrower.so") != std::string::npos);
 }

@@ -31,8 +31,11 @@ std::string plugin_folder() {
 
 // A graph and what its plugins said about themselves.
 struct Loaded {
+  explicit Loaded(const Options& options)
+      : catalogue(PluginIndex({plugin_folder()}), options.run.executive.clock) {}
+
   xml::Diagnostics diagnostics;
-  PluginCatalogue catalogue{PluginIndex({plugin_folder()})};
+  PluginCatalogue catalogue;
   std::optional<graph::Graph> graph;
 };
 
@@ -51,7 +54,7 @@ ExitCode describe(const Options& options) {
 }
 
 ExitCode check(const Options& options) {
-  Loaded loaded;
+  Loaded loaded(options);
   load(options.file, options, loaded);
   if (options.json) show(loaded.diagnostics.json());
   if (!loaded.graph) return ExitCode::bad_input;
@@ -64,8 +67,8 @@ ExitCode check(const Options& options) {
 
 // 0: both describe the same system, 1: they do not, 2: one of them describes none.
 ExitCode compare(const Options& options) {
-  Loaded before;
-  Loaded after;
+  Loaded before(options);
+  Loaded after(options);
   load(options.file, options, before);
   load(options.other_file, options, after);
   if (!before.graph || !after.graph) return ExitCode::bad_input;
@@ -81,7 +84,7 @@ std::string names_of_profiles(const Options& options, const graph::Graph& graph)
 }
 
 ExitCode show_graph(const Options& options) {
-  Loaded loaded;
+  Loaded loaded(options);
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;
   const graph::Graph& graph = *loaded.graph;
@@ -96,7 +99,7 @@ ExitCode show_graph(const Options& options) {
 
 ExitCode run(const Options& options) {
   StopSignal stop;  // first of all, so that a signal at any moment ends the run as it should
-  Loaded loaded;
+  Loaded loaded(options);
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;
   return run_system(*loaded.graph, loaded.catalogue, options.run, stop);

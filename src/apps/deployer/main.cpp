@@ -4,6 +4,7 @@
 
 #include "actions.hpp"
 #include "options.hpp"
+#include "orca/host/last_words.hpp"
 
 int main(int argc, char** argv) {
   const orca::Result<orca::deployer::Options> options =
@@ -13,5 +14,6 @@ int main(int argc, char** argv) {
     return static_cast<int>(orca::ExitCode::bad_input);
   }
   orca::log::set_level(options->log_level);
+  const orca::LastWords last_words;
   return static_cast<int>(orca::deployer::act(*options));
 }

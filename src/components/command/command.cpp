@@ -177,3 +177,4 @@ class Command final : public orca::Component {
 }  // namespace
 
 ORCA_COMPONENT(Command, "orca.Command")
+ORCA_ALLOW_IN_VIRTUAL_TIME("poll", "with a time-out of zero: it asks for input and never waits for it")

@@ -3,24 +3,77 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
-#include <initializer_list>
+#include <charconv>
 
 namespace orca::teleop {
 namespace {
 
-constexpr char kRestored = 'r';
+// The pipe is its input, the terminal its descriptor 3. Told so, it leaves the terminal alone.
+constexpr const char* kGuard = R"(read -r restored || exec stty "$0" <&3)";
+constexpr char kRestored[] = "restored\n";
+constexpr int kOutOfTheWay = 10;
 
-// Of the new process all but the terminal and the pipe: whoever waits for the end of our pipes and sockets
-// must not wait for the guard.
-void close_others(int one, int other) {
-  const long most = sysconf(_SC_OPEN_MAX);
-  for (int fd = 0; fd < (most > 0 && most < 4096 ? most : 4096); ++fd)
-    if (fd != one && fd != other) close(fd);
+void add_number(std::string& text, unsigned long number) {
+  std::array<char, 2 * sizeof number> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, 16).ptr;
+  if (!text.empty()) text += ':';
+  text.append(digits.data(), end);
 }
+
+// As `stty -g` prints them and stty takes them back.
+std::string text_of(const termios& settings) {
+  std::string text;
+  for (const tcflag_t flags : {settings.c_iflag, settings.c_oflag, settings.c_cflag, settings.c_lflag})
+    add_number(text, flags);
+  for (const cc_t character : settings.c_cc) add_number(text, character);
+  return text;
+}
+
+// What a new process begins with: of our descriptors only these two (whoever waits for the end of our pipes
+// must not wait for the guard), in a group of its own, deaf to what ends us.
+class Beginning {
+ public:
+  Beginning(int end_of_pipe, int terminal) {
+    posix_spawn_file_actions_init(&files_);
+    posix_spawn_file_actions_adddup2(&files_, end_of_pipe, 0);
+    posix_spawn_file_actions_adddup2(&files_, terminal, 3);
+    posix_spawn_file_actions_addopen(&files_, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&files_, 2, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addclosefrom_np(&files_, 4);
+    posix_spawnattr_init(&attributes_);
+    sigset_t deaf_to;
+    sigemptyset(&deaf_to);
+    for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTERM, SIGTSTP, SIGTTOU, SIGTTIN})
+      sigaddset(&deaf_to, signal);
+    posix_spawnattr_setsigmask(&attributes_, &deaf_to);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  }
+  ~Beginning() {
+    posix_spawn_file_actions_destroy(&files_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  Beginning(const Beginning&) = delete;
+  Beginning& operator=(const Beginning&) = delete;
+
+  // Its process id, -1 if it cannot be started. Not fork(): copies of a process with threads are fragile.
+  [[nodiscard]] pid_t shell(std::string script, std::string argument) const {
+    std::string name = "sh";
+    std::string option = "-c";
+    const std::array<char*, 5> words{name.data(), option.data(), script.data(), argument.data(), nullptr};
+    pid_t process = -1;
+    return posix_spawn(&process, "/bin/sh", &files_, &attributes_, words.data(), environ) == 0 ? process : -1;
+  }
+
+ private:
+  posix_spawn_file_actions_t files_;
+  posix_spawnattr_t attributes_;
+};
 
 }  // namespace
 
@@ -38,7 +91,7 @@ RawTerminal::~RawTerminal() {
   if (changed_) tcsetattr(fd_, TCSANOW, &before_);
   if (guard_ < 0) return;
   // Told so, the guard leaves the terminal alone, which may be another's by then.
-  if (write(alive_, &kRestored, 1) < 0) kill(guard_, SIGKILL);
+  if (write(alive_, kRestored, sizeof kRestored - 1) < 0) kill(guard_, SIGKILL);
   close(alive_);
   while (waitpid(guard_, nullptr, 0) < 0 && errno == EINTR) {
   }
@@ -47,26 +100,14 @@ RawTerminal::~RawTerminal() {
 void RawTerminal::start_guard() {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return;
-  guard_ = fork();
-  if (guard_ == 0) guard(ends[0]);
+  const int terminal = fcntl(fd_, F_DUPFD_CLOEXEC, kOutOfTheWay);
+  if (terminal >= 0) guard_ = Beginning(ends[0], terminal).shell(kGuard, text_of(before_));
+  close(terminal);
   close(ends[0]);
   alive_ = ends[1];
   if (guard_ > 0) return;
   close(alive_);
   alive_ = -1;
-}
-
-// The child of a process with threads: only what is async-signal-safe.
-void RawTerminal::guard(int end_of_pipe) const {
-  for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTERM, SIGTSTP, SIGTTOU, SIGTTIN, SIGPIPE})
-    ::signal(signal, SIG_IGN);
-  close_others(fd_, end_of_pipe);
-  char word = 0;
-  ssize_t got = 0;
-  while ((got = read(end_of_pipe, &word, 1)) < 0 && errno == EINTR) {
-  }
-  if (got == 0) tcsetattr(fd_, TCSANOW, &before_);
-  _exit(0);
 }
 
 }  // namespace orca::teleop

@@ -9,8 +9,8 @@ namespace orca::teleop {
 /// A terminal that hands out each key at once and shows none, for as long as this lives. Ctrl-C stays a
 /// signal.
 ///
-/// A terminal left like that is useless to its owner, so a small process of our own waits for our end and
-/// puts the settings back when this process could not: after a crash, or kill -9.
+/// A terminal left like that is useless to its owner, so a small process (a shell) waits for our end and
+/// puts the settings back with stty when this process could not: after a crash, or kill -9.
 ///
 /// Does nothing to what is no terminal (a pipe, a file). Thread contract: not synchronised.
 class RawTerminal {
@@ -22,7 +22,6 @@ class RawTerminal {
 
  private:
   void start_guard();
-  [[noreturn]] void guard(int end_of_pipe) const;
 
   const int fd_;
   bool changed_ = false;

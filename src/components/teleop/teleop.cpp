@@ -67,9 +67,6 @@ class Teleop final : public orca::Component {
 
  private:
   Status configure() override {
-    if (host().strand().executive().is_virtual())
-      return orca::fail(orca::Code::failed_precondition,
-                        "a person cannot drive in virtual time; run it with --clock steady");
     if (keyboard_->empty() && joystick_->empty())
       return orca::fail(orca::Code::invalid_argument,
                         "one of its parameters keyboard and joystick must be set");
@@ -172,3 +169,4 @@ class Teleop final : public orca::Component {
 }  // namespace
 
 ORCA_COMPONENT(Teleop, "orca.Teleop")
+ORCA_STEADY_CLOCK_ONLY("a person cannot drive in virtual time")

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <exception>
+#include <typeinfo>
 #include <utility>
 
+#include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
 
 namespace orca::hw {
@@ -91,6 +93,7 @@ void HardwareContainer::guarded(void (HardwareContainer::*step)()) {
 }
 
 void HardwareContainer::main() {
+  const Activity activity(host_.name().c_str(), "its strand", &typeid(*this));
   guarded(&HardwareContainer::open_device);
   while (!shutting_down_.load(std::memory_order_acquire)) guarded(&HardwareContainer::turn);
   users_.store(0);

@@ -30,8 +30,9 @@ std::string describe_current_exception() {
     return "threw " + type + ": " + error.what();
   } catch (int value) {
     return "threw the int " + std::to_string(value);
-  } catch (const char* text) {
-    return std::string("threw the text \"") + text + "\"";
+  } catch (const char* text) {  // also nullptr, which is caught by any pointer
+    return text != nullptr ? std::string("threw the text \"") + text + "\""
+                           : "threw an object of type " + type;
   } catch (const std::string& text) {
     return "threw the text \"" + text + "\"";
   } catch (...) {

@@ -31,10 +31,13 @@ class Types {
   // The type's name, or null after a report.
   const Text* type_of(const Node& node);
   void report_failure(const Node& node, const Error& error, PluginKind kind);
+  // What keeps the type out of this run, once per type.
+  void report_unfit(const Node& node, const std::string& type, PluginKind kind);
 
   Catalogue& catalogue_;
   Report& report_;
   std::set<std::string> broken_;
+  std::set<std::string> unfit_;
 };
 
 // Reports a bad name of the node. Names that are missing or unknown are reported already.

@@ -59,5 +59,6 @@ inline constexpr const char* kNoInfluence = "G051";
 inline constexpr const char* kUnusedHardware = "G052";
 inline constexpr const char* kNeverTriggered = "G053";
 inline constexpr const char* kLoading = "G060";
+inline constexpr const char* kUnfit = "G061";
 
 }  // namespace orca::graph::codes

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "codes.hpp"
-#include "layout.hpp"
+#include "orca/base/layout.hpp"
 #include "orca/xml/number.hpp"
 #include "values.hpp"
 

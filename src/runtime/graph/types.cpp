@@ -19,6 +19,7 @@ std::optional<Contract> Types::hardware(const Node& node) {
   const Text* type = type_of(node);
   if (type == nullptr) return std::nullopt;
   Result<Contract> contract = catalogue_.hardware(type->value);
+  if (contract) report_unfit(node, type->value, PluginKind::hardware);
   if (contract) return *std::move(contract);
   report_failure(node, contract.error(), PluginKind::hardware);
   return std::nullopt;
@@ -28,6 +29,7 @@ std::optional<Contract> Types::component(const Node& node, const HardwareUse* us
   const Text* type = type_of(node);
   if (type == nullptr) return std::nullopt;
   Result<Contract> contract = catalogue_.component(type->value, use);
+  if (contract) report_unfit(node, type->value, PluginKind::component);
   if (contract) return *std::move(contract);
   report_failure(node, contract.error(), PluginKind::component);
   return std::nullopt;
@@ -37,6 +39,7 @@ std::optional<Contract> Types::component_without_hardware(const Node& node) {
   const Text* type = type_of(node);
   if (type == nullptr) return std::nullopt;
   Result<Contract> contract = catalogue_.component(type->value, nullptr);
+  if (contract) report_unfit(node, type->value, PluginKind::component);
   if (contract) return *std::move(contract);
   if (contract.error().code == Code::not_found) report_failure(node, contract.error(), PluginKind::component);
   return std::nullopt;
@@ -52,6 +55,12 @@ void Types::report_failure(const Node& node, const Error& error, PluginKind kind
                          what + report_.hint(node.value("type"), names));
   }
   if (broken_.insert(error.text()).second) report_.error(codes::kPlugin, node.place("type"), what);
+}
+
+void Types::report_unfit(const Node& node, const std::string& type, PluginKind kind) {
+  if (!unfit_.insert(type).second) return;
+  for (const std::string& reason : catalogue_.unfit(kind, type))
+    report_.error(codes::kUnfit, node.place("type"), node.title() + ": " + type + " " + reason);
 }
 
 void check_name(const Node& node, const char* attribute, Report& report) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/catalogue.hpp"
 
+#include <filesystem>
 #include <utility>
 
 namespace orca {
 
-PluginCatalogue::PluginCatalogue(PluginIndex index) : index_(std::move(index)) {}
+PluginCatalogue::PluginCatalogue(PluginIndex index, ClockKind clock)
+    : index_(std::move(index)), clock_(clock) {}
 
 PluginCatalogue::~PluginCatalogue() { forget_answers(); }
 
@@ -95,6 +97,16 @@ Result<Contract> PluginCatalogue::component(const std::string& type, const graph
     container = &(*made)->container();
   }
   return describe_component(*found->entry, found->library->path(), container);
+}
+
+std::vector<std::string> PluginCatalogue::unfit(PluginKind kind, const std::string& type) {
+  const Result<LoadedType> found = find(kind, type);
+  if (clock_ == ClockKind::steady || !found) return {};
+  const std::string file = std::filesystem::path(found->library->path()).filename().string();
+  std::vector<std::string> reasons;
+  for (const std::string& fault : found->library->virtual_time_faults())
+    reasons.push_back("cannot run in virtual time: " + file + " " + fault);
+  return reasons;
 }
 
 std::vector<std::string> PluginCatalogue::type_names(PluginKind kind) const { return index_.types(kind); }

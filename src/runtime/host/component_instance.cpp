@@ -39,14 +39,17 @@ ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings
 ComponentInstance::~ComponentInstance() {
   ports_.unbind();  // handlers are the component's code
   if (loaded_ == nullptr) return;
-  if (const auto fault = loaded_->destroy()) write_log(log::Level::error, "its destructor " + fault->text);
+  if (const auto fault = loaded_->destroy(name()))
+    write_log(log::Level::error, "its destructor " + fault->text);
 }
 
 Status ComponentInstance::load() {
   Result<LoadedType> type = loader_();
   if (!type) return type.error();
   loaded_ = std::make_unique<LoadedComponent>(std::move(type).value());
-  const auto fault = guarded_call([this] { loaded_->object = loaded_->type.entry->create_component(*this); });
+  const TypeEntry* const entry = loaded_->type.entry;
+  const auto fault = guarded_call({name().c_str(), "its constructor", entry},
+                                  [&] { loaded_->object = entry->create_component(*this); });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, settings_.name);
   if (!settings_.on_demand) {
     for (const PortDeclaration& port : loaded_->ports) ports_.add(port.contract);
@@ -275,7 +278,8 @@ bool ComponentInstance::handle_asked(QueryServerEndpoint& endpoint) {
 
 std::optional<PluginFault> ComponentInstance::call(const char* hook, const std::function<void()>& body) {
   hook_.store(hook, std::memory_order_release);
-  std::optional<PluginFault> fault = guarded_call(body);
+  const TypeEntry* const code = loaded_ != nullptr ? loaded_->type.entry : nullptr;
+  std::optional<PluginFault> fault = guarded_call({name().c_str(), hook, code}, body);
   hook_.store("", std::memory_order_release);
   return fault;
 }
@@ -312,6 +316,7 @@ bool ComponentInstance::wanted() const {
 }
 
 bool ComponentInstance::must_leave_lap() const {
+  pause_plugin_turn();
   if (exit_requested_.load(std::memory_order_acquire)) return true;
   if (!in_lap_) return false;
   // Nothing is lost with a lap that has only waited so far.
@@ -358,7 +363,8 @@ void ComponentInstance::unload() {
   ports_.unbind();
   stays_active_ = settings_.autonomous.value_or(false);
   trigger_port_ = nullptr;
-  if (const auto fault = loaded_->destroy()) write_log(log::Level::error, "its destructor " + fault->text);
+  if (const auto fault = loaded_->destroy(name()))
+    write_log(log::Level::error, "its destructor " + fault->text);
   LoadedType type = std::move(loaded_->type);
   loaded_.reset();
   if (const Status gone = unloader_(std::move(type)); !gone.ok())

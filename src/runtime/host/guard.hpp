@@ -5,8 +5,11 @@
 #include <string>
 #include <utility>
 
+#include "environment.hpp"
+#include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
 #include "orca/base/strand.hpp"
+#include "orca/host/last_words.hpp"
 
 namespace orca {
 
@@ -16,9 +19,38 @@ struct PluginFault {
   std::string text;          ///< What was thrown, copied, so that it outlives the plugin.
 };
 
+/// Who is called, for alarms and for the last words of a process that dies of it.
+struct PluginCall {
+  const char* who;   ///< The component or hardware container.
+  const char* hook;  ///< "work"
+  const void* code;  ///< Anything in the plugin.
+};
+
+/// As long as it lives, a plugin's code runs.
+class PluginTurn {
+ public:
+  explicit PluginTurn(const PluginCall& call) : activity_(call.who, call.hook, call.code) {
+    LastWords::prepare_thread();
+    Environment::of_process().entering(activity_);
+  }
+  ~PluginTurn() { Environment::of_process().left(activity_); }
+  PluginTurn(const PluginTurn&) = delete;
+  PluginTurn& operator=(const PluginTurn&) = delete;
+
+ private:
+  const Activity activity_;
+};
+
+/// To be called when a plugin's code begins to wait: what it has left behind until now is looked at before
+/// another one's turn comes.
+inline void pause_plugin_turn() {
+  if (const Activity* const turn = Activity::current()) Environment::of_process().leaving(*turn);
+}
+
 /// Calls into a plugin; nothing that it throws comes further than here.
 template <class Call>
-std::optional<PluginFault> guarded_call(Call&& call) {
+std::optional<PluginFault> guarded_call(const PluginCall& called, Call&& call) {
+  const PluginTurn turn(called);
   try {
     std::forward<Call>(call)();
     return std::nullopt;

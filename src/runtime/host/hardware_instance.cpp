@@ -14,13 +14,14 @@ HardwareInstance::HardwareInstance(RunContext& run, std::string name, LoadedType
       container_(nullptr, type_.entry->destroy_hardware) {}
 
 HardwareInstance::~HardwareInstance() {
-  if (const auto fault = guarded_call([this] { type_.entry->destroy_hardware(container_.release()); }))
+  if (const auto fault = guarded_call({name_.c_str(), "its destructor", type_.entry},
+                                      [this] { type_.entry->destroy_hardware(container_.release()); }))
     write_log(log::Level::error, "its destructor " + fault->text);
 }
 
 Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
   std::vector<HardwareFault> errors;
-  const auto fault = guarded_call([&] {
+  const auto fault = guarded_call({name_.c_str(), "its constructor", type_.entry}, [&] {
     container_.reset(type_.entry->create_hardware(*this));
     for (const ParamDeclaration& param : params_)
       if (const auto value = params.find(param.contract.name); value != params.end())
@@ -33,6 +34,7 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
 }
 
 void HardwareInstance::state_changed(hw::HardwareState state) {
+  LastWords::prepare_thread();  // the first that is heard of from its strand
   run_.trace.state_changed(name_, to_string(traced_), to_string(state));
   traced_ = state;
   run_.changed();

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "guard.hpp"
@@ -22,13 +23,14 @@ struct LoadedComponent {
   explicit LoadedComponent(LoadedType loaded) : type(std::move(loaded)) {}
   LoadedComponent(const LoadedComponent&) = delete;
   LoadedComponent& operator=(const LoadedComponent&) = delete;
-  ~LoadedComponent() { (void)destroy(); }
+  ~LoadedComponent() { (void)destroy(type.entry == nullptr ? "" : type.entry->type); }
 
   /// Destroys the object and everything that may lead into its code, but for the code itself.
+  /// @param who  the component's name.
   /// @return what its destructor threw.
-  std::optional<PluginFault> destroy() {
+  std::optional<PluginFault> destroy(const std::string& who) {
     Component* const gone = std::exchange(object, nullptr);
-    auto fault = guarded_call([&] {
+    auto fault = guarded_call({who.c_str(), "its destructor", type.entry}, [&] {
       if (gone != nullptr) type.entry->destroy_component(gone);
     });
     ports.clear();

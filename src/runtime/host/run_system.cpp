@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "announcer.hpp"
+#include "environment.hpp"
 #include "orca/host/stop_signal.hpp"
 #include "orca/host/system.hpp"
 #include "picture.hpp"
@@ -144,6 +145,7 @@ ExitCode run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const
   ExitCode code = ExitCode::finished;
   {
     const StallMonitor monitor(**executive);
+    const KeptEnvironment environment;
     code = Run(graph, catalogue, options, **executive, stop).execute();
   }
   log::set_clock(nullptr);

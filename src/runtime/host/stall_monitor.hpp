@@ -3,15 +3,17 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <set>
+#include <string>
 #include <thread>
 
 #include "orca/base/executive.hpp"
 
 namespace orca {
 
-/// Watches a cooperative executive from outside: a component that computes for 2 s of CPU time without
-/// waiting for anything holds up all others, cannot be stopped, and is therefore named in an error that ends
-/// the process.
+/// Watches an executive from outside. A component that computes for 2 s of CPU time, or sleeps in the system
+/// for 2 s, without waiting for anything of Orca is named: where it holds up all others, in an error that
+/// ends the process; where it has a thread of its own, in an alarm STALLED, once per component.
 ///
 /// Thread contract: lives around Executive::run().
 class StallMonitor {
@@ -23,11 +25,13 @@ class StallMonitor {
 
  private:
   void watch();
+  [[noreturn]] static void end_process(const StuckTask& stuck);
 
   Executive& executive_;
   std::mutex mutex_;
   std::condition_variable ended_;
   bool ending_ = false;
+  std::set<std::string> said_;
   std::thread watcher_;
 };
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
 #include "orca/component/component.hpp"
 #include "orca/hw/container.hpp"
@@ -21,6 +22,7 @@ Error cannot_describe(const std::string& type, const std::string& what) {
 // unloaded.
 template <class Run>
 auto guarded(const std::string& type, const char* who, Run&& run) -> decltype(run()) {
+  const Activity activity(type.c_str(), who, nullptr);
   try {
     return run();
   } catch (...) {

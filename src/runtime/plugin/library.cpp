@@ -1,75 +1,140 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/plugin/library.hpp"
 
-#include <cxxabi.h>
 #include <dlfcn.h>
+#include <sys/stat.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <tuple>
 #include <utility>
+
+#include "load_error.hpp"
+#include "loaded_plugins.hpp"
+#include "orca/base/log.hpp"
+#include "orca/plugin/describe.hpp"
+#include "plugin_file.hpp"
+#include "plugin_threads.hpp"
+#include "trial.hpp"
 
 namespace orca {
 namespace {
 
-std::string demangled(const std::string& symbol) {
-  int status = 0;
-  char* const text = abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &status);
-  const std::string result = status == 0 ? text : symbol;
-  std::free(text);
-  return result;
+namespace fs = std::filesystem;
+
+constexpr Duration kTrialLimit = 5s;
+
+Error refuse(const std::string& path, const std::string& what) {
+  return fail(Code::invalid_argument, what, path);
 }
 
-// The loader's own words, with a C++ symbol made readable.
-std::string explain_load_error(const std::string& text) {
-  const std::string mark = "undefined symbol: ";
-  const auto at = text.find(mark);
-  if (at == std::string::npos) return text;
-  const std::string rest = text.substr(at + mark.size());
-  const std::string symbol = rest.substr(0, rest.find_first_of(",\t "));
-  return "it uses " + demangled(symbol) +
-         ", which no library provides; link what it needs with orca_add_component(... LINK ...)";
+std::string joined(const std::vector<std::string>& faults) {
+  std::string all;
+  for (const std::string& fault : faults) all += (all.empty() ? "" : "; it ") + fault;
+  return all;
 }
 
-Error not_a_plugin(const std::string& path) {
-  return fail(Code::invalid_argument,
-              "is not an Orca plugin: it exports no orca_plugin_manifest; build it with orca_add_component()",
-              path);
+const Manifest* manifest_of(void* handle) {
+  return static_cast<const Manifest*>(dlsym(handle, "orca_plugin_manifest"));
 }
 
-Status check_manifest(const Manifest& manifest, const std::string& path) {
-  if (manifest.abi_version == kAbiVersion && manifest.size == sizeof(Manifest)) return ok();
-  return fail(Code::invalid_argument,
-              "was built for plugin ABI " + std::to_string(manifest.abi_version) + " (manifest of " +
-                  std::to_string(manifest.size) + " bytes), but this is ABI " + std::to_string(kAbiVersion) +
-                  " (" + std::to_string(sizeof(Manifest)) + " bytes); build it again",
-              path);
+// All that loading and describing the plugin would do, for a trial.
+void load_and_describe(const std::string& path, const std::function<void(const std::string&)>& step) {
+  step("its static initialisation");
+  void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) return;
+  const Manifest& manifest = *manifest_of(handle);
+  for (const TypeEntry* const* type = manifest.first_type; type != manifest.end_of_types; ++type) {
+    step("the constructor or destructor of " + std::string((*type)->type));
+    if ((*type)->kind == PluginKind::component) {
+      (void)describe_component(**type, path, nullptr);
+    } else {
+      (void)describe_hardware(**type, path, (*type)->type);
+    }
+  }
+  step("its static destruction");
+  dlclose(handle);
+}
+
+// What a file that has passed its checks and its trial is known for.
+struct Judgement {
+  std::vector<std::string> virtual_time_faults;
+  bool may_start_threads = false;
+};
+
+Result<Judgement> judge(const std::string& path, const std::string& file) {
+  const Result<PluginFile> read = PluginFile::read(path);
+  if (!read) return read.error();
+  if (const auto faults = read->faults(known_type); !faults.empty()) return refuse(path, joined(faults));
+  const auto attempt = [&](const auto& step) { load_and_describe(file, step); };
+  if (const Status survived = survives_trial(attempt, kTrialLimit); !survived.ok())
+    return fail(survived.error().code, survived.error().message + ", when it was tried out", path);
+  return Judgement{read->virtual_time_faults(), read->may_start_threads()};
+}
+
+// The same for the same file, as long as it has not been written or exchanged: it may be asked for again
+// while a robot drives, when there is no time for it.
+Result<Judgement> judge_once(const std::string& path, const std::string& file) {
+  using Identity = std::tuple<std::string, dev_t, ino_t, off_t, time_t, long>;
+  static std::map<Identity, Judgement> known;
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) return fail(Code::not_found, "there is no such plugin", path);
+  const Identity identity{file,           status.st_dev,         status.st_ino,
+                          status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+  if (const auto found = known.find(identity); found != known.end()) return found->second;
+  Result<Judgement> judged = judge(path, file);
+  if (judged) known.emplace(identity, *judged);
+  return judged;
+}
+
+Error cannot_load(const std::string& path, const std::string& file, const std::string& words) {
+  const Result<PluginFile> read = PluginFile::read(path);
+  return refuse(path, "cannot be loaded: " + (read ? explain_load_error(read->elf(), file, words) : words));
 }
 
 }  // namespace
 
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& path) {
   std::error_code unused;
-  if (!std::filesystem::is_regular_file(path, unused))
-    return fail(Code::not_found, "there is no such plugin", path);
+  if (!fs::is_regular_file(path, unused)) return fail(Code::not_found, "there is no such plugin", path);
   // Absolute: a name without a slash would be searched where shared libraries are.
-  const std::string file = std::filesystem::absolute(path).string();
+  const std::string file = fs::absolute(path).string();
+  const Result<Judgement> judged = judge_once(path, file);
+  if (!judged) return judged.error();
   void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr)
-    return fail(Code::invalid_argument, "cannot be loaded: " + explain_load_error(dlerror()), path);
-  const auto* const manifest = static_cast<const Manifest*>(dlsym(handle, "orca_plugin_manifest"));
-  const Status good = manifest != nullptr ? check_manifest(*manifest, path) : Status(not_a_plugin(path));
-  if (!good.ok()) {
-    dlclose(handle);
-    return good.error();
-  }
-  return std::unique_ptr<PluginLibrary>(new PluginLibrary(file, handle, manifest));
+  if (handle == nullptr) return cannot_load(path, file, dlerror());
+  auto library = std::unique_ptr<PluginLibrary>(new PluginLibrary(file, handle, manifest_of(handle)));
+  library->virtual_time_faults_ = judged->virtual_time_faults;
+  library->may_start_threads_ = judged->may_start_threads;
+  return library;
 }
 
 PluginLibrary::PluginLibrary(std::string path, void* handle, const Manifest* manifest)
-    : path_(std::move(path)), handle_(handle), manifest_(manifest) {}
+    : path_(std::move(path)),
+      handle_(handle),
+      manifest_(manifest),
+      entry_(std::make_unique<LoadedPlugin>(path_, manifest)) {}
 
-PluginLibrary::~PluginLibrary() { dlclose(handle_); }
+PluginLibrary::~PluginLibrary() {
+  if (may_start_threads_ && threads_may_run_in(entry_->start(), entry_->end())) {
+    entry_.release();  // stays known for ever, as the plugin does
+    tell_pinned(
+        "a thread runs in it, and would crash without it, so it stays in memory. A component must have ended "
+        "its "
+        "threads when it is destroyed");
+    return;
+  }
+  entry_.reset();
+  dlclose(handle_);
+  const bool loaded_elsewhere = plugin_at(manifest_) != nullptr;
+  if (!loaded_elsewhere && is_mapped(path_))
+    tell_pinned("it is still in memory after it was unloaded, and so are its variables");
+}
+
+void PluginLibrary::tell_pinned(const std::string& why) const {
+  log::error(fs::path(path_).filename().string(), "alarm PLUGIN_PINNED: " + why);
+}
 
 std::vector<const TypeEntry*> PluginLibrary::types() const {
   return {manifest_->first_type, manifest_->end_of_types};
@@ -82,7 +147,7 @@ const TypeEntry* PluginLibrary::find(PluginKind kind, std::string_view type) con
 }
 
 bool is_mapped(const std::string& path) {
-  const std::string real = std::filesystem::weakly_canonical(path).string();
+  const std::string real = fs::weakly_canonical(path).string();
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
     const auto start = line.find('/');

@@ -41,7 +41,7 @@ class Misbehaving final : public orca::Component {
   orca::QueryServer<orca::idl::Ask, orca::idl::Robot> robot_{*this, "robot", &Misbehaving::on_ask};
   orca::Param<std::string> where_{*this, "where", "work", {.text = "A hook, send, query or destructor."}};
   orca::Param<std::string> what_{
-      *this, "what", "exception", {.choices = {"exception", "int", "text", "object"}}};
+      *this, "what", "exception", {.choices = {"exception", "int", "text", "nullptr", "object"}}};
 };
 
 }  // namespace

@@ -14,11 +14,12 @@ struct Mishap : std::runtime_error {
 /// Not an exception in the standard's sense, but C++ lets everything be thrown.
 struct Oddity {};
 
-/// @param what  "exception", "int", "text", or anything else for an object of a type of its own.
+/// @param what  "exception", "int", "text", "nullptr", or anything else for an object of a type of its own.
 [[noreturn]] inline void throw_something(const std::string& what) {
   if (what == "exception") throw Mishap("the wheels came off");
   if (what == "int") throw 42;
   if (what == "text") throw "plain words";
+  if (what == "nullptr") throw nullptr;
   throw Oddity{};
 }
 

@@ -207,25 +207,72 @@ TEST_CASE("a task has stack enough for std::regex on a long text", "[base][execu
   }
 }
 
+namespace {
+
+// What the executive says of a task that does `step` over and over until it has been named.
+StuckTask name_culprit(Executive& executive, const std::function<void()>& step) {
+  std::atomic<bool> found{false};
+  StuckTask named;
+  std::thread monitor([&] {
+    while (!found) {
+      if (const auto stuck = executive.stuck_task(50ms); stuck && stuck->name == "culprit") {
+        named = *stuck;
+        found = true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  executive.run([&] {
+    const auto innocent = executive.spawn({"innocent", 0}, [] {});
+    const auto culprit = executive.spawn({"culprit", 0}, [&] {
+      while (!found) step();
+    });
+    innocent->join_until(kForever);
+    culprit->join_until(kForever);
+  });
+  monitor.join();
+  return named;
+}
+
+}  // namespace
+
 TEST_CASE("a task that computes without waiting is named", "[base][executive]") {
-  for (const auto& kind : virtual_kinds()) {
+  for (const auto& kind : all_kinds()) {
     const auto executive = make(kind);
-    std::atomic<bool> found{false};
+    const StuckTask named = name_culprit(*executive, [] {});
+    CHECK_FALSE(named.asleep);
+    CHECK(named.holds_up_others == (kind.backend != Backend::thread));
+  }
+}
+
+TEST_CASE("a task that sleeps in the system instead of waiting is named", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    const StuckTask named =
+        name_culprit(*executive, [] { std::this_thread::sleep_for(std::chrono::milliseconds(500)); });
+    CHECK(named.asleep == (kind.backend != Backend::thread));
+  }
+}
+
+TEST_CASE("a task that waits as it should is not named, however long", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    std::atomic<bool> ended{false};
+    std::atomic<int> named{0};
     std::thread monitor([&] {
-      while (!found) {
-        if (const auto stuck = executive->stuck_task(50ms); stuck && stuck->name == "spinner") found = true;
+      while (!ended) {
+        if (executive->stuck_task(50ms)) ++named;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       }
     });
     executive->run([&] {
-      const auto spinner = executive->spawn({"spinner", 0}, [&] {
-        while (!found) {
-        }
-      });
-      spinner->join_until(kForever);
+      const auto task =
+          executive->spawn({"patient", 0}, [&] { executive->sleep_until(executive->now() + 200ms); });
+      task->join_until(kForever);
     });
+    ended = true;
     monitor.join();
-    CHECK(found);
+    CHECK(named == 0);
   }
 }
 

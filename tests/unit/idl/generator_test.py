@@ -168,9 +168,9 @@ class Output(unittest.TestCase):
         root = STRUCT.replace("Spot", "OrcaObject")
         table = type_table([parse(root + "/// T.\nstruct Top : OrcaObject {\n  string s;  ///< text\n};"
                                   + "/// P.\nstruct Part {\n  string s;  ///< text\n};")])
-        self.assertIn("object_type<idl::Top>()", table)
+        self.assertIn("object_type_of<idl::Top, 0x", table)
         self.assertNotIn("Part", table)
-        self.assertNotIn("object_type<idl::OrcaObject>", table)
+        self.assertNotIn("object_type_of<idl::OrcaObject,", table)
 
 
 if __name__ == "__main__":

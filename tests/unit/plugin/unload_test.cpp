@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loaded, described, unloaded, and proved gone: a plugin that stays in memory would run stale code after a
 // swap.
+#include <dlfcn.h>
 #include <spdlog/spdlog.h>
 
 #include <map>
 
 #include "orca/hw/container.hpp"
 #include "orca/plugin/describe.hpp"
+#include "orca/plugin/loaded_plugins.hpp"
 #include "places.hpp"
 
 using namespace orca;
@@ -74,11 +76,31 @@ TEST_CASE("a plugin full of template, inline and local statics and with make_sha
   CHECK_FALSE(is_mapped(path));
 }
 
-TEST_CASE("the same plugin built without the recipe stays in memory, and is_mapped sees it",
+TEST_CASE("the same plugin built without the recipe would stay in memory, and is_mapped sees it",
           "[plugin][unload]") {
-  const std::string path = test_plugin("bad_pinned");
+  const std::string path = test_plugin("bad/bad_pinned");
+  void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  REQUIRE(handle != nullptr);
+  dlclose(handle);
+  CHECK(is_mapped(path));
+}
+
+TEST_CASE("a plugin whose thread still runs stays in memory instead of crashing it", "[plugin][unload]") {
+  const std::string path = test_plugin("test_thread_left");
   describe_all(path);
   CHECK(is_mapped(path));
+}
+
+TEST_CASE("an address leads to the plugin that it lies in, as long as that is loaded", "[plugin][unload]") {
+  const void* inside = nullptr;
+  {
+    const auto library = loaded(test_plugin("test_statics"));
+    inside = library->types().front();
+    REQUIRE(plugin_at(inside) != nullptr);
+    CHECK(plugin_at(inside) == test_plugin("test_statics"));
+    CHECK(plugin_at(&inside) == nullptr);
+  }
+  CHECK(plugin_at(inside) == nullptr);
 }
 
 TEST_CASE("a plugin that uses spdlog and Eigen is gone after unloading, and the host's spdlog lives on",

@@ -57,7 +57,16 @@ struct ObjectType {
   detail::Pool& pool;  ///< Where objects of this type live.
 };
 
-/// The description of an IDL object type. Defined in liborca_idl.so for the types of the IDL files only.
+namespace detail {
+
+/// Defined in liborca_idl.so for the hash of the layout that it was built with, and for no other: who was
+/// built for another layout refers to a symbol that does not exist, and does not load.
+template <class T, std::uint64_t layout_hash>
+[[nodiscard]] const ObjectType& object_type_of();
+
+}  // namespace detail
+
+/// The description of an IDL object type. There for the types of the IDL files only.
 template <class T>
 [[nodiscard]] const ObjectType& object_type();
 

@@ -2,6 +2,7 @@
 #include "cooperative.hpp"
 
 #include <pthread.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cassert>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "steady_time.hpp"
+#include "thread_state.hpp"
 
 namespace orca::detail {
 
@@ -28,6 +30,7 @@ struct CooperativeExecutive::Fiber {
   std::optional<Timers::iterator> timer;
   Timers::node_type timer_place;  // kept between two uses: a wait takes nothing from the heap
   std::atomic<pthread_t> thread{};
+  std::atomic<pid_t> thread_id{0};
 };
 
 class CooperativeEvent final : public Event {
@@ -140,6 +143,7 @@ std::unique_ptr<CooperativeExecutive::Fiber> CooperativeExecutive::make_fiber(Ta
   fiber->ended_event = make_event();
   fiber->context = make_context_([this, self = fiber.get(), run = std::move(body)] {
     t_inside = this;
+    self->thread_id = gettid();
     self->thread = pthread_self();
     run();
     self->ended = true;
@@ -277,11 +281,18 @@ std::optional<StuckTask> CooperativeExecutive::stuck_task(Duration limit) {
   if (switches != observed_switches_) {
     observed_switches_ = switches;
     cpu_at_observation_ = cpu;
+    awake_at_ = steady_now();
     return std::nullopt;
   }
-  const Duration used = cpu - cpu_at_observation_;
-  if (used <= limit) return std::nullopt;
-  return StuckTask{fiber->name, used};
+  if (sleeps_too_long(*fiber, limit)) return StuckTask{fiber->name, true, true};
+  if (cpu - cpu_at_observation_ <= limit) return std::nullopt;
+  return StuckTask{fiber->name, false, true};
+}
+
+bool CooperativeExecutive::sleeps_too_long(const Fiber& fiber, Duration limit) {
+  const TimePoint now = steady_now();
+  if (!sleeps_in_system(fiber.thread_id)) awake_at_ = now;
+  return now - awake_at_ > limit;
 }
 
 }  // namespace orca::detail

@@ -65,6 +65,7 @@ class CooperativeExecutive final : public Executive {
     Fiber* last_ = nullptr;
   };
 
+  [[nodiscard]] bool sleeps_too_long(const Fiber& fiber, Duration limit);
   std::unique_ptr<Fiber> make_fiber(TaskOptions options, std::function<void()> body);
   void run_one();
   void set_timer(Fiber& fiber, TimePoint deadline);
@@ -97,6 +98,7 @@ class CooperativeExecutive final : public Executive {
   std::atomic<std::uint64_t> switches_{0};
   std::uint64_t observed_switches_ = 0;
   Duration cpu_at_observation_{0};
+  TimePoint awake_at_{};  // when the running task was last seen to do something
 };
 
 }  // namespace orca::detail

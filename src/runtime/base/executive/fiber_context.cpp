@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "context.hpp"
+#include "orca/base/activity.hpp"
 #include "sanitizer.hpp"
 
 namespace orca::detail {
@@ -44,9 +45,11 @@ class FiberContext final : public Context {
 
   void resume() override {
     exceptions_.exchange();
+    activity_.exchange();
     start_switch(&caller_fake_stack_, fiber_stack_);
     inside_ = std::move(inside_).resume();
     finish_switch(caller_fake_stack_, nullptr);
+    activity_.exchange();
     exceptions_.exchange();
   }
 
@@ -71,6 +74,7 @@ class FiberContext final : public Context {
   void* caller_fake_stack_ = nullptr;
   void* fiber_fake_stack_ = nullptr;
   ExceptionGlobals exceptions_;
+  ActivityKeeper activity_;
   bc::fiber inside_;
   bc::fiber outside_;
 };

@@ -10,6 +10,7 @@
 #include <ctime>
 
 #include "steady_time.hpp"
+#include "thread_watch.hpp"
 
 namespace orca::detail {
 namespace {
@@ -44,6 +45,7 @@ void FutexEvent::notify() {
 }
 
 bool FutexEvent::wait_until(TimePoint deadline) {
+  const Waiting waiting;
   if (take()) return true;
   return spin_limit_ > Duration{0} ? spin_then_sleep(deadline) : sleep(deadline);
 }

@@ -13,13 +13,21 @@ namespace {
 
 class ThreadTask final : public Task {
  public:
-  ThreadTask(const TaskOptions& options, std::function<void()> body)
-      : thread_([this, name = options.name.substr(0, 15), run = std::move(body)] {
-          pthread_setname_np(pthread_self(), name.c_str());
-          run();
-          ended_.notify();
-        }) {}
-  ~ThreadTask() override { thread_.join(); }
+  ThreadTask(ThreadWatch& watch, const TaskOptions& options, std::function<void()> body)
+      : watch_(watch), waits_(options.name) {
+    watch_.add(waits_);
+    thread_ = std::thread([this, run = std::move(body)] {
+      pthread_setname_np(pthread_self(), waits_.name().substr(0, 15).c_str());
+      waits_.attach();
+      run();
+      waits_.begin();  // for good
+      ended_.notify();
+    });
+  }
+  ~ThreadTask() override {
+    thread_.join();
+    watch_.remove(waits_);
+  }
 
   bool join_until(TimePoint deadline) override {
     if (!has_ended_) has_ended_ = ended_.wait_until(deadline);
@@ -27,6 +35,8 @@ class ThreadTask final : public Task {
   }
 
  private:
+  ThreadWatch& watch_;
+  WaitCount waits_;
   FutexEvent ended_{Duration{0}};
   bool has_ended_ = false;
   std::thread thread_;
@@ -39,11 +49,11 @@ TimePoint ThreadExecutive::now() const { return steady_now(); }
 std::unique_ptr<Event> ThreadExecutive::make_event() { return std::make_unique<FutexEvent>(spin_); }
 
 std::unique_ptr<Task> ThreadExecutive::spawn(TaskOptions options, std::function<void()> body) {
-  return std::make_unique<ThreadTask>(options, std::move(body));
+  return std::make_unique<ThreadTask>(watch_, options, std::move(body));
 }
 
 void ThreadExecutive::run(std::function<void()> main) { main(); }
 
-std::optional<StuckTask> ThreadExecutive::stuck_task(Duration /*limit*/) { return std::nullopt; }
+std::optional<StuckTask> ThreadExecutive::stuck_task(Duration limit) { return watch_.stuck_task(limit); }
 
 }  // namespace orca::detail

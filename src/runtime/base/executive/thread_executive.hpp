@@ -2,6 +2,7 @@
 #pragma once
 
 #include "orca/base/executive.hpp"
+#include "thread_watch.hpp"
 
 namespace orca::detail {
 
@@ -20,6 +21,7 @@ class ThreadExecutive final : public Executive {
 
  private:
   const Duration spin_;
+  ThreadWatch watch_;
 };
 
 }  // namespace orca::detail

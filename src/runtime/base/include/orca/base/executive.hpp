@@ -54,10 +54,11 @@ class Task {
   virtual bool join_until(TimePoint deadline) = 0;
 };
 
-/// A task that has used the processor for longer than allowed without waiting for anything.
+/// A task that has not waited for anything of its executive for longer than allowed.
 struct StuckTask {
   std::string name;
-  Duration cpu_time{0};  ///< CPU time since it was last switched to [ns].
+  bool asleep = false;  ///< It does not compute, but waits for something that the executive does not know.
+  bool holds_up_others = false;  ///< No other task can run meanwhile.
 };
 
 /// Runs tasks by one of three back ends and owns the clock that they see.
@@ -94,10 +95,12 @@ class Executive {
   /// In virtual time, when no task can ever run again, a wait of `main` ends as if its deadline had come.
   virtual void run(std::function<void()> main) = 0;
 
-  /// The task that now holds the processor, if it has not waited for anything during `limit` of its CPU time.
-  /// Fiber and baton only: the thread back end schedules nothing and returns nothing.
+  /// A task that has not waited for anything of the executive for too long. With fibers and batons the one
+  /// that holds the processor, after `limit` of its CPU time, whatever the load of the machine, or of sleep
+  /// in the system; to wait for a reader of its output is no sleep. With threads any, after `limit` of wall
+  /// time.
   ///
-  /// @thread  a monitoring thread outside the executive.
+  /// @thread  a monitoring thread outside the executive, which asks several times a second.
   [[nodiscard]] virtual std::optional<StuckTask> stuck_task(Duration limit) = 0;
 
   /// Blocks the calling task until the given time.

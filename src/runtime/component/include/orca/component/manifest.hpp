@@ -56,3 +56,19 @@ struct Manifest {
   ORCA_DETAIL_TYPE_ENTRY({::orca::PluginKind::component, type_name,                                          \
                           [](::orca::ComponentHost& host) -> ::orca::Component* { return new Class(host); }, \
                           [](::orca::Component* component) { delete component; }, nullptr, nullptr})
+
+#define ORCA_DETAIL_JOIN(a, b) a##b
+#define ORCA_DETAIL_CLOCK_NOTE(line, text)                                          \
+  namespace {                                                                       \
+  [[gnu::section("orca_clock_notes"), gnu::used,                                    \
+    gnu::retain]] constexpr char ORCA_DETAIL_JOIN(orca_clock_note_, line)[] = text; \
+  }
+
+/// Says that the types of this plugin cannot run in virtual time, and why: "reads a joystick". A literal.
+#define ORCA_STEADY_CLOCK_ONLY(reason) ORCA_DETAIL_CLOCK_NOTE(__LINE__, "steady only: " reason)
+
+/// Says that this plugin may use a symbol in virtual time that is refused there, and why it does no harm:
+/// ORCA_ALLOW_IN_VIRTUAL_TIME("poll", "with a time-out of zero, it never waits"). The symbol as the refusal
+/// names it.
+#define ORCA_ALLOW_IN_VIRTUAL_TIME(symbol, reason) \
+  ORCA_DETAIL_CLOCK_NOTE(__LINE__, "allows " symbol ": " reason)

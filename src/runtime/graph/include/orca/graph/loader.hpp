@@ -53,6 +53,10 @@ class Catalogue {
   /// @errors  as hardware(); the message of "does not fit that hardware" names both.
   [[nodiscard]] virtual Result<Contract> component(const std::string& type, const HardwareUse* hardware) = 0;
 
+  /// Why a type that is there cannot be part of the run that the graph is loaded for; empty: it can. Asked
+  /// only about types that it has given a contract of.
+  [[nodiscard]] virtual std::vector<std::string> unfit(PluginKind kind, const std::string& type) = 0;
+
   /// Every type that could be named, sorted: for "did you mean".
   [[nodiscard]] virtual std::vector<std::string> type_names(PluginKind kind) const = 0;
 };

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/executive.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/plugin/describe.hpp"
 #include "orca/plugin/index.hpp"
@@ -26,13 +27,16 @@ struct LoadedType {
 /// Thread contract: acquire() and release() from anywhere, the rest from one thread.
 class PluginCatalogue final : public graph::Catalogue {
  public:
-  explicit PluginCatalogue(PluginIndex index);
+  /// @param clock  of the run that the plugins are for.
+  explicit PluginCatalogue(PluginIndex index, ClockKind clock = ClockKind::steady);
   ~PluginCatalogue() override;
 
   void add_folders(const std::vector<std::string>& folders) override { index_.add(folders); }
   Result<Contract> hardware(const std::string& type) override;
   std::vector<HardwareFault> validate_hardware(const graph::HardwareUse& use) override;
   Result<Contract> component(const std::string& type, const graph::HardwareUse* hardware) override;
+  /// In virtual time: what of the machine's time, threads and randomness the type's plugin uses.
+  [[nodiscard]] std::vector<std::string> unfit(PluginKind kind, const std::string& type) override;
   [[nodiscard]] std::vector<std::string> type_names(PluginKind kind) const override;
 
   /// A type, its plugin loaded if nobody has done so before.
@@ -52,6 +56,7 @@ class PluginCatalogue final : public graph::Catalogue {
   Result<DescribedHardware*> described(const graph::HardwareUse& use);
 
   PluginIndex index_;
+  const ClockKind clock_;
   mutable std::mutex mutex_;
   std::map<std::string, std::weak_ptr<PluginLibrary>> libraries_;       // by file
   std::map<std::string, LoadedType> held_;                              // by type: what answers came from

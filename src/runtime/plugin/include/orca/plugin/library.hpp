@@ -11,17 +11,24 @@
 
 namespace orca {
 
+class LoadedPlugin;
+
 /// A plugin in memory, from load() until the object is destroyed. Whatever was made from its types must be
-/// gone by then.
+/// gone by then. A plugin that does not go, or whose threads still run, is told by an alarm PLUGIN_PINNED in
+/// the log.
 ///
 /// Thread contract: one thread.
 class PluginLibrary {
  public:
-  /// Loads a plugin and checks its manifest.
+  /// Checks a plugin's file, has it loaded and its types constructed in a copy of the process, and loads it.
+  /// A file that has passed is not checked again as long as it is not changed.
   ///
-  /// @errors  not_found if there is no such file; invalid_argument, with what is wrong and what to do, for a
-  /// file that
-  ///          cannot be loaded, that is not an Orca plugin, or that was built for another ABI version.
+  /// @thread  any; one call at a time.
+  /// @errors  not_found if there is no such file; invalid_argument, with all that is wrong and what to do,
+  /// for a
+  ///          file that cannot be loaded, that is not an Orca plugin, that was built for another ABI version
+  ///          or other layouts of the objects, or not by the recipe (docs/adr/0004); internal or
+  ///          deadline_exceeded if the copy of the process did not survive or come to an end.
   static Result<std::unique_ptr<PluginLibrary>> load(const std::string& path);
 
   ~PluginLibrary();
@@ -32,15 +39,21 @@ class PluginLibrary {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const Manifest& manifest() const { return *manifest_; }
   [[nodiscard]] std::vector<const TypeEntry*> types() const;
+  /// What it uses that has no place in virtual time, each with what to use instead.
+  [[nodiscard]] const std::vector<std::string>& virtual_time_faults() const { return virtual_time_faults_; }
   /// Null if the plugin holds no such type.
   [[nodiscard]] const TypeEntry* find(PluginKind kind, std::string_view type) const;
 
  private:
   PluginLibrary(std::string path, void* handle, const Manifest* manifest);
+  void tell_pinned(const std::string& why) const;
 
   std::string path_;
   void* handle_;
   const Manifest* manifest_;
+  std::unique_ptr<LoadedPlugin> entry_;
+  std::vector<std::string> virtual_time_faults_;
+  bool may_start_threads_ = false;
 };
 
 /// Whether any part of the file is still mapped into this process, be it that the file itself has been

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "layout.hpp"
+#include "orca/base/layout.hpp"
 
 #include <catch2/catch.hpp>
 
-using orca::graph::layout_difference;
+using orca::layout_difference;
 
-TEST_CASE("two layouts of one type differ in their first different field", "[graph][layout]") {
+TEST_CASE("two layouts of one type differ in their first different field", "[base][layout]") {
   const std::string pose = "Odometry{stamp:TimeValue{ns:int64 {ns}},pose:Point{x:double {m},y:double {m}}}";
 
   SECTION("in its type or its unit") {
@@ -36,5 +36,13 @@ TEST_CASE("two layouts of one type differ in their first different field", "[gra
   SECTION("a struct of another name") {
     CHECK(layout_difference("A{p:P{x:double}}", "A{p:Q{x:double}}") ==
           R"x(the field "p" is "P{x:double}" at the from end and "Q{x:double}" at the to end)x");
+  }
+}
+
+TEST_CASE("a layout that is damaged is compared as far as it goes", "[base][layout]") {
+  for (const std::string damaged : {"", "A{", "A{x:", "A}x:{", "}", "x:", "A{x:double", "A{x:P{y:double}"}) {
+    CAPTURE(damaged);
+    CHECK_FALSE(layout_difference(damaged, "A{x:double}").empty());
+    CHECK_FALSE(layout_difference("A{x:double}", damaged).empty());
   }
 }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/base/activity.hpp"
+
+#include <utility>
+
+namespace orca {
+
+static thread_local const Activity* t_current = nullptr;
+
+Activity::Activity(const char* who, const char* what, const void* code) noexcept
+    : who_(who), what_(what), code_(code), outer_(std::exchange(t_current, this)) {}
+
+Activity::~Activity() { t_current = outer_; }
+
+const Activity* Activity::current() noexcept { return t_current; }
+
+void ActivityKeeper::exchange() noexcept { std::swap(kept_, t_current); }
+
+}  // namespace orca

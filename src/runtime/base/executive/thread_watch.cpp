@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "thread_watch.hpp"
+
+#include "steady_time.hpp"
+
+namespace orca::detail {
+
+static thread_local WaitCount* t_current = nullptr;
+
+void WaitCount::attach() { t_current = this; }
+
+WaitCount* WaitCount::current() { return t_current; }
+
+void ThreadWatch::add(const WaitCount& count) {
+  const std::lock_guard lock(mutex_);
+  watched_.push_back({&count, count.state(), steady_now()});
+}
+
+void ThreadWatch::remove(const WaitCount& count) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(watched_, [&](const Watched& watched) { return watched.count == &count; });
+}
+
+std::optional<StuckTask> ThreadWatch::stuck_task(Duration limit) {
+  const std::lock_guard lock(mutex_);
+  const TimePoint now = steady_now();
+  const Watched* latest = nullptr;  // it is the one that nobody has heard of yet
+  for (Watched& watched : watched_) {
+    const std::uint64_t state = watched.count->state();
+    const bool waits = state % 2 == 1;
+    if (waits || state != watched.state) {
+      watched.state = state;
+      watched.since = now;
+    } else if (now - watched.since > limit && (latest == nullptr || watched.since > latest->since)) {
+      latest = &watched;
+    }
+  }
+  if (latest == nullptr) return std::nullopt;
+  return StuckTask{latest->count->name(), false, false};
+}
+
+}  // namespace orca::detail

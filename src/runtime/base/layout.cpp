@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/base/layout.hpp"
+
+#include <vector>
+
+namespace orca {
+namespace {
+
+struct Field {
+  std::string_view name;
+  std::string_view type;
+};
+
+Field field(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return {text, ""};
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+// The fields of a layout that holds any: what is between its outermost braces, cut at the commas that no
+// bracket encloses. A unit's braces hold no colon.
+std::vector<Field> fields_of(std::string_view layout) {
+  std::vector<Field> fields;
+  const std::size_t open = layout.find('{');
+  const std::size_t close = layout.rfind('}');
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open ||
+      layout.find(':') == std::string_view::npos)
+    return fields;
+  int depth = 0;
+  std::size_t start = open + 1;
+  for (std::size_t i = start; i <= close; ++i) {
+    const char c = layout[i];
+    if (i == close || (c == ',' && depth == 0)) {
+      fields.push_back(field(layout.substr(start, i - start)));
+      start = i + 1;
+    }
+    depth += c == '{' || c == '(' || c == '<' ? 1 : c == '}' || c == ')' || c == '>' ? -1 : 0;
+  }
+  return fields;
+}
+
+std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
+
+// Walks both layouts until the first difference.
+class Comparison {
+ public:
+  explicit Comparison(const LayoutEnds& ends) : from_(ends.from), to_(ends.to) {}
+
+  [[nodiscard]] std::string of_fields(const std::string& prefix, const std::vector<Field>& from,
+                                      const std::vector<Field>& to) const {
+    for (std::size_t i = 0; i < from.size() || i < to.size(); ++i) {
+      if (i >= to.size()) return only(prefix, from[i], from_);
+      if (i >= from.size()) return only(prefix, to[i], to_);
+      if (from[i].name != to[i].name) {
+        return "the field " + quoted(prefix + std::string(from[i].name)) + " " + from_ + " is " +
+               quoted(prefix + std::string(to[i].name)) + " " + to_;
+      }
+      if (from[i].type != to[i].type)
+        return of_field(prefix + std::string(from[i].name), from[i].type, to[i].type);
+    }
+    return "its fields differ";
+  }
+
+ private:
+  static std::string only(const std::string& prefix, const Field& field, const std::string& end) {
+    return "the field " + quoted(prefix + std::string(field.name)) + " is only " + end;
+  }
+
+  [[nodiscard]] std::string of_field(const std::string& path, std::string_view from,
+                                     std::string_view to) const {
+    const std::vector<Field> inner_from = fields_of(from);
+    const std::vector<Field> inner_to = fields_of(to);
+    if (!inner_from.empty() && !inner_to.empty() &&
+        from.substr(0, from.find('{')) == to.substr(0, to.find('{')))
+      return of_fields(path + ".", inner_from, inner_to);
+    return "the field " + quoted(path) + " is " + quoted(from) + " " + from_ + " and " + quoted(to) + " " +
+           to_;
+  }
+
+  std::string from_;
+  std::string to_;
+};
+
+}  // namespace
+
+std::string layout_difference(std::string_view from, std::string_view to, const LayoutEnds& ends) {
+  return Comparison(ends).of_fields("", fields_of(from), fields_of(to));
+}
+
+}  // namespace orca

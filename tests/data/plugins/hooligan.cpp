@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cfenv>
+#include <clocale>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "orca/component.hpp"
+
+namespace {
+
+int* volatile g_nowhere = nullptr;
+volatile int g_zero = 0;
+volatile int g_hundred = 100;
+
+int overflow(int depth) {
+  volatile char room[1000] = {};
+  room[0] = static_cast<char>(depth);
+  return depth == -1 ? room[0] : overflow(depth + 1) + room[0];
+}
+
+void throw_where_nothing_may() noexcept {
+  const auto thrower = [] { throw std::runtime_error("the brakes are gone"); };
+  thrower();
+}
+
+void lower_limit() {
+  rlimit limit{};
+  getrlimit(RLIMIT_NOFILE, &limit);
+  limit.rlim_cur = 64;
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+void block_signal() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGUSR1);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
+void open_many(int count) {
+  for (int i = 0; i < count; ++i)
+    if (open("/dev/null", O_RDONLY) < 0) return;
+}
+
+void close_many() {
+  for (int fd = 0; fd < 100; ++fd) close(fd);
+}
+
+void leave_thread() {
+  std::thread([] {
+    for (;;) sleep(1);
+  }).detach();
+}
+
+/// Does `deed` in the hook that `where` names, and works quietly otherwise.
+class Hooligan final : public orca::Component {
+ public:
+  explicit Hooligan(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(50)); }
+
+ private:
+  orca::Status configure() override { return act("configure"), orca::ok(); }
+  orca::Status start() override { return act("start"), orca::ok(); }
+  void stop() override { act("stop"); }
+  orca::Outcome work() override {
+    act("work");
+    if (*where_ == "after_wait") {
+      Component::sleep(std::chrono::milliseconds(5));
+      act("after_wait");
+    }
+    return orca::again();
+  }
+
+  void act(const std::string& here) const {
+    static const std::map<std::string, std::function<void()>> kDeeds{
+        {"abort", [] { std::abort(); }},
+        {"close", close_many},
+        {"divide", [] { g_zero = g_hundred / g_zero; }},
+        {"exit", [] { std::exit(0); }},
+        {"folder", [] { (void)!chdir("/"); }},
+        {"fork", [] { (void)!fork(); }},
+        {"handler", [] { signal(SIGTERM, SIG_IGN); }},
+        {"leak", [] { open_many(1); }},
+        {"leak_all", [] { open_many(1000000); }},
+        {"limit", lower_limit},
+        {"locale", [] { std::setlocale(LC_ALL, "C.UTF-8"); }},
+        {"mask", block_signal},
+        {"noexcept", throw_where_nothing_may},
+        {"none", [] {}},
+        {"overflow", [] { g_zero = overflow(0); }},
+        {"quick_exit", [] { std::quick_exit(0); }},
+        {"rounding", [] { std::fesetround(FE_UPWARD); }},
+        {"segfault", [] { *g_nowhere = 1; }},
+        {"sleep", [] { ::sleep(10); }},
+        {"thread", leave_thread},
+        {"umask", [] { umask(0); }},
+    };
+    if (here == *where_) kDeeds.at (*deed_)();
+  }
+
+  orca::Param<std::string> where_{*this, "where", "work"};
+  orca::Param<std::string> deed_{*this, "deed", "none"};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(Hooligan, "test.Hooligan")
+ORCA_ALLOW_IN_VIRTUAL_TIME("fork", "it is what is tested")
+ORCA_ALLOW_IN_VIRTUAL_TIME("sleep", "it is what is tested")
+ORCA_ALLOW_IN_VIRTUAL_TIME("std::thread::_M_start_thread", "it is what is tested")

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one process can contain of a plugin that breaks everybody's rules, and what it says before it dies of
+// the rest.
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "deployer.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+Run act(const std::string& where, const std::string& deed, const Words& clock = virtual_clock()) {
+  return run_deployer(
+      Words{system_graph("hooligan.xml"), "--set", "where=" + where, "--set", "deed=" + deed} +
+      with_test_plugins() + clock);
+}
+
+const Words kSteady{"--clock", "steady"};
+
+std::string line_with(const std::string& text, const Run& run) {
+  for (const std::string& line : split_lines(run.err))
+    if (line.find(text) != std::string::npos) return line;
+  return {};
+}
+
+std::size_t alarms(const Run& run) {
+  const auto lines = split_lines(run.err);
+  return static_cast<std::size_t>(std::ranges::count_if(
+      lines, [](const std::string& line) { return line.find(": alarm ") != std::string::npos; }));
+}
+
+void check_names_culprit(const std::string& line) {
+  CHECK_THAT(line, Contains("bad: ") && Contains("work()"));
+  CHECK_THAT(line, Contains("the plugin is ") && Contains("/test_hooligan.so"));
+}
+
+}  // namespace
+
+TEST_CASE("a component that behaves raises no alarm, with any clock", "[system][plugins]") {
+  for (const Words& clock : {virtual_clock(), kSteady}) {
+    const Run run = act("work", "none", clock);
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(alarms(run) == 0);
+  }
+}
+
+TEST_CASE(
+    "a signal that a component causes ends the process, which first names component, hook, plugin and cause",
+    "[system][plugins]") {
+  struct Case {
+    std::string deed;
+    int signal;
+    std::string text;
+  };
+  for (const Words& clock : {virtual_clock(), kSteady}) {
+    for (const Case& c : {Case{"segfault", SIGSEGV, "SIGSEGV (it used memory that is not there, at 0x0)"},
+                          Case{"overflow", SIGSEGV, "SIGSEGV (its stack has overflowed)"},
+                          Case{"divide", SIGFPE, "SIGFPE (it divided an integer by zero"},
+                          Case{"abort", SIGABRT, "SIGABRT (it called abort()"}}) {
+      const Run run = act("work", c.deed, clock);
+      CAPTURE(c.deed, clock);
+      INFO(run.err);
+      REQUIRE(run.ended);
+      const std::string line = line_with("ended the process with the signal", run);
+      CHECK_THAT(line, Contains(c.text));
+      check_names_culprit(line);
+      if (!kSanitized) CHECK(run.ending.signal == c.signal);
+      CHECK(run.exit_code() != 0);
+    }
+  }
+}
+
+TEST_CASE("the culprit is named also after it has waited and others have run", "[system][plugins]") {
+  const Run run = act("after_wait", "segfault");
+  INFO(run.err);
+  check_names_culprit(line_with("ended the process with the signal", run));
+}
+
+TEST_CASE("an exception where nothing may be thrown ends the process, with its text and the culprit's name",
+          "[system][plugins]") {
+  const Run run = act("work", "noexcept");
+  INFO(run.err);
+  REQUIRE(run.ended);
+  const std::string line = line_with("the brakes are gone", run);
+  CHECK_THAT(line, Contains("where nothing can catch it"));
+  check_names_culprit(line);
+  if (!kSanitized) CHECK(run.ending.signal == SIGABRT);
+}
+
+TEST_CASE("exit() in a component ends the process with status 1 and the culprit's name",
+          "[system][plugins]") {
+  for (const std::string deed : {"exit", "quick_exit"}) {
+    const Run run = act("work", deed);
+    CAPTURE(deed);
+    INFO(run.err);
+    REQUIRE(run.ended);
+    CHECK(run.exit_code() == 1);
+    check_names_culprit(line_with("called " + deed + "(", run));
+  }
+}
+
+TEST_CASE(
+    "a component that closes the process's descriptors ends it with status 1 and its name on the true stderr",
+    "[system][plugins]") {
+  const Run run = act("configure", "close");
+  INFO(run.err);
+  REQUIRE(run.ended);
+  CHECK(run.exit_code() == 1);
+  CHECK_THAT(line_with("has closed descriptors that are not its own", run),
+             Contains("bad: ") && Contains("configure()"));
+}
+
+TEST_CASE("of fork() in a component the copy is ended, the culprit named, and the run goes on",
+          "[system][plugins]") {
+  const Run run = act("configure", "fork");
+  INFO(run.err);
+  REQUIRE(run.ended);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("counter: counted 30 laps"));
+  CHECK_THAT(line_with("alarm FORK", run), Contains("bad: ") && Contains("configure() has called fork()"));
+  const auto lines = split_lines(run.err);
+  CHECK(std::ranges::count_if(lines, [](const std::string& line) {
+          return line.find("counted 30 laps") != std::string::npos;
+        }) == 1);
+}
+
+TEST_CASE("what belongs to the whole process is put back, and an alarm names component and hook, once",
+          "[system][plugins]") {
+  struct Case {
+    std::string deed;
+    std::string alarm;
+  };
+  for (const std::string where : {"start", "work"}) {
+    for (const Case& c :
+         {Case{"locale", R"x(alarm LOCALE: @ has changed the locale from "C" to "C.UTF-8")x"},
+          Case{"rounding", "alarm FLOATING_POINT: @ has changed how numbers are rounded"},
+          Case{"folder", "alarm WORKING_FOLDER: @ has changed the working folder to /"},
+          Case{"mask", "alarm SIGNAL_MASK: @ has blocked SIGUSR1"},
+          Case{"handler", "alarm SIGNAL_HANDLER: @ has changed what happens at SIGTERM"},
+          Case{"umask", "alarm UMASK: @ has changed the umask"},
+          Case{"limit", "alarm RESOURCE_LIMIT: @ has changed the limit of the number of descriptors"}}) {
+      const Run run = act(where, c.deed);
+      CAPTURE(c.deed, where);
+      INFO(run.err);
+      CHECK(run.exit_code() == 0);
+      CHECK(alarms(run) == 1);
+      std::string expected = "bad: " + c.alarm;
+      expected.replace(expected.find('@'), 1, where + "()");
+      CHECK_THAT(line_with("alarm", run), Contains(expected));
+    }
+  }
+}
+
+TEST_CASE(
+    "a component that opens a descriptor in each lap and closes none is named long before there are none "
+    "left",
+    "[system][plugins]") {
+  const Run run = run_deployer(
+      Words{system_graph("hooligan.xml"), "--set", "where=work", "--set", "deed=leak", "--set", "laps=100"} +
+      with_test_plugins() + virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(alarms(run) == 1);
+  CHECK_THAT(line_with("alarm DESCRIPTORS", run),
+             Contains("bad: ") && Contains("work() has opened at least 32"));
+}
+
+TEST_CASE("a component that opens descriptors in start() and leaves them open in stop() is named",
+          "[system][plugins]") {
+  const Run run = act("start", "leak");
+  INFO(run.err);
+  CHECK_THAT(line_with("alarm DESCRIPTORS", run),
+             Contains("bad: ") && Contains("stop() has left 1 descriptor"));
+}
+
+TEST_CASE("a component that takes all descriptors is named", "[system][plugins]") {
+  const Run run = act("start", "leak_all");
+  INFO(run.err);
+  REQUIRE(run.ended);
+  CHECK_THAT(line_with("without a free descriptor", run), Contains("bad: ") && Contains("start()"));
+}
+
+TEST_CASE("a thread that a component leaves behind keeps its plugin in memory, and an alarm says so",
+          "[system][plugins]") {
+  const Run run = act("start", "thread");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(line_with("alarm PLUGIN_PINNED", run), Contains("test_hooligan.so"));
+}
+
+TEST_CASE(
+    "a component that sleeps by itself is named: in virtual time, where it holds up all others, the run ends",
+    "[system][plugins]") {
+  const Run run = act("work", "sleep");
+  INFO(run.err);
+  REQUIRE(run.ended);
+  CHECK(run.exit_code() == 1);
+  CHECK_THAT(line_with("bad: ", run), Contains("has slept in the system for more than 2 s"));
+  CHECK(run.ending.wall < Seconds(8) * kSlowdown);
+}
+
+TEST_CASE("a component that sleeps in its own thread is named, and costs the others nothing",
+          "[system][plugins]") {
+  const Run run = act("work", "sleep", kSteady);
+  INFO(run.err);
+  REQUIRE(run.ended);
+  CHECK(run.says("counter: counted 30 laps"));
+  CHECK_THAT(line_with("alarm STALLED", run), Contains("bad: "));
+}
