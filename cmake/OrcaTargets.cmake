@@ -12,5 +12,7 @@ function(orca_add_library name kind)
     target_sources(orca_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${headers})
   endif()
   target_link_libraries(orca_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} orca_options)
+  # Nobody replaces functions of our libraries at load time; knowing that makes calls within them cheaper.
+  target_compile_options(orca_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition -fno-plt>)
   set_target_properties(orca_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()

@@ -5,6 +5,19 @@
 #include <cstdint>
 
 namespace orca::detail {
+namespace {
+
+constexpr std::string_view kDigits = "0123456789abcdef";
+
+std::string shown(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  if (c == '\n') return " ";
+  if (c == '"' || c == '\\') return {'\\', c};
+  if (byte < 0x20 || byte == 0x7F) return {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 0xFU]};
+  return {c};
+}
+
+}  // namespace
 
 void DumpWriter::write(double value) {
   std::array<char, 32> digits;
@@ -14,10 +27,7 @@ void DumpWriter::write(double value) {
 
 void DumpWriter::write(const std::string& value) {
   text_ += '"';
-  for (const char c : value) {
-    if (c == '"' || c == '\\') text_ += '\\';
-    text_ += c == '\n' ? ' ' : c;
-  }
+  for (const char c : value) text_ += shown(c);
   text_ += '"';
 }
 

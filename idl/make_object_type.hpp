@@ -7,6 +7,7 @@
 #include "cdr_reader.hpp"
 #include "cdr_writer.hpp"
 #include "dump_writer.hpp"
+#include "make_value.hpp"
 #include "orca/idl/generated/object.h"
 #include "orca/idl/object_type.hpp"
 
@@ -54,6 +55,7 @@ constexpr ObjectType make_object_type(std::string_view layout, std::uint64_t lay
           .equal = Do::equal,
           .header = Do::header,
           .dump = Do::dump,
+          .fields = visit_fields<T>,
           .serialize = Do::serialize,
           .deserialize = Do::deserialize,
           .pool = pool};

@@ -78,7 +78,10 @@ Slot* acquire_slot(const ObjectType& type) noexcept { return type.pool.acquire()
 void release_slot(Slot* slot) noexcept {
   // Release: what this view's owner read is done before the object can be reused; acquire: the last one waits
   // for that of all others.
-  if (slot->references.fetch_sub(1, std::memory_order_acq_rel) == 1) slot->type->pool.recycle(slot);
+  // The last view needs no atomic subtraction: nobody else can copy it or drop one.
+  if (slot->references.load(std::memory_order_acquire) == 1 ||
+      slot->references.fetch_sub(1, std::memory_order_acq_rel) == 1)
+    slot->type->pool.recycle(slot);
 }
 
 }  // namespace detail

@@ -3,16 +3,28 @@
 
 namespace orca {
 
+void Provenance::begin_handling(const idl::OrcaObject& object) {
+  mission_ = object.mission();
+  note(object);
+}
+
+void Provenance::begin_task(const idl::OrcaObject& object) {
+  task_mission_ = object.mission();
+  begin_handling(object);
+}
+
 void Provenance::note(const idl::OrcaObject& received) {
-  mission = received.mission();
-  origin = received.origin();
-  seq = received.seq();
+  if (const std::uint64_t mission = received.mission(); mission != 0) mission_ = mission;
+  if (const std::string& origin = received.origin(); origin_ != origin) origin_ = origin;
+  seq_ = received.seq();
 }
 
 void Provenance::stamp(idl::OrcaObject& sent) const {
-  if (sent.mission() == 0) sent.mission(mission);
-  sent.cause().origin() = origin;
-  sent.cause().seq(seq);
+  if (mission_ != 0 && sent.mission() == 0) sent.mission(mission_);
+  if (seq_ == 0) return;  // nothing was received yet
+  idl::Cause& cause = sent.cause();
+  cause.origin() = origin_;
+  cause.seq(seq_);
 }
 
 Endpoint::Endpoint(PortHome& home, PortContract contract) : home_(home), contract_(std::move(contract)) {}
@@ -23,11 +35,8 @@ void Endpoint::stamp(ObjectLoan& loan, const Provenance* provenance) {
   header.origin() = home_.component;
   header.seq(next_seq_++);
   home_.strand.note_activity();
+  home_.strand.note_activity();
   if (provenance != nullptr) provenance->stamp(header);
-}
-
-void Endpoint::observe(const ObjectRef& object) const {
-  if (home_.observer != nullptr) home_.observer->delivered(home_.component, contract_.name, object);
 }
 
 }  // namespace orca

@@ -8,6 +8,10 @@
 namespace orca {
 namespace {
 
+TimePoint deadline_of(const Endpoint& endpoint, Duration limit) {
+  return saturating_add(endpoint.home().strand.executive().now(), limit);
+}
+
 std::uint32_t default_depth(Pattern pattern) { return pattern == Pattern::push ? 1 : 16; }
 
 }  // namespace
@@ -21,6 +25,9 @@ PortDeclaration make_declaration(std::string name, Pattern pattern, Role role, T
   declaration.contract.type = std::move(type);
   declaration.contract.required = role == Role::proxy && !options.optional;
   declaration.contract.queue.depth = options.depth > 0 ? options.depth : default_depth(pattern);
+  if (pattern != Pattern::push) declaration.contract.queue.overflow = QueuePolicy::Overflow::refuse;
+  declaration.contract.period = options.period;
+  declaration.contract.from_device = options.from_device;
   declaration.contract.text = options.text;
   declaration.manual = options.manual;
   return declaration;
@@ -72,9 +79,7 @@ ObjectRef PushProxyHandle::latest_ref() const {
   return endpoint().connected() ? endpoint().edges().front()->latest() : ObjectRef{};
 }
 
-TimePoint PushProxyHandle::deadline_in(Duration limit) const {
-  return saturating_add(endpoint().home().strand.executive().now(), limit);
-}
+TimePoint PushProxyHandle::deadline_in(Duration limit) const { return deadline_of(endpoint(), limit); }
 
 SendServerHandle::SendServerHandle(PortOwner& owner, std::string name, TypeId type,
                                    SendServerEndpoint::Handler handler, const PortOptions& options) {
@@ -95,6 +100,19 @@ SendProxyHandle::SendProxyHandle(PortOwner& owner, std::string name, TypeId type
 
 Status SendProxyHandle::send_loan(ObjectLoan loan) {
   return endpoint().send(std::move(loan), &endpoint().home().provenance);
+}
+
+Status SendProxyHandle::send_wait_loan(ObjectLoan loan, std::optional<Duration> limit) {
+  const TimePoint deadline = limit ? deadline_of(endpoint(), *limit) : kForever;
+  return endpoint().send_until(std::move(loan), &endpoint().home().provenance, deadline);
+}
+
+Result<SendId> SendProxyHandle::request_loan(ObjectLoan loan) {
+  return endpoint().request(std::move(loan), &endpoint().home().provenance);
+}
+
+Status SendProxyHandle::send_receive_wait(SendId id, Duration timeout) {
+  return endpoint().receive_until(id, deadline_of(endpoint(), timeout));
 }
 
 QueryServerHandle::QueryServerHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply,
@@ -120,8 +138,6 @@ Result<QueryId> QueryProxyHandle::request_loan(ObjectLoan loan) {
   return endpoint().request(std::move(loan), &endpoint().home().provenance);
 }
 
-TimePoint QueryProxyHandle::deadline_in(Duration limit) const {
-  return saturating_add(endpoint().home().strand.executive().now(), limit);
-}
+TimePoint QueryProxyHandle::deadline_in(Duration limit) const { return deadline_of(endpoint(), limit); }
 
 }  // namespace orca

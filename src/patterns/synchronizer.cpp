@@ -18,10 +18,19 @@ void Synchronizer::wait(PushProxyHandle& subject) {
   strand().wait_for(kForever, [&] { return subject.new_data_arrived(); });
 }
 
-PushProxyHandle& Synchronizer::wait() {
+bool Synchronizer::wait(PushProxyHandle& subject, Duration limit) {
+  assert(std::find(subjects_.begin(), subjects_.end(), &subject) != subjects_.end());
+  return strand().wait_for(deadline_in(limit), [&] { return subject.new_data_arrived(); });
+}
+
+PushProxyHandle& Synchronizer::wait() { return *wait_any_until(kForever); }
+
+PushProxyHandle* Synchronizer::wait(Duration limit) { return wait_any_until(deadline_in(limit)); }
+
+PushProxyHandle* Synchronizer::wait_any_until(TimePoint deadline) {
   PushProxyHandle* found = nullptr;
-  strand().wait_for(kForever, [&] { return (found = first_new()) != nullptr; });
-  return *found;
+  strand().wait_for(deadline, [&] { return (found = first_new()) != nullptr; });
+  return found;
 }
 
 void Synchronizer::wait_all() {
@@ -29,12 +38,33 @@ void Synchronizer::wait_all() {
 }
 
 bool Synchronizer::wait_all(Duration limit) {
-  return strand().wait_for(saturating_add(strand().executive().now(), limit), [this] { return all_new(); });
+  return strand().wait_for(deadline_in(limit), [this] { return all_new(); });
+}
+
+void Synchronizer::wait_to_fuse(Fusing policy, Duration period) {
+  switch (policy) {
+    case Fusing::all: wait_all(); break;
+    case Fusing::any: wait(); break;
+    case Fusing::clock: wait_for_tick(period); break;
+  }
+}
+
+void Synchronizer::wait_for_tick(Duration period) {
+  assert(period > Duration{0});
+  const TimePoint now = strand().executive().now();
+  const TimePoint start = last_tick_ == TimePoint{} ? now : last_tick_;
+  const TimePoint tick = start + period * std::max<Duration::rep>(1, (now - start + period - 1ns) / period);
+  strand().wait_for(tick, [] { return false; });
+  last_tick_ = tick;
 }
 
 Strand& Synchronizer::strand() const {
   assert(!subjects_.empty());
   return subjects_.front()->endpoint().home().strand;
+}
+
+TimePoint Synchronizer::deadline_in(Duration limit) const {
+  return saturating_add(strand().executive().now(), limit);
 }
 
 bool Synchronizer::all_new() const {

@@ -17,6 +17,11 @@ PortContract port(const char* name, Pattern pattern, Role role, const char* type
 PortContract pushes(const char* name, const char* type) {
   return port(name, Pattern::push, Role::server, type);
 }
+PortContract reads(const char* name, const char* type) {
+  PortContract result = pushes(name, type);
+  result.from_device = true;
+  return result;
+}
 PortContract receives(const char* name, const char* type) {
   return port(name, Pattern::push, Role::proxy, type);
 }
@@ -112,7 +117,7 @@ Contract base_server(bool bound) {
   result.needs_hardware = true;
   if (!bound) return result;
   result.ports = {accepts("MotionCommandSend", "MotionCommand"),
-                  pushes("SonarRangeReadingsPush", "SonarRangeReadings"), pushes("OdometryPush", "Odometry"),
+                  reads("SonarRangeReadingsPush", "SonarRangeReadings"), reads("OdometryPush", "Odometry"),
                   query("LimitsQuery", Role::server, "LimitsRequest", "Limits")};
   return result;
 }

@@ -123,6 +123,27 @@ TEST_CASE("the integrator sets queue, overflow and interval of an edge", "[graph
   CHECK(edge("queue='8' overflow='drop_newest'").queue == QueuePolicy{8, QueuePolicy::Overflow::drop_newest});
   CHECK(edge("queue='latest'").queue == QueuePolicy{});
   CHECK(edge("interval='100 ms'").interval == 100ms);
+  CHECK(edge("deadline='0.5 s'").queue.deadline == 500ms);
+  const QueuePolicy blocking = edge("queue='2' overflow='block' block_limit='20 ms'").queue;
+  CHECK(blocking.overflow == QueuePolicy::Overflow::block);
+  CHECK(blocking.block_limit == 20ms);
+  CHECK(edge("queue='2' overflow='block'").queue.block_limit == 100ms);
+}
+
+TEST_CASE("a Send connection refuses when it is full, or lets the sender wait", "[graph][load]") {
+  const auto edge = [](const std::string& policy) {
+    return must_load(
+               "<graph name='g'><hardware name='h' type='orca.hw.Sim'><param name='world' "
+               "value='w'/></hardware>"
+               "<component name='base' type='orca.RobotBaseServer' hardware='h'/>"
+               "<component name='fuser' type='orca.MotionCommandFuser'/>"
+               "<connect from='fuser.base' to='base.MotionCommandSend' " +
+               policy + "/></graph>")
+        .edges.at(0);
+  };
+  CHECK(edge("").queue.overflow == QueuePolicy::Overflow::refuse);
+  CHECK(edge("overflow='block' queue='3'").queue.overflow == QueuePolicy::Overflow::block);
+  CHECK(edge("overflow='refuse' queue='3'").queue.depth == 3);
 }
 
 TEST_CASE("names may have contexts, and the last dot separates the port", "[graph][load]") {

@@ -29,7 +29,7 @@ class RandomGraph {
               maybe("<port name='ClientListSend' disabled='true'/>") + candidates(avoiders) + "</component>" +
               "<component name='planner' type='orca.Planner'/>" +
               connect("planner.limits", "base.LimitsQuery", "") +
-              connect("fuser.base", "base.MotionCommandSend", maybe(queue()));
+              connect("fuser.base", "base.MotionCommandSend", maybe(room()));
     for (int i = 0; i < avoiders; ++i) result += avoider(i);
     return result + "</graph>";
   }
@@ -60,14 +60,22 @@ class RandomGraph {
            maybe(param("zones", "a; b $$ c ;d&amp;e")) +
            maybe("<property name='room' value=\"" + free_text() + "\"/>") + "</component>" +
            connect("base.SonarRangeReadingsPush", name + ".sonar",
-                   maybe(queue()) + maybe(" interval='" + real(0, 10) + "'")) +
-           (late_bound_ ? "" : connect(name + ".motion", "fuser.motion", maybe(" queue='latest'")));
+                   maybe(queue()) + maybe(" interval='" + real(0, 10) + "'") +
+                       maybe(" deadline='" + real(10, 20) + "'")) +
+           (late_bound_ ? ""
+                        : connect(name + ".motion", "fuser.motion",
+                                  pick(2) == 0 ? " queue='latest'"
+                                               : maybe(" queue='2' overflow='block'" + block_limit())));
   }
 
   std::string queue() {
     return " queue='" + integer(1, 100) + "' overflow='" + (pick(2) == 0 ? "drop_oldest" : "drop_newest") +
            "'";
   }
+  std::string room() {
+    return " queue='" + integer(1, 100) + "' overflow='" + (pick(2) == 0 ? "refuse" : "block") + "'";
+  }
+  std::string block_limit() { return maybe(" block_limit='" + integer(1, 5000) + " ms'"); }
   static std::string connect(const std::string& from, const std::string& to, const std::string& policy) {
     return "<connect from='" + from + "' to='" + to + "'" + policy + "/>";
   }

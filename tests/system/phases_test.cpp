@@ -53,6 +53,7 @@ std::size_t count_deliveries(const std::string& component, const std::string& po
 }
 
 const std::vector<std::string> kAllConnections{
+    "avoid.goal goto.GoalPush",         "avoid.localizer localizer.RobotPosePush",
     "avoid.odometry base.OdometryPush", "avoid.sonar base.SonarRangeReadingsPush",
     "command.arrived goto.ArrivedPush", "fuser.motion avoid.motion",
     "fuser.motion goto.MotionCmdPush",  "goto.localizer localizer.RobotPosePush"};

@@ -119,6 +119,19 @@ TEST_CASE("--picture draws what happened, as SVG and as PNG", "[system][scout]")
   CHECK(read_text(folder.file("run.png")).starts_with("\x89PNG\r\n"));
 }
 
+TEST_CASE("at harsh realism the Scout drives to and fro before no door, with seeds that once did",
+          "[system][scout]") {
+  for (const char* seed : {"5", "18", "31", "32", "39", "40"}) {
+    const Run run = drive({"--set", "realism=harsh", "--seed", seed});
+    INFO(run.err);
+    CAPTURE(seed);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.contacts().empty());
+    REQUIRE(run.arrivals().size() == 3);
+    CHECK(run.arrivals().back().t < 120.0);
+  }
+}
+
 #if defined(ORCA_OPTIMISED)
 TEST_CASE("a virtual run takes less than a fiftieth of its simulated time", "[system][scout]") {
   double best = 1e9;

@@ -64,6 +64,7 @@ class Command final : public orca::Component {
     point->name() = route.name;
     point->coordinate().point().x(place.x);
     point->coordinate().point().y(place.y);
+    point->coordinate().point().z(place.z);
     point->via(via);
     point->reach_radius(via ? *via_radius_ : *reach_radius_);
     point->use_orientation(!via && route.use_orientation);

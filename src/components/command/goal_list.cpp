@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <utility>
 
@@ -37,16 +38,28 @@ Result<double> parse_number(std::string_view text) {
   return value;
 }
 
+// The next number of `rest`, and what is left in `rest` after it.
+Result<double> next_number(std::string_view& rest) {
+  rest = trim(rest);
+  const auto gap = rest.find_first_of(kBlank);
+  const std::string_view number = rest.substr(0, gap);
+  rest = gap == std::string_view::npos ? std::string_view{} : trim(rest.substr(gap));
+  return parse_number(number);
+}
+
 Result<Place> parse_place(std::string_view text) {
-  const std::string_view both = trim(text);
-  const auto gap = both.find_first_of(kBlank);
-  if (gap == std::string_view::npos)
-    return fail(Code::invalid_argument, "expected \"x y\", found \"" + std::string(both) + "\"");
-  const Result<double> x = parse_number(both.substr(0, gap));
-  const Result<double> y = parse_number(trim(both.substr(gap)));
-  if (!x) return x.error();
-  if (!y) return y.error();
-  return Place{*x, *y};
+  std::string_view rest = trim(text);
+  if (rest.find_first_of(kBlank) == std::string_view::npos)
+    return fail(Code::invalid_argument, "expected \"x y\", found \"" + std::string(rest) + "\"");
+  Place place;
+  for (double* number : {&place.x, &place.y, &place.z}) {
+    if (number == &place.z && rest.empty()) break;
+    const Result<double> parsed = next_number(rest);
+    if (!parsed) return parsed.error();
+    *number = *parsed;
+  }
+  if (rest.empty()) return place;
+  return fail(Code::invalid_argument, "there is more after x, y and z: \"" + std::string(rest) + "\"");
 }
 
 // Cuts `text` at the first `mark`: what is before it, and what is left in `text` after it.

@@ -12,6 +12,7 @@ namespace orca::command {
 struct Place {
   double x = 0.0;  ///< [m]
   double y = 0.0;  ///< [m]
+  double z = 0.0;  ///< [m] above the floor.
 };
 
 /// A goal and how to get there.
@@ -24,7 +25,8 @@ struct Route {
 };
 
 /// Reads one route: `kitchen: 3.1 2 > 5 2 > 5 4.5 @ 90`, that is a name, via points and last the goal in
-/// metres, and if wanted after `@` the direction to face there in degrees.
+/// metres (a third number is the height of the place above the floor), and if wanted after `@` the direction
+/// to face there in degrees.
 ///
 /// @errors  invalid_argument with what was found and what was expected.
 [[nodiscard]] Result<Route> parse_route(std::string_view text);

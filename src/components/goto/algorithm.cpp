@@ -6,6 +6,41 @@
 #include <numbers>
 
 namespace orca::go {
+namespace {
+
+constexpr double kQuarterTurn = std::numbers::pi / 2;
+
+double distance(const Target& target, const Pose& pose) {
+  return std::hypot(target.x - pose.x, target.y - pose.y);
+}
+
+double bearing(const Target& target, const Pose& pose) {
+  return wrap(std::atan2(target.y - pose.y, target.x - pose.x) - pose.heading);
+}
+
+Step drive(double direction, double speed, const Limits& limits) {
+  if (std::abs(direction) > limits.turn_in_place) return {Step::Kind::turn, direction, 0.0};
+  const double aligned = std::max(0.0, std::cos(direction * kQuarterTurn / limits.turn_in_place));
+  return {Step::Kind::drive, direction, std::min(limits.max_speed, speed) * aligned};
+}
+
+// Towards the circle from afar, along it with the place on the left when on it, outwards from within it.
+Step circle(const Target& target, const Pose& pose, const Limits& limits) {
+  const double inwards =
+      std::atan2(distance(target, pose) - limits.circle_radius, 0.5 * limits.circle_radius);
+  return drive(wrap(bearing(target, pose) - kQuarterTurn + inwards), limits.max_speed, limits);
+}
+
+Step come_to_rest(const Target& target, const Pose& pose, const Limits& limits, const Before& before) {
+  const double speed = before.speed - limits.deceleration * before.time;
+  if (speed > 0.0 && !target.via) return {Step::Kind::drive, 0.0, speed};
+  const double off = wrap(target.orientation - pose.heading);
+  if (target.use_orientation && !target.via && std::abs(off) > target.reach_angle)
+    return {Step::Kind::turn, off, 0.0};
+  return {Step::Kind::reached, 0.0, 0.0};
+}
+
+}  // namespace
 
 double wrap(double angle) {
   const double wrapped = std::remainder(angle, 2.0 * std::numbers::pi);
@@ -13,23 +48,14 @@ double wrap(double angle) {
 }
 
 bool within_reach(const Target& target, const Pose& pose) {
-  return std::hypot(target.x - pose.x, target.y - pose.y) < target.reach_radius;
+  return std::hypot(target.x - pose.x, target.y - pose.y, target.rise) < target.reach_radius;
 }
 
-Step step_towards(const Target& target, const Pose& pose, const Limits& limits, bool near) {
-  if (near || within_reach(target, pose)) {
-    const double off = wrap(target.orientation - pose.heading);
-    if (target.use_orientation && !target.via && std::abs(off) > target.reach_angle)
-      return {Step::Kind::turn, off, 0.0};
-    return {Step::Kind::reached, 0.0, 0.0};
-  }
-  const double direction = wrap(std::atan2(target.y - pose.y, target.x - pose.x) - pose.heading);
-  if (std::abs(direction) > limits.turn_in_place) return {Step::Kind::turn, direction, 0.0};
-  const double distance = std::hypot(target.x - pose.x, target.y - pose.y);
-  const double approach =
-      target.via ? limits.max_speed : std::max(limits.min_speed, limits.slow_down * distance);
-  const double aligned = std::max(0.0, std::cos(direction * (std::numbers::pi / 2) / limits.turn_in_place));
-  return {Step::Kind::drive, direction, std::min(limits.max_speed, approach) * aligned};
+Step step_towards(const Target& target, const Pose& pose, const Limits& limits, const Before& before) {
+  if (before.near || within_reach(target, pose)) return come_to_rest(target, pose, limits, before);
+  if (target.reach_radius <= 0.0) return circle(target, pose, limits);
+  const double approach = std::max(limits.min_speed, limits.slow_down * distance(target, pose));
+  return drive(bearing(target, pose), target.via ? limits.max_speed : approach, limits);
 }
 
 }  // namespace orca::go

@@ -13,7 +13,8 @@ struct Pose {
 struct Target {
   double x = 0.0;             ///< [m]
   double y = 0.0;             ///< [m]
-  double reach_radius = 0.0;  ///< [m] 0: never reached, the robot circles it.
+  double rise = 0.0;          ///< [m] how far the place lies above the robot, or below.
+  double reach_radius = 0.0;  ///< [m] of the ball around the place; 0: never reached, the robot circles it.
   bool use_orientation = false;
   double orientation = 0.0;  ///< [rad] to face there, if use_orientation.
   double reach_angle = 0.0;  ///< [rad] tolerance of that.
@@ -25,6 +26,16 @@ struct Limits {
   double slow_down = 0.0;      ///< [1/s] speed per metre that is left, near the goal.
   double min_speed = 0.0;      ///< [m/s] near the goal.
   double turn_in_place = 0.0;  ///< [rad] at larger directions the robot turns before it drives.
+  double deceleration = 0.0;   ///< [m/s2] with which it comes to rest at a goal.
+  double circle_radius = 0.0;  ///< [m] of the circle around a place that is never reached.
+};
+
+/// What the robot was told in the lap before.
+struct Before {
+  bool near = false;   ///< It has been within reach before: a little drift out of it does not start the
+                       ///< approach again.
+  double speed = 0.0;  ///< [m/s] that it was told.
+  double time = 0.0;   ///< [s] since then.
 };
 
 /// What to do now: a direction in the robot frame and a speed, or nothing more.
@@ -39,12 +50,10 @@ struct Step {
 [[nodiscard]] double wrap(double angle);
 
 /// One control step towards a target: straight at it, slower when the target lies off the robot's axis and
-/// near a goal.
-///
-/// @param near  whether the robot has been within reach_radius before: then only the orientation is left to
-/// do, and
-///              a little drift out of the radius does not start the approach again.
-[[nodiscard]] Step step_towards(const Target& target, const Pose& pose, const Limits& limits, bool near);
+/// near a goal. Within reach it comes to rest evenly, then turns to face what it shall face. Around a target
+/// without reach it circles counter-clockwise.
+[[nodiscard]] Step step_towards(const Target& target, const Pose& pose, const Limits& limits,
+                                const Before& before);
 
 /// Whether the pose lies within the target's reach radius.
 [[nodiscard]] bool within_reach(const Target& target, const Pose& pose);

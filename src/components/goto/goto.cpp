@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <string>
 
 #include "algorithm.hpp"
@@ -17,8 +18,9 @@ using orca::Status;
 using orca::go::Pose;
 using orca::go::Step;
 
-/// Drives to a goal in a straight line (thesis 11.1). Via points that come before a goal are passed in order;
-/// a goal that comes when the route already ends in one replaces the whole route.
+/// Drives to a goal in a straight line (thesis 11.1); around one whose reach_radius is 0 it circles until
+/// another comes. A goal may lie above or below the robot: its reach is a ball. Via points that come before a
+/// goal are passed in order; a goal that comes when the route already ends in one replaces the whole route.
 class Goto final : public orca::Component {
  public:
   using Component::Component;
@@ -33,59 +35,82 @@ class Goto final : public orca::Component {
   }
 
   Status on_goal(const ObjectPtr<orca::idl::GoalPoint>& goal) {
-    const auto& place = goal->coordinate().point();
-    if (!std::isfinite(place.x()) || !std::isfinite(place.y()) || !std::isfinite(goal->orientation()))
-      return orca::fail(orca::Code::invalid_argument,
-                        "the goal \"" + goal->name() + "\" has a coordinate that is not finite");
+    if (const char* fault = fault_of(*goal); fault != nullptr)
+      return orca::fail(orca::Code::invalid_argument, "the goal \"" + goal->name() + "\" " + fault);
     if (!route_.empty() && !route_.back()->via()) route_.clear();
     route_.push_back(goal);
-    near_ = false;
+    before_.near = false;
     return orca::ok();
   }
 
+  // Null if the robot can go there.
+  [[nodiscard]] const char* fault_of(const orca::idl::GoalPoint& goal) const {
+    const auto& place = goal.coordinate().point();
+    for (const double number :
+         {place.x(), place.y(), place.z(), goal.orientation(), goal.reach_radius(), goal.reach_angle()})
+      if (!std::isfinite(number)) return "holds a number that is not finite";
+    if (goal.reach_radius() < 0.0) return "has a negative reach_radius";
+    if (goal.use_orientation() && goal.reach_angle() <= 0.0)
+      return "has an orientation to take with a reach_angle that is not positive";
+    if (goal.reach_radius() > 0.0 && std::abs(place.z() - *height_) >= goal.reach_radius())
+      return "lies so far above or below the robot that no place on the floor is within its reach_radius";
+    return nullptr;
+  }
+
   orca::Outcome work() override {
-    orca::idl::TimeValue stamp;
-    const Pose pose = take_pose(stamp);
+    const Pose pose = take_pose();
     pass_via_points(pose);
     if (route_.empty()) {
+      before_ = {};
       motion_.push(orca::dont_care());
       return orca::again();
     }
-    near_ = near_ || within_reach(target(), pose);
-    const Step step = step_towards(target(), pose, limits(), near_);
+    goal_push_.push(*route_.front());
+    before_.near = before_.near || within_reach(target(), pose);
+    const Step step = step_towards(target(), pose, limits(), before_);
+    before_.speed = step.speed;
     if (step.kind == Step::Kind::reached) {
-      arrive(pose, stamp);
+      arrive(pose);
     } else {
       motion_.push(orca::head(step.direction, step.speed, *weight_));
     }
     return orca::again();
   }
 
-  void stop() override { near_ = false; }
+  void stop() override {
+    before_ = {};
+    posed_at_.reset();
+  }
 
-  Pose take_pose(orca::idl::TimeValue& stamp) {
-    if (localizer_.connected()) {
-      const auto pose = localizer_.get_update();
-      stamp = pose->stamp();
-      return {pose->x(), pose->y(), pose->orientation()};
+  Pose take_pose() {
+    if (!localizer_.connected()) {
+      const auto odometry = odometry_.get_update();
+      note_time(odometry->stamp());
+      return {odometry->x(), odometry->y(), odometry->steer_angle()};
     }
-    const auto odometry = odometry_.get_update();
-    stamp = odometry->stamp();
-    return {odometry->x(), odometry->y(), odometry->steer_angle()};
+    const auto pose = localizer_.get_update();
+    note_time(pose->stamp());
+    return {pose->x(), pose->y(), pose->orientation()};
+  }
+
+  void note_time(const orca::idl::TimeValue& stamp) {
+    const orca::TimePoint time = orca::to_time_point(stamp);
+    before_.time = posed_at_ ? orca::to_seconds(time - *posed_at_) : 0.0;
+    posed_at_ = time;
   }
 
   void pass_via_points(const Pose& pose) {
     while (!route_.empty() && route_.front()->via() && within_reach(target(), pose)) route_.pop_front();
   }
 
-  void arrive(const Pose& pose, const orca::idl::TimeValue& stamp) {
+  void arrive(const Pose& pose) {
     auto arrived = arrived_.loan();
     arrived->name() = route_.front()->name();
     arrived->x(pose.x);
     arrived->y(pose.y);
-    arrived->stamp(stamp);
+    arrived->stamp(orca::to_time_value(*posed_at_));
     route_.pop_front();
-    near_ = false;
+    before_ = {};
     motion_.push(orca::full_stop());
     arrived_.push(std::move(arrived));
   }
@@ -93,18 +118,26 @@ class Goto final : public orca::Component {
   [[nodiscard]] orca::go::Target target() const {
     const orca::idl::GoalPoint& goal = *route_.front();
     const auto& place = goal.coordinate().point();
-    return {place.x(),          place.y(),          goal.reach_radius(), goal.use_orientation(),
-            goal.orientation(), goal.reach_angle(), goal.via()};
+    return {place.x(),
+            place.y(),
+            place.z() - *height_,
+            goal.reach_radius(),
+            goal.use_orientation(),
+            goal.orientation(),
+            goal.reach_angle(),
+            goal.via()};
   }
 
   [[nodiscard]] orca::go::Limits limits() const {
-    return {*max_speed_, *slow_down_, *min_speed_, *turn_in_place_};
+    return {*max_speed_, *slow_down_, *min_speed_, *turn_in_place_, *deceleration_, *circle_radius_};
   }
 
   orca::SendServer<orca::idl::GoalPoint> goal_{
       *this, "GotoCoordinateSend", &Goto::on_goal, {.text = "Where to go."}};
   orca::PushServer<orca::idl::MotionCommand> motion_{*this, "MotionCmdPush", {.text = "A wish per lap."}};
   orca::PushServer<orca::idl::Arrived> arrived_{*this, "ArrivedPush", {.text = "Once per goal reached."}};
+  orca::PushServer<orca::idl::GoalPoint> goal_push_{
+      *this, "GoalPush", {.text = "Where it drives now, per lap: via points and goals."}};
   orca::PushProxy<orca::idl::Odometry> odometry_{
       *this, "odometry", {.text = "Where the robot is, if no localizer is connected.", .optional = true}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
@@ -121,11 +154,24 @@ class Goto final : public orca::Component {
       "turn_in_place",
       1.0,
       {.unit = "rad", .min = 0.05, .max = 3.15, .text = "Directions further off are turned to on the spot."}};
+  orca::Param<double> deceleration_{
+      *this,
+      "deceleration",
+      0.5,
+      {.unit = "m/s2", .min = 0.01, .text = "How evenly it comes to rest within reach of a goal."}};
+  orca::Param<double> circle_radius_{
+      *this,
+      "circle_radius",
+      0.6,
+      {.unit = "m", .min = 0.05, .text = "Of the way around a goal whose reach_radius is 0."}};
+  orca::Param<double> height_{
+      *this, "height", 0.0, {.unit = "m", .text = "Of the robot in the frame of goals in space."}};
   orca::Param<double> weight_{
       *this, "weight", 1.0, {.min = 0.0, .text = "Share of its wishes when they are fused."}};
 
   std::deque<ObjectPtr<orca::idl::GoalPoint>> route_;
-  bool near_ = false;
+  orca::go::Before before_;
+  std::optional<orca::TimePoint> posed_at_;
 };
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "algorithm.hpp"
+#include "decide.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/system.hpp"
@@ -14,67 +16,225 @@ namespace {
 using orca::ObjectPtr;
 using orca::PushEdge;
 using orca::Status;
+using orca::fuse::Decision;
+using orca::fuse::Verdict;
+using orca::fuse::Voice;
 using orca::fuse::Wish;
+using MotionPort = orca::PushProxyArray<orca::idl::MotionCommand>;
+
+// A behaviour that is listened to, and what it said.
+struct Listened {
+  PushEdge* edge = nullptr;
+  std::string name;
+  ObjectPtr<orca::idl::MotionCommand> last;
+  ObjectPtr<orca::idl::MotionCommand> last_wish;  // opinions only
+};
 
 /// Fuses the wishes of the behaviours that a client list names into one crisp command (thesis 11.1). Which
-/// behaviours may be named is what the graph connects to `motion`.
+/// behaviours may be named is what the graph connects to `motion`. README.md tells about the modes.
 class MotionCommandFuser final : public orca::Component {
  public:
-  explicit MotionCommandFuser(orca::ComponentHost& host) : Component(host) { lap_on("motion"); }
+  using Component::Component;
 
  private:
-  Status on_client_list(const ObjectPtr<orca::idl::ClientList>& list) {
-    for (const std::string& name : list->clients())
-      if (!names_an_edge(name))
-        return orca::fail(orca::Code::not_found, "no behaviour \"" + name + "\" is connected to " +
-                                                     motion_.endpoint().path() +
-                                                     "; connected are: " + connected_names());
-    for (const auto& edge : motion_.edges()) {
-      const bool listed = std::any_of(list->clients().begin(), list->clients().end(),
-                                      [&](const std::string& name) { return is_called(*edge, name); });
-      listed ? edge->subscribe() : edge->unsubscribe();
+  Status configure() override {
+    if (*sync_ == "period") {
+      lap_every(orca::from_seconds(*period_));
+    } else {
+      lap_on("motion");
     }
-    stay_active(!list->clients().empty());
+    if (Status sound = params_changed(); !sound.ok()) return sound;
+    return first_clients_->empty() ? orca::ok() : choose(*first_clients_);
+  }
+
+  Status params_changed() override {
+    orca::fuse::Rules rules = this->rules();
+    if (rules.mode == orca::fuse::Mode::priority && rules.order.empty())
+      return orca::fail(orca::Code::invalid_argument, "mode priority needs the parameter order");
+    if (Status read = read_nodes(*suppress_, rules.wiring.suppress); !read.ok()) return read;
+    if (Status read = read_nodes(*inhibit_, rules.wiring.inhibit); !read.ok()) return read;
+    rules_ = std::move(rules);
     return orca::ok();
   }
 
-  // For every wish that comes, all are fused with their latest (the second policy of thesis 7.4).
+  Status start() override {
+    for (const Listened& behaviour : listened_) behaviour.edge->subscribe();
+    return orca::ok();
+  }
+
+  void stop() override {
+    for (Listened& behaviour : listened_) behaviour = {behaviour.edge, behaviour.name, {}, {}};
+    decision_ = {};
+    voices_.clear();
+    refused_ = true;  // at the very end the base takes nothing any more
+    explain(send());  // nobody is listened to any more: the robot must not go on with the last command
+  }
+
+  Status on_client_list(const ObjectPtr<orca::idl::ClientList>& list) {
+    if (Status chosen = choose(list->clients()); !chosen.ok()) return chosen;
+    for (const auto& edge : motion_.edges()) {
+      const bool listed = std::any_of(listened_.begin(), listened_.end(), [&](const Listened& behaviour) {
+        return behaviour.edge == edge.get();
+      });
+      listed ? edge->subscribe() : edge->unsubscribe();
+    }
+    return orca::ok();
+  }
+
+  // What those said that were listened to before is forgotten.
+  Status choose(const std::vector<std::string>& names) {
+    std::vector<Listened> chosen;
+    for (const std::string& name : names) {
+      PushEdge* edge = edge_of(name);
+      if (edge == nullptr)
+        return orca::fail(orca::Code::not_found, "no behaviour \"" + name + "\" is connected to " +
+                                                     motion_.endpoint().path() +
+                                                     "; connected are: " + connected_names());
+      const auto same = [&](const Listened& behaviour) { return behaviour.edge == edge; };
+      if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back({edge, name, {}, {}});
+    }
+    listened_ = std::move(chosen);
+    stay_active(!listened_.empty());
+    return orca::ok();
+  }
+
   orca::Outcome work() override {
-    std::vector<Wish>& wishes = wishes_;
-    wishes.clear();
-    for (const auto& edge : motion_.edges())
-      if (edge->subscribed())
-        collect(orca::PushProxyArray<orca::idl::MotionCommand>::take_latest(*edge), wishes);
-    send(orca::fuse::fuse_weighted(wishes, *steer_gain_));
+    if (*sync_ == "all") wait_for_all();
+    if (listened_.empty()) return orca::again();
+    voices_.clear();
+    for (Listened& behaviour : listened_) voices_.push_back(hear(behaviour));
+    const double last_rate = decision_.command.kind == Wish::Kind::turn_rate ? decision_.command.value : 0.0;
+    Decision decision = decide(voices_, rules_, last_rate);
+    tell_change(decision);
+    decision_ = std::move(decision);
+    explain(send());
     return orca::again();
   }
 
-  // Nobody is listened to any more: the robot must not go on with the last command.
-  void stop() override { send(std::nullopt); }
-
-  void collect(const ObjectPtr<orca::idl::MotionCommand>& command, std::vector<Wish>& wishes) const {
-    if (!command || command->kind() == orca::idl::DONTCARE) return;
-    if (orca::to_seconds(now() - orca::to_time_point(command->creation_time())) > *max_age_) return;
-    if (command->kind() == orca::idl::FULLSTOP) {
-      wishes.push_back({Wish::Kind::full_stop});
-    } else if (command->steering() == orca::idl::BY_DIRECTION) {
-      wishes.push_back({Wish::Kind::direction, command->direction(), command->speed(), command->weight()});
-    } else {
-      wishes.push_back({Wish::Kind::turn_rate, command->turn_rate(), command->speed(), command->weight()});
-    }
+  // The first policy of thesis 7.4, but a full stop is not kept waiting, nor the others by one that is
+  // silent.
+  void wait_for_all() {
+    const auto settled = [&] {
+      return stop_is_waiting() || std::all_of(listened_.begin(), listened_.end(),
+                                              [](const Listened& b) { return b.edge->has_new(); });
+    };
+    host().strand().wait_for(orca::saturating_add(now(), orca::from_seconds(*all_wait_)), settled);
   }
 
-  void send(const std::optional<Wish>& fused) {
-    Status sent;
-    if (!fused || fused->kind == Wish::Kind::full_stop) {
-      sent = base_.send(orca::full_stop());
-    } else if (fused->kind == Wish::Kind::direction) {
-      sent = base_.send(orca::head(fused->value, fused->speed, fused->weight));
-    } else {
-      sent = base_.send(orca::turn(fused->value, fused->speed, fused->weight));
+  [[nodiscard]] bool stop_is_waiting() const {
+    return std::any_of(listened_.begin(), listened_.end(), [](const Listened& behaviour) {
+      const auto newest = orca::object_cast<orca::idl::MotionCommand>(behaviour.edge->latest());
+      return newest && behaviour.edge->has_new() && newest->kind() == orca::idl::FULLSTOP;
+    });
+  }
+
+  Voice hear(Listened& behaviour) {
+    const auto newest = MotionPort::take_latest(*behaviour.edge);
+    if (newest && is_sound(*newest)) {
+      behaviour.last = newest;
+      if (newest->kind() == orca::idl::NORMAL) behaviour.last_wish = newest;
     }
-    if (!sent.ok() && !refused_) log_warning("the base refuses commands: " + sent.error().text());
-    refused_ = !sent.ok();
+    Voice voice;
+    voice.name = behaviour.name;
+    if (!behaviour.last) return voice;
+    voice.said = said(*behaviour.last);
+    voice.age = age_of(*behaviour.last);
+    if (!behaviour.last_wish) return voice;
+    voice.wish = wish_of(*behaviour.last_wish);
+    voice.wish_age = age_of(*behaviour.last_wish);
+    return voice;
+  }
+
+  // What holds no number is as if it had not been said.
+  static bool is_sound(const orca::idl::MotionCommand& command) {
+    return std::isfinite(command.direction()) && std::isfinite(command.turn_rate()) &&
+           std::isfinite(command.speed()) && std::isfinite(command.weight());
+  }
+
+  static Voice::Said said(const orca::idl::MotionCommand& command) {
+    if (command.kind() == orca::idl::FULLSTOP) return Voice::Said::full_stop;
+    return command.kind() == orca::idl::NORMAL ? Voice::Said::wish : Voice::Said::dont_care;
+  }
+
+  static Wish wish_of(const orca::idl::MotionCommand& command) {
+    if (command.steering() == orca::idl::BY_DIRECTION)
+      return {Wish::Kind::direction, command.direction(), command.speed(), command.weight()};
+    return {Wish::Kind::turn_rate, command.turn_rate(), command.speed(), command.weight()};
+  }
+
+  [[nodiscard]] double age_of(const orca::idl::MotionCommand& command) const {
+    return orca::to_seconds(now() - orca::to_time_point(command.creation_time()));
+  }
+
+  orca::Loan<orca::idl::MotionCommand> command() const {
+    const Wish& wish = decision_.command;
+    if (decision_.verdict != Verdict::fused) return orca::full_stop();
+    if (wish.kind == Wish::Kind::direction) return orca::head(wish.value, wish.speed, wish.weight);
+    return orca::turn(wish.value, wish.speed, wish.weight);
+  }
+
+  // The command as it was sent.
+  orca::idl::MotionCommand send() {
+    orca::Loan<orca::idl::MotionCommand> loan = command();
+    const orca::idl::MotionCommand sent = *loan;
+    const Status taken = base_.send(std::move(loan));
+    if (!taken.ok() && !refused_) log_warning("the base refuses commands: " + taken.error().text());
+    refused_ = !taken.ok();
+    return sent;
+  }
+
+  void explain(const orca::idl::MotionCommand& sent) {
+    if (reason_.subscriber_count() == 0) return;
+    auto reason = reason_.loan();
+    reason->mode() = *mode_;
+    reason->verdict(static_cast<orca::idl::FusionVerdict>(decision_.verdict));
+    reason->decided_by() = decision_.decided_by;
+    reason->command(sent);
+    reason->voices().resize(voices_.size());
+    for (std::size_t i = 0; i < voices_.size(); ++i) describe(i, reason->voices()[i]);
+    reason_.push(std::move(reason));
+  }
+
+  void describe(std::size_t i, orca::idl::FusionVoice& voice) const {
+    const Voice& said = voices_[i];
+    const bool heard = said.said != Voice::Said::nothing;
+    voice.behaviour() = said.name;
+    voice.heard(heard);
+    voice.kind(heard ? listened_[i].last->kind() : orca::idl::DONTCARE);
+    voice.age(heard ? said.age : 0.0);
+    voice.weight(said.said == Voice::Said::wish ? said.wish.weight : 0.0);
+    voice.share(decision_.shares[i]);
+  }
+
+  void tell_change(const Decision& decision) const {
+    const bool was_silent = decision_.verdict == Verdict::required_silent;
+    const bool is_silent = decision.verdict == Verdict::required_silent;
+    if (is_silent && !was_silent)
+      log_warning("stops the robot: nothing is heard of the required behaviour \"" + decision.decided_by +
+                  "\"");
+    if (was_silent && !is_silent) log_info("all required behaviours are heard again");
+  }
+
+  static Status read_nodes(const std::vector<std::string>& texts, std::vector<orca::fuse::Node>& nodes) {
+    for (const std::string& text : texts) {
+      const auto node = orca::fuse::parse_node(text);
+      if (!node)
+        return orca::fail(orca::Code::invalid_argument, "cannot read \"" + text +
+                                                            "\"; expected \"higher > lower\", as "
+                                                            "\"avoid > goto\"");
+      nodes.push_back(*node);
+    }
+    return orca::ok();
+  }
+
+  [[nodiscard]] orca::fuse::Rules rules() const {
+    return {.mode = orca::fuse::mode_of(*mode_),
+            .max_age = *max_age_,
+            .ballot = {*steer_gain_, *max_turn_rate_, *rate_spread_, *speed_spread_, *inertia_},
+            .order = *order_,
+            .wiring = {{}, {}, *max_age_, *hold_},
+            .required = *required_,
+            .required_max_age = *required_max_age_};
   }
 
   // Whether the edge comes from the behaviour or port `name`, seen from the fuser's own context or from the
@@ -86,9 +246,10 @@ class MotionCommandFuser final : public orca::Component {
     return path == here || behaviour == here || path == name || behaviour == name;
   }
 
-  [[nodiscard]] bool names_an_edge(const std::string& name) const {
-    return std::any_of(motion_.edges().begin(), motion_.edges().end(),
-                       [&](const auto& edge) { return is_called(*edge, name); });
+  [[nodiscard]] PushEdge* edge_of(const std::string& name) const {
+    for (const auto& edge : motion_.edges())
+      if (is_called(*edge, name)) return edge.get();
+    return nullptr;
   }
 
   [[nodiscard]] std::string connected_names() const {
@@ -97,7 +258,7 @@ class MotionCommandFuser final : public orca::Component {
     return names.empty() ? "none" : names;
   }
 
-  orca::PushProxyArray<orca::idl::MotionCommand> motion_{
+  MotionPort motion_{
       *this,
       "motion",
       {.text = "Wishes of the behaviours that may be named in a client list.", .optional = true}};
@@ -107,15 +268,81 @@ class MotionCommandFuser final : public orca::Component {
                                                    {.text = "Which behaviours to listen to from now on."}};
   orca::SendProxy<orca::idl::MotionCommand> base_{*this, "base", {.text = "Where the fused command goes."}};
 
+  orca::PushServer<orca::idl::FusionReason> reason_{
+      *this, "FusionReasonPush", {.text = "Why it commanded what it did, for every command."}};
+
+  orca::Param<std::string> mode_{
+      *this, "mode", "weighted", {.choices = orca::fuse::kModes, .text = "How wishes become one command."}};
+  orca::Param<std::string> sync_{
+      *this,
+      "sync",
+      "any",
+      {.choices = {"any", "all", "period"},
+       .fixed = true,
+       .text = "Fuse when any behaviour speaks, when all have spoken, or once a period."}};
+  orca::Param<double> period_{
+      *this,
+      "period",
+      0.05,
+      {.unit = "s", .min = 0.001, .fixed = true, .text = "Between two commands, with sync period."}};
+  orca::Param<double> all_wait_{
+      *this,
+      "all_wait",
+      0.2,
+      {.unit = "s", .min = 0.001, .text = "With sync all, how long the others wait for one that is silent."}};
+  orca::Param<std::vector<std::string>> first_clients_{
+      *this, "clients", {}, {.fixed = true, .text = "Behaviours to listen to until a client list comes."}};
+  orca::Param<std::vector<std::string>> required_{
+      *this, "required", {}, {.text = "Behaviours without which the robot must not move."}};
+  orca::Param<double> required_max_age_{
+      *this,
+      "required_max_age",
+      0.5,
+      {.unit = "s", .min = 0.0, .text = "Silence of a required behaviour that stops the robot."}};
   orca::Param<double> max_age_{
       *this, "max_age", 0.5, {.unit = "s", .min = 0.0, .text = "Older wishes are disregarded."}};
   orca::Param<double> steer_gain_{
       *this,
       "steer_gain",
       1.0,
-      {.unit = "1/s", .min = 0.0, .text = "Turn rate per radian when directions and rates are mixed."}};
+      {.unit = "1/s", .min = 0.01, .text = "Turn rate per radian when directions and rates are mixed."}};
 
-  std::vector<Wish> wishes_;
+  orca::Param<double> max_turn_rate_{
+      *this,
+      "max_turn_rate",
+      1.0,
+      {.unit = "rad/s", .min = 0.01, .text = "Mode vote: the fastest turns that are voted on."}};
+  orca::Param<double> rate_spread_{
+      *this,
+      "rate_spread",
+      0.15,
+      {.unit = "rad/s", .min = 0.01, .text = "Mode vote: how far a wish's votes reach over turn rates."}};
+  orca::Param<double> speed_spread_{
+      *this,
+      "speed_spread",
+      0.1,
+      {.unit = "m/s", .min = 0.01, .text = "Mode vote: how far a wish's votes reach over speeds."}};
+  orca::Param<double> inertia_{
+      *this,
+      "inertia",
+      0.2,
+      {.min = 0.0, .max = 1.0, .text = "Mode vote: share of the votes that its last choice has."}};
+  orca::Param<std::vector<std::string>> order_{
+      *this, "order", {}, {.text = "Mode priority: the behaviours, the one that goes first first."}};
+  orca::Param<std::vector<std::string>> suppress_{
+      *this, "suppress", {}, {.text = "Mode subsumption: \"avoid > goto\" puts avoid's wish for goto's."}};
+  orca::Param<std::vector<std::string>> inhibit_{
+      *this, "inhibit", {}, {.text = "Mode subsumption: \"arm > goto\" silences goto while arm has a wish."}};
+  orca::Param<double> hold_{
+      *this,
+      "hold",
+      0.5,
+      {.unit = "s", .min = 0.0, .text = "Mode subsumption: how long a node acts after the last wish."}};
+
+  orca::fuse::Rules rules_;
+  std::vector<Listened> listened_;
+  std::vector<Voice> voices_;
+  Decision decision_;  // the last one
   bool refused_ = false;
 };
 

@@ -33,7 +33,7 @@ class HardwareServer::SensorPorts {
   SensorPorts(HardwareServer& server, SensorEndpoint& sensor)
       : server_(server),
         sensor_(sensor),
-        push_(server, std::string(sensor.type().name) + "Push", type_id(sensor.type())),
+        push_(server, std::string(sensor.type().name) + "Push", sensor),
         query_(server, std::string(sensor.type().name) + "Query", type_id(object_type<idl::Ask>()),
                type_id(sensor.type()), [this](const ObjectRef&) { return answer(); }, {}) {}
   ~SensorPorts() { sensor_.set_sink(nullptr); }
@@ -51,8 +51,9 @@ class HardwareServer::SensorPorts {
  private:
   class Push final : public PushServerHandle {
    public:
-    Push(PortOwner& owner, std::string name, TypeId type)
-        : PushServerHandle(owner, std::move(name), std::move(type), {}) {}
+    Push(PortOwner& owner, std::string name, const SensorEndpoint& sensor)
+        : PushServerHandle(owner, std::move(name), type_id(sensor.type()),
+                           {.period = sensor.period(), .from_device = true}) {}
     // From the container's strand, so without the provenance of what the component handles at the moment.
     ObjectRef push(ObjectLoan reading) { return endpoint().push(std::move(reading), nullptr); }
   };

@@ -26,19 +26,24 @@ bool fits(const PortContract& from, const PortContract& to) {
          from.reply == to.reply;
 }
 
-template <class Proxy>
-Status connect_proxy(Proxy& proxy, Endpoint& server_end) {
+Status connect_send(SendClientEndpoint& proxy, SendServerEndpoint& server, const QueuePolicy& policy) {
   if (proxy.connected()) return taken(proxy);
-  if constexpr (std::is_same_v<Proxy, SendClientEndpoint>) {
-    proxy.connect(static_cast<SendServerEndpoint&>(server_end));
-  } else {
-    proxy.connect(static_cast<QueryServerEndpoint&>(server_end));
-  }
+  proxy.connect(server.connect(proxy.path(), policy));
+  return ok();
+}
+
+Status connect_query(QueryClientEndpoint& proxy, QueryServerEndpoint& server) {
+  if (proxy.connected()) return taken(proxy);
+  proxy.connect(server);
   return ok();
 }
 
 Status connect_push(PushServerEndpoint& server, PushClientEndpoint& client, const QueuePolicy& policy) {
   if (client.connected() && !client.contract().many) return taken(client);
+  if (policy.overflow == QueuePolicy::Overflow::block && server.contract().from_device)
+    return fail(Code::invalid_argument,
+                "an edge from " + server.path() +
+                    " cannot block, because a device pushes there and waits for nobody");
   client.connect(server.source(), policy);
   return ok();
 }
@@ -51,10 +56,17 @@ Status connect_locally(Endpoint& from, Endpoint& to, const QueuePolicy& policy) 
     case Pattern::push:
       return connect_push(static_cast<PushServerEndpoint&>(from), static_cast<PushClientEndpoint&>(to),
                           policy);
-    case Pattern::send: return connect_proxy(static_cast<SendClientEndpoint&>(from), to);
-    case Pattern::query: return connect_proxy(static_cast<QueryClientEndpoint&>(from), to);
+    case Pattern::send:
+      return connect_send(static_cast<SendClientEndpoint&>(from), static_cast<SendServerEndpoint&>(to),
+                          policy);
+    case Pattern::query:
+      return connect_query(static_cast<QueryClientEndpoint&>(from), static_cast<QueryServerEndpoint&>(to));
   }
   return mismatch(from, to);
+}
+
+Status connect_locally(Endpoint& from, Endpoint& to) {
+  return connect_locally(from, to, to.contract().queue);
 }
 
 }  // namespace orca

@@ -72,11 +72,14 @@ Attributes attributes_of(const PortSetting& setting) {
 Attributes attributes_of(const Edge& edge) {
   Attributes result;
   if (edge.pattern != Pattern::query) {
-    const bool newest = edge.queue.overflow == QueuePolicy::Overflow::drop_newest;
     add(result, "queue", std::to_string(edge.queue.depth));
-    add(result, "overflow", newest ? "drop_newest" : "drop_oldest");
+    add(result, "overflow", to_string(edge.queue.overflow));
+    if (edge.queue.overflow == QueuePolicy::Overflow::block)
+      add(result, "block_limit", seconds_text(edge.queue.block_limit));
   }
-  if (edge.pattern == Pattern::push) add(result, "interval", seconds_text(edge.interval));
+  if (edge.pattern != Pattern::push) return result;
+  add(result, "interval", seconds_text(edge.interval));
+  add(result, "deadline", seconds_text(edge.queue.deadline));
   return result;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edges.hpp"
 
+#include <array>
+
 #include "codes.hpp"
 #include "layout.hpp"
 #include "orca/xml/number.hpp"
@@ -48,30 +50,43 @@ std::optional<Misfit> misfit(const Endpoint& from, const Endpoint& to) {
   return type_misfit(*from.port->reply, *to.port->reply, "reply");
 }
 
-// Reads queue, overflow and interval into an edge.
+// Where an attribute of the policy has a meaning.
+struct PolicyAttribute {
+  const char* name;
+  bool push;
+  bool send;
+};
+constexpr std::array kPolicyAttributes{
+    PolicyAttribute{"queue", true, true}, PolicyAttribute{"overflow", true, true},
+    PolicyAttribute{"block_limit", true, true}, PolicyAttribute{"interval", true, false},
+    PolicyAttribute{"deadline", true, false}};
+
+// Reads the policy of an edge.
 class PolicyReader {
  public:
-  PolicyReader(const Node& connection, Edge& edge, Report& report)
-      : connection_(connection), edge_(edge), report_(report) {}
+  PolicyReader(const Node& connection, const Endpoint& from, Edge& edge, Report& report)
+      : connection_(connection), from_(from), edge_(edge), report_(report) {}
 
+  // False after a report.
   bool read() {
     if (!check_pattern()) return false;
-    const bool depth_ok = read_depth();
-    const bool overflow_ok = read_overflow();
-    return read_interval() && depth_ok && overflow_ok;
+    bool good = read_depth();
+    good = read_overflow() && good;
+    good = read_time("interval", 0.0, edge_.interval) && good;
+    good = read_time("deadline", 0.0, edge_.queue.deadline) && good;
+    good = check_deadline() && good;
+    return read_time("block_limit", 1e-6, edge_.queue.block_limit) && good;
   }
 
  private:
   bool check_pattern() {
     bool fits = true;
-    for (const char* attribute : {"queue", "overflow", "interval"}) {
-      const bool allowed = edge_.pattern == Pattern::push ||
-                           (edge_.pattern == Pattern::send && attribute != std::string_view("interval"));
-      if (allowed || connection_.find(attribute) == nullptr) continue;
-      fits = false;
-      report_.error(codes::kPolicy, connection_.place(attribute),
-                    std::string(attribute) + " has no meaning for a " + to_string(edge_.pattern) +
-                        " connection; remove it");
+    for (const PolicyAttribute& attribute : kPolicyAttributes) {
+      const bool push = edge_.pattern == Pattern::push;
+      if (push ? attribute.push : edge_.pattern == Pattern::send && attribute.send) continue;
+      if (connection_.find(attribute.name) == nullptr) continue;
+      fits = refuse(attribute.name, std::string(attribute.name) + " has no meaning for a " +
+                                        to_string(edge_.pattern) + " connection; remove it");
     }
     return fits;
   }
@@ -79,45 +94,84 @@ class PolicyReader {
   bool read_depth() {
     const Text* queue = connection_.find("queue");
     if (queue == nullptr) return true;
-    if (queue->known && xml::trimmed(queue->value) == "latest") {
-      edge_.queue = QueuePolicy{};
+    if (edge_.pattern == Pattern::push && queue->known && xml::trimmed(queue->value) == "latest") {
+      edge_.queue.depth = 1;
+      edge_.queue.overflow = QueuePolicy::Overflow::drop_oldest;
       return true;
     }
     ParamContract contract;
     contract.type = ParamType::integer;
     contract.min = 1;
     contract.max = 100'000;
-    const auto depth = read_value(*queue, contract, "queue (\"latest\" or a number of objects)", report_);
+    const char* const latest = edge_.pattern == Pattern::push ? "\"latest\" or " : "";
+    const auto depth =
+        read_value(*queue, contract, std::string("queue (") + latest + "a number of objects)", report_);
     if (depth) edge_.queue.depth = static_cast<std::uint32_t>(std::get<std::int64_t>(*depth));
     return depth.has_value();
   }
 
   bool read_overflow() {
-    const Text* overflow = connection_.find("overflow");
-    if (overflow == nullptr) return true;
-    ParamContract contract;
-    contract.type = ParamType::text;
-    contract.choices = {"drop_oldest", "drop_newest"};
-    const auto choice = read_value(*overflow, contract, "overflow", report_);
-    if (!choice) return false;
-    const bool newest = std::get<std::string>(*choice) == "drop_newest";
-    edge_.queue.overflow = newest ? QueuePolicy::Overflow::drop_newest : QueuePolicy::Overflow::drop_oldest;
-    return true;
+    if (const Text* overflow = connection_.find("overflow")) {
+      ParamContract contract;
+      contract.type = ParamType::text;
+      for (const QueuePolicy::Overflow choice : choices()) contract.choices.emplace_back(to_string(choice));
+      const auto read = read_value(*overflow, contract, "overflow", report_);
+      if (!read) return false;
+      for (const QueuePolicy::Overflow choice : choices())
+        if (std::get<std::string>(*read) == to_string(choice)) edge_.queue.overflow = choice;
+    }
+    return check_block();
   }
 
-  bool read_interval() {
-    const Text* interval = connection_.find("interval");
-    if (interval == nullptr) return true;
+  // An object that a SendServer has accepted is never dropped.
+  [[nodiscard]] std::vector<QueuePolicy::Overflow> choices() const {
+    using Overflow = QueuePolicy::Overflow;
+    if (edge_.pattern == Pattern::send) return {Overflow::refuse, Overflow::block};
+    return {Overflow::drop_oldest, Overflow::drop_newest, Overflow::block};
+  }
+
+  bool check_block() {
+    if (edge_.queue.overflow != QueuePolicy::Overflow::block) {
+      return connection_.find("block_limit") == nullptr ||
+             refuse("block_limit", "block_limit has a meaning only with overflow=\"block\"; remove it");
+    }
+    const Text* queue = connection_.find("queue");
+    if (queue != nullptr && xml::trimmed(queue->value) == "latest")
+      return refuse("overflow",
+                    "overflow: \"block\" and queue=\"latest\" exclude each other; give queue a number");
+    if (!from_.port->from_device) return true;
+    return refuse("overflow",
+                  "overflow: \"block\" is not possible, because a device pushes at " +
+                      in_quotes(edge_.from.text()) +
+                      " and waits for nobody; take drop_oldest or drop_newest and a longer queue");
+  }
+
+  bool check_deadline() {
+    if (edge_.queue.deadline == Duration{0} || edge_.queue.deadline >= edge_.interval) return true;
+    return refuse("deadline",
+                  "deadline: it is shorter than the interval and could never be kept; make it longer, "
+                  "0 for none");
+  }
+
+  bool read_time(const char* attribute, double min, Duration& time) {
+    const Text* text = connection_.find(attribute);
+    if (text == nullptr) return true;
     ParamContract contract;
     contract.unit = "s";
-    contract.min = 0.0;
+    contract.min = min;
     contract.max = 86400.0;
-    const auto seconds = read_value(*interval, contract, "interval", report_);
-    if (seconds) edge_.interval = from_seconds(std::get<double>(*seconds));
+    const auto seconds = read_value(*text, contract, attribute, report_);
+    if (seconds) time = from_seconds(std::get<double>(*seconds));
     return seconds.has_value();
   }
 
+  bool refuse(const char* attribute, const std::string& why) {
+    report_.error(codes::kPolicy, connection_.place(attribute), why);
+    return false;
+  }
+
   const Node& connection_;
+  const Endpoint& from_;
   Edge& edge_;
   Report& report_;
 };
@@ -129,6 +183,8 @@ std::optional<Edge> make_edge(const Node& connection, const Endpoint& from, cons
   Edge edge{from.ref,           to.ref, from.port->pattern, to.port->queue, to.port->queue.min_interval,
             connection.position};
   edge.queue.min_interval = Duration{0};
+  if (edge.pattern != Pattern::push && edge.queue.overflow != QueuePolicy::Overflow::block)
+    edge.queue.overflow = QueuePolicy::Overflow::refuse;
   const auto reason = misfit(from, to);
   if (reason) {
     report.error(reason->code, connection.position,
@@ -136,7 +192,7 @@ std::optional<Edge> make_edge(const Node& connection, const Endpoint& from, cons
     if (reason->code == codes::kPattern)
       return std::nullopt;  // what the policy may be depends on the pattern
   }
-  const bool policy_ok = PolicyReader(connection, edge, report).read();
+  const bool policy_ok = PolicyReader(connection, from, edge, report).read();
   return reason || !policy_ok ? std::nullopt : std::optional(edge);
 }
 

@@ -15,7 +15,7 @@ using Attributes = std::span<const AttributeRule>;
 constexpr std::array<std::string_view, 2> kYesNo{"true", "false"};
 constexpr std::array<std::string_view, 2> kStart{"at_once", "on_demand"};
 constexpr std::array<std::string_view, 2> kStay{"cold", "warm"};
-constexpr std::array<std::string_view, 2> kOverflow{"drop_oldest", "drop_newest"};
+constexpr std::array<std::string_view, 4> kOverflow{"drop_oldest", "drop_newest", "block", "refuse"};
 
 constexpr std::array kGraph{
     AttributeRule{"name", true, "Name of the system."},
@@ -53,7 +53,10 @@ constexpr std::array kConnect{
     AttributeRule{"from", true, "component.port: a PushServer, QueryProxy or SendProxy."},
     AttributeRule{"to", true, "component.port: a PushProxy, QueryServer or SendServer."},
     AttributeRule{"queue", false, "How many objects wait: latest, or a number."},
-    AttributeRule{"overflow", false, "What a full queue drops.", kOverflow},
+    AttributeRule{"overflow", false, "What happens when the queue is full.", kOverflow},
+    AttributeRule{"block_limit", false,
+                  "So long at most the publisher waits for room, with overflow=\"block\"."},
+    AttributeRule{"deadline", false, "Without an object for so long the edge counts a missed deadline."},
     AttributeRule{"interval", false, "Deliver at most one object in such a time, for example 1 s."}};
 constexpr std::array kPort{
     AttributeRule{"name", true, "As its author calls it."},

@@ -209,6 +209,7 @@ void ComponentInstance::enter_work() {
 void ComponentInstance::leave_work(ComponentState next) {
   const auto fault = call("stop", [&] { loaded_->object->stop(); });
   ports_.unsubscribe();
+  home_.provenance.end_task();
   if (fault && !fault->interrupted) {
     fail_with("stop", fault->text);
   } else {
@@ -223,6 +224,7 @@ void ComponentInstance::lap() {
   }
   Outcome outcome;
   activity_before_lap_ = strand_.activity();
+  home_.provenance.begin_lap();
   in_lap_ = true;
   const auto fault = call("work", [&] { outcome = loaded_->object->work(); });
   in_lap_ = false;
@@ -290,6 +292,7 @@ void ComponentInstance::fail_with(const char* hook, const std::string& what) {
     if (fault && !fault->interrupted) write_log(log::Level::error, "stop() " + fault->text);
   }
   ports_.unsubscribe();
+  home_.provenance.end_task();
   ports_.close("it has failed: " + text);
   may_try_again_ = false;
   has_failed_.store(true, std::memory_order_release);

@@ -45,22 +45,10 @@ bool second_byte_fits(unsigned first, unsigned second) {
 
 bool is_allowed_control(unsigned byte) { return byte == '\t' || byte == '\n' || byte == '\r'; }
 
-// The length of the character at `i`, 0 if there is none that may stand in XML.
-std::size_t character_length(std::string_view text, std::size_t i) {
-  const unsigned first = byte_at(text, i);
-  if ((first < 0x20 && !is_allowed_control(first)) || first == 0x7F) return 0;
-  const std::size_t length = sequence_length(first);
-  if (length == 1 || length == 0) return length;
-  if (!second_byte_fits(first, byte_at(text, i + 1))) return 0;
-  for (std::size_t k = 2; k < length; ++k)
-    if ((byte_at(text, i + k) & 0xC0U) != 0x80U) return 0;
-  return length;
-}
-
 std::size_t first_bad_byte(std::string_view text) {
   std::size_t i = 0;
   while (i < text.size()) {
-    const std::size_t length = character_length(text, i);
+    const std::size_t length = character_size(text.substr(i));
     if (length == 0) return i;
     i += length;
   }
@@ -80,6 +68,18 @@ void report_bad_byte(std::string_view text, std::size_t at, const std::string& f
 }
 
 }  // namespace
+
+std::size_t character_size(std::string_view text) {
+  if (text.empty()) return 0;
+  const unsigned first = byte_at(text, 0);
+  if ((first < 0x20 && !is_allowed_control(first)) || first == 0x7F) return 0;
+  const std::size_t length = sequence_length(first);
+  if (length == 1 || length == 0) return length;
+  if (!second_byte_fits(first, byte_at(text, 1))) return 0;
+  for (std::size_t k = 2; k < length; ++k)
+    if ((byte_at(text, k) & 0xC0U) != 0x80U) return 0;
+  return length;
+}
 
 std::optional<std::string_view> checked_text(std::string_view bytes, const std::string& file,
                                              Diagnostics& out) {

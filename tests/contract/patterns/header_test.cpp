@@ -118,3 +118,66 @@ TEMPLATE_LIST_TEST_CASE("an object that answers nothing has no cause and no miss
     CHECK(got->cause().seq() == 0);
   });
 }
+
+TEMPLATE_LIST_TEST_CASE("an object without a mission is a cause, but leaves the mission at hand",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Source source(kit.executive);
+    Relay relay(kit.executive);
+    Listener listener(kit.executive);
+    kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
+    relay.in.subscribe();
+    listen_to_relay(kit, relay, listener);
+    auto of_mission = numbered(1);
+    of_mission->mission(42);
+    source.out.push(std::move(of_mission));
+    source.push_numbers(2, 2);
+    REQUIRE(relay.in.get_update_wait_max(5s));
+    REQUIRE(relay.in.get_update_wait_max(5s));
+    relay.out.push(numbered(3));
+    const auto answer = listener.in.get_update_wait_max(5s);
+    REQUIRE(answer);
+    CHECK(answer->mission() == 42);
+    CHECK(answer->cause().seq() == 2);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("the mission of a task holds in all its laps, until the task ends or another comes",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Sender sender(kit.executive);
+    Source source(kit.executive);
+    Relay relay(kit.executive);
+    Listener listener(kit.executive);
+    kit.connect(sender.endpoint("out"), relay.endpoint("sent"));
+    kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
+    relay.in.subscribe();
+    listen_to_relay(kit, relay, listener);
+    relay.open();
+    const auto mission_of_next_lap = [&] {
+      relay.home().provenance.begin_lap();
+      relay.out.push(numbered(3));
+      const auto pushed = listener.in.get_update_wait_max(5s);
+      return pushed ? pushed->mission() : 999;
+    };
+    const auto send_task = [&](std::uint64_t mission) {
+      auto task = numbered(1);
+      task->mission(mission);
+      REQUIRE(sender.out.send(std::move(task)).ok());
+      REQUIRE(eventually(kit.executive, [&] { return relay.handle_one(); }));
+      REQUIRE(listener.in.get_update_wait_max(5s));  // what the handler pushed
+    };
+    CHECK(mission_of_next_lap() == 0);
+    send_task(7);
+    auto other = numbered(1);
+    other->mission(42);
+    source.out.push(std::move(other));
+    REQUIRE(relay.in.get_update_wait_max(5s));
+    CHECK(relay.home().provenance.mission() == 42);
+    CHECK(mission_of_next_lap() == 7);
+    send_task(8);
+    CHECK(mission_of_next_lap() == 8);
+    relay.home().provenance.end_task();
+    CHECK(mission_of_next_lap() == 0);
+  });
+}

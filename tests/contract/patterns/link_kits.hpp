@@ -29,12 +29,18 @@ struct LocalKit {
   explicit LocalKit(Executive& used) : executive(used) {}
 
   /// @return once objects go from one end to the other.
-  void connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy = {}) const {
-    const Status connected = connect_locally(from, to, policy);
-    if (!connected.ok()) FAIL("cannot connect: " << connected.error().text());
+  void connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy) const {
+    must(connect_locally(from, to, policy));
   }
+  /// The same with the policy that the author of `to` gave it.
+  void connect(Endpoint& from, Endpoint& to) const { must(connect_locally(from, to)); }
 
   Executive& executive;
+
+ private:
+  static void must(const Status& connected) {
+    if (!connected.ok()) FAIL("cannot connect: " << connected.error().text());
+  }
 };
 
 using LinkKits = std::tuple<LocalKit>;

@@ -106,6 +106,23 @@ TEMPLATE_LIST_TEST_CASE("wait_all with a limit tells whether all subjects had ne
   });
 }
 
+TEMPLATE_LIST_TEST_CASE("wait for one subject or for any may be limited too", "[contract][synchronizer]",
+                        LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Behaviours robot(kit);
+    Fuser& fuser = robot.fuser;
+    robot.wish_goto(1);
+    CHECK(fuser.both.wait(fuser.goto_, 1h));
+    CHECK(fuser.both.wait(1h) == &fuser.goto_);
+    const TimePoint before = kit.executive.now();
+    CHECK_FALSE(fuser.both.wait(fuser.avoid, 20ms));
+    CHECK(kit.executive.now() - before >= 20ms);
+    CHECK(number_of(fuser.goto_.get_update()) == 1);
+    CHECK(fuser.both.wait(20ms) == nullptr);
+    CHECK(kit.executive.now() - before >= 40ms);
+  });
+}
+
 TEMPLATE_LIST_TEST_CASE("waiting takes nothing from the proxies", "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Behaviours robot(kit);
@@ -176,7 +193,7 @@ TEMPLATE_LIST_TEST_CASE("policy 1 of thesis 7.4: wait until all behaviours have 
     FusedCommands base(kit, fuser);
     const Script script(fuser, [&] {
       for (;;) {
-        fuser.both.wait_all();
+        fuser.both.wait_to_fuse(Fusing::all);
         const auto goto_wish = fuser.goto_.get_update();
         fuser.fused.push(numbered(fuse(goto_wish, fuser.avoid.get_update())));
       }
@@ -200,7 +217,9 @@ TEMPLATE_LIST_TEST_CASE("policy 2 of thesis 7.4: fuse every wish with the latest
     FusedCommands base(kit, fuser);
     const Script script(fuser, [&] {
       for (;;) {
-        static_cast<PushProxy<MotionCommand>&>(fuser.both.wait()).get_update();
+        fuser.both.wait_to_fuse(Fusing::any);
+        for (PushProxy<MotionCommand>* behaviour : {&fuser.goto_, &fuser.avoid})
+          if (behaviour->new_data_arrived()) behaviour->get_update();
         fuser.fused.push(numbered(fuse(fuser.goto_.latest(), fuser.avoid.latest())));
       }
     });
@@ -224,8 +243,8 @@ TEMPLATE_LIST_TEST_CASE("policy 3 of thesis 7.4: fuse the latest of all by one c
     robot.wish_goto(1);
     const TimePoint start = kit.executive.now();
     const Script script(fuser, [&] {
-      for (TimePoint tick = start + 20ms;; tick += 20ms) {
-        fuser.strand().wait_for(tick, [] { return false; });
+      for (;;) {
+        fuser.both.wait_to_fuse(Fusing::clock, 20ms);
         fuser.fused.push(numbered(fuse(fuser.goto_.latest(), fuser.avoid.latest())));
       }
     });
@@ -236,5 +255,24 @@ TEMPLATE_LIST_TEST_CASE("policy 3 of thesis 7.4: fuse the latest of all by one c
     robot.wish_avoid(7);
     CHECK(eventually(kit.executive, [&] { return base.next() == 207; }));
     CHECK(base.next() == 207);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("the clock of policy 3 keeps its beat and leaves out what was missed",
+                        "[contract][synchronizer]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    if (!kit.executive.is_virtual()) return;  // only there the times are exact
+    Behaviours robot(kit);
+    const TimePoint start = kit.executive.now();
+    const auto next_tick = [&] {
+      robot.fuser.both.wait_to_fuse(Fusing::clock, 20ms);
+      return kit.executive.now() - start;
+    };
+    CHECK(next_tick() == 20ms);
+    sleep(kit.executive, 5ms);
+    CHECK(next_tick() == 40ms);
+    sleep(kit.executive, 50ms);
+    CHECK(next_tick() == 100ms);
+    CHECK(next_tick() == 120ms);
   });
 }

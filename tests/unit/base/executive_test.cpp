@@ -23,10 +23,12 @@ constexpr bool kFibersWork = true;
 
 std::vector<ExecutiveOptions> all_kinds() {
   std::vector<ExecutiveOptions> kinds{{ClockKind::steady, Backend::thread},
+                                      {ClockKind::steady, Backend::thread, 50us},
                                       {ClockKind::steady, Backend::baton},
                                       {ClockKind::virtual_time, Backend::baton}};
   if (kFibersWork) {
     kinds.push_back({ClockKind::steady, Backend::fiber});
+    kinds.push_back({ClockKind::steady, Backend::fiber, 50us});
     kinds.push_back({ClockKind::virtual_time, Backend::fiber});
   }
   return kinds;
@@ -225,6 +227,47 @@ TEST_CASE("a task that computes without waiting is named", "[base][executive]") 
     monitor.join();
     CHECK(found);
   }
+}
+
+TEST_CASE("of many tasks ready at one time those of one priority keep their order", "[base][executive]") {
+  for (const auto& kind : virtual_kinds()) {
+    const auto executive = make(kind);
+    const std::vector<int> priorities{0, 5, 0, -3, 5, 100, 0, -3, 7, 5};
+    std::vector<std::size_t> order;
+    executive->run([&] {
+      std::vector<std::unique_ptr<Task>> tasks;
+      for (std::size_t i = 0; i < priorities.size(); ++i)
+        tasks.push_back(executive->spawn({"task", priorities[i]}, [&order, i] { order.push_back(i); }));
+    });
+    CHECK(order == std::vector<std::size_t>{5, 8, 1, 4, 9, 0, 2, 6, 3, 7});
+  }
+}
+
+TEST_CASE("an event that strangers notify without pause loses no notification", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    if (kind.clock == ClockKind::virtual_time) continue;
+    const auto executive = make(kind);
+    executive->run([&] {
+      constexpr int kCount = 2000;
+      const auto event = executive->make_event();
+      std::atomic<int> made{0};
+      std::thread stranger([&] {
+        while (made < kCount) {
+          ++made;
+          event->notify();
+        }
+      });
+      int seen = 0;
+      while (seen < kCount && event->wait_until(executive->now() + 10s)) seen = made;
+      CHECK(seen == kCount);
+      stranger.join();
+    });
+  }
+}
+
+TEST_CASE("whether tasks can overlap depends on the back end", "[base][executive]") {
+  for (const auto& kind : all_kinds())
+    CHECK(make(kind)->tasks_overlap() == (kind.backend == Backend::thread));
 }
 
 TEST_CASE("a strand's wait sees a condition, a deadline or an interruption", "[base][strand]") {

@@ -14,7 +14,13 @@ using std::numbers::pi;
 
 namespace {
 
-const Limits kLimits{.max_speed = 0.5, .slow_down = 0.8, .min_speed = 0.08, .turn_in_place = 1.0};
+const Limits kLimits{.max_speed = 0.5,
+                     .slow_down = 0.8,
+                     .min_speed = 0.08,
+                     .turn_in_place = 1.0,
+                     .deceleration = 0.5,
+                     .circle_radius = 0.6};
+constexpr double kLap = 0.05;  // [s]
 
 Target target_at(double x, double y) { return {.x = x, .y = y, .reach_radius = 0.2}; }
 
@@ -27,22 +33,25 @@ Pose facing(const Target& target, double distance, double from_angle) {
   return {target.x - distance * std::cos(from_angle), target.y - distance * std::sin(from_angle), from_angle};
 }
 
-// Drives a point robot by the steps, 50 ms each; the turn rate is twice the direction asked for.
+// Drives a point robot by the steps, a lap of 50 ms each; the turn rate is twice the direction asked for.
 struct Drive {
   Pose pose;
-  bool near = false;
-  int steps = 0;
+  Before before{.time = kLap};
+
+  Step lap(const Target& target) {
+    before.near = before.near || within_reach(target, pose);
+    const Step step = step_towards(target, pose, kLimits, before);
+    before.speed = step.speed;
+    if (step.kind == Step::Kind::reached) return step;
+    pose.heading = wrap(pose.heading + std::clamp(2.0 * step.direction, -1.0, 1.0) * kLap);
+    pose.x += step.speed * std::cos(pose.heading) * kLap;
+    pose.y += step.speed * std::sin(pose.heading) * kLap;
+    return step;
+  }
 
   Step follow(const Target& target) {
     Step step;
-    for (steps = 0; steps < 4000; ++steps) {
-      near = near || within_reach(target, pose);
-      step = step_towards(target, pose, kLimits, near);
-      if (step.kind == Step::Kind::reached) break;
-      pose.heading = wrap(pose.heading + std::clamp(2.0 * step.direction, -1.0, 1.0) * 0.05);
-      pose.x += step.speed * std::cos(pose.heading) * 0.05;
-      pose.y += step.speed * std::sin(pose.heading) * 0.05;
-    }
+    for (int laps = 0; laps < 4000 && step.kind != Step::Kind::reached; ++laps) step = lap(target);
     return step;
   }
 };
@@ -74,7 +83,7 @@ TEST_CASE("a target without orientation is reached anywhere within its radius, a
     Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
     target.reach_radius = random.uniform(0.0, 10.0);
     const bool inside = std::hypot(target.x - pose.x, target.y - pose.y) < target.reach_radius;
-    CHECK((step_towards(target, pose, kLimits, false).kind == Step::Kind::reached) == inside);
+    CHECK((step_towards(target, pose, kLimits, {}).kind == Step::Kind::reached) == inside);
     CHECK(within_reach(target, pose) == inside);
   }
 }
@@ -82,7 +91,7 @@ TEST_CASE("a target without orientation is reached anywhere within its radius, a
 TEST_CASE("a target of radius zero is never reached, not even on the spot", "[components][goto]") {
   Target target = target_at(1.0, 2.0);
   target.reach_radius = 0.0;
-  CHECK(step_towards(target, {1.0, 2.0, 0.0}, kLimits, false).kind != Step::Kind::reached);
+  CHECK(step_towards(target, {1.0, 2.0, 0.0}, kLimits, {}).kind != Step::Kind::reached);
 }
 
 TEST_CASE("a target with orientation is reached only when the robot faces it", "[components][goto]") {
@@ -90,9 +99,9 @@ TEST_CASE("a target with orientation is reached only when the robot faces it", "
   target.use_orientation = true;
   target.orientation = 3.0;
   target.reach_angle = 0.1;
-  CHECK(step_towards(target, {0.0, 0.0, 3.05}, kLimits, false).kind == Step::Kind::reached);
-  CHECK(step_towards(target, {0.0, 0.0, -3.2}, kLimits, false).kind == Step::Kind::reached);
-  const Step step = step_towards(target, {0.0, 0.0, -3.0}, kLimits, false);
+  CHECK(step_towards(target, {0.0, 0.0, 3.05}, kLimits, {}).kind == Step::Kind::reached);
+  CHECK(step_towards(target, {0.0, 0.0, -3.2}, kLimits, {}).kind == Step::Kind::reached);
+  const Step step = step_towards(target, {0.0, 0.0, -3.0}, kLimits, {});
   CHECK(step.kind == Step::Kind::turn);
   CHECK(step.speed == 0.0);
   CHECK(step.direction == Approx(6.0 - 2 * pi));
@@ -104,8 +113,8 @@ TEST_CASE("a robot that drifts out of the radius while it turns does not approac
   target.use_orientation = true;
   target.reach_angle = 0.1;
   const Pose drifted{0.25, 0.0, 1.0};
-  CHECK(step_towards(target, drifted, kLimits, true).kind == Step::Kind::turn);
-  CHECK(step_towards(target, drifted, kLimits, true).direction == Approx(-1.0));
+  CHECK(step_towards(target, drifted, kLimits, {.near = true}).kind == Step::Kind::turn);
+  CHECK(step_towards(target, drifted, kLimits, {.near = true}).direction == Approx(-1.0));
 }
 
 TEST_CASE("a via point needs no orientation, and the robot does not slow down for it", "[components][goto]") {
@@ -113,16 +122,16 @@ TEST_CASE("a via point needs no orientation, and the robot does not slow down fo
   via.via = true;
   via.use_orientation = true;
   via.orientation = 2.0;
-  CHECK(step_towards(via, {2.9, 0.0, 0.0}, kLimits, false).kind == Step::Kind::reached);
+  CHECK(step_towards(via, {2.9, 0.0, 0.0}, kLimits, {}).kind == Step::Kind::reached);
   for (const double distance : {0.21, 0.5, 5.0})
-    CHECK(step_towards(via, facing(via, distance, 0.0), kLimits, false).speed == kLimits.max_speed);
+    CHECK(step_towards(via, facing(via, distance, 0.0), kLimits, {}).speed == kLimits.max_speed);
 }
 
 TEST_CASE("the speed never rises on the straight way to a goal, between its limits", "[components][goto]") {
   const Target target = target_at(1.0, -2.0);
   double last = kLimits.max_speed;
   for (double distance = 3.0; distance > 0.21; distance -= 0.01) {
-    const Step step = step_towards(target, facing(target, distance, 0.7), kLimits, false);
+    const Step step = step_towards(target, facing(target, distance, 0.7), kLimits, {});
     CHECK(step.kind == Step::Kind::drive);
     CHECK(step.speed <= last + 1e-12);
     CHECK(step.speed >= kLimits.min_speed - 1e-12);
@@ -139,7 +148,7 @@ TEST_CASE(
     const Pose pose = random_pose(random);
     const Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
     if (within_reach(target, pose)) continue;
-    const Step step = step_towards(target, pose, kLimits, false);
+    const Step step = step_towards(target, pose, kLimits, {});
     const double distance = std::hypot(target.x - pose.x, target.y - pose.y);
     CHECK(pose.x + distance * std::cos(pose.heading + step.direction) == Approx(target.x).margin(1e-9));
     CHECK(pose.y + distance * std::sin(pose.heading + step.direction) == Approx(target.y).margin(1e-9));
@@ -159,9 +168,9 @@ TEST_CASE("the steps do not depend on where the world's axes lie", "[components]
     const double c = std::cos(turned);
     const double s = std::sin(turned);
     const Pose pose2{c * pose.x - s * pose.y, s * pose.x + c * pose.y, wrap(pose.heading + turned)};
-    const Step a = step_towards(target, pose, kLimits, false);
-    const Step b = step_towards(target_at(c * target.x - s * target.y, s * target.x + c * target.y), pose2,
-                                kLimits, false);
+    const Step a = step_towards(target, pose, kLimits, {});
+    const Step b =
+        step_towards(target_at(c * target.x - s * target.y, s * target.x + c * target.y), pose2, kLimits, {});
     CHECK(b.kind == a.kind);
     CHECK(std::abs(wrap(b.direction - a.direction)) < 1e-9);
     CHECK(b.speed == Approx(a.speed).margin(1e-9));
@@ -181,4 +190,58 @@ TEST_CASE("a point robot arrives from anywhere, and facing as wanted", "[compone
     CHECK(std::abs(wrap(drive.pose.heading - target.orientation)) <= 0.1);
     CHECK(std::hypot(target.x - drive.pose.x, target.y - drive.pose.y) < 0.2 + 1e-9);
   }
+}
+
+TEST_CASE("within reach the robot comes to rest no harder than its deceleration, and only then has arrived",
+          "[components][goto]") {
+  orca::RandomStream random(6, "test", "rest");
+  for (int i = 0; i < 100; ++i) {
+    const Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
+    Drive drive{random_pose(random)};
+    double last = 0.0;
+    Step step;
+    for (int laps = 0; laps < 4000 && step.kind != Step::Kind::reached; ++laps) {
+      last = step.speed;
+      step = drive.lap(target);
+      if (drive.before.near) CHECK(step.speed >= last - kLimits.deceleration * kLap - 1e-12);
+    }
+    REQUIRE(step.kind == Step::Kind::reached);
+    CHECK(last <= kLimits.deceleration * kLap + 1e-12);
+    CHECK(within_reach(target, drive.pose));
+  }
+}
+
+TEST_CASE(
+    "around a target of radius zero the robot circles counter-clockwise for ever, from wherever it came",
+    "[components][goto]") {
+  orca::RandomStream random(7, "test", "circle");
+  for (int i = 0; i < 20; ++i) {
+    Target target = target_at(random.uniform(-3, 3), random.uniform(-3, 3));
+    target.reach_radius = 0.0;
+    Drive drive{random_pose(random)};
+    for (int laps = 0; laps < 2000; ++laps) REQUIRE(drive.lap(target).kind != Step::Kind::reached);
+    double around = 0.0;
+    for (int laps = 0; laps < 2000; ++laps) {
+      const double before = std::atan2(drive.pose.y - target.y, drive.pose.x - target.x);
+      drive.lap(target);
+      around += wrap(std::atan2(drive.pose.y - target.y, drive.pose.x - target.x) - before);
+      const double off = std::hypot(drive.pose.x - target.x, drive.pose.y - target.y);
+      CHECK(off > 0.7 * kLimits.circle_radius);
+      CHECK(off < 2.0 * kLimits.circle_radius);
+    }
+    CHECK(around > 6 * pi);
+  }
+}
+
+TEST_CASE("the reach of a target above the robot is a ball: the higher, the smaller the place on the floor",
+          "[components][goto]") {
+  Target target = target_at(0.0, 0.0);
+  target.reach_radius = 0.5;
+  target.rise = 0.3;
+  CHECK(within_reach(target, {0.39, 0.0, 0.0}));
+  CHECK_FALSE(within_reach(target, {0.41, 0.0, 0.0}));
+  target.rise = -0.3;
+  CHECK(within_reach(target, {0.39, 0.0, 0.0}));
+  target.rise = 0.5;
+  CHECK_FALSE(within_reach(target, {0.0, 0.0, 0.0}));
 }

@@ -66,7 +66,7 @@ struct ScoutBase {
     const bool pushed = from.ends_with("Push");
     Endpoint& first = pushed ? bench.peer().endpoint(from) : client.endpoint(from);
     Endpoint& second = pushed ? client.endpoint(to) : bench.peer().endpoint(to);
-    CHECK(connect_locally(first, second, {}).ok());
+    CHECK(connect_locally(first, second).ok());
   }
 };
 

@@ -17,9 +17,10 @@
 namespace orca::test {
 
 /// Every object type; object_type_test.cpp checks that none is missing.
-using AllObjects = std::tuple<idl::Actuator, idl::Arrived, idl::Ask, idl::ClientList, idl::Door, idl::Drive,
-                              idl::GoalPoint, idl::LaserRangeReadings, idl::LaserSensor, idl::MotionCommand,
-                              idl::Odometry, idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor,
-                              idl::SonarRangeReadings, idl::SonarRing>;
+using AllObjects = std::tuple<idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::Battery,
+                              idl::BumperReadings, idl::ClientList, idl::Door, idl::Drive, idl::FusionReason,
+                              idl::GoalPoint, idl::LaserRangeReadings, idl::LaserSensor, idl::LogRecord,
+                              idl::MotionCommand, idl::Odometry, idl::RangeReadings, idl::Robot,
+                              idl::RobotPose, idl::Sensor, idl::SonarRangeReadings, idl::SonarRing>;
 
 }  // namespace orca::test

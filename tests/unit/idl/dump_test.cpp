@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "all_objects.hpp"
+#include "random_object.hpp"
 
 using orca::object_type;
 
@@ -12,7 +13,35 @@ std::string dump(const T& object) {
   return object_type<T>().dump(&object);
 }
 
+// The lines, without their values, that a dump must have: "  name: ... unit".
+class Lines final : public orca::FieldVisitor {
+ public:
+  void field(const orca::FieldInfo& info, const orca::Value&) override {
+    const std::string unit = info.unit == "1" ? "" : std::string(info.unit);
+    lines.emplace_back("\n  " + std::string(info.name) + ": ", unit);
+  }
+  std::vector<std::pair<std::string, std::string>> lines;
+};
+
 }  // namespace
+
+TEMPLATE_LIST_TEST_CASE("dump of any object starts with its type and shows every field with its unit",
+                        "[idl][dump]", orca::test::AllObjects) {
+  auto object = orca::test::random_object<TestType>(4);
+  const std::string text = dump(object) + "\n  ";
+  CHECK_THAT(text, Catch::StartsWith(std::string(object_type<TestType>().name) + "\n"));
+  Lines fields;
+  object_type<TestType>().fields(&object, fields);
+  std::size_t at = 0;
+  for (const auto& [start, unit] : fields.lines) {
+    INFO(start);
+    at = text.find(start, at);
+    REQUIRE(at != std::string::npos);
+    const std::string line = text.substr(at, text.find("\n  ", at + 1) - at);
+    CHECK(line.size() > start.size());
+    CHECK((unit.empty() || line.ends_with(" " + unit)));
+  }
+}
 
 TEST_CASE("dump shows each field on a line with its unit, enums by name and times in seconds",
           "[idl][dump]") {
@@ -73,6 +102,13 @@ TEST_CASE("dump keeps a text on its line and marks its quotes", "[idl][dump]") {
   orca::idl::Ask ask;
   ask.about("a \"b\"\nc\\");
   CHECK_THAT(dump(ask), Catch::EndsWith("\n  about: \"a \\\"b\\\" c\\\\\""));
+}
+
+TEST_CASE("dump shows control characters by number, so that a text cannot command a terminal",
+          "[idl][dump]") {
+  orca::idl::Ask ask;
+  ask.about(std::string("\x1b[31m\x7f\0", 7));
+  CHECK_THAT(dump(ask), Catch::EndsWith("\n  about: \"\\x1b[31m\\x7f\\x00\""));
 }
 
 TEST_CASE("dump tells an enumerator that does not exist", "[idl][dump]") {

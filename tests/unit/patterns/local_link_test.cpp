@@ -115,6 +115,36 @@ TEST_CASE("the edges of a port array are told apart by their sources and subscri
   });
 }
 
+TEST_CASE("no edge can make a device wait", "[patterns][local]") {
+  run_on({}, [](Executive& executive) {
+    struct Driver : Peer {
+      using Peer::Peer;
+      PushServer<MotionCommand> out{*this, "out", {.from_device = true}};
+    };
+    Driver driver(executive, "driver");
+    Ends b(executive, "b");
+    const Status refused = connect_locally(driver.endpoint("out"), b.endpoint("push_in"),
+                                           {.depth = 2, .overflow = QueuePolicy::Overflow::block});
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == Code::invalid_argument);
+    CHECK_THAT(refused.error().text(), Contains("driver.out") && Contains("a device"));
+    CHECK(connect(driver, "out", b, "push_in").ok());
+  });
+}
+
+TEST_CASE("without a policy an edge has that of the author of the receiving port", "[patterns][local]") {
+  run_on({}, [](Executive& executive) {
+    struct In : Peer {
+      using Peer::Peer;
+      PushProxy<MotionCommand> in{*this, "in", {.depth = 5}};
+    };
+    Ends a(executive, "a");
+    In in(executive, "b");
+    REQUIRE(connect_locally(a.endpoint("push_out"), in.endpoint("in")).ok());
+    CHECK(in.in.endpoint().edges().front()->policy().depth == 5);
+  });
+}
+
 namespace {
 
 struct Notes : LinkObserver {

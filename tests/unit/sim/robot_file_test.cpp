@@ -110,8 +110,10 @@ TEST_CASE("a file without robot, links, drive or extension is told", "[sim][robo
 
 TEST_CASE("joints that do not make a tree are told", "[sim][robot_file]") {
   CHECK_THAT(errors("<link name='b'/>"), Catch::Contains("error R014: the robot has 2 root links (b, base)"));
-  CHECK_THAT(errors(joint("j", "bse", "base")),
-             Catch::Contains("r.urdf:3:44: error R012: there is no link \"bse\"; there is: base; did you mean \"base\"?"));
+  CHECK_THAT(
+      errors(joint("j", "bse", "base")),
+      Catch::Contains(
+          "r.urdf:3:44: error R012: there is no link \"bse\"; there is: base; did you mean \"base\"?"));
   CHECK_THAT(errors("<link name='b'/><link name='c'/>" + joint("j", "c", "b") + joint("k", "b", "c")),
              Catch::Contains("error R015: link \"b\" is its own ancestor: b <- c <- b"));
   CHECK_THAT(errors("<link name='b'/><link name='c'/>" + joint("i", "base", "b") + joint("j", "base", "c") +

@@ -85,6 +85,18 @@ TEST_CASE("an escaped text is read back unchanged", "[xml][document]") {
   }
 }
 
+TEST_CASE("a character of a file has one to four bytes, a control character or broken UTF-8 none",
+          "[xml][document]") {
+  CHECK(character_size("a") == 1);
+  CHECK(character_size("\n") == 1);
+  CHECK(character_size("\xc3\xb6x") == 2);
+  CHECK(character_size("\xe2\x82\xac") == 3);
+  CHECK(character_size("\xf0\x9f\xa4\x96") == 4);
+  for (const std::string_view none :
+       {"", "\x1b", "\x7f", "\xc3", "\xc3x", "\x80", "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80"})
+    CHECK(character_size(none) == 0);
+}
+
 TEST_CASE("whatever is cut off or flipped, reading ends with a tree or with an error", "[xml][document]") {
   const std::string good =
       "<?xml version='1.0'?><g a='1'><!-- c --><p v=\"x &lt; y\"/>t<![CDATA[u]]><q><r/></q></g>";

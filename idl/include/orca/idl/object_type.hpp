@@ -10,6 +10,7 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/base/result.hpp"
+#include "orca/idl/value.hpp"
 
 namespace orca {
 
@@ -39,6 +40,8 @@ struct ObjectType {
   bool (*equal)(const void* a, const void* b);  ///< All fields are equal, the header's too.
   idl::OrcaObject& (*header)(void* object);     ///< The inherited part.
   std::string (*dump)(const void* object);      ///< For people: one field per line, with units.
+
+  void (*fields)(void* object, FieldVisitor& visitor);  ///< Shows all fields, inherited ones first.
 
   /// Appends the object as XCDR1, little-endian, without encapsulation header; alignment counts from the
   /// first byte appended. Allocates only if `out` must grow. Texts end at their first zero.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// Ask, ClientList. What each field means, its unit and frame, is
-/// said in idl/orca/system.idl.
+/// Ask, ClientList, LogRecord, Alarm. What each field means, its unit and frame, is said in
+/// idl/orca/system.idl.
 #pragma once
 
 #include "orca/idl/generated/system.h"

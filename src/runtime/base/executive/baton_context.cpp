@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 #include <utility>
 
 #include "context.hpp"
+#include "futex_event.hpp"
 
 namespace orca::detail {
 namespace {
@@ -14,39 +13,25 @@ class BatonContext final : public Context {
  public:
   explicit BatonContext(std::function<void()> body)
       : thread_([this, run = std::move(body)] {
-          take(Holder::inside);
+          inside_.wait_until(kForever);
           run();
-          give(Holder::outside);
+          outside_.notify();
         }) {}
   ~BatonContext() override { thread_.join(); }
 
   void resume() override {
-    give(Holder::inside);
-    take(Holder::outside);
+    inside_.notify();
+    outside_.wait_until(kForever);
   }
 
   void suspend() override {
-    give(Holder::outside);
-    take(Holder::inside);
+    outside_.notify();
+    inside_.wait_until(kForever);
   }
 
  private:
-  enum class Holder { outside, inside };
-
-  void give(Holder to) {
-    const std::lock_guard lock(mutex_);
-    holder_ = to;
-    changed_.notify_all();
-  }
-
-  void take(Holder me) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return holder_ == me; });
-  }
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  Holder holder_ = Holder::outside;
+  FutexEvent inside_{Duration{0}};   // the baton for the thread
+  FutexEvent outside_{Duration{0}};  // the baton for whoever resumed it
   std::thread thread_;
 };
 

@@ -14,7 +14,7 @@ namespace orca::detail {
 
 // The executive whose tasks run on this thread, if any: tells notifications from inside from those of
 // strangers.
-static thread_local const CooperativeExecutive* t_inside = nullptr;
+[[gnu::tls_model("initial-exec")]] static thread_local const CooperativeExecutive* t_inside = nullptr;
 
 struct CooperativeExecutive::Fiber {
   std::string name;
@@ -22,11 +22,11 @@ struct CooperativeExecutive::Fiber {
   std::unique_ptr<Context> context;
   std::unique_ptr<Event> ended_event;
   bool ended = false;
-  std::optional<Key> timer;
-  std::optional<Key> ready;
-  // The places of these keys in the queues, kept between two uses: a switch takes nothing from the heap.
-  Queue::node_type timer_place;
-  Queue::node_type ready_place;
+  bool ready = false;
+  Fiber* before = nullptr;  // in the ready queue
+  Fiber* after = nullptr;
+  std::optional<Timers::iterator> timer;
+  Timers::node_type timer_place;  // kept between two uses: a wait takes nothing from the heap
   std::atomic<pthread_t> thread{};
 };
 
@@ -48,8 +48,11 @@ class CooperativeEvent final : public Event {
     if (waiter_ != nullptr) executive_.make_ready(*waiter_);
   }
 
+  // For the executive, under the lock of its inbox.
+  bool posted = false;
+
   bool wait_until(TimePoint deadline) override {
-    if (!notified_ && deadline > executive_.now()) {
+    if (!notified_ && (deadline == kForever || deadline > executive_.now())) {
       waiter_ = executive_.current();
       executive_.block_until(deadline);
       waiter_ = nullptr;
@@ -94,8 +97,30 @@ Duration cpu_time_of(pthread_t thread) {
 
 }  // namespace
 
-CooperativeExecutive::CooperativeExecutive(ClockKind clock, ContextFactory make_context)
-    : clock_(clock), make_context_(make_context) {}
+void CooperativeExecutive::ReadyQueue::add(Fiber& fiber) {
+  Fiber* before = last_;
+  while (by_priority_ && before != nullptr && before->priority < fiber.priority) before = before->before;
+  Fiber* const after = before == nullptr ? first_ : before->after;
+  fiber.ready = true;
+  fiber.before = before;
+  fiber.after = after;
+  (before == nullptr ? first_ : before->after) = &fiber;
+  (after == nullptr ? last_ : after->before) = &fiber;
+}
+
+CooperativeExecutive::Fiber& CooperativeExecutive::ReadyQueue::pop() {
+  Fiber& fiber = *first_;
+  first_ = fiber.after;
+  (first_ == nullptr ? last_ : first_->before) = nullptr;
+  fiber.ready = false;
+  return fiber;
+}
+
+CooperativeExecutive::CooperativeExecutive(ClockKind clock, ContextFactory make_context, Duration spin)
+    : clock_(clock),
+      make_context_(make_context),
+      ready_(clock == ClockKind::virtual_time),
+      inbox_changed_(spin) {}
 
 CooperativeExecutive::~CooperativeExecutive() = default;
 
@@ -157,46 +182,44 @@ void CooperativeExecutive::run(std::function<void()> main) {
 }
 
 void CooperativeExecutive::run_one() {
-  Fiber& fiber = *std::get<Fiber*>(*ready_.begin());
-  fiber.ready_place = ready_.extract(ready_.begin());
-  fiber.ready.reset();
+  Fiber& fiber = ready_.pop();
   current_ = &fiber;
   running_.store(&fiber, std::memory_order_release);
-  switches_.fetch_add(1, std::memory_order_release);
+  switches_.store(switches_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   fiber.context->resume();
   running_.store(nullptr, std::memory_order_release);
   current_ = nullptr;
 }
 
-void CooperativeExecutive::enqueue(Queue& queue, Queue::node_type& place, const Key& key) {
-  if (place.empty()) {
-    queue.insert(key);
+void CooperativeExecutive::set_timer(Fiber& fiber, TimePoint deadline) {
+  const TimerKey key{deadline, -fiber.priority, sequence_++, &fiber};
+  if (fiber.timer_place.empty()) {
+    fiber.timer = timers_.insert(key).first;
   } else {
-    place.value() = key;
-    queue.insert(std::move(place));
+    fiber.timer_place.value() = key;
+    fiber.timer = timers_.insert(std::move(fiber.timer_place)).position;
   }
+}
+
+void CooperativeExecutive::cancel_timer(Fiber& fiber) {
+  if (!fiber.timer) return;
+  fiber.timer_place = timers_.extract(*fiber.timer);
+  fiber.timer.reset();
 }
 
 void CooperativeExecutive::make_ready(Fiber& fiber) {
   if (fiber.ready) return;
-  if (fiber.timer) {
-    fiber.timer_place = timers_.extract(*fiber.timer);
-    fiber.timer.reset();
-  }
-  fiber.ready = Key{now(), -fiber.priority, sequence_++, &fiber};
-  enqueue(ready_, fiber.ready_place, *fiber.ready);
+  cancel_timer(fiber);
+  ready_.add(fiber);
 }
 
 void CooperativeExecutive::block_until(TimePoint deadline) {
-  Fiber& fiber = *current_;
-  if (deadline != kForever) {
-    fiber.timer = Key{deadline, -fiber.priority, sequence_++, &fiber};
-    enqueue(timers_, fiber.timer_place, *fiber.timer);
-  }
-  fiber.context->suspend();
+  if (deadline != kForever) set_timer(*current_, deadline);
+  current_->context->suspend();
 }
 
 void CooperativeExecutive::fire_timers() {
+  if (timers_.empty()) return;
   const TimePoint time = now();
   while (!timers_.empty() && std::get<TimePoint>(*timers_.begin()) <= time) {
     make_ready(*std::get<Fiber*>(*timers_.begin()));
@@ -214,22 +237,19 @@ void CooperativeExecutive::advance_virtual_time() {
 }
 
 void CooperativeExecutive::wait_for_work() {
-  std::unique_lock lock(inbox_mutex_);
-  const auto filled = [this] { return !inbox_.empty(); };
-  if (timers_.empty()) {
-    inbox_changed_.wait(lock, filled);
-  } else {
-    inbox_changed_.wait_until(lock, to_steady(std::get<TimePoint>(*timers_.begin())), filled);
-  }
+  inbox_changed_.wait_until(timers_.empty() ? kForever : std::get<TimePoint>(*timers_.begin()));
 }
 
 bool CooperativeExecutive::called_from_inside() const { return t_inside == this; }
 
 void CooperativeExecutive::post_notification(CooperativeEvent& event) {
-  const std::lock_guard lock(inbox_mutex_);
-  inbox_.push_back(&event);
-  inbox_filled_.store(true, std::memory_order_release);
-  inbox_changed_.notify_one();
+  {
+    const std::lock_guard lock(inbox_mutex_);
+    if (std::exchange(event.posted, true)) return;
+    inbox_.push_back(&event);
+    inbox_filled_.store(true, std::memory_order_release);
+  }
+  inbox_changed_.notify();
 }
 
 void CooperativeExecutive::forget_notifications(CooperativeEvent& event) {
@@ -240,7 +260,10 @@ void CooperativeExecutive::forget_notifications(CooperativeEvent& event) {
 void CooperativeExecutive::take_notifications() {
   if (!inbox_filled_.load(std::memory_order_acquire)) return;
   const std::lock_guard lock(inbox_mutex_);
-  for (CooperativeEvent* event : inbox_) event->notify_inside();
+  for (CooperativeEvent* event : inbox_) {
+    event->posted = false;
+    event->notify_inside();
+  }
   inbox_.clear();
   inbox_filled_.store(false, std::memory_order_release);
 }

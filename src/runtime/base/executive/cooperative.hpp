@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <mutex>
 #include <set>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "context.hpp"
+#include "futex_event.hpp"
 #include "orca/base/executive.hpp"
 
 namespace orca::detail {
@@ -20,11 +20,12 @@ class CooperativeEvent;
 /// same for both, so their order is the same.
 class CooperativeExecutive final : public Executive {
  public:
-  CooperativeExecutive(ClockKind clock, ContextFactory make_context);
+  CooperativeExecutive(ClockKind clock, ContextFactory make_context, Duration spin);
   ~CooperativeExecutive() override;
 
   [[nodiscard]] TimePoint now() const override;
   [[nodiscard]] bool is_virtual() const override { return clock_ == ClockKind::virtual_time; }
+  [[nodiscard]] bool tasks_overlap() const override { return false; }
   [[nodiscard]] std::unique_ptr<Event> make_event() override;
   [[nodiscard]] std::unique_ptr<Task> spawn(TaskOptions options, std::function<void()> body) override;
   void run(std::function<void()> main) override;
@@ -44,13 +45,30 @@ class CooperativeExecutive final : public Executive {
   void destroy(std::unique_ptr<Fiber> fiber);
 
  private:
-  // Ordered as DESIGN asks: time, then priority (larger first), then sequence.
-  using Key = std::tuple<TimePoint, int, std::uint64_t, Fiber*>;
-  using Queue = std::set<Key>;
+  // Tasks that wait for a time, ordered by time, then priority (larger first), then sequence.
+  using TimerKey = std::tuple<TimePoint, int, std::uint64_t, Fiber*>;
+  using Timers = std::set<TimerKey>;
+
+  // Tasks that are ready, in the same order. What becomes ready never has an earlier time than what is ready
+  // already, so it goes to the end: in virtual time, where all that are ready have one time, before those of
+  // lower priority.
+  class ReadyQueue {
+   public:
+    explicit ReadyQueue(bool by_priority) : by_priority_(by_priority) {}
+    [[nodiscard]] bool empty() const { return first_ == nullptr; }
+    void add(Fiber& fiber);
+    Fiber& pop();
+
+   private:
+    const bool by_priority_;
+    Fiber* first_ = nullptr;
+    Fiber* last_ = nullptr;
+  };
 
   std::unique_ptr<Fiber> make_fiber(TaskOptions options, std::function<void()> body);
   void run_one();
-  static void enqueue(Queue& queue, Queue::node_type& place, const Key& key);
+  void set_timer(Fiber& fiber, TimePoint deadline);
+  void cancel_timer(Fiber& fiber);
   void take_notifications();
   void fire_timers();
   void wait_for_work();
@@ -61,15 +79,15 @@ class CooperativeExecutive final : public Executive {
   std::atomic<std::int64_t> virtual_now_ns_{0};
 
   // Touched only by the thread that schedules or holds the baton.
-  Queue ready_;
-  Queue timers_;
+  ReadyQueue ready_;
+  Timers timers_;
   std::uint64_t sequence_ = 0;
   Fiber* current_ = nullptr;
   Fiber* main_ = nullptr;
 
   // From other threads.
+  FutexEvent inbox_changed_;
   std::mutex inbox_mutex_;
-  std::condition_variable inbox_changed_;
   std::vector<CooperativeEvent*> inbox_;
   std::atomic<bool> inbox_filled_{false};
 

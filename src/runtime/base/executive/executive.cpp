@@ -2,6 +2,7 @@
 #include "orca/base/executive.hpp"
 
 #include "cooperative.hpp"
+#include "futex_event.hpp"
 #include "thread_executive.hpp"
 
 namespace orca {
@@ -18,11 +19,13 @@ Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& option
           Code::invalid_argument,
           "the thread executor cannot run in virtual time, because its order is the operating system's; "
           "take --executor fiber or baton");
-    return std::unique_ptr<Executive>(std::make_unique<detail::ThreadExecutive>());
+    return std::unique_ptr<Executive>(
+        std::make_unique<detail::ThreadExecutive>(detail::useful_spin(options.spin)));
   }
   const auto factory =
       options.backend == Backend::fiber ? detail::make_fiber_context : detail::make_baton_context;
-  return std::unique_ptr<Executive>(std::make_unique<detail::CooperativeExecutive>(options.clock, factory));
+  return std::unique_ptr<Executive>(std::make_unique<detail::CooperativeExecutive>(
+      options.clock, factory, detail::useful_spin(options.spin)));
 }
 
 }  // namespace orca

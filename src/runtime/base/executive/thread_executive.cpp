@@ -3,41 +3,13 @@
 
 #include <pthread.h>
 
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
+#include "futex_event.hpp"
 #include "steady_time.hpp"
 
 namespace orca::detail {
 namespace {
-
-class ThreadEvent final : public Event {
- public:
-  void notify() override {
-    // Notified under the lock: the waiter may destroy the event as soon as it returns.
-    const std::lock_guard lock(mutex_);
-    notified_ = true;
-    condition_.notify_one();
-  }
-
-  bool wait_until(TimePoint deadline) override {
-    std::unique_lock lock(mutex_);
-    const auto notified = [this] { return notified_; };
-    if (deadline == kForever) {
-      condition_.wait(lock, notified);
-    } else if (!condition_.wait_until(lock, to_steady(deadline), notified)) {
-      return false;
-    }
-    notified_ = false;
-    return true;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable condition_;
-  bool notified_ = false;
-};
 
 class ThreadTask final : public Task {
  public:
@@ -55,7 +27,7 @@ class ThreadTask final : public Task {
   }
 
  private:
-  ThreadEvent ended_;
+  FutexEvent ended_{Duration{0}};
   bool has_ended_ = false;
   std::thread thread_;
 };
@@ -64,7 +36,7 @@ class ThreadTask final : public Task {
 
 TimePoint ThreadExecutive::now() const { return steady_now(); }
 
-std::unique_ptr<Event> ThreadExecutive::make_event() { return std::make_unique<ThreadEvent>(); }
+std::unique_ptr<Event> ThreadExecutive::make_event() { return std::make_unique<FutexEvent>(spin_); }
 
 std::unique_ptr<Task> ThreadExecutive::spawn(TaskOptions options, std::function<void()> body) {
   return std::make_unique<ThreadTask>(options, std::move(body));

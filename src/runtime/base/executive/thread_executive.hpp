@@ -8,12 +8,18 @@ namespace orca::detail {
 /// One std::thread per task on the steady clock.
 class ThreadExecutive final : public Executive {
  public:
+  explicit ThreadExecutive(Duration spin) : spin_(spin) {}
+
   [[nodiscard]] TimePoint now() const override;
   [[nodiscard]] bool is_virtual() const override { return false; }
+  [[nodiscard]] bool tasks_overlap() const override { return true; }
   [[nodiscard]] std::unique_ptr<Event> make_event() override;
   [[nodiscard]] std::unique_ptr<Task> spawn(TaskOptions options, std::function<void()> body) override;
   void run(std::function<void()> main) override;
   [[nodiscard]] std::optional<StuckTask> stuck_task(Duration limit) override;
+
+ private:
+  const Duration spin_;
 };
 
 }  // namespace orca::detail

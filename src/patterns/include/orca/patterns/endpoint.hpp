@@ -28,13 +28,32 @@ class LinkObserver {
 
 /// What the object that a component handles at the moment belongs to; stamped on everything it sends
 /// meanwhile.
-struct Provenance {
-  std::uint64_t mission = 0;  ///< 0: none.
-  std::string origin;
-  std::uint64_t seq = 0;
+///
+/// The cause is the object taken last. The mission is that of the last object that had one; an object without
+/// a mission, as most sensor readings, leaves it. A lap starts with the mission of the component's task: that
+/// of the object which a Send handler took last.
+///
+/// Thread contract: the component's strand.
+class Provenance {
+ public:
+  void begin_lap() { mission_ = task_mission_; }
+  /// A handler begins: what is sent meanwhile belongs to the mission of this object, or to none.
+  void begin_handling(const idl::OrcaObject& object);
+  /// The same for a Send handler, whose object gives the component its task.
+  void begin_task(const idl::OrcaObject& object);
+  /// The component has nothing more to do.
+  void end_task() { task_mission_ = mission_ = 0; }
 
   void note(const idl::OrcaObject& received);
   void stamp(idl::OrcaObject& sent) const;
+
+  [[nodiscard]] std::uint64_t mission() const { return mission_; }
+
+ private:
+  std::uint64_t mission_ = 0;  // 0: none
+  std::uint64_t task_mission_ = 0;
+  std::string origin_;
+  std::uint64_t seq_ = 0;
 };
 
 /// What all ports of one component share.
@@ -42,7 +61,7 @@ struct PortHome {
   Strand& strand;
   std::string component;
   LinkObserver* observer = nullptr;  ///< May be null.
-  Provenance provenance;             ///< Touched by the component's strand only.
+  Provenance provenance{};           ///< Touched by the component's strand only.
 };
 
 /// The part of a port that belongs to the host process and survives a swap of the plugin behind it. The
@@ -59,12 +78,14 @@ class Endpoint {
   [[nodiscard]] std::string path() const { return home_.component + "." + contract_.name; }
   [[nodiscard]] PortHome& home() const { return home_; }
 
+  /// Tells the observer, if there is one, that an object has come to this port.
+  void observe(const ObjectRef& object) const {
+    if (home_.observer != nullptr) home_.observer->delivered(home_.component, contract_.name, object);
+  }
+
  protected:
   /// Fills the header of an object that leaves through this port.
   void stamp(ObjectLoan& loan, const Provenance* provenance);
-
-  /// Tells the observer, if there is one.
-  void observe(const ObjectRef& object) const;
 
  private:
   PortHome& home_;

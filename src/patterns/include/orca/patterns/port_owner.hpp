@@ -19,6 +19,10 @@ struct PortOptions {
   /// Objects kept per edge (Push) or waiting to be handled (Send and Query servers); 0: the pattern's
   /// default.
   std::uint32_t depth = 0;
+  /// Base period of a PushServer [s], where it is known beforehand; PushServer::start() may change it.
+  Duration period{0};
+  /// A PushServer at which a device's strand pushes, not the component's: no edge may make it wait.
+  bool from_device = false;
 };
 
 /// A port as declared by a member of a component.

@@ -16,6 +16,11 @@ class PushServerHandle {
   PushServerHandle(const PushServerHandle&) = delete;
   PushServerHandle& operator=(const PushServerHandle&) = delete;
 
+  /// Announces the base period (thesis: start): from now on an object comes each `base_period`; 0:
+  /// irregularly, as if start() had never been called. Subscribers are granted multiples of it.
+  void start(Duration base_period) { endpoint().announce(base_period); }
+  [[nodiscard]] Duration base_period() const { return endpoint().base_period(); }
+
   /// How many clients are subscribed now.
   [[nodiscard]] std::size_t subscriber_count() const { return endpoint().subscriber_count(); }
 
@@ -39,7 +44,8 @@ class PushServer : public PushServerHandle {
   /// An empty object to fill in and push, without a copy and, after warm-up, without memory from the heap.
   [[nodiscard]] Loan<T> loan() const { return make_object<T>(); }
 
-  /// Pushes a loaned object. Its header is filled in here.
+  /// Pushes a loaned object. Its header is filled in here. Waits only where the graph says overflow="block"
+  /// of an edge that is full: at most its block_limit, and after all other subscribers have the object.
   void push(Loan<T> object) { push_loan(std::move(object)); }
 
   /// Pushes a copy of a value.
@@ -65,6 +71,21 @@ class PushProxyHandle {
   [[nodiscard]] bool connected() const { return endpoint().connected(); }
   /// Whether an object has arrived that no get_update has returned yet (thesis: newDataArrived).
   [[nodiscard]] bool new_data_arrived() const { return endpoint().has_new(); }
+  /// Whether the deadline that the graph sets for the edge has passed without a new object; true until one
+  /// comes.
+  [[nodiscard]] bool deadline_missed() const { return connected() && edge().deadline_missed(); }
+
+  /// Asks for another update rate (thesis 7.3), before or while subscribed: at most one object per interval,
+  /// only every n-th object. The graph's interval is the limit. Without effect on a port that is not
+  /// connected.
+  void set_interval(Duration interval) { ask({interval, 1}); }
+  void set_multiple(std::uint32_t multiple) { ask({Duration{0}, multiple}); }
+  /// What the server granted; all zero for a port that is not connected.
+  [[nodiscard]] UpdateGrant granted() const { return connected() ? edge().grant() : UpdateGrant{}; }
+  /// Time between two objects that the server announces [s]; 0: none.
+  [[nodiscard]] Duration base_period() const { return connected() ? edge().base_period() : Duration{0}; }
+
+  [[nodiscard]] EdgeCounters counters() const { return connected() ? edge().counters() : EdgeCounters{}; }
 
   [[nodiscard]] PushClientEndpoint& endpoint() const { return static_cast<PushClientEndpoint&>(*endpoint_); }
 
@@ -77,6 +98,11 @@ class PushProxyHandle {
   [[nodiscard]] TimePoint deadline_in(Duration limit) const;
 
  private:
+  [[nodiscard]] PushEdge& edge() const { return *endpoint().edges().front(); }
+  void ask(const UpdateRate& rate) {
+    if (connected()) edge().ask(rate);
+  }
+
   Endpoint* endpoint_ = nullptr;
 };
 

@@ -48,6 +48,7 @@ class QueryProxyHandle {
   QueryProxyHandle& operator=(const QueryProxyHandle&) = delete;
 
   [[nodiscard]] bool connected() const { return endpoint().connected(); }
+  [[nodiscard]] RequestCounters counters() const { return endpoint().counters(); }
 
  protected:
   Result<QueryId> request_loan(ObjectLoan loan);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <functional>
-#include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "orca/base/result.hpp"
+#include "orca/patterns/counters.hpp"
 #include "orca/patterns/endpoint.hpp"
-#include "orca/patterns/send_endpoint.hpp"
+#include "orca/patterns/pending_answers.hpp"
 
 namespace orca {
 
@@ -33,7 +36,8 @@ class QueryTarget {
   [[nodiscard]] virtual std::string path() const = 0;
 };
 
-/// Server side of Query: questions wait here until the component's strand answers them between two laps.
+/// Server side of Query: questions wait here until the component's strand answers them between two laps. Each
+/// client has room for as many as the port's depth says.
 ///
 /// Thread contract: ask() from any strand; the rest from the server's.
 class QueryServerEndpoint final : public Endpoint, public QueryTarget {
@@ -65,19 +69,20 @@ class QueryServerEndpoint final : public Endpoint, public QueryTarget {
     QueryId id = 0;
   };
 
-  std::optional<Question> next(Handler& handler);
+  std::optional<Question> next(std::shared_ptr<const Handler>& handler);
   void answer(const Question& question, Result<ObjectLoan> answer);
 
   mutable std::mutex mutex_;
   std::deque<Question> waiting_;
-  Handler handler_;
+  std::shared_ptr<const Handler> handler_;
   std::string closed_because_ = "it has not been started yet";
   IntakeCounters counters_;
 };
 
 /// Client side of Query.
 ///
-/// Thread contract: reply() from the server's strand, the rest from the client's.
+/// Thread contract: reply() from the server's strand, counters() from anywhere, the rest from the client's
+/// strand.
 class QueryClientEndpoint final : public Endpoint, public QueryReplySink {
  public:
   QueryClientEndpoint(PortHome& home, PortContract contract);
@@ -97,17 +102,22 @@ class QueryClientEndpoint final : public Endpoint, public QueryReplySink {
   Result<ObjectRef> receive_until(QueryId id, TimePoint deadline);
 
   /// Nobody waits for this answer any more: it is thrown away, now or when it comes.
-  void forget(QueryId id);
+  void forget(QueryId id) { pending_.forget(id); }
 
   void reply(QueryId id, Result<ObjectRef> answer) override;
 
+  [[nodiscard]] RequestCounters counters() const;
+
  private:
-  [[nodiscard]] bool answered(QueryId id) const;
+  using Pending = PendingAnswers<Result<ObjectRef>>;
 
   QueryTarget* target_ = nullptr;
-  mutable std::mutex mutex_;
-  QueryId next_id_ = 1;
-  std::map<QueryId, std::optional<Result<ObjectRef>>> pending_;
+  Pending pending_;
+  // Written by the client's strand only.
+  std::atomic<std::uint64_t> sent_{0};
+  std::atomic<std::uint64_t> answered_{0};
+  std::atomic<std::uint64_t> failed_{0};
+  std::atomic<std::uint64_t> timed_out_{0};
 };
 
 }  // namespace orca

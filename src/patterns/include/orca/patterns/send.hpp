@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -42,17 +43,29 @@ class SendProxyHandle {
   SendProxyHandle& operator=(const SendProxyHandle&) = delete;
 
   [[nodiscard]] bool connected() const { return endpoint().connected(); }
+  [[nodiscard]] RequestCounters counters() const { return endpoint().counters(); }
+
+  /// Whether an object sent by send_request() was accepted or refused; nothing while that is open.
+  /// @errors  not_found for an id that was never given or whose outcome has been taken.
+  std::optional<Status> send_receive(SendId id) { return endpoint().receive(id); }
+  /// The same, waiting at most `timeout`; then the object is withdrawn.
+  /// @errors  deadline_exceeded; throws Interrupted.
+  Status send_receive_wait(SendId id, Duration timeout = 1s);
 
  protected:
   Status send_loan(ObjectLoan loan);
+  Status send_wait_loan(ObjectLoan loan, std::optional<Duration> limit);
+  Result<SendId> request_loan(ObjectLoan loan);
 
  private:
   [[nodiscard]] SendClientEndpoint& endpoint() const { return static_cast<SendClientEndpoint&>(*endpoint_); }
   Endpoint* endpoint_ = nullptr;
 };
 
-/// Sends objects of type T to one SendServer (thesis 7.3, Fig. 7.8).
+/// Sends objects of type T to one SendServer (thesis 7.3, Fig. 7.8): at once with send(), waiting for room
+/// with send_wait() and send_wait_max(), or in two steps with send_request() and send_receive().
 ///
+/// The waits throw Interrupted when the component must leave its lap; let it pass.
 /// Thread contract: the component's strand.
 template <class T>
 class SendProxy : public SendProxyHandle {
@@ -62,14 +75,24 @@ class SendProxy : public SendProxyHandle {
 
   [[nodiscard]] Loan<T> loan() const { return make_object<T>(); }
 
+  /// Sends; a full server refuses. Waits only where the graph says overflow="block", at most its block_limit,
+  /// and on links to other processes for their answer.
   /// @return ok once the server has accepted the object: from then on it is not lost.
-  /// @errors  failed_precondition if not connected, unavailable with the server's reason if refused.
+  /// @errors  failed_precondition if not connected, unavailable with the server's reason if refused,
+  /// deadline_exceeded after a wait.
   Status send(Loan<T> object) { return send_loan(std::move(object)); }
-  Status send(const T& value) {
-    Loan<T> object = make_object<T>();
-    *object = value;
-    return send(std::move(object));
-  }
+  Status send(const T& value) { return send(make_object(value)); }
+
+  /// Waits for room as long as it takes. Other refusals come at once.
+  Status send_wait(Loan<T> object) { return send_wait_loan(std::move(object), std::nullopt); }
+
+  /// Waits for room, at most `limit`.
+  /// @errors  as send().
+  Status send_wait_max(Loan<T> object, Duration limit) { return send_wait_loan(std::move(object), limit); }
+
+  /// Sends without waiting for anything; send_receive() tells what became of it.
+  /// @errors  failed_precondition if not connected.
+  Result<SendId> send_request(Loan<T> object) { return request_loan(std::move(object)); }
 };
 
 }  // namespace orca

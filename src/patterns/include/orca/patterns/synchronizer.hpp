@@ -7,6 +7,13 @@
 
 namespace orca {
 
+/// When objects that come at different times are to be fused (thesis 7.4).
+enum class Fusing {
+  all,    ///< When all subjects have new data: for modest differences in timing.
+  any,    ///< At every new object, with the latest of the others.
+  clock,  ///< At fixed times, with the latest of all.
+};
+
 /// Waits for several PushProxies of one component (thesis 7.4, Fig. 7.11). It only waits: taking the objects
 /// stays with the proxies.
 ///
@@ -20,24 +27,36 @@ class Synchronizer {
   /// Blocks until this subject has new data.
   /// @pre  the subject was added.
   void wait(PushProxyHandle& subject);
+  /// The same, at most `limit`.
+  /// @return whether it has new data.
+  bool wait(PushProxyHandle& subject, Duration limit);
 
   /// Blocks until any subject has new data, and returns that one; of several the one added first.
-  /// @pre  at least one subject was added.
+  /// @pre  at least one subject was added, for this and all that follow.
   PushProxyHandle& wait();
+  /// The same, at most `limit`; null when the time has passed.
+  PushProxyHandle* wait(Duration limit);
 
   /// Blocks until all subjects have new data.
   void wait_all();
-
   /// The same, at most `limit`.
   /// @return whether all have new data.
   bool wait_all(Duration limit);
 
+  /// Blocks until the policy says that it is time to fuse.
+  /// @param period  of the clock [s]; it starts at the first call, and ticks that were missed are left out.
+  void wait_to_fuse(Fusing policy, Duration period = Duration{0});
+
  private:
   [[nodiscard]] Strand& strand() const;
+  [[nodiscard]] TimePoint deadline_in(Duration limit) const;
   [[nodiscard]] bool all_new() const;
   [[nodiscard]] PushProxyHandle* first_new() const;
+  PushProxyHandle* wait_any_until(TimePoint deadline);
+  void wait_for_tick(Duration period);
 
   std::vector<PushProxyHandle*> subjects_;
+  TimePoint last_tick_{};
 };
 
 }  // namespace orca

@@ -32,12 +32,30 @@ struct TypeId {
 
 /// How an edge buffers: the author of a port sets the default, the integrator decides in the graph.
 struct QueuePolicy {
-  enum class Overflow { drop_oldest, drop_newest };
+  /// What happens to an object when the queue is full.
+  enum class Overflow {
+    drop_oldest,  ///< Push: the oldest object makes room.
+    drop_newest,  ///< Push: the new object is dropped.
+    block,   ///< The sender waits for room, at most `block_limit`; then the object is dropped or refused.
+    refuse,  ///< Send and Query: the sender is told that it was not accepted.
+  };
   std::uint32_t depth = 1;  ///< Objects kept, at least 1; depth 1 with drop_oldest means "the latest".
   Overflow overflow = Overflow::drop_oldest;
-  Duration min_interval{0};  ///< Deliver at most one object per interval [s]; 0: every one.
+  Duration min_interval{0};  ///< Push: deliver at most one object per interval [s]; 0: every one.
+  Duration deadline{0};      ///< Push: an object is due at least this often [s]; 0: no deadline.
+  Duration block_limit{std::chrono::milliseconds(100)};  ///< Longest wait of a sender for room [s].
   friend bool operator==(const QueuePolicy&, const QueuePolicy&) = default;
 };
+
+[[nodiscard]] constexpr const char* to_string(QueuePolicy::Overflow overflow) {
+  switch (overflow) {
+    case QueuePolicy::Overflow::drop_oldest: return "drop_oldest";
+    case QueuePolicy::Overflow::drop_newest: return "drop_newest";
+    case QueuePolicy::Overflow::block: return "block";
+    case QueuePolicy::Overflow::refuse: return "refuse";
+  }
+  return "?";
+}
 
 /// One declared port of a component.
 struct PortContract {
@@ -49,6 +67,8 @@ struct PortContract {
   bool required = false;        ///< A proxy that must be connected.
   bool many = false;            ///< A port array: any number of edges may end at this proxy.
   QueuePolicy queue;            ///< Author's default for edges that end here.
+  Duration period{0};           ///< PushServer: base period, where it is known before the start; 0: unknown.
+  bool from_device = false;     ///< PushServer: a device's strand pushes here, which waits for nobody.
   std::string text;             ///< One sentence for people.
 };
 

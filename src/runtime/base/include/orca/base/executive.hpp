@@ -81,6 +81,9 @@ class Executive {
 
   [[nodiscard]] virtual TimePoint now() const = 0;
   [[nodiscard]] virtual bool is_virtual() const = 0;
+  /// Whether two tasks can run at the same time. With fibers and batons they cannot: between two waits a task
+  /// has everything to itself that only tasks touch.
+  [[nodiscard]] virtual bool tasks_overlap() const = 0;
   [[nodiscard]] virtual std::unique_ptr<Event> make_event() = 0;
 
   /// Starts a task. `body` must not throw.
@@ -107,6 +110,9 @@ enum class Backend { thread, fiber, baton };
 struct ExecutiveOptions {
   ClockKind clock = ClockKind::steady;
   Backend backend = Backend::thread;
+  /// How long a thread spins before it sleeps, at most [s]. It adapts itself: it spins only where waits tend
+  /// to end within this time, and never where the process has a single processor. 0: sleep at once.
+  Duration spin{0};
 };
 
 /// @errors  invalid_argument for a combination that cannot work (virtual clock on free-running threads).

@@ -79,6 +79,10 @@ struct Limits {
 [[nodiscard]] std::optional<Document> read_text(std::string_view text, const std::string& file_name,
                                                 Diagnostics& diagnostics);
 
+/// The bytes of the character that `text` starts with; 0 if it starts with none that may stand in an XML
+/// file: a control character, broken UTF-8, the end.
+[[nodiscard]] std::size_t character_size(std::string_view text);
+
 /// `text` with the characters that mean something in XML written as references, for an attribute value in
 /// double quotes. read_text() gives `text` back, whatever blanks it holds.
 [[nodiscard]] std::string escaped(std::string_view text);

@@ -11,9 +11,12 @@ namespace orca {
 ///
 /// @param from    a PushServer, QueryProxy or SendProxy, as in <connect from= to=>.
 /// @param to      the other end.
-/// @param policy  how the edge buffers; for Push only.
-/// @errors  invalid_argument if the ends do not fit each other; already_exists if the proxy is taken.
+/// @param policy  how the edge buffers, for Push and Send; without it, as the author of the receiving port
+/// wants.
+/// @errors  invalid_argument if the ends do not fit each other, or if the policy lets a device wait;
+/// already_exists if the proxy is taken.
 /// @thread  before the components of either end run.
 Status connect_locally(Endpoint& from, Endpoint& to, const QueuePolicy& policy);
+Status connect_locally(Endpoint& from, Endpoint& to);
 
 }  // namespace orca

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace orca::bench {
+
+void register_hand_over();
+void register_push();
+void register_fan_out();
+void register_isolation();
+void register_query();
+void register_throughput();
+void register_graph();
+
+}  // namespace orca::bench

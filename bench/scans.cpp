@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scans.hpp"
+
+#include <stdexcept>
+
+namespace orca::bench {
+
+std::vector<Loan<Scan>> make_scans(int count, std::size_t ranges) {
+  std::vector<Loan<Scan>> scans;
+  for (int i = 0; i < count; ++i) {
+    scans.push_back(make_object<Scan>());
+    scans.back()->ranges().resize(ranges);
+  }
+  for (Loan<Scan>& scan :
+       scans) {  // filling large scans has driven the headers of the first out of the caches
+    scan->origin() = "publisher";
+    scan->stamp().ns(1);
+  }
+  return scans;
+}
+
+void subscribe(Publisher& publisher, Subscriber& subscriber, const QueuePolicy& policy) {
+  const Status connected = connect_locally(publisher.endpoint("out"), subscriber.endpoint("in"), policy);
+  if (!connected.ok()) throw std::runtime_error(connected.error().text());
+  subscriber.in.subscribe();
+}
+
+}  // namespace orca::bench

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orca/idl/sensing.hpp"
+#include "orca/patterns/local/local_link.hpp"
+#include "peer.hpp"
+
+namespace orca::bench {
+
+using Scan = idl::LaserRangeReadings;
+
+/// Sizes of a scan's ranges [number of doubles].
+constexpr std::size_t kSmall = 2;       // 16 B
+constexpr std::size_t kLaser = 361;     // 3 KB: half a degree over a half circle
+constexpr std::size_t kImage = 131072;  // 1 MB
+
+/// Scans as their driver has just left them: filled in, with the header at hand. Making them takes no part in
+/// what is measured.
+std::vector<Loan<Scan>> make_scans(int count, std::size_t ranges);
+
+struct Publisher : test::Peer {
+  explicit Publisher(Executive& executive, const std::string& name = "publisher") : Peer(executive, name) {}
+  PushServer<Scan> out{*this, "out"};
+};
+
+struct Subscriber : test::Peer {
+  explicit Subscriber(Executive& executive, const std::string& name = "subscriber") : Peer(executive, name) {}
+  PushProxy<Scan> in{*this, "in"};
+};
+
+/// Connects and subscribes.
+void subscribe(Publisher& publisher, Subscriber& subscriber, const QueuePolicy& policy = {});
+
+}  // namespace orca::bench

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/avoidance/avoider.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "orca/idl/time.hpp"
+
+namespace orca::avoid {
+namespace {
+
+// 0 where the way is free, 1 half way, 1000 at the stop distance: there no other wish must carry the robot
+// on.
+double insistence(double urgency) { return urgency / (1.001 - urgency); }
+
+}  // namespace
+
+Avoider::Avoider(ComponentHost& host, double echo_time)
+    : Component(host),
+      odometry_(
+          *this, "odometry",
+          {.text = "How the robot moves; lets it remember what it heard a moment ago.", .optional = true}),
+      goal_(*this, "goal",
+            {.text = "Where the robot is going, so that it gives way to that side.", .optional = true}),
+      localizer_(*this, "localizer",
+                 {.text = "Where the robot is, in the frame of the goal; without one odometry counts.",
+                  .optional = true}),
+      motion_(*this, "motion", {.text = "A wish per odometry, or per sensor reading without."}),
+      robot_radius_(*this, "robot_radius", 0.205,
+                    {.unit = "m", .min = 0.0, .text = "Circle that holds the robot, bumpers too."}),
+      margin_(*this, "margin", 0.1, {.unit = "m", .min = 0.0, .text = "Kept free on both sides."}),
+      side_distance_(
+          *this, "side_distance", 0.2,
+          {.unit = "m", .min = 0.0, .text = "Nearer than this an echo stands for a wall across its beam."}),
+      safe_distance_(*this, "safe_distance", 0.8,
+                     {.unit = "m", .min = 0.1, .text = "A free way this long needs no avoiding."}),
+      stop_distance_(*this, "stop_distance", 0.15,
+                     {.unit = "m", .min = 0.0, .text = "With a free way this short the robot only turns."}),
+      max_speed_(*this, "max_speed", 0.4, {.unit = "m/s", .min = 0.0, .text = "Speed while avoiding."}),
+      weight_(*this, "weight", 2.0,
+              {.min = 0.0, .text = "Share of its wishes when fused, half way to the stop distance."}),
+      reaction_time_(*this, "reaction_time", 0.25,
+                     {.unit = "s", .min = 0.0, .text = "From an echo to the robot's following the advice."}),
+      memory_time_(*this, "memory_time", 4.0,
+                   {.unit = "s", .min = 0.0, .text = "How long an echo counts that was heard twice."}),
+      echo_time_(*this, "echo_time", echo_time,
+                 {.unit = "s", .min = 0.0, .text = "How long a single echo counts."}),
+      same_place_(
+          *this, "same_place", 0.15,
+          {.unit = "m", .min = 0.0, .text = "Echoes from places nearer than this confirm each other."}),
+      memory_range_(
+          *this, "memory_range", 0.8,
+          {.unit = "m", .min = 0.0, .text = "Only echoes from nearer to the robot's centre are kept."}),
+      deaf_after_(*this, "deaf_after", 0.6,
+                  {.unit = "s", .min = 0.0, .text = "Without sensor readings for so long the robot stops."}),
+      goal_max_age_(*this, "goal_max_age", 0.5,
+                    {.unit = "s", .min = 0.0, .text = "An older goal is disregarded."}) {}
+
+Status Avoider::params_changed() {
+  if (*stop_distance_ < *safe_distance_) return ok();
+  return fail(Code::invalid_argument, "stop_distance must be less than safe_distance");
+}
+
+Status Avoider::configure() {
+  if (Status sound = params_changed(); !sound.ok()) return sound;
+  if (goal_.connected() && !localizer_.connected() && !odometry_.connected())
+    return fail(Code::failed_precondition,
+                "with a goal, connect its port localizer or odometry too: it must know where it is");
+  lap_on(odometry_.connected() ? "odometry" : sensor().endpoint().contract().name);
+  return ok();
+}
+
+Status Avoider::start() {
+  memory_.clear();
+  heard_at_.reset();
+  moved_at_.reset();
+  last_direction_ = 0.0;
+  return ok();
+}
+
+Outcome Avoider::work() {
+  if (odometry_.connected()) follow(*odometry_.get_update());
+  if (sensor().new_data_arrived()) {
+    if (!odometry_.connected()) memory_.clear();
+    heard_at_ = now();
+    listen(memory_);
+  }
+  advise();
+  return again();
+}
+
+void Avoider::follow(const idl::Odometry& odometry) {
+  const TimePoint stamp = to_time_point(odometry.stamp());
+  const Motion pose{odometry.x(), odometry.y(), odometry.steer_angle()};
+  if (moved_at_) memory_.advance(between(pose_, pose), to_seconds(stamp - *moved_at_), keep());
+  moved_at_ = stamp;
+  pose_ = pose;
+  speed_ = odometry.translational_velocity();
+  turn_rate_ = odometry.steering_velocity();
+}
+
+Echo Avoider::moved_since(const Echo& echo, double age) const {
+  return seen_after(echo, arc(speed_, turn_rate_, age));
+}
+
+void Avoider::advise() {
+  if (!heard_at_ || to_seconds(now() - *heard_at_) > *deaf_after_) {
+    motion_.push(full_stop());
+    return;
+  }
+  const Situation situation{last_direction_, turn_rate_ * *reaction_time_, goal_direction()};
+  const Advice advice = avoid(memory_.echoes(), situation, limits());
+  last_direction_ = advice.direction;
+  if (advice.needed) {
+    motion_.push(head(advice.direction, advice.speed, *weight_ * insistence(advice.urgency)));
+  } else {
+    motion_.push(dont_care());
+  }
+}
+
+std::optional<Motion> Avoider::pose() const {
+  if (!localizer_.connected()) return moved_at_ ? std::optional(pose_) : std::nullopt;
+  const auto pose = localizer_.latest();
+  if (!pose) return std::nullopt;
+  return Motion{pose->x(), pose->y(), pose->orientation()};
+}
+
+std::optional<double> Avoider::goal_direction() const {
+  if (!goal_.connected()) return std::nullopt;
+  const auto goal = goal_.latest();
+  const std::optional<Motion> here = pose();
+  if (!goal || !here || to_seconds(now() - to_time_point(goal->creation_time())) > *goal_max_age_)
+    return std::nullopt;
+  const auto& place = goal->coordinate().point();
+  const Echo seen = seen_after({place.x(), place.y()}, *here);
+  return std::atan2(seen.y, seen.x);
+}
+
+EchoMemory::Limits Avoider::keep() const {
+  return {*memory_time_, *echo_time_, *same_place_, *memory_range_};
+}
+
+double Avoider::farthest() const { return *robot_radius_ + *margin_ + *safe_distance_ + 0.5; }
+
+Limits Avoider::limits() const {
+  return {*robot_radius_, *margin_, *side_distance_, *safe_distance_, *stop_distance_, *max_speed_};
+}
+
+}  // namespace orca::avoid

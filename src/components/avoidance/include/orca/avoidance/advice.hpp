@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "orca/avoidance/echo_memory.hpp"
+
+namespace orca::avoid {
+
+struct Limits {
+  double robot_radius = 0.0;   ///< [m] of the circle that holds the robot.
+  double margin = 0.0;         ///< [m] kept free on both sides of it.
+  double side_distance = 0.0;  ///< [m] an echo nearer to the body than this counts as a wall across the beam.
+  double safe_distance = 0.0;  ///< [m] free way ahead from which on there is nothing to avoid.
+  double stop_distance = 0.0;  ///< [m] free way ahead at which the robot does not drive on.
+  double max_speed = 0.0;      ///< [m/s] with a free way of safe_distance.
+};
+
+/// What else an advice depends on.
+struct Situation {
+  /// [rad] advised in the lap before, 0 if none: the side once chosen is kept, so that the robot does not
+  /// dither in front of something symmetric.
+  double last_direction = 0.0;
+  /// [rad] how far the robot will have turned before it can follow the advice: what lies there counts as
+  /// ahead, too.
+  double turning = 0.0;
+  /// [rad] robot frame, where the goal lies, if that is known: the free direction nearest to it is chosen.
+  std::optional<double> goal = {};
+};
+
+/// What the robot should do: nothing, or drive in a direction.
+struct Advice {
+  bool needed = false;
+  double direction = 0.0;  ///< [rad] robot frame, counter-clockwise positive.
+  double speed = 0.0;      ///< [m/s]
+  double urgency = 0.0;    ///< [0, 1] 0 at safe_distance, 1 at stop_distance.
+};
+
+/// How far the robot can go straight in a direction before its body, with margin, touches an echo, at most
+/// safe_distance [m].
+///
+/// A smooth wall that the robot nears at a flat angle sends back only the sonar beam that meets it squarely:
+/// nothing is heard from where the robot will touch it. So a near echo stands for a wall across its beam.
+[[nodiscard]] double free_way(std::span<const Echo> echoes, double direction, const Limits& limits);
+
+/// Steers to the nearest direction with a long enough free way when the way ahead is blocked.
+[[nodiscard]] Advice avoid(std::span<const Echo> echoes, const Situation& situation, const Limits& limits);
+
+}  // namespace orca::avoid

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "orca/avoidance/echo_memory.hpp"
+
+namespace orca::avoid {
+
+/// A planar scan and where it was taken from.
+struct Scan {
+  std::span<const double> ranges;  ///< [m] one per beam.
+  double min_range = 0.0;          ///< [m] below it a reading only tells that something is at the sensor.
+  double max_range = 0.0;          ///< [m] at or above it nothing was seen.
+  double angle_start = 0.0;        ///< [rad] of the first beam, sensor frame.
+  double angle_increment = 0.0;    ///< [rad] from one beam to the next.
+  Motion mount;                    ///< Of the sensor, robot frame.
+};
+
+/// What a scan sees takes the place of what was remembered in its field of view: it misses nothing there.
+///
+/// Of the beams in each `sector` [rad] only the nearest reading is kept, and only if it is nearer to the
+/// robot's centre than `range` [m]: a scan of many beams then costs no more than a ring of sonars.
+void see(const Scan& scan, double sector, double range, const EchoMemory::Limits& keep, EchoMemory& memory);
+
+}  // namespace orca::avoid

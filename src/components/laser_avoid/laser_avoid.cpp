@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <numbers>
+
+#include "orca/avoidance/avoider.hpp"
+#include "orca/avoidance/scan.hpp"
+#include "orca/idl/time.hpp"
+
+namespace {
+
+/// Keeps the robot from driving into what its laser sees (thesis 11.1). README.md tells how.
+class LaserAvoid final : public orca::avoid::Avoider {
+ public:
+  explicit LaserAvoid(orca::ComponentHost& host) : Avoider(host, 4.0) {}
+
+ private:
+  static constexpr double kSector = std::numbers::pi / 36;
+
+  orca::PushProxyHandle& sensor() override { return laser_; }
+
+  // The scan was taken a moment ago from where the robot was then.
+  void listen(orca::avoid::EchoMemory& memory) override {
+    const auto readings = laser_.get_update();
+    const auto& mount = readings->pose();
+    const double age = orca::to_seconds(now() - orca::to_time_point(readings->stamp()));
+    const orca::avoid::Echo place = moved_since({mount.position().x(), mount.position().y()}, age);
+    const double yaw = mount.rotation().yaw() - turned_since(age);
+    const orca::avoid::Scan scan{readings->ranges(),          readings->min_range(),
+                                 readings->max_range(),       readings->angle_start(),
+                                 readings->angle_increment(), {place.x, place.y, yaw}};
+    orca::avoid::see(scan, kSector, farthest(), keep(), memory);
+  }
+
+  orca::PushProxy<orca::idl::LaserRangeReadings> laser_{*this, "laser", {.text = "What the laser sees."}};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(LaserAvoid, "orca.LaserAvoid")

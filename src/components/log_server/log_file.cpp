@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "log_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+namespace orca::logs {
+namespace {
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n') {
+      line += "\\n";
+    } else if (c == '\r') {
+      line += "\\r";
+    } else {
+      line += c;
+    }
+  }
+  return line + '\n';
+}
+
+}  // namespace
+
+LogFile::LogFile(std::string path, std::uint64_t most_bytes, int keep)
+    : path_(std::move(path)), most_bytes_(most_bytes), keep_(keep) {}
+
+LogFile::~LogFile() {
+  if (fd_ >= 0) close(fd_);
+}
+
+Status LogFile::open() {
+  fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0644);
+  if (fd_ < 0)
+    return fail(Code::unavailable, std::string("cannot be written: ") + std::strerror(errno), path_);
+  struct stat about {};
+  regular_ = fstat(fd_, &about) == 0 && S_ISREG(about.st_mode);
+  size_ = regular_ ? static_cast<std::uint64_t>(about.st_size) : 0;
+  return ok();
+}
+
+bool LogFile::append(std::string_view text) {
+  const std::string line = one_line(text);
+  if (regular_ && size_ > 0 && size_ + line.size() > most_bytes_) rotate();
+  if (lost_ > told_lost_ && fd_ >= 0 &&
+      write_line(std::to_string(lost_ - told_lost_) + " lines were lost: they could not be written\n"))
+    told_lost_ = lost_;
+  const bool good = (fd_ >= 0 || open().ok()) && write_line(line);
+  ++(good ? written_ : lost_);
+  return good;
+}
+
+bool LogFile::write_line(const std::string& line) {
+  const ssize_t done = write(fd_, line.data(), line.size());
+  if (done == static_cast<ssize_t>(line.size())) {
+    size_ += line.size();
+    return true;
+  }
+  // Half a line is worse than none. If even that cannot be undone, it stays.
+  if (done > 0 && (!regular_ || ftruncate(fd_, static_cast<off_t>(size_)) != 0))
+    size_ += static_cast<std::uint64_t>(done);
+  return false;
+}
+
+void LogFile::rotate() {
+  close(fd_);
+  fd_ = -1;
+  if (keep_ == 0) std::remove(path_.c_str());
+  for (int number = keep_ - 1; number >= 1; --number)
+    std::rename(old_name(number).c_str(), old_name(number + 1).c_str());
+  if (keep_ > 0) std::rename(path_.c_str(), old_name(1).c_str());
+  if (!open().ok()) size_ = 0;
+}
+
+}  // namespace orca::logs

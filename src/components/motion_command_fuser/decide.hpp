@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "arbitration.hpp"
+#include "voice.hpp"
+#include "vote.hpp"
+#include "wish.hpp"
+
+namespace orca::fuse {
+
+enum class Mode { weighted, priority, vote, vector_sum, subsumption };
+
+/// @pre  text is one of kModes.
+[[nodiscard]] Mode mode_of(std::string_view text);
+inline const std::vector<std::string> kModes{"weighted", "priority", "vote", "vector_sum", "subsumption"};
+
+/// How the voices of the behaviours become one command.
+struct Rules {
+  Mode mode = Mode::weighted;
+  double max_age = 0.0;  ///< [s] what is older does not count.
+  Ballot ballot;
+  std::vector<std::string> order;  ///< Mode priority: the first named comes first.
+  Wiring wiring;                   ///< Mode subsumption.
+  std::vector<std::string> required;
+  double required_max_age = 0.0;  ///< [s] silence of a required behaviour that stops the robot.
+};
+
+enum class Verdict { fused, no_wish, told_to_stop, required_silent };
+
+/// What the robot shall do, and why.
+struct Decision {
+  Verdict verdict = Verdict::no_wish;  ///< All but `fused` mean: stop.
+  Wish command;                        ///< If fused.
+  std::vector<double> shares;          ///< [1] of each voice in the command, in their order.
+  std::string decided_by;              ///< Who had the largest share, said stop, or was silent; or empty.
+};
+
+/// Before any mode comes safety: the robot stops if a required behaviour has been silent for too long or is
+/// not listened to, and if any behaviour has said full stop. What a behaviour without an opinion said, what
+/// is too old and what has no weight never counts.
+///
+/// @param last_rate  [rad/s] decided in the lap before.
+[[nodiscard]] Decision decide(std::span<const Voice> voices, const Rules& rules, double last_rate);
+
+}  // namespace orca::fuse

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "wish.hpp"
+
+namespace orca::fuse {
+
+/// What a behaviour that the fuser listens to has said last.
+struct Voice {
+  enum class Said { nothing, dont_care, full_stop, wish };
+
+  std::string name;
+  Said said = Said::nothing;                                  ///< Last of all.
+  double age = std::numeric_limits<double>::infinity();       ///< [s] since then.
+  Wish wish = {};                                             ///< The last one, if it ever had one.
+  double wish_age = std::numeric_limits<double>::infinity();  ///< [s] since then.
+};
+
+}  // namespace orca::fuse

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "orca/avoidance/advice.hpp"
+#include "orca/avoidance/scan.hpp"
+#include "orca/component.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/time.hpp"
+#include "walk.hpp"
+
+namespace {
+
+using orca::avoid::Echo;
+
+/// Drives about: straight on, and away by a random turn where sonars or laser find the way blocked. Beside an
+/// avoid behaviour it only gives the robot something to do; alone it stops short of obstacles, but keeps no
+/// distance from what it passes.
+class RandomWalk final : public orca::Component {
+ public:
+  explicit RandomWalk(orca::ComponentHost& host) : Component(host) {
+    lap_every(std::chrono::milliseconds(50));
+  }
+
+ private:
+  orca::Status configure() override {
+    if (!sonar_.connected() && !laser_.connected())
+      return orca::fail(orca::Code::failed_precondition,
+                        "connect its port sonar or laser: it must see when the way is blocked");
+    random_.emplace(random("walk"));
+    return params_changed();
+  }
+
+  orca::Status params_changed() override {
+    if (*least_turn_ <= *greatest_turn_) return orca::ok();
+    return orca::fail(orca::Code::invalid_argument, "least_turn must not be above greatest_turn");
+  }
+
+  orca::Outcome work() override {
+    hear();
+    if (!heard_at_ || orca::to_seconds(now() - *heard_at_) > *deaf_after_) {
+      motion_.push(orca::full_stop());
+      return orca::again();
+    }
+    const orca::avoid::Limits body{.robot_radius = *robot_radius_,
+                                   .margin = *margin_,
+                                   .side_distance = 0.0,
+                                   .safe_distance = 2.0 * *blocked_at_,
+                                   .stop_distance = *blocked_at_,
+                                   .max_speed = *speed_};
+    const double way = free_way(echoes_, 0.0, body);
+    const orca::walk::Step step = walk_.step(orca::to_seconds(now()), way, limits(), *random_);
+    motion_.push(orca::turn(step.turn_rate, step.speed, *weight_));
+    return orca::again();
+  }
+
+  // The newest readings of either sensor take the place of those before.
+  void hear() {
+    if (!sonar_.new_data_arrived() && !laser_.new_data_arrived()) return;
+    heard_at_ = now();
+    echoes_.clear();
+    if (sonar_.new_data_arrived()) last_sonar_ = sonar_.get_update();
+    if (laser_.new_data_arrived()) last_laser_ = laser_.get_update();
+    if (last_sonar_) hear_round(*last_sonar_);
+    if (last_laser_) hear_scan(*last_laser_);
+  }
+
+  void hear_round(const orca::idl::SonarRangeReadings& round) {
+    for (std::size_t i = 0; i < std::min(round.ranges().size(), round.poses().size()); ++i)
+      note(round, i, round.poses()[i], 0.0);
+  }
+
+  void hear_scan(const orca::idl::LaserRangeReadings& scan) {
+    for (std::size_t i = 0; i < scan.ranges().size(); ++i)
+      note(scan, i, scan.pose(), scan.angle_start() + scan.angle_increment() * static_cast<double>(i));
+  }
+
+  void note(const orca::idl::RangeReadings& readings, std::size_t i, const orca::idl::Frame3D& mount,
+            double angle) {
+    const auto echo =
+        orca::avoid::echo_of(readings.ranges()[i], readings.min_range(), readings.max_range(),
+                             {mount.position().x(), mount.position().y(), mount.rotation().yaw() + angle});
+    if (echo) echoes_.push_back(*echo);
+  }
+
+  [[nodiscard]] orca::walk::Limits limits() const {
+    return {*speed_, *turn_rate_, *least_turn_, *greatest_turn_, *blocked_at_, *longest_way_};
+  }
+
+  orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{
+      *this, "sonar", {.text = "What the sonars hear.", .optional = true}};
+  orca::PushProxy<orca::idl::LaserRangeReadings> laser_{
+      *this, "laser", {.text = "What the laser sees.", .optional = true}};
+  orca::PushServer<orca::idl::MotionCommand> motion_{*this, "motion", {.text = "A wish per lap."}};
+
+  orca::Param<double> speed_{*this, "speed", 0.3, {.unit = "m/s", .min = 0.0, .text = "Straight on."}};
+  orca::Param<double> turn_rate_{
+      *this, "turn_rate", 0.8, {.unit = "rad/s", .min = 0.01, .text = "Of its turns on the spot."}};
+  orca::Param<double> least_turn_{
+      *this, "least_turn", 0.8, {.unit = "rad", .min = 0.0, .max = 6.3, .text = "Smallest random turn."}};
+  orca::Param<double> greatest_turn_{
+      *this, "greatest_turn", 2.6, {.unit = "rad", .min = 0.0, .max = 6.3, .text = "Largest random turn."}};
+  orca::Param<double> blocked_at_{
+      *this,
+      "blocked_at",
+      0.5,
+      {.unit = "m", .min = 0.05, .text = "A free way this short is turned away from."}};
+  orca::Param<double> longest_way_{
+      *this,
+      "longest_way",
+      20.0,
+      {.unit = "s", .min = 0.0, .text = "It turns after a random part of this anyway; 0: never."}};
+  orca::Param<double> robot_radius_{
+      *this, "robot_radius", 0.205, {.unit = "m", .min = 0.0, .text = "Circle that holds the robot."}};
+  orca::Param<double> margin_{
+      *this, "margin", 0.1, {.unit = "m", .min = 0.0, .text = "Kept free on both sides."}};
+  orca::Param<double> deaf_after_{
+      *this,
+      "deaf_after",
+      0.6,
+      {.unit = "s", .min = 0.0, .text = "Without sensor readings for so long the robot stops."}};
+  orca::Param<double> weight_{
+      *this, "weight", 1.0, {.min = 0.0, .text = "Share of its wishes when they are fused."}};
+
+  orca::walk::Walk walk_;
+  std::optional<orca::RandomStream> random_;
+  std::vector<Echo> echoes_;
+  orca::ObjectPtr<orca::idl::SonarRangeReadings> last_sonar_;
+  orca::ObjectPtr<orca::idl::LaserRangeReadings> last_laser_;
+  std::optional<orca::TimePoint> heard_at_;
+};
+
+}  // namespace
+
+ORCA_COMPONENT(RandomWalk, "orca.RandomWalk")

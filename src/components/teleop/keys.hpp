@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string_view>
+
+namespace orca::teleop {
+
+/// What the hands want, each in [-1, 1]: forward positive, and left positive.
+struct Stick {
+  double forward = 0.0;
+  double left = 0.0;
+  friend bool operator==(const Stick&, const Stick&) = default;
+};
+
+/// The keys of a terminal: arrows or W A S D drive, the space bar stops, Q ends. A terminal tells only that a
+/// key is pressed, again and again while it is held, and never that it is released: each press counts until
+/// the dead-man time has passed.
+///
+/// Thread contract: not synchronised.
+class Keys {
+ public:
+  /// Bytes as the terminal sends them; escape sequences may come in parts.
+  /// @param time  [s] now.
+  void take(std::string_view bytes, double time);
+
+  /// @param dead_man  [s] how long a press counts.
+  [[nodiscard]] Stick stick(double time, double dead_man) const;
+  [[nodiscard]] bool quit() const { return quit_; }
+
+ private:
+  struct Press {
+    double direction = 0.0;
+    double time = 0.0;  // [s]
+    [[nodiscard]] double at(double now, double dead_man) const;
+  };
+  void press(char key, double time);
+
+  enum class Escape { none, begun, bracket } escape_ = Escape::none;
+  Press forward_;
+  Press left_;
+  bool quit_ = false;
+};
+
+}  // namespace orca::teleop

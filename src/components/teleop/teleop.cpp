@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "joystick.hpp"
+#include "keys.hpp"
+#include "orca/component.hpp"
+#include "orca/idl/motion.hpp"
+#include "raw_terminal.hpp"
+
+namespace {
+
+using orca::Status;
+using orca::teleop::Stick;
+
+// A device that is read without ever blocking.
+class Input {
+ public:
+  ~Input() { close(); }
+
+  Status open(const std::string& device) {
+    fd_ = device == "stdin" ? dup(STDIN_FILENO) : ::open(device.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    if (fd_ >= 0) return orca::ok();
+    const orca::Code code = errno == ENOENT ? orca::Code::not_found : orca::Code::unavailable;
+    return orca::fail(code, std::string("cannot be opened: ") + std::strerror(errno), device);
+  }
+
+  void close() {
+    if (fd_ >= 0) ::close(fd_);
+    fd_ = -1;
+  }
+
+  [[nodiscard]] int fd() const { return fd_; }
+  [[nodiscard]] bool is_open() const { return fd_ >= 0; }
+
+  // What has come; false if the device has gone.
+  bool read(std::string& bytes) {
+    bytes.clear();
+    pollfd waiting{fd_, POLLIN, 0};
+    if (poll(&waiting, 1, 0) <= 0) return true;
+    char buffer[256];
+    const ssize_t got = ::read(fd_, buffer, sizeof buffer);
+    if (got < 0) return errno == EAGAIN || errno == EINTR;
+    bytes.assign(buffer, static_cast<std::size_t>(got));
+    return got > 0;
+  }
+
+ private:
+  int fd_ = -1;
+};
+
+/// A person drives: with the keys of a terminal, with a joystick, or with both (then the joystick counts
+/// while it is not at rest). Who lets go stops: the robot stands as soon as no key has come for the dead-man
+/// time, the joystick's dead-man button is not held, or the device has gone.
+///
+/// For the steady clock only: a person does not live in virtual time.
+class Teleop final : public orca::Component {
+ public:
+  explicit Teleop(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(25)); }
+
+ private:
+  Status configure() override {
+    if (host().strand().executive().is_virtual())
+      return orca::fail(orca::Code::failed_precondition,
+                        "a person cannot drive in virtual time; run it with --clock steady");
+    if (keyboard_->empty() && joystick_->empty())
+      return orca::fail(orca::Code::invalid_argument,
+                        "one of its parameters keyboard and joystick must be set");
+    return orca::ok();
+  }
+
+  Status start() override {
+    keys_ = {};
+    stick_.release();
+    if (!keyboard_->empty())
+      if (Status opened = keyboard_input_.open(*keyboard_); !opened.ok()) return opened;
+    if (!joystick_->empty())
+      if (Status opened = joystick_input_.open(*joystick_); !opened.ok()) return opened;
+    if (keyboard_input_.is_open()) terminal_.emplace(keyboard_input_.fd());
+    return orca::ok();
+  }
+
+  orca::Outcome work() override {
+    const double time = orca::to_seconds(now());
+    if (take(keyboard_input_, "keyboard")) keys_.take(bytes_, time);
+    if (take(joystick_input_, "joystick")) stick_.take(bytes_);
+    if (!joystick_input_.is_open()) stick_.release();
+    if (keys_.quit()) {
+      motion_.push(orca::full_stop());
+      return orca::done();
+    }
+    const Stick hand = stick_.stick(map());
+    const Stick wanted = hand == Stick{} ? keys_.stick(time, *dead_man_) : hand;
+    if (wanted == Stick{}) {
+      motion_.push(orca::full_stop());  // also against what other behaviours want
+    } else {
+      motion_.push(orca::turn(wanted.left * *turn_rate_, wanted.forward * *speed_, *weight_));
+    }
+    return orca::again();
+  }
+
+  void stop() override {
+    terminal_.reset();
+    keyboard_input_.close();
+    joystick_input_.close();
+  }
+
+  // New bytes into bytes_; false if there are none.
+  bool take(Input& input, const char* what) {
+    if (!input.is_open()) return false;
+    if (input.read(bytes_)) return !bytes_.empty();
+    log_warning(std::string("the ") + what + " has gone: nobody drives with it any more");
+    if (&input == &keyboard_input_) terminal_.reset();
+    input.close();
+    return false;
+  }
+
+  [[nodiscard]] orca::teleop::JoystickMap map() const {
+    return {static_cast<std::uint8_t>(*forward_axis_), static_cast<std::uint8_t>(*left_axis_),
+            static_cast<std::uint8_t>(*dead_man_button_)};
+  }
+
+  orca::PushServer<orca::idl::MotionCommand> motion_{
+      *this, "motion", {.text = "What the person wants, per lap; full stop while nobody holds anything."}};
+
+  orca::Param<std::string> keyboard_{
+      *this,
+      "keyboard",
+      "stdin",
+      {.fixed = true, .text = "Terminal whose keys drive: stdin, a device, or empty for none."}};
+  orca::Param<std::string> joystick_{
+      *this, "joystick", "", {.fixed = true, .text = "Joystick device, as /dev/input/js0; empty for none."}};
+  orca::Param<double> speed_{
+      *this, "speed", 0.3, {.unit = "m/s", .min = 0.0, .text = "With a key, or the stick fully forward."}};
+  orca::Param<double> turn_rate_{
+      *this,
+      "turn_rate",
+      0.8,
+      {.unit = "rad/s", .min = 0.0, .text = "With a key, or the stick fully aside."}};
+  orca::Param<double> dead_man_{
+      *this,
+      "dead_man",
+      0.3,
+      {.unit = "s", .min = 0.05, .max = 2.0, .text = "Without a key for so long the robot stands."}};
+  orca::Param<std::int64_t> forward_axis_{
+      *this, "forward_axis", 1, {.min = 0, .max = 255, .text = "Joystick axis; up is negative."}};
+  orca::Param<std::int64_t> left_axis_{
+      *this, "left_axis", 0, {.min = 0, .max = 255, .text = "Joystick axis; left is negative."}};
+  orca::Param<std::int64_t> dead_man_button_{
+      *this,
+      "dead_man_button",
+      0,
+      {.min = 0, .max = 255, .text = "Joystick button that must be held to drive."}};
+  orca::Param<double> weight_{
+      *this, "weight", 1.0, {.min = 0.0, .text = "Share of its wishes when they are fused."}};
+
+  Input keyboard_input_;
+  Input joystick_input_;
+  std::optional<orca::teleop::RawTerminal> terminal_;
+  orca::teleop::Keys keys_;
+  orca::teleop::Joystick stick_;
+  std::string bytes_;
+};
+
+}  // namespace
+
+ORCA_COMPONENT(Teleop, "orca.Teleop")

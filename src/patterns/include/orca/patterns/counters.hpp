@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace orca {
+
+/// A number that one thread at a time writes, at the price of a plain one, and that any may read.
+template <class T>
+class Published {
+ public:
+  Published(T value = T{}) : value_(value) {}  // NOLINT(google-explicit-constructor)
+  Published& operator=(T value) {
+    value_.store(value, std::memory_order_relaxed);
+    return *this;
+  }
+  Published& operator+=(T more) { return *this = *this + more; }
+  Published& operator++() { return *this += T{1}; }
+  operator T() const {
+    return value_.load(std::memory_order_relaxed);
+  }  // NOLINT(google-explicit-constructor)
+
+ private:
+  std::atomic<T> value_;
+};
+
+/// What has happened on one Push edge so far. A plain value.
+struct EdgeCounters {
+  std::uint64_t delivered = 0;  ///< Objects put into the queue.
+  std::uint64_t dropped = 0;    ///< Objects lost, for any of the reasons that follow.
+
+  std::uint64_t dropped_oldest = 0;    ///< They made room for a newer one.
+  std::uint64_t dropped_newest = 0;    ///< They found the queue full.
+  std::uint64_t dropped_blocked = 0;   ///< Their publisher waited for room in vain, or had waited before.
+  std::uint64_t left_behind = 0;       ///< They were still in the queue at unsubscribe().
+  std::uint64_t waits = 0;             ///< Times that the publisher had to wait for room.
+  std::uint64_t missed_deadlines = 0;  ///< Deadlines that passed without an object.
+  std::uint32_t queued = 0;            ///< In the queue now.
+  std::uint32_t high_water = 0;        ///< Most that were ever in the queue.
+};
+
+/// What has happened at one Send or Query server, or on one Send edge, so far. A plain value.
+struct IntakeCounters {
+  std::uint64_t accepted = 0;
+  std::uint64_t refused = 0;  ///< Not accepted, for any of the reasons that follow.
+  std::uint64_t failed = 0;   ///< Accepted, but the handler returned an error or threw.
+
+  std::uint64_t refused_full = 0;
+  std::uint64_t refused_closed = 0;
+  std::uint64_t withdrawn = 0;   ///< The sender stopped waiting for room.
+  std::uint64_t waits = 0;       ///< Times that a sender had to wait for room.
+  std::uint32_t queued = 0;      ///< Waiting to be handled now.
+  std::uint32_t high_water = 0;  ///< Most that ever waited; of several edges the sum.
+
+  IntakeCounters& operator+=(const IntakeCounters& other) {
+    accepted += other.accepted;
+    refused += other.refused;
+    failed += other.failed;
+    refused_full += other.refused_full;
+    refused_closed += other.refused_closed;
+    withdrawn += other.withdrawn;
+    waits += other.waits;
+    queued += other.queued;
+    high_water += other.high_water;
+    return *this;
+  }
+};
+
+/// What has happened at one SendProxy or QueryProxy so far. A plain value.
+struct RequestCounters {
+  std::uint64_t sent = 0;       ///< Objects or questions that left.
+  std::uint64_t answered = 0;   ///< Accepted by the server, or answered well.
+  std::uint64_t failed = 0;     ///< Refused, or answered by an error.
+  std::uint64_t timed_out = 0;  ///< Given up at the caller's time limit.
+};
+
+}  // namespace orca

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace orca {
+
+/// The answers that one client waits for, each under an id of its own. They are few, so they are searched one
+/// by one, and after warm-up nothing is taken from the heap.
+///
+/// Thread contract: any thread.
+template <class Answer>
+class PendingAnswers {
+ public:
+  enum class State { unknown, waiting, answered };
+
+  /// A new id, to be answered.
+  [[nodiscard]] std::uint64_t add() {
+    const std::lock_guard lock(mutex_);
+    entries_.push_back({next_id_, std::nullopt});
+    return next_id_++;
+  }
+
+  /// @return false if nobody waits for it any more.
+  bool answer(std::uint64_t id, Answer answer) {
+    const std::lock_guard lock(mutex_);
+    const auto entry = find(id);
+    if (entry == entries_.end()) return false;
+    entry->answer.emplace(std::move(answer));
+    return true;
+  }
+
+  [[nodiscard]] State state(std::uint64_t id) const {
+    const std::lock_guard lock(mutex_);
+    const auto entry = std::ranges::find(entries_, id, &Entry::id);
+    if (entry == entries_.end()) return State::unknown;
+    return entry->answer ? State::answered : State::waiting;
+  }
+
+  /// The answer, once; nothing while there is none.
+  [[nodiscard]] std::optional<Answer> take(std::uint64_t id) {
+    const std::lock_guard lock(mutex_);
+    const auto entry = find(id);
+    if (entry == entries_.end() || !entry->answer) return std::nullopt;
+    std::optional<Answer> answer = std::move(entry->answer);
+    remove(entry);
+    return answer;
+  }
+
+  /// Its answer will be thrown away.
+  void forget(std::uint64_t id) {
+    const std::lock_guard lock(mutex_);
+    const auto entry = find(id);
+    if (entry != entries_.end()) remove(entry);
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t id;
+    std::optional<Answer> answer;
+  };
+  using Place = typename std::vector<Entry>::iterator;
+
+  Place find(std::uint64_t id) { return std::ranges::find(entries_, id, &Entry::id); }
+  void remove(Place entry) {
+    if (entry != entries_.end() - 1) *entry = std::move(entries_.back());
+    entries_.pop_back();
+  }
+
+  mutable std::mutex mutex_;
+  std::uint64_t next_id_ = 1;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace orca

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "orca/base/time.hpp"
+
+namespace orca {
+
+/// How often a subscriber asks to be updated (thesis 7.3). Both may be asked for; the slower one counts.
+struct UpdateRate {
+  Duration interval{0};        ///< At most one object per interval [s]; 0: any number.
+  std::uint32_t multiple = 1;  ///< Only every n-th object.
+  friend bool operator==(const UpdateRate&, const UpdateRate&) = default;
+};
+
+/// How often the server agrees to update a subscriber.
+struct UpdateGrant {
+  Duration base_period{0};     ///< Of the server [s]; 0: it pushes irregularly.
+  std::uint32_t multiple = 1;  ///< The subscriber gets every n-th object.
+  Duration interval{0};  ///< Time between two objects [s]: `multiple` base periods; for an irregular server
+                         ///< the interval asked for, which is then measured.
+  friend bool operator==(const UpdateGrant&, const UpdateGrant&) = default;
+};
+
+/// What a server with that base period grants: the interval rounded up to a multiple of the base period, so
+/// that nobody gets more than was asked for. A thousandth of a period is forgiven, because periods such as a
+/// third of a second are no whole number of nanoseconds.
+[[nodiscard]] UpdateGrant grant_rate(const UpdateRate& asked, Duration base_period);
+
+}  // namespace orca

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "orca/patterns/push_endpoint.hpp"
+
+namespace orca {
+
+PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy)
+    : client_(client),
+      source_(source),
+      policy_(policy),
+      mutex_(client.home().strand.executive()),
+      ring_(policy.depth) {
+  assert(policy.depth > 0);
+}
+
+void PushEdge::subscribe() {
+  if (subscribed()) return;
+  if (policy_.deadline > Duration{0}) last_arrival_ = now().time_since_epoch().count();
+  subscribed_.store(true, std::memory_order_release);
+  if (LinkObserver* observer = client_.home().observer)
+    observer->link_changed(client_.path(), source_.path(), true);
+  source_.attach(*this, rate());
+}
+
+void PushEdge::unsubscribe() {
+  if (!subscribed()) return;
+  source_.detach(*this);
+  if (LinkObserver* observer = client_.home().observer)
+    observer->link_changed(client_.path(), source_.path(), false);
+  if (policy_.deadline > Duration{0}) counts_.missed_deadlines = missed_until(now());
+  subscribed_.store(false, std::memory_order_release);
+  const std::lock_guard lock(mutex_);
+  counts_.left_behind += count_;
+  count_.store(0, std::memory_order_release);
+  std::fill(ring_.begin(), ring_.end(), ObjectRef{});
+  newest_ = ObjectRef{};  // what was true before is not news to the next subscription
+  publisher_waits_ = subscriber_stuck_ = false;
+}
+
+void PushEdge::ask(const UpdateRate& rate) {
+  asked_ = rate;
+  if (subscribed()) source_.change(*this, this->rate());
+}
+
+UpdateRate PushEdge::rate() const {
+  return {std::max(asked_.interval, policy_.min_interval), asked_.multiple};
+}
+
+UpdateGrant PushEdge::grant() const {
+  const std::lock_guard lock(grant_mutex_);
+  return grant_;
+}
+
+void PushEdge::granted(const UpdateGrant& grant) {
+  const std::lock_guard lock(grant_mutex_);
+  grant_ = grant;
+}
+
+std::optional<Duration> PushEdge::deliver(const ObjectRef& object) {
+  {
+    const std::lock_guard lock(mutex_);
+    std::uint32_t count = count_.load(std::memory_order_relaxed);
+    if (count == policy_.depth) {
+      if (!make_room()) return publisher_waits_ ? std::optional(policy_.block_limit) : std::nullopt;
+      --count;
+    }
+    put(object, count);
+  }
+  client_.observe(object);
+  client_.home().strand.wake();
+  return std::nullopt;
+}
+
+// False if the new object cannot go in; it is counted, or its publisher waits.
+bool PushEdge::make_room() {
+  switch (policy_.overflow) {
+    case QueuePolicy::Overflow::drop_oldest:
+      ++counts_.dropped_oldest;
+      if (++first_ == policy_.depth) first_ = 0;
+      return true;
+    case QueuePolicy::Overflow::block:
+      if (subscriber_stuck_) {
+        ++counts_.dropped_blocked;
+      } else if (!std::exchange(publisher_waits_, true)) {
+        ++counts_.waits;
+      }
+      return false;
+    default: ++counts_.dropped_newest; return false;
+  }
+}
+
+// Into the queue, which holds `count` objects.
+void PushEdge::put(const ObjectRef& object, std::uint32_t count) {
+  std::uint32_t last = first_ + count;
+  if (last >= policy_.depth) last -= policy_.depth;
+  ring_[last] = object;
+  if (newest_) newest_ = ObjectRef{};
+  publisher_waits_ = false;
+  count_.store(count + 1, std::memory_order_release);
+  if (count + 1 > counts_.high_water) counts_.high_water = count + 1;
+  ++counts_.delivered;
+  if (policy_.deadline > Duration{0}) arrive(now());
+}
+
+void PushEdge::arrive(TimePoint time) {
+  const std::uint64_t missed = missed_until(time);
+  last_arrival_ = time.time_since_epoch().count();
+  counts_.missed_deadlines = missed;
+}
+
+void PushEdge::give_up(const ObjectRef& /*object*/) {
+  const std::lock_guard lock(mutex_);
+  ++counts_.dropped_blocked;
+  publisher_waits_ = false;
+  subscriber_stuck_ = true;
+}
+
+ObjectRef PushEdge::take() {
+  if (!has_new()) return {};
+  client_.home().strand.note_activity();
+  ObjectRef object;
+  bool waited_for = false;
+  {
+    const std::lock_guard lock(mutex_);
+    const std::uint32_t count = count_.load(std::memory_order_relaxed);
+    object = std::move(ring_[first_]);
+    if (count == 1) newest_ = object;
+    if (++first_ == policy_.depth) first_ = 0;
+    count_.store(count - 1, std::memory_order_release);
+    subscriber_stuck_ = false;
+    waited_for = std::exchange(publisher_waits_, false);
+  }
+  if (waited_for) source_.room(*this);
+  client_.home().strand.note_activity();
+  return object;
+}
+
+ObjectRef PushEdge::latest() const {
+  const std::lock_guard lock(mutex_);
+  const std::uint32_t count = count_.load(std::memory_order_relaxed);
+  return count == 0 ? newest_ : ring_[(first_ + count - 1) % policy_.depth];
+}
+
+// With a deadline only.
+std::uint64_t PushEdge::missed_until(TimePoint time) const {
+  const Duration since = time.time_since_epoch() - Duration(last_arrival_);
+  if (since <= Duration{0}) return counts_.missed_deadlines;
+  return counts_.missed_deadlines + static_cast<std::uint64_t>((since - Duration{1}) / policy_.deadline);
+}
+
+bool PushEdge::deadline_missed() const {
+  if (policy_.deadline <= Duration{0} || !subscribed()) return false;
+  return now().time_since_epoch() - Duration(last_arrival_) > policy_.deadline;
+}
+
+EdgeCounters PushEdge::counters() const {
+  EdgeCounters counted;
+  counted.delivered = counts_.delivered;
+  counted.dropped_oldest = counts_.dropped_oldest;
+  counted.dropped_newest = counts_.dropped_newest;
+  counted.dropped_blocked = counts_.dropped_blocked;
+  counted.left_behind = counts_.left_behind;
+  counted.dropped =
+      counted.dropped_oldest + counted.dropped_newest + counted.dropped_blocked + counted.left_behind;
+  counted.waits = counts_.waits;
+  const bool due = policy_.deadline > Duration{0} && subscribed();
+  counted.missed_deadlines = due ? missed_until(now()) : std::uint64_t{counts_.missed_deadlines};
+  counted.queued = count_.load(std::memory_order_relaxed);
+  counted.high_water = counts_.high_water;
+  return counted;
+}
+
+PushClientEndpoint::PushClientEndpoint(PortHome& home, PortContract contract)
+    : Endpoint(home, std::move(contract)) {}
+
+PushEdge& PushClientEndpoint::connect(PushSource& source, const QueuePolicy& policy) {
+  assert(contract().many || edges_.empty());
+  edges_.push_back(std::make_unique<PushEdge>(*this, source, policy));
+  return *edges_.back();
+}
+
+bool PushClientEndpoint::has_new() const {
+  return std::any_of(edges_.begin(), edges_.end(), [](const auto& edge) { return edge->has_new(); });
+}
+
+void PushClientEndpoint::subscribe_all() {
+  for (const auto& edge : edges_) edge->subscribe();
+}
+
+void PushClientEndpoint::unsubscribe_all() {
+  for (const auto& edge : edges_) edge->unsubscribe();
+}
+
+}  // namespace orca

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "futex_event.hpp"
+
+#include <linux/futex.h>
+#include <sched.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "steady_time.hpp"
+
+namespace orca::detail {
+namespace {
+
+constexpr int kChecksPerClockReading = 32;
+
+void relax_processor() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value, const timespec* deadline) {
+  static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t));
+  syscall(SYS_futex, &word, operation | FUTEX_PRIVATE_FLAG, value, deadline, nullptr, FUTEX_BITSET_MATCH_ANY);
+}
+
+timespec to_timespec(TimePoint time) {
+  const auto since_boot = std::max(to_steady(time).time_since_epoch(), Duration{0});
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since_boot);
+  return {seconds.count(), (since_boot - seconds).count()};
+}
+
+}  // namespace
+
+void FutexEvent::notify() {
+  // The waiter may destroy the event as soon as it sees the flag. The wake-up then goes to an address where
+  // nobody sleeps, or where a later sleeper looks at its own word again.
+  if (state_.exchange(kNotified, std::memory_order_acq_rel) == kAsleep) futex(state_, FUTEX_WAKE, 1, nullptr);
+}
+
+bool FutexEvent::wait_until(TimePoint deadline) {
+  if (take()) return true;
+  return spin_limit_ > Duration{0} ? spin_then_sleep(deadline) : sleep(deadline);
+}
+
+bool FutexEvent::take() {
+  std::uint32_t expected = kNotified;
+  return state_.load(std::memory_order_relaxed) == kNotified &&
+         state_.compare_exchange_strong(expected, kIdle, std::memory_order_acquire);
+}
+
+bool FutexEvent::spin_then_sleep(TimePoint deadline) {
+  const TimePoint start = steady_now();
+  const bool notified = (spin_ > Duration{0} && spin(std::min(deadline, start + spin_))) || sleep(deadline);
+  // Twice: what was slept through includes the time that waking took.
+  spin_ = steady_now() - start <= 2 * spin_limit_ ? spin_limit_ : spin_ / 2;
+  return notified;
+}
+
+bool FutexEvent::spin(TimePoint until) {
+  do {
+    for (int check = 0; check < kChecksPerClockReading; ++check) {
+      if (take()) return true;
+      relax_processor();
+    }
+  } while (steady_now() < until);
+  return false;
+}
+
+bool FutexEvent::sleep(TimePoint deadline) {
+  const bool limited = deadline != kForever;
+  const timespec limit = limited ? to_timespec(deadline) : timespec{};
+  std::uint32_t seen = kIdle;
+  if (!state_.compare_exchange_strong(seen, kAsleep, std::memory_order_acquire)) return take();
+  while (state_.load(std::memory_order_acquire) == kAsleep) {
+    if (limited && steady_now() >= deadline) {
+      seen = kAsleep;
+      if (state_.compare_exchange_strong(seen, kIdle, std::memory_order_acquire)) return false;
+    } else {
+      futex(state_, FUTEX_WAIT_BITSET, kAsleep, limited ? &limit : nullptr);
+    }
+  }
+  return take();
+}
+
+Duration useful_spin(Duration limit) {
+  cpu_set_t usable;
+  CPU_ZERO(&usable);
+  const bool known = sched_getaffinity(0, sizeof usable, &usable) == 0;
+  return known && CPU_COUNT(&usable) < 2 ? Duration{0} : limit;
+}
+
+}  // namespace orca::detail

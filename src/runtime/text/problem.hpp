@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace orca::text {
+
+// What is wrong with a value that was read.
+struct Problem {
+  const char* code;
+  std::string message;
+};
+
+using Verdict = std::optional<Problem>;  // Nothing: the value is good.
+
+}  // namespace orca::text

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orca/component.hpp"
+#include "orca/idl/motion.hpp"
+
+namespace {
+
+/// A behaviour that says one thing for a while, then another.
+class VoiceOf final : public orca::Component {
+ public:
+  explicit VoiceOf(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(100)); }
+
+ private:
+  orca::Outcome work() override {
+    say(orca::to_seconds(now()) < *until_ ? *first_ : *then_);
+    return orca::again();
+  }
+
+  void say(const std::string& what) {
+    if (what == "no_opinion") motion_.push(orca::dont_care());
+    if (what == "full_stop") motion_.push(orca::full_stop());
+    if (what == "drive") motion_.push(orca::head(0.0, 0.3));
+  }
+
+  static std::vector<std::string> words() { return {"no_opinion", "full_stop", "drive", "silence"}; }
+
+  orca::PushServer<orca::idl::MotionCommand> motion_{*this, "motion"};
+  orca::Param<std::string> first_{*this, "first", "no_opinion", {.choices = words()}};
+  orca::Param<std::string> then_{*this, "then", "silence", {.choices = words()}};
+  orca::Param<double> until_{*this, "until", 2.0, {.unit = "s", .min = 0.0}};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(VoiceOf, "test.Voice")

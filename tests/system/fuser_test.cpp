@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fuser's modes, its stops and its reasons, in whole systems.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "deployer.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+Run past_the_pillar(const std::string& mode) {
+  return run_deployer(Words{system_graph("symmetric.xml"), "--set", "mode=" + mode} + with_test_plugins() +
+                      virtual_clock());
+}
+
+Run two_voices(const std::string& mode, const std::string& sync, const std::string& then) {
+  return run_deployer(Words{system_graph("voices.xml"), "--set", "mode=" + mode, "--set", "sync=" + sync,
+                            "--set", "then=" + then, "--until", "4 s"} +
+                      with_test_plugins() + virtual_clock());
+}
+
+// When the sink first told of something; negative if never.
+double told_at(const Run& run, const std::string& what) {
+  for (const std::string& line : split_lines(run.err)) {
+    const auto time = line.find("t=");
+    if (time != std::string::npos && line.find(what) != std::string::npos)
+      return std::strtod(line.c_str() + time + 2, nullptr);
+  }
+  return -1.0;
+}
+
+const std::vector<std::string> kModes{"weighted", "priority", "vote", "vector_sum", "subsumption"};
+const std::vector<std::string> kSyncs{"any", "all", "period"};
+constexpr double kPeriod = 0.05;  // the fuser's default
+
+}  // namespace
+
+TEST_CASE("between two behaviours that avoid a pillar on opposite sides the weighted mean drives into it",
+          "[system][fuser]") {
+  const Run run = past_the_pillar("weighted");
+  INFO(run.err);
+  CHECK_FALSE(run.contacts().empty());
+}
+
+TEST_CASE("a vote takes one of the two sides, passes the pillar and arrives", "[system][fuser]") {
+  const Run run = past_the_pillar("vote");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.contacts().empty());
+  CHECK(run.arrivals().size() == 1);
+}
+
+TEST_CASE("so do priority and subsumption, where one of them decides alone", "[system][fuser]") {
+  for (const char* mode : {"priority", "subsumption"}) {
+    const Run run = past_the_pillar(mode);
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.contacts().empty());
+    CHECK(run.arrivals().size() == 1);
+  }
+}
+
+TEST_CASE("every mode gives the same trace again", "[system][fuser]") {
+  for (const std::string& mode : kModes) {
+    const Run run = past_the_pillar(mode);
+    REQUIRE(run.trace_hash().has_value());
+    CHECK(run.trace_hash() == past_the_pillar(mode).trace_hash());
+  }
+}
+
+TEST_CASE("a full stop stops the robot within one period, in every mode, whenever the fuser fuses",
+          "[system][fuser]") {
+  for (const std::string& mode : kModes) {
+    for (const std::string& sync : kSyncs) {
+      const Run run = two_voices(mode, sync, "full_stop");
+      INFO(run.err);
+      CAPTURE(mode, sync);
+      CHECK(told_at(run, mode + " FUSED by driver speed 0.30") < 1.0);
+      const double stopped = told_at(run, mode + " TOLD_TO_STOP by guard speed 0.00");
+      CHECK(stopped >= 2.0);
+      CHECK(stopped <= 2.0 + 0.1 + kPeriod);  // the guard speaks every 100 ms
+    }
+  }
+}
+
+TEST_CASE("a required behaviour that falls silent stops the robot, in every mode", "[system][fuser]") {
+  for (const std::string& mode : kModes) {
+    const Run run = two_voices(mode, "any", "silence");
+    INFO(run.err);
+    CAPTURE(mode);
+    CHECK(told_at(run, "FUSED by driver speed 0.30") < 1.0);
+    const double stopped = told_at(run, "REQUIRED_SILENT by guard speed 0.00");
+    CHECK(stopped >= 2.0);
+    CHECK(stopped <= 2.0 + 0.5 + 0.1 + 1e-6);  // required_max_age, and the driver's 100 ms
+    CHECK(run.says("nothing is heard of the required behaviour \"guard\""));
+  }
+}
+
+TEST_CASE("a behaviour that is not required may fall silent", "[system][fuser]") {
+  const Run run = run_deployer(
+      Words{system_graph("voices.xml"), "--set", "then=silence", "--set", "required=", "--until", "4 s"} +
+      with_test_plugins() + virtual_clock());
+  INFO(run.err);
+  CHECK(told_at(run, "FUSED by driver speed 0.30") >= 0.0);
+  CHECK(told_at(run, "speed 0.00") >= 4.0);  // when all is being stopped
+}
+
+TEST_CASE("an unknown mode is refused with those that there are; priority without an order does not start",
+          "[system][fuser]") {
+  const Words graph = Words{system_graph("voices.xml"), "--set", "then=silence"} + with_test_plugins();
+  const Run unknown = run_deployer(graph + Words{"--set", "mode=voting"} + virtual_clock());
+  CHECK(unknown.exit_code() == 2);
+  CHECK(unknown.says("vote"));
+  const Run unordered =
+      run_deployer(graph + Words{"--set", "mode=priority", "--set", "order="} + virtual_clock());
+  CHECK(unordered.exit_code() == 3);
+  CHECK(unordered.says("mode priority needs the parameter order"));
+}

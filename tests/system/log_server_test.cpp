@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+Run logging_to(const std::string& file) {
+  return run_deployer(Words{system_graph("log_server.xml"), "--set", "file=" + file} + with_test_plugins() +
+                      virtual_clock());
+}
+
+}  // namespace
+
+TEST_CASE("the log server writes a line per record, and begins a new file when one is large enough",
+          "[system][log]") {
+  const TempFolder folder;
+  const Run run = logging_to(folder.file("robot.log"));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  const auto newest = split_lines(read_text(folder.file("robot.log")));
+  const auto older = split_lines(read_text(folder.file("robot.log.1")));
+  REQUIRE_FALSE(newest.empty());
+  CHECK(newest.back().ends_with(" warning wheels: record 100\\nof several lines"));
+  CHECK(older.size() > newest.size());
+  CHECK(std::filesystem::file_size(folder.file("robot.log.1")) <= 2000);
+  CHECK_FALSE(std::filesystem::exists(folder.file("robot.log.3")));
+}
+
+TEST_CASE("a log that cannot be written stops nobody: the loss is told once", "[system][log]") {
+  const Run run = logging_to("/dev/full");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  const auto lines = split_lines(run.err);
+  CHECK(std::ranges::count_if(lines, [](const std::string& line) {
+          return line.find("records are being lost") != std::string::npos;
+        }) == 1);
+}
+
+TEST_CASE("a log in a folder that is not there keeps the system from starting", "[system][log]") {
+  const Run run = logging_to("/no/such/folder/robot.log");
+  CHECK(run.exit_code() == 3);
+  CHECK(run.says("/no/such/folder/robot.log"));
+}

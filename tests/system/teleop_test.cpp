@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A person drives: the keys come through a pseudo-terminal, the joystick's events through a pipe.
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <memory>
+#include <thread>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+/// A terminal with the test at the keys.
+class Terminal {
+ public:
+  Terminal() : keys_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+    REQUIRE(keys_ >= 0);
+    REQUIRE(grantpt(keys_) == 0);
+    REQUIRE(unlockpt(keys_) == 0);
+    char name[64];
+    REQUIRE(ptsname_r(keys_, name, sizeof name) == 0);
+    name_ = name;
+    // Held open, so that its settings can be read at any time.
+    line_ = open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
+    REQUIRE(line_ >= 0);
+  }
+  ~Terminal() {
+    close(line_);
+    close(keys_);
+  }
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  void press(const std::string& bytes) const {
+    REQUIRE(write(keys_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+  }
+  [[nodiscard]] bool echoes() const {
+    termios settings{};
+    REQUIRE(tcgetattr(line_, &settings) == 0);
+    return (settings.c_lflag & (ICANON | ECHO)) == (ICANON | ECHO);
+  }
+  // Within a generous limit: nothing announces the change of a terminal's settings.
+  [[nodiscard]] bool comes_to_echo(bool wanted) const {
+    for (int i = 0; i < 500 && echoes() != wanted; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return echoes() == wanted;
+  }
+
+ private:
+  int keys_;
+  int line_ = -1;
+  std::string name_;
+};
+
+Words teleop(const Words& more) {
+  return deployer(Words{system_graph("teleop.xml")} + with_test_plugins() + more);
+}
+
+constexpr Seconds kLimit{20.0 * kSlowdown};
+
+std::string event(std::int16_t value, unsigned char type, unsigned char number) {
+  std::string bytes(8, '\0');
+  std::memcpy(&bytes[4], &value, sizeof value);
+  bytes[6] = static_cast<char>(type);
+  bytes[7] = static_cast<char>(number);
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("a key drives the robot, letting go stops it, Q ends the run and the terminal is as before",
+          "[system][teleop]") {
+  const Terminal terminal;
+  Subprocess program(teleop({"--set", "keyboard=" + terminal.name()}));
+  REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
+  CHECK(terminal.comes_to_echo(false));
+  terminal.press("w");
+  CHECK(program.wait_for_output("FUSED by teleop speed 0.30 turn 0.00", kLimit));
+  terminal.press("\x1b[D");
+  CHECK(program.wait_for_output("turn 0.80", kLimit));
+  terminal.press("q");
+  const Run run = finish(program, kLimit);
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(terminal.comes_to_echo(true));
+}
+
+TEST_CASE("when no key comes any more the robot stands", "[system][teleop]") {
+  const Terminal terminal;
+  Subprocess program(teleop({"--set", "keyboard=" + terminal.name(), "--set", "joystick="}));
+  REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
+  terminal.press("w");
+  REQUIRE(program.wait_for_output("FUSED by teleop speed 0.30", kLimit));
+  // The sink tells of changes only: a second stop comes after the key.
+  const auto stops_after_driving = [&] {
+    const std::string err = program.err();
+    return err.find("TOLD_TO_STOP", err.find("FUSED by teleop")) != std::string::npos;
+  };
+  for (int i = 0; i < 500 && !stops_after_driving(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  CHECK(stops_after_driving());
+  program.send(SIGINT);
+  CHECK(finish(program, kLimit).exit_code() == 0);
+  CHECK(terminal.comes_to_echo(true));
+}
+
+TEST_CASE("the terminal is put back even when the deployer is killed", "[system][teleop]") {
+  for (const int signal : {SIGKILL, SIGABRT, SIGTERM}) {
+    const Terminal terminal;
+    Subprocess program(teleop({"--set", "keyboard=" + terminal.name()}));
+    REQUIRE(terminal.comes_to_echo(false));
+    program.send(signal);
+    REQUIRE(program.wait(kLimit).has_value());
+    CAPTURE(signal);
+    CHECK(terminal.comes_to_echo(true));
+  }
+}
+
+TEST_CASE("a terminal that goes away stops the robot and not the system", "[system][teleop]") {
+  auto terminal = std::make_unique<Terminal>();
+  Subprocess program(teleop({"--set", "keyboard=" + terminal->name()}));
+  REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
+  terminal.reset();
+  CHECK(program.wait_for_output("the keyboard has gone", kLimit));
+  program.send(SIGINT);
+  CHECK(finish(program, kLimit).exit_code() == 0);
+}
+
+TEST_CASE("a joystick drives while its dead-man button is held, and nobody when it is unplugged",
+          "[system][teleop]") {
+  const TempFolder folder;
+  const std::string device = folder.file("js0");
+  REQUIRE(mkfifo(device.c_str(), 0600) == 0);
+  const int stick = open(device.c_str(), O_RDWR | O_CLOEXEC);
+  REQUIRE(stick >= 0);
+  const auto tell = [&](const std::string& bytes) {
+    REQUIRE(write(stick, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+  };
+  Subprocess program(teleop({"--set", "joystick=" + device}));
+  REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
+  tell(event(-32767, 2, 1) + event(1, 1, 0));
+  CHECK(program.wait_for_output("FUSED by teleop speed 0.30 turn 0.00", kLimit));
+  tell(event(-16384, 2, 0));
+  CHECK(program.wait_for_output("turn 0.40", kLimit));
+  close(stick);
+  CHECK(program.wait_for_output("the joystick has gone", kLimit));
+  program.send(SIGINT);
+  const Run run = finish(program, kLimit);
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.err.rfind("TOLD_TO_STOP") > run.err.rfind("FUSED"));
+}
+
+TEST_CASE("in virtual time teleop refuses to start, and says what to do", "[system][teleop]") {
+  const Run run = run_deployer(Words{system_graph("teleop.xml"), "--set", "keyboard=stdin"} +
+                               with_test_plugins() + virtual_clock());
+  CHECK(run.exit_code() == 3);
+  CHECK(run.says("--clock steady"));
+}
+
+TEST_CASE("a device that is not there is named, and describing teleop opens none", "[system][teleop]") {
+  Subprocess program(teleop({"--set", "keyboard=/dev/no_such_tty"}));
+  CHECK(program.wait_for_output("/dev/no_such_tty", kLimit));
+  const Run described = run_deployer({"--describe", ORCA_BINARY_DIR "/plugins/teleop.so"});
+  CHECK(described.exit_code() == 0);
+  CHECK(described.out.find("dead_man = 0.3 s") != std::string::npos);
+}
+
+TEST_CASE("the shipped graph for a person is sound", "[system][teleop]") {
+  const Run run = run_deployer({source_file("graphs/scout_teleop.xml"), "--check"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A laser scan becomes echoes: what it sees replaces what was remembered in its field of view.
+#include "orca/avoidance/scan.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "orca/avoidance/advice.hpp"
+#include "orca/base/random.hpp"
+
+using namespace orca::avoid;
+using std::numbers::pi;
+
+namespace {
+
+constexpr EchoMemory::Limits kKeep{4.0, 4.0, 0.15, 0.8};
+constexpr double kSector = pi / 36;
+constexpr double kMaxRange = 8.0;
+const Limits kLimits{.robot_radius = 0.2,
+                     .margin = 0.1,
+                     .side_distance = 0.0,
+                     .safe_distance = 0.8,
+                     .stop_distance = 0.15,
+                     .max_speed = 0.4};
+
+// Half a turn ahead in steps of a degree, as a scanner of the time has it.
+Scan scan_of(const std::vector<double>& ranges, const Motion& mount = {}) {
+  return {ranges, 0.05, kMaxRange, -pi / 2, pi / 180, mount};
+}
+
+std::vector<double> nothing() { return std::vector<double>(181, kMaxRange); }
+
+// Ranges of a wall across the way, `ahead` [m] from the sensor, `half_width` [m] to both sides.
+std::vector<double> wall(double ahead, double half_width) {
+  std::vector<double> ranges = nothing();
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const double angle = -pi / 2 + static_cast<double>(i) * pi / 180;
+    if (std::cos(angle) > 0.01 && std::abs(ahead * std::tan(angle)) <= half_width)
+      ranges[i] = ahead / std::cos(angle);
+  }
+  return ranges;
+}
+
+EchoMemory memory_of(const std::vector<double>& ranges, const Motion& mount = {}) {
+  EchoMemory memory;
+  see(scan_of(ranges, mount), kSector, 2.0, kKeep, memory);
+  return memory;
+}
+
+}  // namespace
+
+TEST_CASE("a scan that sees nothing leaves nothing to avoid", "[avoidance][laser]") {
+  CHECK(memory_of(nothing()).echoes().empty());
+  CHECK_FALSE(avoid(memory_of(nothing()).echoes(), {}, kLimits).needed);
+  CHECK(memory_of({}).echoes().empty());
+}
+
+TEST_CASE("a beam ends where sensor, mount and angle say", "[avoidance][laser]") {
+  std::vector<double> ranges = nothing();
+  ranges[90] = 1.0;
+  const EchoMemory ahead = memory_of(ranges, {0.1, 0.0, 0.0});
+  REQUIRE(ahead.echoes().size() == 1);
+  CHECK(ahead.echoes()[0].x == Approx(1.1));
+  CHECK(ahead.echoes()[0].y == Approx(0.0).margin(1e-9));
+  const EchoMemory aside = memory_of(ranges, {0.0, 0.2, pi / 2});
+  REQUIRE(aside.echoes().size() == 1);
+  CHECK(aside.echoes()[0].x == Approx(0.0).margin(1e-9));
+  CHECK(aside.echoes()[0].y == Approx(1.2));
+}
+
+TEST_CASE("a reading below the shortest range stands for something at the sensor itself",
+          "[avoidance][laser]") {
+  std::vector<double> ranges = nothing();
+  ranges[90] = 0.01;
+  const EchoMemory memory = memory_of(ranges, {0.1, 0.0, 0.0});
+  REQUIRE(memory.echoes().size() == 1);
+  CHECK(memory.echoes()[0].x == Approx(0.1));
+}
+
+TEST_CASE("what is not a number, or farther away than matters, is no echo", "[avoidance][laser]") {
+  std::vector<double> ranges = nothing();
+  ranges[80] = std::nan("");
+  ranges[90] = 2.5;
+  ranges[100] = -1.0;
+  CHECK(memory_of(ranges).echoes().size() == 1);  // the negative one counts as too near to tell
+}
+
+TEST_CASE("of the beams in a sector the nearest is kept, so a scan costs no more than a ring of sonars",
+          "[avoidance][laser]") {
+  orca::RandomStream random(1, "test", "scan");
+  for (int i = 0; i < 200; ++i) {
+    std::vector<double> ranges = nothing();
+    double nearest = kMaxRange;
+    for (double& range : ranges) {
+      range = random.uniform(0.3, 1.9);
+      nearest = std::min(nearest, range);
+    }
+    const EchoMemory memory = memory_of(ranges);
+    CHECK(memory.echoes().size() <= 37);
+    double kept = kMaxRange;
+    for (const Echo& echo : memory.echoes()) kept = std::min(kept, std::hypot(echo.x, echo.y));
+    CHECK(kept < nearest + 0.04);  // neighbours nearer to each other than that are one echo
+  }
+}
+
+TEST_CASE("what has gone from the field of view is forgotten, what lies behind is remembered",
+          "[avoidance][laser]") {
+  EchoMemory memory = memory_of(wall(0.6, 0.3));
+  memory.hear({-0.5, 0.0}, kKeep);
+  see(scan_of(nothing()), kSector, 2.0, kKeep, memory);
+  REQUIRE(memory.echoes().size() == 1);
+  CHECK(memory.echoes()[0].x == Approx(-0.5));
+}
+
+TEST_CASE("in front of a wall that a scan sees the robot slows down and turns away", "[avoidance][laser]") {
+  double last_speed = kLimits.max_speed;
+  for (double ahead = 1.0; ahead > 0.35; ahead -= 0.05) {
+    const EchoMemory memory = memory_of(wall(ahead, 0.4));
+    const Advice advice = avoid(memory.echoes(), {.last_direction = 0.1}, kLimits);
+    REQUIRE(advice.needed);
+    CHECK(advice.speed <= last_speed);
+    last_speed = advice.speed;
+  }
+  CHECK(avoid(memory_of(wall(0.6, 0.4)).echoes(), {.last_direction = 0.1}, kLimits).direction > 0.3);
+  CHECK(last_speed == 0.0);
+}

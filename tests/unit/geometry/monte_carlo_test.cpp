@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Propagated covariances against the spread of many drawn samples. The errors are small enough that what
+// first order leaves out (about sigma^2 = 1e-4 of the covariance per radian squared) is far below what chance
+// makes of the sample.
+#include <catch2/catch.hpp>
+
+#include "orca/geometry/odometry.hpp"
+#include "poses.hpp"
+
+using namespace orca;
+using namespace orca::test;
+
+namespace {
+
+constexpr int kSamples = 20'000;
+
+// Five standard errors: among the 360 entries compared here chance exceeds it in 1 of 5000 choices of seeds.
+constexpr double kErrors = 5.0;
+
+// How far `sample`'s covariance is from `expected` in the worst entry, in standard errors of that entry:
+// var(S_ij) = (C_ii C_jj + C_ij^2) / (n - 1) for n normal samples.
+template <int N>
+double worst_error(const Matrix<N>& sample, const Matrix<N>& expected) {
+  double worst = 0.0;
+  for (int i = 0; i < N; ++i)
+    for (int j = i; j < N; ++j) {
+      const double variance = expected(i, i) * expected(j, j) + expected(i, j) * expected(i, j);
+      worst = std::max(worst, std::abs(sample(i, j) - expected(i, j)) / std::sqrt(variance / (kSamples - 1)));
+    }
+  return worst;
+}
+
+// The covariance of kSamples values that `draw` gives, around `mean`.
+template <int N, class Draw>
+Matrix<N> sample_covariance(const Vector<N>& mean, Draw&& draw) {
+  Vector<N> sum = Vector<N>::Zero();
+  Matrix<N> squares = Matrix<N>::Zero();
+  for (int i = 0; i < kSamples; ++i) {
+    const Vector<N> d = difference<N>(mean, draw());
+    sum += d;
+    squares += d * d.transpose();
+  }
+  return (squares - sum * sum.transpose() / kSamples) / (kSamples - 1);
+}
+
+template <int N>
+Matrix<N> root_of(const Matrix<N>& covariance) {
+  return Eigen::LLT<Matrix<N>>(covariance).matrixL();
+}
+
+}  // namespace
+
+TEST_CASE("the covariance of composed poses in the plane is that of a sample", "[geometry][monte_carlo]") {
+  RandomStream random(GENERATE(31, 32, 33, 34, 35, 36), "test", "plane");
+  const idl::Pose2D a = random_pose2(random, 0.01);
+  const idl::Pose2D b = random_pose2(random, 0.01);
+  const Matrix<3> root_a = root_of<3>(covariance_of(a));
+  const Matrix<3> root_b = root_of<3>(covariance_of(b));
+  const idl::Pose2D expected = compose(a, b);
+  const Matrix<3> sample = sample_covariance<3>(vector_of(expected), [&] {
+    const Vector<3> drawn_a = vector_of(a) + root_a * normal<3>(random, 1.0);
+    const Vector<3> drawn_b = vector_of(b) + root_b * normal<3>(random, 1.0);
+    return vector_of(compose(pose_of(drawn_a), pose_of(drawn_b)));
+  });
+  CHECK(worst_error<3>(sample, covariance_of(expected)) < kErrors);
+
+  const idl::Pose2D back = inverse(a);
+  const Matrix<3> sample_back = sample_covariance<3>(vector_of(back), [&] {
+    return vector_of(inverse(pose_of(Vector<3>(vector_of(a) + root_a * normal<3>(random, 1.0)))));
+  });
+  CHECK(worst_error<3>(sample_back, covariance_of(back)) < kErrors);
+}
+
+TEST_CASE("the covariance of composed poses in space is that of a sample", "[geometry][monte_carlo]") {
+  RandomStream random(GENERATE(41, 42, 43, 44, 45, 46), "test", "space");
+  idl::Pose3D a;
+  idl::Pose3D b;
+  do {  // Near straight up first order does not hold.
+    a = random_pose3(random, 0.003);
+    b = random_pose3(random, 0.003);
+  } while (std::cos(compose(a, b)->rotation().pitch()) < 0.5 ||
+           std::cos(inverse(a)->rotation().pitch()) < 0.5);
+  const Matrix<6> root_a = root_of<6>(covariance_of(a));
+  const Matrix<6> root_b = root_of<6>(covariance_of(b));
+  const idl::Pose3D expected = compose(a, b).value();
+  const Matrix<6> sample = sample_covariance<6>(vector_of(expected), [&] {
+    const Vector<6> drawn_a = vector_of(a) + root_a * normal<6>(random, 1.0);
+    const Vector<6> drawn_b = vector_of(b) + root_b * normal<6>(random, 1.0);
+    return vector_of(compose(pose_of(drawn_a), pose_of(drawn_b)).value());
+  });
+  CHECK(worst_error<6>(sample, covariance_of(expected)) < kErrors);
+
+  const idl::Pose3D back = inverse(a).value();
+  const Matrix<6> sample_back = sample_covariance<6>(vector_of(back), [&] {
+    return vector_of(inverse(pose_of(Vector<6>(vector_of(a) + root_a * normal<6>(random, 1.0)))).value());
+  });
+  CHECK(worst_error<6>(sample_back, covariance_of(back)) < kErrors);
+}
+
+TEST_CASE("the covariance of odometry is that of a sample of drives", "[geometry][monte_carlo]") {
+  RandomStream random(GENERATE(51, 52, 53, 54, 55, 56), "test", "odometry");
+  const DifferentialBase base{.track = 0.35, .left_noise = 1e-6, .right_noise = 2e-6};
+  std::array<WheelTravel, 20> way;
+  for (WheelTravel& travel : way) {
+    travel.left = random.uniform(-0.05, 0.1);
+    travel.right = random.uniform(-0.05, 0.1);
+  }
+  idl::Pose2D expected;
+  for (const WheelTravel& travel : way) expected = integrate_arc(expected, travel, base).value();
+  const Matrix<3> sample = sample_covariance<3>(vector_of(expected), [&] {
+    idl::Pose2D pose;
+    for (const WheelTravel& travel : way) {
+      WheelTravel drawn = travel;
+      drawn.left += random.normal(0.0, std::sqrt(base.left_noise * std::abs(travel.left)));
+      drawn.right += random.normal(0.0, std::sqrt(base.right_noise * std::abs(travel.right)));
+      pose = integrate_arc(pose, drawn, {.track = base.track}).value();
+    }
+    return vector_of(pose);
+  });
+  CHECK(worst_error<3>(sample, covariance_of(expected)) < kErrors);
+}

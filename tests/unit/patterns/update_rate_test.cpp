@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "orca/patterns/update_rate.hpp"
+
+using namespace orca;
+
+TEST_CASE("a regular server grants the next multiple of its base period", "[patterns][rate]") {
+  CHECK(grant_rate({0s, 1}, 50ms) == UpdateGrant{50ms, 1, 50ms});
+  CHECK(grant_rate({50ms, 1}, 50ms) == UpdateGrant{50ms, 1, 50ms});
+  CHECK(grant_rate({51ms, 1}, 50ms) == UpdateGrant{50ms, 2, 100ms});
+  CHECK(grant_rate({100ms, 1}, 50ms) == UpdateGrant{50ms, 2, 100ms});
+  CHECK(grant_rate({0s, 4}, 50ms) == UpdateGrant{50ms, 4, 200ms});
+}
+
+TEST_CASE("of an interval and a multiple the slower one is granted", "[patterns][rate]") {
+  CHECK(grant_rate({100ms, 3}, 50ms).multiple == 3);
+  CHECK(grant_rate({200ms, 3}, 50ms).multiple == 4);
+}
+
+TEST_CASE("a thousandth of a period more than a multiple does not cost a whole period", "[patterns][rate]") {
+  const Duration third = from_seconds(1.0 / 30.0);  // 33.333333 ms
+  CHECK(grant_rate({100ms, 1}, third).multiple == 3);
+  CHECK(grant_rate({101ms, 1}, third).multiple == 4);
+}
+
+TEST_CASE("an irregular server grants what is asked for", "[patterns][rate]") {
+  CHECK(grant_rate({0s, 1}, 0s) == UpdateGrant{0s, 1, 0s});
+  CHECK(grant_rate({70ms, 2}, 0s) == UpdateGrant{0s, 2, 70ms});
+}
+
+TEST_CASE("senseless wishes are granted as the next sensible ones", "[patterns][rate]") {
+  CHECK(grant_rate({0s, 0}, 50ms).multiple == 1);
+  CHECK(grant_rate({-1s, 1}, 50ms).multiple == 1);
+  CHECK(grant_rate({24h * 365 * 100, 1}, 1ns).multiple == 1'000'000'000);
+}
