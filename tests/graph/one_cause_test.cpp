@@ -78,6 +78,13 @@ TEST_CASE("an include that is not found may hold anything, but a name that nearl
         Codes{"G016", "G043"});
 }
 
+TEST_CASE("a file that is missing is one error, whatever would have been in it", "[graph][one cause]") {
+  CHECK(codes("<graph name='g' default_profile='sim' ends='command'><include file='more.xml'/>"
+              "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>" +
+              kAvoid + "<component name='l' type='orca.Localizer' start_after='other'/></graph>") ==
+        Codes{"G043"});
+}
+
 TEST_CASE("broken hardware says nothing about the components bound to it", "[graph][one cause]") {
   const std::string rest =
       "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>" + kAvoid + kEdge;

@@ -8,6 +8,7 @@
 #include "approval.hpp"
 #include "loading.hpp"
 #include "orca/xml/document.hpp"
+#include "rules.hpp"
 
 namespace fs = std::filesystem;
 using namespace orca;
@@ -30,6 +31,7 @@ std::map<std::string, Type> types_of_schema() {
   const auto document = xml::read_text(graph::schema(), "orca-graph.xsd", diagnostics);
   INFO(diagnostics.text());
   REQUIRE(document.has_value());
+  CHECK_FALSE(diagnostics.has_errors());
   std::map<std::string, Type> types;
   for (const xml::Element& type : document->root.children()) {
     if (type.name() != "xs:complexType") continue;
@@ -69,6 +71,21 @@ void check_fits(const xml::Element& element, const std::string& type_name,
 
 TEST_CASE("graphs/orca-graph.xsd is the schema that the rules give", "[graph][schema]") {
   orca::test::check_approved(fs::path(ORCA_SOURCE_DIR) / "graphs/orca-graph.xsd", graph::schema());
+}
+
+TEST_CASE("docs/graph.md has every attribute of the schema, with its words", "[graph][schema][docs]") {
+  const std::string page = orca::test::bytes_of(fs::path(ORCA_SOURCE_DIR) / "docs/graph.md");
+  for (const graph::ElementRule& element : graph::all_rules()) {
+    if (element.support != graph::ElementRule::Support::full || element.attributes.data() == nullptr)
+      continue;
+    if (element.name == "param" || element.name == "property") continue;  // told in a sentence
+    for (const graph::AttributeRule& rule : element.attributes) {
+      const std::string row = "| `" + std::string(rule.name) + "` | " + (rule.required ? "yes" : "") + " | " +
+                              std::string(rule.text);
+      INFO(row);
+      CHECK(page.find(row) != std::string::npos);
+    }
+  }
 }
 
 TEST_CASE("every type that the schema names is there", "[graph][schema]") {

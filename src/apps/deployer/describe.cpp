@@ -31,9 +31,9 @@ std::string text_of(const ParamValue& value) {
 std::string queue_text(const PortContract& port) {
   if (port.pattern == Pattern::query || (port.pattern == Pattern::push) == (port.role == Role::server))
     return {};
-  const bool newest = port.queue.overflow == QueuePolicy::Overflow::drop_newest;
-  if (port.queue.depth == 1 && !newest) return ", the latest";
-  return ", queue of " + std::to_string(port.queue.depth) + (newest ? " that drops the newest" : "");
+  const bool drops_oldest = port.queue.overflow == QueuePolicy::Overflow::drop_oldest;
+  if (port.queue.depth == 1 && drops_oldest) return ", the latest";
+  return ", queue of " + std::to_string(port.queue.depth) + " (" + to_string(port.queue.overflow) + ")";
 }
 
 std::string type_text(const TypeId& type) {

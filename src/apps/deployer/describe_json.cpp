@@ -26,6 +26,7 @@ void write(const PortContract& port, JsonWriter& json) {
   json.member("required", port.required);
   json.member("many", port.many);
   json.member("queue", port.queue.depth);
+  json.member("overflow", to_string(port.queue.overflow));
   json.member("text", port.text);
   json.end();
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <string>
 
 namespace orca::teleop {
 namespace {

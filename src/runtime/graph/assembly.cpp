@@ -64,10 +64,7 @@ class Assembler {
     const Text* name = node.known(file_attribute(*node.rule));
     const Text* prefix = node.known("prefix");
     const xml::Document* document = name == nullptr ? nullptr : open(node, *name);
-    if (document == nullptr || (use && prefix == nullptr)) {
-      result_.names_incomplete = true;
-      return {};
-    }
+    if (document == nullptr || (use && prefix == nullptr)) return leave_out();
     const std::string context = use && !prefix->value.empty() ? prefix->value + "/" : "";
     if (use && name_fault(prefix->value)) report_.tolerate(context);
     result_.origins.push_back({node.position, origin_});
@@ -79,13 +76,17 @@ class Assembler {
     return brought;
   }
 
+  // After a report: what the file would have brought is not missed.
+  std::vector<Node> leave_out() {
+    result_.names_incomplete = true;
+    result_.files_missing = true;
+    return {};
+  }
+
   std::vector<Node> content(const xml::Document& document, const Node& bringer, const std::string& context) {
     Arguments arguments(bringer, budget_, report_);
     auto structure = read_structure(document, arguments, report_);
-    if (!structure) {
-      result_.names_incomplete = true;
-      return {};
-    }
+    if (!structure) return leave_out();
     prefixes_.push_back(prefixes_.empty() ? context : prefixes_.back() + context);
     Node graph = take(std::move(*structure), prefixes_.back());
     prefixes_.pop_back();

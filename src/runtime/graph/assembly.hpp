@@ -19,6 +19,7 @@ struct Assembly {
   std::vector<std::string> plugin_folders;  // of all its files, absolute
   std::set<std::string> excused;            // see Structure
   bool names_incomplete = false;            // see Structure
+  bool files_missing = false;               // parts of any kind may be in them
   std::deque<Origin> origins;               // what the nodes point to
 };
 

@@ -79,13 +79,17 @@ class ComponentReader {
     const Text* name = node_.known("hardware");
     if (name == nullptr) return nullptr;
     const CheckedHardware* hardware = model_.find_hardware(name->value);
-    if (hardware == nullptr && !model_.excused.contains(name->value)) {
-      const std::vector<std::string>& names = model_.hardware_names;
-      report_.error(codes::kUnknownHardware, name->position,
-                    node_.title() + ": there is no hardware " + in_quotes(name->value) +
-                        "; the graph has: " + xml::listed(names) + report_.hint(name->value, names));
-    }
+    if (hardware == nullptr && !model_.excused.contains(name->value)) report_no_hardware(*name);
     return hardware;
+  }
+
+  void report_no_hardware(const Text& name) {
+    const std::vector<std::string>& names = model_.hardware_names;
+    const std::string hint = report_.hint_in_contexts(name.value, names);
+    if (model_.files_missing && hint.empty()) return;
+    report_.error(codes::kUnknownHardware, name.position,
+                  node_.title() + ": there is no hardware " + in_quotes(name.value) +
+                      "; the graph has: " + xml::listed(names) + hint);
   }
 
   void check_hardware_wanted() {

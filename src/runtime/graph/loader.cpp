@@ -57,11 +57,12 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   Graph graph = read_root(root, report);
   graph.plugin_dirs = assembly.plugin_folders;
   catalogue.add_folders(graph.plugin_dirs);
-  const Parts parts = merge_profiles(root, options.profiles, report);
+  const Parts parts = merge_profiles(assembly, options.profiles, report);
   Types types(catalogue, report);
   Model model;
   model.excused = assembly.excused;
   model.names_incomplete = assembly.names_incomplete;
+  model.files_missing = assembly.files_missing;
   check_hardware(parts.hardware, types, model, report);
   check_components(parts.components, types, model, report);
   check_start_order(model, report);

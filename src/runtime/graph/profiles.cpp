@@ -88,11 +88,13 @@ class Merger {
   std::map<std::string, std::size_t> index_;
 };
 
+// @param files_missing  the profile may be in one of them
 void report_unknown(const std::string& wanted, const xml::Position& position,
-                    const std::vector<std::string>& names, Report& report) {
+                    const std::vector<std::string>& names, bool files_missing, Report& report) {
+  const std::string hint = report.hint(wanted, names);
+  if (files_missing && hint.empty()) return;
   report.error(codes::kUnknownProfile, position,
-               "there is no profile " + in_quotes(wanted) + "; the graph has: " + xml::listed(names) +
-                   report.hint(wanted, names));
+               "there is no profile " + in_quotes(wanted) + "; the graph has: " + xml::listed(names) + hint);
 }
 
 // The profiles of a graph, in its order. Those of one name add up if they come from different files.
@@ -131,12 +133,13 @@ std::vector<std::pair<std::string, xml::Position>> wanted_profiles(const Node& g
 // The profiles that are chosen, in the order of the choice, then of the graph.
 class Choice {
  public:
-  Choice(const Node& graph, const std::vector<std::string>& chosen, Report& report)
-      : wanted_(wanted_profiles(graph, chosen)), report_(report) {
-    collect_names(graph);
-    const std::vector<const Node*> profiles = profiles_of(graph, report_);
+  Choice(const Assembly& assembly, const std::vector<std::string>& chosen, Report& report)
+      : wanted_(wanted_profiles(assembly.graph, chosen)), report_(report) {
+    collect_names(assembly.graph);
+    const std::vector<const Node*> profiles = profiles_of(assembly.graph, report_);
     for (const auto& [name, position] : wanted_) {
-      if (!names_.contains(name)) report_unknown(name, position, {names_.begin(), names_.end()}, report_);
+      if (!names_.contains(name))
+        report_unknown(name, position, {names_.begin(), names_.end()}, assembly.files_missing, report_);
       for (const Node* profile : profiles)
         if (profile->value("name") == name) add(*profile);
     }
@@ -170,13 +173,13 @@ class Choice {
 
 }  // namespace
 
-Parts merge_profiles(const Node& graph, const std::vector<std::string>& chosen, Report& report) {
+Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& chosen, Report& report) {
   Parts parts;
   Merger hardware(parts.hardware, report);
   Merger components(parts.components, report);
   Merger connections(parts.connections, report);
-  std::vector<const Node*> sections = Choice(graph, chosen, report).profiles();
-  sections.insert(sections.begin(), &graph);
+  std::vector<const Node*> sections = Choice(assembly, chosen, report).profiles();
+  sections.insert(sections.begin(), &assembly.graph);
   for (const Node* section : sections) {
     for (Merger* merger : {&hardware, &components, &connections}) merger->start_section();
     for (const Node& child : section->children) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "assembly.hpp"
 #include "node.hpp"
 #include "report.hpp"
 
@@ -18,6 +19,6 @@ struct Parts {
 
 // The graph's own parts with the chosen profiles merged over them in order.
 // @param chosen  names from the command line; none: the graph's default_profile.
-Parts merge_profiles(const Node& graph, const std::vector<std::string>& chosen, Report& report);
+Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& chosen, Report& report);
 
 }  // namespace orca::graph

@@ -59,7 +59,7 @@ std::string schema() {
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<!-- SPDX-License-Identifier: LGPL-3.0-or-later -->\n"
-      "<!-- Orca's system graphs, for editors. Made by: deployer --schema -->\n"
+      "<!-- Orca's system graphs, for editors. Written by the deployer from the rules that it reads by -->\n"
       "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n"
       "  <xs:simpleType name=\"with_argument\">\n"
       "    <xs:restriction base=\"xs:string\"><xs:pattern value=\".*[$]\\{.*\\}.*\"/></xs:restriction>\n"
