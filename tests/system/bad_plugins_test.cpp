@@ -210,7 +210,7 @@ TEST_CASE("a plugin for the steady clock only is refused with its own words, and
   const Run refused = alone("test.Joystick");
   INFO(refused.err);
   CHECK(refused.exit_code() == 2);
-  CHECK(refused.says("runs with the steady clock only: a joystick moves in real time"));
+  CHECK(refused.says("runs with the steady clock only (--clock steady): a joystick moves in real time"));
   const Run run = run_deployer(Words{system_graph("one_component.xml"), "--set", "type=test.Joystick"} +
                                with_test_plugins());
   INFO(run.err);

@@ -165,7 +165,7 @@ TEST_CASE("in virtual time teleop refuses to start, and says what to do", "[syst
                                with_test_plugins() + virtual_clock());
   INFO(run.err);
   CHECK(run.exit_code() == 2);
-  CHECK(run.says("orca.Teleop runs with the steady clock only: a person cannot drive in virtual time"));
+  CHECK(run.says("runs with the steady clock only (--clock steady): a person cannot drive in virtual time"));
 }
 
 TEST_CASE("a device that is not there is named, and describing teleop opens none", "[system][teleop]") {

@@ -198,7 +198,7 @@ std::vector<std::string> PluginFile::virtual_time_faults() const {
   const std::vector<std::string> steady_only = notes("steady only: ");
   std::vector<std::string> faults;
   for (const std::string& reason : steady_only)
-    faults.push_back("runs with the steady clock only: " + reason);
+    faults.push_back("runs with the steady clock only (--clock steady): " + reason);
   if (!faults.empty()) return faults;
   std::vector<std::string> allowed = notes("allows ");
   for (std::string& note : allowed) note = note.substr(0, note.find(": "));

@@ -46,7 +46,8 @@ TEST_CASE("clocks, sleeps, threads, waits and random devices are named, each wit
 
 TEST_CASE("a plugin that says that it needs the steady clock is believed, and the symbols do not matter",
           "[plugin][virtual]") {
-  CHECK(faults_of("test_steady_only") == "runs with the steady clock only: reads a joystick\n");
+  CHECK(faults_of("test_steady_only") ==
+        "runs with the steady clock only (--clock steady): reads a joystick\n");
 }
 
 TEST_CASE("a plugin may allow itself one symbol, and no other", "[plugin][virtual]") {
