@@ -42,9 +42,13 @@ class SimHardware final : public orca::hw::HardwareContainer {
   std::optional<WorldModel> read_world_file(std::vector<orca::HardwareFault>& errors) const {
     orca::xml::Diagnostics diagnostics;
     std::optional<WorldModel> world =
-        read_world(*world_file_, *map_width_ > 0.0 ? std::optional(*map_width_) : std::nullopt, diagnostics);
+        read_world(*world_file_, {given(*map_width_), given(*map_resolution_)}, diagnostics);
     append(diagnostics, "world", errors);
     return diagnostics.has_errors() ? std::nullopt : std::move(world);
+  }
+
+  static std::optional<double> given(double value) {
+    return value > 0.0 ? std::optional(value) : std::nullopt;
   }
 
   std::optional<RobotModel> read_robot_file(std::vector<orca::HardwareFault>& errors) const {
@@ -162,12 +166,23 @@ class SimHardware final : public orca::hw::HardwareContainer {
   }
 
   orca::Param<std::string> world_file_{
-      *this, "world", "", {.file = true, .text = "World (.xml) or occupancy bitmap (.png, .pgm)."}};
+      *this,
+      "world",
+      "",
+      {.file = true,
+       .text =
+           "World (.xml), occupancy bitmap (.png, .pgm) or worlds of cylinders (.csv, .csv.gz); FILE#7 is "
+           "number 7 of those in the file."}};
   orca::Param<double> map_width_{
       *this,
       "map_width",
       0.0,
-      {.unit = "m", .min = 0.0, .text = "Width of the whole picture; a bitmap needs it."}};
+      {.unit = "m", .min = 0.0, .text = "Width of the whole picture; a bitmap needs it or map_resolution."}};
+  orca::Param<double> map_resolution_{
+      *this,
+      "map_resolution",
+      0.0,
+      {.unit = "m", .min = 0.0, .text = "Side of one pixel of a bitmap, instead of map_width."}};
   orca::Param<std::string> robot_file_{
       *this, "robot", "", {.file = true, .text = "The robot (URDF with <orca>)."}};
   orca::Param<std::string> name_{

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/sim/bitmap.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+
+#include "orca/xml/number.hpp"
 
 namespace orca::sim {
 namespace {
@@ -77,18 +80,22 @@ void vertical_edges(const Plan& plan, double pixel, Outline& out) {
   }
 }
 
-Result<double> pixel_size(const BitmapScale& scale, std::size_t width) {
+constexpr double kLargest = 1e5;  // [m] of a world, in either direction
+
+Result<double> pixel_size(const BitmapScale& scale, const GreyImage& image) {
   if (scale.map_width.has_value() == scale.resolution.has_value())
     return fail(Code::invalid_argument,
-                scale.map_width ? "both map_width and resolution are given; give one of them"
+                scale.map_width ? "both map_width and map_resolution are given; give one of them"
                                 : "a bitmap has no size of its own: give map_width, the width of the whole "
-                                  "picture, e.g. \"140 m\"");
+                                  "picture, e.g. \"140 m\", or map_resolution, the side of a pixel");
   const double value = scale.map_width ? *scale.map_width : *scale.resolution;
-  if (!(value > 0.0 && value <= 1e5))
-    return fail(Code::invalid_argument, std::string(scale.map_width ? "map_width" : "resolution") + " is " +
-                                            std::to_string(value) +
-                                            " m; it must be more than 0 m and at most 100 km");
-  return scale.map_width ? value / static_cast<double>(width) : value;
+  const double pixel = scale.map_width ? value / static_cast<double>(image.width) : value;
+  if (!(value > 0.0 && pixel * static_cast<double>(std::max(image.width, image.height)) <= kLargest))
+    return fail(Code::invalid_argument,
+                std::string(scale.map_width ? "the width is " : "the resolution is ") +
+                    xml::number_text(value) +
+                    " m; it must be more than 0 m, and the map at most 100 km wide and high");
+  return pixel;
 }
 
 }  // namespace
@@ -104,7 +111,7 @@ Outline outline_of(const GreyImage& image, double pixel) {
 Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale, double height) {
   const Result<GreyImage> image = read_image(path);
   if (!image) return image.error();
-  const Result<double> pixel = pixel_size(scale, image->width);
+  const Result<double> pixel = pixel_size(scale, *image);
   if (!pixel) return fail(pixel.error().code, pixel.error().message, path);
   WorldModel world;
   world.name = std::filesystem::path(path).stem().string();

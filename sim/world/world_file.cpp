@@ -1,16 +1,47 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/sim/world_file.hpp"
 
-#include "orca/sim/bitmap.hpp"
+#include <algorithm>
+#include <array>
+
+#include "cylinder_file.hpp"
 #include "orca/xml/document.hpp"
+#include "orca/xml/number.hpp"
 #include "world_reader.hpp"
 
 namespace orca::sim {
 namespace {
 
+enum class Format { xml, bitmap, cylinders };
+
+Format format_of(std::string_view file) {
+  if (file.ends_with(".png") || file.ends_with(".pgm")) return Format::bitmap;
+  return file.ends_with(".csv") || file.ends_with(".csv.gz") ? Format::cylinders : Format::xml;
+}
+
+// "FILE#N" taken apart. The name of a file may hold a # itself, unless what stands before it is one of ours.
+struct Reference {
+  std::string file;
+  std::optional<std::uint64_t> number;
+};
+
+std::optional<Reference> reference_of(const std::string& path, xml::Diagnostics& diagnostics) {
+  const std::size_t mark = path.rfind('#');
+  const std::string file = path.substr(0, mark);
+  if (mark == std::string::npos || (format_of(file) == Format::xml && !file.ends_with(".xml")))
+    return Reference{path, {}};
+  const std::string text = path.substr(mark + 1);
+  const Result<std::int64_t> number = xml::parse_integer(text);
+  if (number && *number >= 0) return Reference{file, static_cast<std::uint64_t>(*number)};
+  diagnostics.error(
+      "W017", {file, 0, 0},
+      "\"#" + text + "\" does not choose a world: write a whole number after the #, e.g. \"" + file + "#1\"");
+  return std::nullopt;
+}
+
 std::optional<WorldModel> read_document(const std::optional<xml::Document>& document,
-                                        const std::string& file_name, std::size_t errors_before,
-                                        xml::Diagnostics& diagnostics) {
+                                        const std::string& file_name, std::optional<std::uint64_t> seed,
+                                        std::size_t errors_before, xml::Diagnostics& diagnostics) {
   if (!document) return std::nullopt;
   const xml::Element& root = document->root;
   if (root.name() != "world") {
@@ -20,35 +51,52 @@ std::optional<WorldModel> read_document(const std::optional<xml::Document>& docu
                           "version=\"1\">");
     return std::nullopt;
   }
-  WorldModel world = detail::WorldReader(file_name, diagnostics).read(root);
+  WorldModel world = detail::WorldReader(file_name, seed, diagnostics).read(root);
   if (diagnostics.error_count() != errors_before) return std::nullopt;
   return world;
 }
 
-std::optional<WorldModel> read_bitmap(const std::string& path, std::optional<double> map_width,
+std::optional<WorldModel> read_bitmap(const Reference& from, const BitmapScale& scale,
                                       xml::Diagnostics& diagnostics) {
-  Result<WorldModel> world = read_bitmap_world(path, {.map_width = map_width, .resolution = {}});
+  if (from.number) {
+    diagnostics.error("W017", {from.file, 0, 0}, "a picture holds one world; leave \"#N\" out");
+    return std::nullopt;
+  }
+  Result<WorldModel> world = read_bitmap_world(from.file, scale);
   if (world) return std::move(*world);
-  diagnostics.error("W011", {path, 0, 0}, world.error().message);
+  diagnostics.error("W011", {from.file, 0, 0}, world.error().message);
   return std::nullopt;
+}
+
+void refuse_scale(const std::string& file, const BitmapScale& scale, xml::Diagnostics& diagnostics) {
+  if (!scale.map_width && !scale.resolution) return;
+  const std::string name = scale.map_width ? "map_width" : "map_resolution";
+  diagnostics.error("W013", {file, 0, 0},
+                    name + " is for bitmaps (.png, .pgm); this world has its own size. Leave it out");
 }
 
 }  // namespace
 
-std::optional<WorldModel> read_world(const std::string& path, std::optional<double> map_width,
+std::optional<WorldModel> read_world(const std::string& path, const BitmapScale& scale,
                                      xml::Diagnostics& diagnostics) {
-  if (path.ends_with(".png") || path.ends_with(".pgm")) return read_bitmap(path, map_width, diagnostics);
   const std::size_t before = diagnostics.error_count();
-  if (map_width)
-    diagnostics.error("W013", {path, 0, 0},
-                      "map_width is for bitmaps (.png, .pgm); an XML world has its own size. Leave it out");
-  return read_document(xml::read_file(path, diagnostics), path, before, diagnostics);
+  const auto from = reference_of(path, diagnostics);
+  if (!from) return std::nullopt;
+  const Format format = format_of(from->file);
+  if (format == Format::bitmap) return read_bitmap(*from, scale, diagnostics);
+  refuse_scale(from->file, scale, diagnostics);
+  if (format == Format::cylinders) {
+    auto world = detail::read_cylinder_world(from->file, from->number, diagnostics);
+    return diagnostics.error_count() == before ? std::move(world) : std::nullopt;
+  }
+  return read_document(xml::read_file(from->file, diagnostics), from->file, from->number, before,
+                       diagnostics);
 }
 
 std::optional<WorldModel> read_world_text(std::string_view text, const std::string& file_name,
-                                          xml::Diagnostics& diagnostics) {
+                                          xml::Diagnostics& diagnostics, std::optional<std::uint64_t> seed) {
   const std::size_t before = diagnostics.error_count();
-  return read_document(xml::read_text(text, file_name, diagnostics), file_name, before, diagnostics);
+  return read_document(xml::read_text(text, file_name, diagnostics), file_name, seed, before, diagnostics);
 }
 
 }  // namespace orca::sim

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "generator_reader.hpp"
 #include "orca/sim/bitmap.hpp"
 
 namespace orca::sim::detail {
@@ -33,11 +34,28 @@ std::string polygon_fault(const std::vector<Vec2>& corners) {
   return b.low.x < b.high.x && b.low.y < b.high.y ? "" : "the polygon has no area";
 }
 
+std::optional<BitmapScale> scale_of(const Attributes& bitmap) {
+  const bool has_width = bitmap.has("width");
+  if (has_width && bitmap.has("resolution"))
+    return bitmap.error_at("resolution", 15, "<bitmap> has a width as well; give one of the two"),
+           std::nullopt;
+  if (!has_width && !bitmap.has("resolution"))
+    return bitmap.error(
+               4,
+               "<bitmap> needs the attribute \"width\", of the whole picture, or \"resolution\", the "
+               "side of a pixel"),
+           std::nullopt;
+  const auto value = bitmap.quantity(has_width ? "width" : "resolution", "m", Sign::positive);
+  if (!value) return std::nullopt;
+  return has_width ? BitmapScale{*value, {}} : BitmapScale{{}, *value};
+}
+
 // Each place is compared with each obstacle.
 constexpr std::size_t kMaxObstacles = 100'000;
 constexpr std::size_t kMaxPlaces = 1000;
 
-const std::vector<std::string> kElements{"wall", "room", "box", "cylinder", "polygon", "bitmap", "place"};
+const std::vector<std::string> kElements{"wall",    "room",   "box",   "cylinder",
+                                         "polygon", "bitmap", "place", "generate"};
 
 }  // namespace
 
@@ -45,14 +63,15 @@ WorldModel WorldReader::read(const xml::Element& root) {
   const Attributes world = of(root);
   header(world);
   if (!within_limits(world)) return std::move(world_);
-  constexpr std::array<Read, 7> kReaders{&WorldReader::wall,     &WorldReader::room,    &WorldReader::box,
+  constexpr std::array<Read, 8> kReaders{&WorldReader::wall,     &WorldReader::room,    &WorldReader::box,
                                          &WorldReader::cylinder, &WorldReader::polygon, &WorldReader::bitmap,
-                                         &WorldReader::place};
+                                         &WorldReader::place,    &WorldReader::generate};
   for (const xml::Element& e : root.children()) {
     const auto known = std::ranges::find(kElements, e.name());
     if (known == kElements.end()) continue;
     (this->*kReaders[static_cast<std::size_t>(known - kElements.begin())])(of(e));
   }
+  check_seed(world);
   check_places();
   return std::move(world_);
 }
@@ -198,14 +217,13 @@ void WorldReader::polygon(const Attributes& element) {
 }
 
 void WorldReader::bitmap(const Attributes& element) {
-  element.allow({"name", "file", "width", "height"}, {});
+  element.allow({"name", "file", "width", "resolution", "height"}, {});
   const auto file = element.text("file");
-  const auto width = element.quantity("width", "m", Sign::positive);
+  const auto scale = scale_of(element);
   const auto tall = height(element);
-  if (!file || !width || !tall) return;
+  if (!file || !scale || !tall) return;
   const auto path = std::filesystem::path(file_name_).parent_path() / *file;
-  auto map =
-      read_bitmap_world(path.lexically_normal().string(), {.map_width = *width, .resolution = {}}, *tall);
+  auto map = read_bitmap_world(path.lexically_normal().string(), *scale, *tall);
   if (!map) return element.error_at("file", 11, map.error().text());
   add(element, std::move(map->obstacles.front().shape), *tall);
 }
@@ -217,9 +235,32 @@ void WorldReader::place(const Attributes& element) {
   const auto y = element.quantity("y", "m", Sign::any);
   const auto yaw = element.quantity_or("yaw", "rad", Sign::any, 0.0);
   if (name) claim(element, "place", *name);
-  if (!name || !x || !y || !yaw) return;
-  world_.places.push_back({*name, {*x, *y, wrapped(*yaw)}});
+  if (name && x && y && yaw) add_place(element, {*name, {*x, *y, wrapped(*yaw)}});
+}
+
+void WorldReader::add_place(const Attributes& element, Place place) {
+  world_.places.push_back(std::move(place));
   place_positions_.push_back(element.element().position());
+}
+
+void WorldReader::generate(const Attributes& element) {
+  const auto order = read_generate(element);
+  if (!order) return;
+  auto made = sim::generate(order->family, seed_.value_or(order->seed), order->radius);
+  if (!made) return element.error(18, made.error().message);
+  std::ranges::move(made->obstacles, std::back_inserter(world_.obstacles));
+  for (Place& place : made->places) {
+    claim(element, "place", place.name);
+    add_place(element, std::move(place));
+  }
+}
+
+void WorldReader::check_seed(const Attributes& world) const {
+  const auto is_generate = [](const xml::Element& e) { return e.name() == "generate"; };
+  if (seed_ && std::ranges::none_of(world.element().children(), is_generate))
+    diagnostics_.error("W017", {file_name_, 0, 0},
+                       "\"#" + std::to_string(*seed_) +
+                           "\" is the seed of what is generated, but nothing in this world is; leave it out");
 }
 
 void WorldReader::check_places() const {

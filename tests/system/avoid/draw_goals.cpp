@@ -83,7 +83,8 @@ int main(int argc, char** argv) {
   }
   const double width = std::strtod(argv[2], nullptr);
   orca::xml::Diagnostics diagnostics;
-  auto world = read_world(argv[1], width > 0.0 ? std::optional(width) : std::nullopt, diagnostics);
+  const BitmapScale scale{width > 0.0 ? std::optional(width) : std::nullopt, {}};
+  auto world = read_world(argv[1], scale, diagnostics);
   if (!world) {
     std::fputs(diagnostics.text().c_str(), stderr);
     return 2;

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <deque>
-#include <set>
-
 #include "orca/sim/robot_file.hpp"
 #include "orca/sim/world.hpp"
 #include "orca/sim/world_file.hpp"
+#include "plan.hpp"
 
 using namespace orca::sim;
+using orca::sim::test::Plan;
 
 namespace {
 
-constexpr double kCell = 0.05;
 constexpr double kClearance = 0.3;
 
 WorldModel office() {
@@ -23,43 +21,12 @@ WorldModel office() {
   return *world;
 }
 
-// The cells that a disc of radius kClearance can reach from a place.
-class Plan {
- public:
-  Plan(const WorldModel& world, Vec2 start) : world_(world) {
-    std::deque<Cell> open{cell(start)};
-    if (free(open.front())) reached_.insert(open.front());
-    while (!open.empty()) {
-      const auto [x, y] = open.front();
-      open.pop_front();
-      for (const Cell& next : {Cell{x + 1, y}, Cell{x - 1, y}, Cell{x, y + 1}, Cell{x, y - 1}})
-        if (!reached_.contains(next) && free(next)) {
-          reached_.insert(next);
-          open.push_back(next);
-        }
-    }
-  }
-  [[nodiscard]] bool reaches(Vec2 p) const { return reached_.contains(cell(p)); }
-
- private:
-  using Cell = std::pair<int, int>;
-  static Cell cell(Vec2 p) {
-    return {static_cast<int>(std::lround(p.x / kCell)), static_cast<int>(std::lround(p.y / kCell))};
-  }
-  [[nodiscard]] bool free(Cell c) const {
-    const Vec2 p{c.first * kCell, c.second * kCell};
-    return world_.obstacle_at(Circle{p, kClearance}, 0.0) == nullptr;
-  }
-  const WorldModel& world_;
-  std::set<Cell> reached_;
-};
-
 }  // namespace
 
 TEST_CASE("every place of the office can be reached with 0.3 m of clearance", "[sim][office]") {
   const WorldModel world = office();
   REQUIRE(world.place("start") != nullptr);
-  const Plan plan(world, world.place("start")->pose.position());
+  const Plan plan(world, world.place("start")->pose.position(), kClearance);
   CHECK(world.places.size() == 20);
   for (const Place& p : world.places) {
     INFO(p.name);

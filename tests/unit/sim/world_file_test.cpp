@@ -158,13 +158,13 @@ TEST_CASE("a bitmap that cannot be read is told at the element that names it", "
   CHECK_THAT(errors("<bitmap file='no.png' width='10 m'/>"),
              Catch::Contains("w.xml:2:15: error W011: no.png: cannot read the picture: No such file"));
   orca::xml::Diagnostics diagnostics;
-  CHECK_FALSE(read_world("no/map.png", 10.0, diagnostics).has_value());
+  CHECK_FALSE(read_world("no/map.png", {10.0, {}}, diagnostics).has_value());
   CHECK(diagnostics.text() == "no/map.png: error W011: cannot read the picture: No such file or directory\n");
 }
 
 TEST_CASE("a map width is refused for an XML world", "[sim][world_file]") {
   orca::xml::Diagnostics diagnostics;
-  CHECK_FALSE(read_world(ORCA_SOURCE_DIR "/sim/worlds/office.xml", 10.0, diagnostics).has_value());
+  CHECK_FALSE(read_world(ORCA_SOURCE_DIR "/sim/worlds/office.xml", {10.0, {}}, diagnostics).has_value());
   CHECK_THAT(diagnostics.text(), Catch::Contains("error W013: map_width is for bitmaps"));
 }
 

@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "orca/sim/world_model.hpp"
+#include "orca/sim/bitmap.hpp"
 #include "orca/xml/diagnostics.hpp"
 
 namespace orca::sim {
 
-/// Reads a world: an XML file (root <world>, docs/simulation.md has the elements), or an occupancy bitmap if
-/// the name ends in .png or .pgm.
+/// Reads a world: an XML file (root <world>, docs/simulation.md has the elements), an occupancy bitmap if the
+/// name ends in .png or .pgm, or one of the worlds of a .csv or .csv.gz file of cylinders.
 ///
-/// @param map_width    [m] width of a bitmap; needed for bitmaps, an error for XML.
+/// @param path         "FILE" or "FILE#N". N chooses one of the worlds of a CSV file; in an XML world it is
+///                     the seed of all that is generated.
+/// @param scale        of a bitmap; needed for bitmaps, an error for all others.
 /// @param diagnostics  receives everything that is wrong at once, each with file, line and column (codes W001
 /// ...).
 /// @return nothing if there was any error.
-[[nodiscard]] std::optional<WorldModel> read_world(const std::string& path, std::optional<double> map_width,
+[[nodiscard]] std::optional<WorldModel> read_world(const std::string& path, const BitmapScale& scale,
                                                    xml::Diagnostics& diagnostics);
 
 /// The same for XML in memory; `file_name` appears in positions, and bitmaps are searched beside it.
+/// @param seed  of all that is generated, instead of the file's own.
 [[nodiscard]] std::optional<WorldModel> read_world_text(std::string_view text, const std::string& file_name,
-                                                        xml::Diagnostics& diagnostics);
+                                                        xml::Diagnostics& diagnostics,
+                                                        std::optional<std::uint64_t> seed = {});
 
 }  // namespace orca::sim

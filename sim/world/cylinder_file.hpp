@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "orca/sim/world_model.hpp"
+#include "orca/xml/diagnostics.hpp"
+
+namespace orca::sim::detail {
+
+// One world of a CSV file, plain or compressed by gzip, with the columns world,x,y [m]: the form in which the
+// BARN worlds are at hand (docs/simulation.md). Each row is a cylinder of 75 mm; the places "start" and
+// "goal" are BARN's.
+//
+// @param number  which world; without one the error tells which there are.
+// Errors: W011 unreadable, W012 a cylinder over a place, W014 too many, W016 a row is wrong, W017 no such
+// world.
+[[nodiscard]] std::optional<WorldModel> read_cylinder_world(const std::string& path,
+                                                            std::optional<std::uint64_t> number,
+                                                            xml::Diagnostics& diagnostics);
+
+}  // namespace orca::sim::detail

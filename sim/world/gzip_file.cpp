@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gzip_file.hpp"
+
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+namespace orca::sim::detail {
+namespace {
+
+constexpr std::size_t kLargest = 64'000'000;  // [bytes]
+
+struct Close {
+  void operator()(gzFile file) const { gzclose(file); }
+};
+using File = std::unique_ptr<gzFile_s, Close>;
+
+// Why reading ended early, or nothing.
+std::string fault_of(gzFile file) {
+  int code = Z_OK;
+  const char* const text = gzerror(file, &code);
+  if (code == Z_OK || code == Z_STREAM_END) return {};
+  return code == Z_ERRNO ? std::strerror(errno) : text;
+}
+
+}  // namespace
+
+Result<std::string> read_maybe_packed(const std::string& path) {
+  errno = 0;
+  const File file(gzopen(path.c_str(), "rb"));
+  if (file == nullptr)
+    return fail(Code::not_found, std::string("cannot read the file: ") + std::strerror(errno));
+  std::string all;
+  std::vector<char> buffer(1 << 16);
+  int got = 0;
+  while ((got = gzread(file.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0) {
+    all.append(buffer.data(), static_cast<std::size_t>(got));
+    if (all.size() > kLargest) return fail(Code::invalid_argument, "the file holds more than 64 MB");
+  }
+  if (const std::string fault = fault_of(file.get()); !fault.empty())
+    return fail(Code::data_loss, "cannot read the file: " + fault);
+  if (all.empty()) return fail(Code::data_loss, "the file is empty");
+  return all;
+}
+
+}  // namespace orca::sim::detail

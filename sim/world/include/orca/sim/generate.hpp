@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "orca/base/result.hpp"
+#include "orca/sim/world_model.hpp"
+
+namespace orca::sim {
+
+/// Fields of cylinders like those of the BARN benchmark, in its frame: 30 x 30 cells of 0.15 m, x in
+/// [-4.5, 0], y in [5.1, 9.6], filled at random and smoothed; a free strip before it and one behind it.
+/// Unlike BARN's they are closed all round. What is not given is drawn anew in each attempt at a world with a
+/// way through it, so dense fields are rarer than thin ones.
+struct BarnField {
+  std::optional<double> fill{};  ///< Share of the cells filled at first; drawn of 0.15, 0.2, 0.25, 0.3.
+  std::optional<std::size_t> rounds{};  ///< Of smoothing; drawn of 2 to 4.
+};
+
+/// A hall with a U of walls across the straight way from start to goal, open towards the start. Drawn: where
+/// across the hall start and goal lie, by how much the U is wider or narrower and deeper or shallower (20 %).
+struct UTrap {
+  double width = 2.0;   ///< [m] Inside the U.
+  double depth = 2.0;   ///< [m] Inside the U.
+  double beside = 1.5;  ///< [m] Free way on either side of it.
+};
+
+/// A hall cut by walls with a door each. Drawn: where in its wall each door is.
+struct NarrowDoors {
+  double door = 0.8;      ///< [m] Width of each.
+  std::size_t walls = 3;  ///< How many.
+  double spacing = 3.0;   ///< [m] From wall to wall.
+  double width = 6.0;     ///< [m] Of the hall.
+};
+
+/// A corridor with right-angled bends. Drawn: the length of each leg and which way each bend goes.
+struct Corridor {
+  double width = 1.5;     ///< [m] Clear.
+  std::size_t legs = 7;   ///< How many straight pieces.
+  double shortest = 3.5;  ///< [m] Leg, on the centre line.
+  double longest = 6.0;   ///< [m]
+};
+
+/// A floor with a corridor and rooms on either side. Drawn: the rooms' widths, where their doors are, the
+/// furniture, and which room the goal is in. Also gives the places "room_1" and on, in the rooms' middles.
+struct OfficeFloor {
+  std::size_t rooms = 3;      ///< On each side.
+  double door = 0.95;         ///< [m] Width of each.
+  double corridor = 2.0;      ///< [m] Clear width.
+  std::size_t furniture = 3;  ///< Pieces in each room.
+};
+
+using Family = std::variant<BarnField, UTrap, NarrowDoors, Corridor, OfficeFloor>;
+
+/// The world number `seed` of a family, with the places "start" and "goal". A round robot of `radius` can get
+/// from its start to each of its places: a draw for which that is not so is thrown away for the next, at most
+/// 100 times.
+///
+/// The same values give the same world everywhere: only integers and basic arithmetic take part in the draw.
+///
+/// @param radius [m]  > 0.
+/// @errors  invalid_argument: a value that no such world can have. unavailable: 100 draws without a way.
+[[nodiscard]] Result<WorldModel> generate(const Family& family, std::uint64_t seed, double radius = 0.3);
+
+}  // namespace orca::sim

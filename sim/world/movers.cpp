@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "movers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace orca::sim::detail {
+namespace {
+
+bool in_the_way(const Robot& robot, const WalkerTrack::Place& place, double radius, double stops) {
+  if (dot(robot.pose.position() - place.position, place.ahead) <= 0.0) return false;
+  return distance(placed(robot.model.footprint, robot.pose), place.position) < radius + stops;
+}
+
+Pose2 standing(Vec2 position) { return {position.x, position.y, 0.0}; }
+
+}  // namespace
+
+Movers::Movers(const WorldModel& world, std::uint64_t run_seed, Caster& caster, Physics& physics)
+    : caster_(caster), physics_(physics) {
+  for (const Walker& walker : world.walkers) {
+    WalkerTrack track(walker, run_seed);
+    const Pose2 begin = standing(track.at({}).position);
+    const std::size_t number = add(walker.name, Circle{{}, walker.radius}, walker.height, begin);
+    movers_[number].walk = Walk{std::move(track), walker.stops};
+  }
+}
+
+std::size_t Movers::add(const std::string& name, Shape shape, double height, const Pose2& X_WO) {
+  const std::size_t number = physics_.add_mover(shape, height, X_WO);
+  Mover mover{name, std::move(shape), height, X_WO};
+  mover.body = caster_.add_body({mover.placed(), 0.0, height});
+  movers_.push_back(std::move(mover));
+  return number;
+}
+
+void Movers::move(std::size_t number, const Pose2& X_WO) {
+  Mover& mover = movers_.at(number);
+  mover.pose = X_WO;
+  caster_.move_body(mover.body, mover.placed());
+  physics_.place_mover(number, X_WO);
+}
+
+void Movers::remove(std::size_t number) {
+  Mover& mover = movers_.at(number);
+  mover.present = false;
+  caster_.remove_body(mover.body);
+  physics_.remove_mover(number);
+}
+
+void Movers::walk(Duration tick, const std::deque<Robot>& robots) {
+  for (std::size_t number = 0; number < movers_.size(); ++number) {
+    Mover& mover = movers_[number];
+    if (!mover.walk) continue;
+    Walk& walk = *mover.walk;
+    const auto here = walk.track.at(walk.walked);
+    const double radius = std::get<Circle>(mover.shape).radius;
+    const bool blocked = walk.stops > 0.0 && std::ranges::any_of(robots, [&](const Robot& robot) {
+                           return in_the_way(robot, here, radius, walk.stops);
+                         });
+    if (!blocked) walk.walked += tick;
+    mover.pose = standing(walk.track.at(walk.walked).position);
+    caster_.move_body(mover.body, mover.placed());
+    physics_.carry_mover(number, mover.pose);
+  }
+}
+
+bool Movers::is_obstacle(std::size_t number) const {
+  return number < movers_.size() && movers_[number].present && !movers_[number].walk;
+}
+
+bool Movers::has_name(const std::string& name) const {
+  return std::ranges::any_of(movers_, [&](const Mover& m) { return m.present && m.name == name; });
+}
+
+Body Movers::body_at(std::size_t number, const Pose2& X_WO) const {
+  const Mover& mover = movers_.at(number);
+  return {placed(mover.shape, X_WO), 0.0, mover.height};
+}
+
+const std::string* Movers::at(const Shape& body, double bottom) const {
+  const auto found = std::ranges::find_if(
+      movers_, [&](const Mover& m) { return m.present && m.height > bottom && overlap(body, m.placed()); });
+  return found == movers_.end() ? nullptr : &found->name;
+}
+
+void Movers::draw(Scene& scene) const {
+  for (const Mover& m : movers_) {
+    if (!m.present) continue;
+    const Shape shape = m.placed();
+    if (const auto* circle = std::get_if<Circle>(&shape)) scene.circles.push_back(*circle);
+    const std::vector<Segment> edges = edges_of(shape);
+    scene.edges.insert(scene.edges.end(), edges.begin(), edges.end());
+    const Bounds b = bounds_of(shape);
+    scene.bounds.add(b.low);
+    scene.bounds.add(b.high);
+  }
+}
+
+void Movers::add_to(Fnv1a& hash) const {
+  for (const Mover& m : movers_)
+    if (m.present)
+      for (const double value : {m.pose.x, m.pose.y, m.pose.yaw})
+        hash.add_u64(std::bit_cast<std::uint64_t>(value));
+}
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/base/hash.hpp"
+#include "orca/sim/caster.hpp"
+#include "orca/sim/scene.hpp"
+#include "physics.hpp"
+#include "robot.hpp"
+#include "walker_track.hpp"
+
+namespace orca::sim::detail {
+
+// What moves but is no robot: walkers, and obstacles put in, moved and taken out while the world runs. Their
+// numbers are those of Physics and are never used again.
+class Movers {
+ public:
+  Movers(const WorldModel& world, std::uint64_t run_seed, Caster& caster, Physics& physics);
+
+  // `shape` in a frame of its own that stands at `X_WO`. @return  its number.
+  std::size_t add(const std::string& name, Shape shape, double height, const Pose2& X_WO);
+  void move(std::size_t number, const Pose2& X_WO);
+  void remove(std::size_t number);
+
+  // Lets the walkers go on for a tick, but for those that stop for one of the robots.
+  void walk(Duration tick, const std::deque<Robot>& robots);
+
+  // True if there is an obstacle of that number; walkers are none.
+  [[nodiscard]] bool is_obstacle(std::size_t number) const;
+  [[nodiscard]] bool has_name(const std::string& name) const;
+  [[nodiscard]] const std::string& name(std::size_t number) const { return movers_.at(number).name; }
+  // The shape of an obstacle if it stood at `X_WO`.
+  [[nodiscard]] Body body_at(std::size_t number, const Pose2& X_WO) const;
+  // The name of what overlaps `body` and is taller than `bottom` [m], or null.
+  [[nodiscard]] const std::string* at(const Shape& body, double bottom) const;
+
+  void draw(Scene& scene) const;
+  void add_to(Fnv1a& hash) const;
+
+ private:
+  struct Walk {
+    WalkerTrack track;
+    double stops = 0.0;
+    Duration walked{0};
+  };
+  struct Mover {
+    std::string name;
+    Shape shape;
+    double height = 0.0;
+    Pose2 pose{};
+    std::size_t body = 0;  // In the caster.
+    bool present = true;
+    std::optional<Walk> walk{};
+    [[nodiscard]] Shape placed() const { return sim::placed(shape, pose); }
+  };
+
+  Caster& caster_;
+  Physics& physics_;
+  std::vector<Mover> movers_;
+};
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "orca/sim/world_model.hpp"
+
+namespace orca::sim::detail {
+
+// Where a round robot can get to from a place: a flood fill over the points of a lattice of 5 cm, each of
+// which must lie so far from every obstacle that the robot keeps its radius also between two points.
+class Reach {
+ public:
+  static constexpr double kPitch = 0.05;  // [m]
+  static constexpr std::size_t kMostPoints = 20'000'000;
+
+  // True if the world is small enough for the lattice.
+  [[nodiscard]] static bool fits(const WorldModel& world);
+
+  // @pre  fits(world).
+  Reach(const WorldModel& world, Vec2 from, double radius);
+
+  // True for the lattice's point next to `p`.
+  [[nodiscard]] bool reaches(Vec2 p) const;
+
+ private:
+  struct Lattice {
+    int left, bottom;  // Of the lowest point, in pitches.
+    int columns, rows;
+  };
+  enum class State : unsigned char { free, blocked, reached };
+
+  [[nodiscard]] static Lattice lattice_of(const WorldModel& world);
+  void block(const Obstacle& obstacle, double radius);
+  void flood(std::size_t from);
+  [[nodiscard]] bool holds(Vec2 p) const;
+  [[nodiscard]] std::size_t index(Vec2 p) const;
+
+  Lattice lattice_;
+  std::vector<State> points_;
+};
+
+}  // namespace orca::sim::detail

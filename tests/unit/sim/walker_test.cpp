@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// People who walk about.
+#include <catch2/catch.hpp>
+
+#include "orca/sim/world.hpp"
+#include "orca/sim/world_file.hpp"
+#include "scout.hpp"
+
+using namespace orca::sim;
+using namespace orca::sim::test;
+using std::chrono::seconds;
+
+namespace {
+
+// On the line y = 2 of the test room, there and back in 8 s.
+Walker anna() {
+  Walker walker{.name = "anna", .track = {{-2, 2}, {2, 2}}};
+  walker.start = orca::Duration{0};
+  return walker;
+}
+
+WorldModel room_with(const Walker& walker) {
+  WorldModel model = test_room();
+  model.walkers = {walker};
+  return model;
+}
+
+void run(World& world, double time) {
+  for (int i = 0; i < static_cast<int>(time * 100.0 + 0.5); ++i) world.step();
+}
+
+// Where the walker stands: the one circle of the scene that is not the room's post.
+Vec2 place(const World& world) { return world.scene().circles.at(1).center; }
+
+Vec2 place_after(const Walker& walker, double time, std::uint64_t seed = 1) {
+  World world(room_with(walker), {.seed = seed, .realism = Realism::nominal});
+  run(world, time);
+  return place(world);
+}
+
+void check_at(Vec2 found, Vec2 expected) {
+  CHECK(found.x == Approx(expected.x).margin(1e-9));
+  CHECK(found.y == Approx(expected.y).margin(1e-9));
+}
+
+std::string errors(const std::string& content) {
+  orca::xml::Diagnostics diagnostics;
+  CHECK_FALSE(read_world_text("<world name='w' version='1'>\n" + content + "</world>", "w.xml", diagnostics)
+                  .has_value());
+  return diagnostics.text();
+}
+
+}  // namespace
+
+TEST_CASE("a walker goes along its track at its speed, there and back", "[sim][walker]") {
+  check_at(place_after(anna(), 0.0), {-2, 2});
+  check_at(place_after(anna(), 1.5), {-0.5, 2});
+  check_at(place_after(anna(), 4.0), {2, 2});
+  check_at(place_after(anna(), 5.0), {1, 2});
+  check_at(place_after(anna(), 9.0), {-1, 2});
+}
+
+TEST_CASE("a walker that goes round comes from the last corner to the first", "[sim][walker]") {
+  Walker walker = anna();
+  walker.track = {{-2, -2}, {1, -2}, {1, 2}};
+  walker.round = true;  // The way home is 5 m long.
+  check_at(place_after(walker, 7.0), {1, 2});
+  check_at(place_after(walker, 9.5), {-0.5, 0});
+  check_at(place_after(walker, 12.0), {-2, -2});
+}
+
+TEST_CASE("where on its round a walker begins is drawn from the run's seed, or from its own",
+          "[sim][walker]") {
+  Walker walker = anna();
+  walker.start.reset();
+  CHECK(place_after(walker, 1.0, 1) == place_after(walker, 1.0, 1));
+  CHECK_FALSE(place_after(walker, 1.0, 1) == place_after(walker, 1.0, 2));
+  walker.seed = 5;
+  CHECK(place_after(walker, 1.0, 1) == place_after(walker, 1.0, 2));
+}
+
+TEST_CASE("a walker rests at its corners for no longer than it may", "[sim][walker]") {
+  Walker walker = anna();
+  walker.pause = seconds{3};
+  World world(room_with(walker), {.seed = 1, .realism = Realism::nominal});
+  run(world, 4.0);
+  const Vec2 corner = place(world);
+  check_at(corner, {2, 2});
+  double rest = 0.0;
+  for (; place(world) == corner && rest < 10.0; rest += 0.01) world.step();
+  CHECK(rest > 0.05);
+  CHECK(rest < 3.02);
+}
+
+TEST_CASE("rays meet a walker up to its height and no more where it was", "[sim][walker]") {
+  World world(room_with(anna()), {.seed = 1, .realism = Realism::nominal});
+  run(world, 2.0);
+  const auto range = [&](double height) {
+    return world.caster().cast({{0, -1}, {0, 1}, 10.0, height}).range;
+  };
+  CHECK(range(0.3) == Approx(2.75));
+  CHECK(range(1.9) == Approx(6.0));
+  run(world, 1.0);
+  CHECK(range(0.3) == Approx(6.0));
+}
+
+TEST_CASE("a walker that meets a robot pushes it, and the contact is told with its name", "[sim][walker]") {
+  World world(room_with(anna()), {.seed = 1, .realism = Realism::ideal});
+  const RobotId id = *world.add_robot("dewey", scout(), {0, 2, 0});
+  std::vector<std::string> told;
+  for (int i = 0; i < 350; ++i) {
+    world.step();
+    for (const ContactEvent& e : world.contacts()) told.push_back(e.robot + "-" + e.other);
+  }
+  CHECK(told == std::vector<std::string>{"dewey-anna"});
+  CHECK(norm(world.pose(id).position() - place(world)) > 0.25 + 0.205 - 0.02);
+  CHECK(world.pose(id).x > 0.3);
+}
+
+TEST_CASE("a walker that stops for robots waits until the way is free", "[sim][walker]") {
+  Walker walker = anna();
+  walker.stops = 0.5;
+  World world(room_with(walker), {.seed = 1, .realism = Realism::ideal});
+  const RobotId id = *world.add_robot("dewey", scout(), {0, 2, 0.5 * std::numbers::pi});
+  for (int i = 0; i < 500; ++i) {
+    world.step();
+    REQUIRE(world.contacts().empty());
+  }
+  const double gap = -place(world).x - 0.25 - 0.205;
+  CHECK(gap < 0.5);
+  CHECK(gap > 0.48);
+  REQUIRE(world.set_velocity_command(id, 0.5, 0.0));
+  run(world, 4.0);
+  CHECK(place(world).x > 0.0);
+}
+
+TEST_CASE("a robot is not set down on a walker", "[sim][walker]") {
+  World world(room_with(anna()), {.seed = 1, .realism = Realism::ideal});
+  const auto added = world.add_robot("dewey", scout(), {-1.8, 2, 0});
+  REQUIRE_FALSE(added);
+  CHECK_THAT(added.error().message, Catch::Contains("it would stand in 'anna'"));
+}
+
+TEST_CASE("worlds with walkers and robots among them are bit-identical", "[sim][walker]") {
+  const auto hash = [](std::uint64_t seed) {
+    Walker walker = anna();
+    walker.start.reset();
+    walker.pause = seconds{2};
+    World world(room_with(walker), {.seed = seed, .realism = Realism::nominal});
+    const RobotId id = *world.add_robot("dewey", scout(), {0, -1, 0.5 * std::numbers::pi});
+    REQUIRE(world.set_velocity_command(id, 0.3, 0.02));
+    orca::Fnv1a trace;
+    for (int i = 0; i < 3000; ++i) {
+      world.step();
+      trace.add_u64(world.state_hash());
+    }
+    return trace.value();
+  };
+  CHECK(hash(3) == hash(3));
+  CHECK(hash(3) != hash(4));
+}
+
+TEST_CASE("a world file names walkers with all that they may have", "[sim][walker][world_file]") {
+  orca::xml::Diagnostics diagnostics;
+  const auto world = read_world_text(
+      "<world name='w' version='1'><walker name='bob' track='0 0; 4 0; 4 3' speed='1.2 m/s' radius='30 cm' "
+      "height='1.8 m' loop='round' pause='2 s' start='500 ms' seed='7' stops='0.6 m'/></world>",
+      "w.xml", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(world);
+  REQUIRE(world->walkers.size() == 1);
+  const Walker& bob = world->walkers[0];
+  CHECK(bob.name == "bob");
+  CHECK(bob.track == std::vector<Vec2>{{0, 0}, {4, 0}, {4, 3}});
+  CHECK(bob.speed == 1.2);
+  CHECK(bob.radius == 0.3);
+  CHECK(bob.height == 1.8);
+  CHECK(bob.round);
+  CHECK(bob.pause == seconds{2});
+  CHECK(bob.start == std::chrono::milliseconds{500});
+  CHECK(bob.seed == 7);
+  CHECK(bob.stops == 0.6);
+}
+
+TEST_CASE("what is wrong with a walker is told where it stands", "[sim][walker][world_file]") {
+  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' loop='no'/>"), Catch::Contains("\"no\" is not known"));
+  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' speed='0 m/s'/>"), Catch::Contains("not more than 0"));
+  CHECK_THAT(errors("<walker name='a' track='0 0'/>"),
+             Catch::Contains("W019: a track needs at least 2 corners"));
+  CHECK_THAT(errors("<walker name='a' track='1 1; 1 1'/>"), Catch::Contains("W019: the track has no length"));
+  CHECK_THAT(errors("<walker track='0 0; 1 0'/>"), Catch::Contains("W004"));
+  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0'/><walker name='a' track='0 2; 1 2'/>"),
+             Catch::Contains("error W007"));
+  CHECK_THAT(
+      errors("<walker name='a' track='0 0; 4 0'/><box name='desk' x='2' y='0.3' length='1' width='0.4'/>"),
+      Catch::Contains("w.xml:2:1: error W019: \"a\" would walk through obstacle \"desk\""));
+}
