@@ -107,6 +107,23 @@ Pose2 Physics::pose(std::size_t robot) const {
   return {p.x(), p.y(), r.yaw};
 }
 
+std::vector<Touch> Physics::touches(std::size_t robot) const {
+  std::vector<Touch> touches;
+  const btRigidBody& own = *impl_->robots[robot].body;
+  const Pose2 at = pose(robot);
+  for (int i = 0; i < impl_->dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& m = *impl_->dispatcher.getManifoldByIndexInternal(i);
+    const bool first = m.getBody0() == &own;
+    if (!first && m.getBody1() != &own) continue;
+    for (int k = 0; k < m.getNumContacts(); ++k) {
+      const btManifoldPoint& contact = m.getContactPoint(k);
+      const btVector3& p = first ? contact.getPositionWorldOnA() : contact.getPositionWorldOnB();
+      touches.push_back({rotated(Vec2{p.x(), p.y()} - at.position(), -at.yaw), contact.getDistance()});
+    }
+  }
+  return touches;
+}
+
 std::map<Pair, double> Physics::near_pairs() const {
   std::map<Pair, double> pairs;
   const btDispatcher& dispatcher = impl_->dispatcher;

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <vector>
 
+#include "bumper_model.hpp"
 #include "orca/sim/robot_model.hpp"
 #include "orca/sim/world_model.hpp"
 
@@ -36,6 +38,9 @@ class Physics {
 
   // The distance of all near pairs [m], negative when they overlap; ordered, whatever order Bullet keeps.
   [[nodiscard]] std::map<Pair, double> near_pairs() const;
+
+  // Where the robot touches or nearly touches something, in its own frame.
+  [[nodiscard]] std::vector<Touch> touches(std::size_t robot) const;
 
  private:
   struct Impl;

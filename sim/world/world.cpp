@@ -38,6 +38,7 @@ struct World::Impl {
   detail::Physics physics;
   detail::ContactLog contact_log;
   std::deque<detail::Robot> robots;  // Robots do not move in memory. Same numbers as in caster and physics.
+  detail::SonarAir air;
   std::vector<ContactEvent> contacts;
   TimePoint now{};
 
@@ -46,6 +47,7 @@ struct World::Impl {
   void drive();
   void report_contacts();
   void move();
+  void sense();
 };
 
 Status World::Impl::check_birth(const std::string& name, const RobotModel& robot_model,
@@ -101,6 +103,15 @@ void World::Impl::move() {
   }
 }
 
+void World::Impl::sense() {
+  air.settle(now - kTick);
+  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].chirp(air, i);
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    robots[i].sense(caster, air, i);
+    if (!robots[i].bumpers.empty()) robots[i].feel(physics.touches(i));
+  }
+}
+
 World::World(WorldModel model, Options options) : impl_(std::make_unique<Impl>(std::move(model), options)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -131,7 +142,7 @@ void World::step() {
   impl_->drive();
   impl_->report_contacts();
   impl_->move();
-  for (std::size_t i = 0; i < impl_->robots.size(); ++i) impl_->robots[i].sense(impl_->caster, i);
+  impl_->sense();
 }
 
 TimePoint World::time() const { return impl_->now; }
@@ -140,6 +151,15 @@ Velocity World::velocity(RobotId robot) const { return impl_->robot(robot).veloc
 const std::vector<ContactEvent>& World::contacts() const { return impl_->contacts; }
 const std::optional<SonarScan>& World::sonar(RobotId robot, std::size_t ring) const {
   return impl_->robot(robot).sonars.at(ring).completed();
+}
+const std::optional<LaserScan>& World::laser(RobotId robot, std::size_t laser) const {
+  return impl_->robot(robot).lasers.at(laser).completed();
+}
+const std::optional<InfraredScan>& World::infrared(RobotId robot, std::size_t ring) const {
+  return impl_->robot(robot).infrareds.at(ring).completed();
+}
+const std::optional<BumperReading>& World::bumper(RobotId robot, std::size_t ring) const {
+  return impl_->robot(robot).bumpers.at(ring).completed();
 }
 const std::optional<OdometryReading>& World::odometry(RobotId robot) const {
   return impl_->robot(robot).odometry;

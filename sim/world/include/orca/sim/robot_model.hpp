@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
+#include "orca/sim/sensors.hpp"
 #include "orca/sim/shape.hpp"
 
 namespace orca::sim {
@@ -71,6 +72,7 @@ struct SonarRing {
   Pose2 center;                    ///< Of that link in the base frame.
   double height = 0.0;             ///< [m] Of that link above the floor.
   std::vector<std::size_t> order;  ///< Firing order, a permutation of 0 .. count - 1.
+  std::size_t parallel = 1;        ///< So many that follow each other in `order` fire at once.
 
   /// Where transducer `k` sits and looks, in the base frame.
   [[nodiscard]] Pose2 transducer(std::size_t k) const;
@@ -96,6 +98,9 @@ struct RobotModel {
   double top = 0.0;            ///< [m] Highest point of the parts.
   Drive drive;
   std::vector<SonarRing> sonars;
+  std::vector<LaserScanner> lasers;
+  std::vector<InfraredRing> infrareds;
+  std::vector<BumperRing> bumpers;
   std::optional<Odometer> odometer;
   std::string urdf;  ///< The file's text, for viewers.
 

@@ -78,6 +78,15 @@ class World {
   /// The round that the robot's sonar ring number `ring` completed in the last tick, if it did.
   [[nodiscard]] const std::optional<SonarScan>& sonar(RobotId robot, std::size_t ring = 0) const;
 
+  /// The scan that the robot's laser number `laser` completed in the last tick, if it did.
+  [[nodiscard]] const std::optional<LaserScan>& laser(RobotId robot, std::size_t laser = 0) const;
+
+  /// The round that the robot's infrared ring number `ring` measured in the last tick, if it did.
+  [[nodiscard]] const std::optional<InfraredScan>& infrared(RobotId robot, std::size_t ring = 0) const;
+
+  /// What the robot's bumper number `ring` tells, if a reading became due in the last tick.
+  [[nodiscard]] const std::optional<BumperReading>& bumper(RobotId robot, std::size_t ring = 0) const;
+
   /// The odometry if it became due in the last tick. Never for a robot without odometer.
   [[nodiscard]] const std::optional<OdometryReading>& odometry(RobotId robot) const;
 
