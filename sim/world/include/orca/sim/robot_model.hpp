@@ -56,12 +56,14 @@ struct Drive {
 };
 
 /// A ring of sonar transducers. Number k looks along first_angle + k * pitch from the ring's centre and sits
-/// `radius` from it in that direction.
+/// `radius` from it in that direction; an uneven ring lists where each looks, and may list where each sits.
 struct SonarRing {
   std::string name;
   std::size_t count = 0;
   double first_angle = 0.0;        ///< [rad] In the base frame, counter-clockwise from ahead.
   double pitch = 0.0;              ///< [rad] Positive: counter-clockwise.
+  std::vector<double> angles;      ///< [rad] Of each transducer; empty: evenly spaced as above.
+  std::vector<Vec2> positions;     ///< [m] Of each transducer about the centre; empty: on the circle.
   double half_lobe = 0.0;          ///< [rad] Half the opening of the cone.
   double min_range = 0.0;          ///< [m] Nearer echoes read as this.
   double max_range = 0.0;          ///< [m] What no echo reads as.
