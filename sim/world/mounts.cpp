@@ -42,6 +42,8 @@ void mount_sensors(RobotModel& model, const std::map<std::string, Pose3>& links,
                    xml::Diagnostics& diagnostics) {
   check_links(links, orca, diagnostics);
   mount(model.sonars, links);
+  mount(model.lasers, links);
+  mount(model.infrareds, links);
 }
 
 }  // namespace orca::sim::detail

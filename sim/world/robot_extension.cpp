@@ -20,6 +20,9 @@ struct Kind {
 constexpr std::array kKinds{
     Kind{"drive", true, read_drive},
     Kind{"sonar_ring", false, read_sonar_ring},
+    Kind{"laser", false, read_laser},
+    Kind{"infrared_ring", false, read_infrared_ring},
+    Kind{"bumper_ring", false, read_bumper_ring},
     Kind{"odometry", true, read_odometry},
 };
 
