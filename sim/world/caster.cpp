@@ -15,16 +15,6 @@ detail::Grid::Elements elements_of(const WorldModel& world) {
   return elements;
 }
 
-double incidence_on(const Surface& surface, Vec2 hit, Vec2 u) {
-  Vec2 along{1.0, 0.0};
-  if (const auto* edge = std::get_if<Segment>(&surface)) along = edge->b - edge->a;
-  if (const auto* circle = std::get_if<Circle>(&surface)) {
-    const Vec2 normal = hit - circle->center;
-    along = {-normal.y, normal.x};
-  }
-  return std::atan2(std::fabs(dot(u, along)), std::fabs(cross(u, along)));
-}
-
 }  // namespace
 
 struct Caster::Impl {
@@ -42,13 +32,23 @@ std::size_t Caster::add_body(Body body) { return impl_->bodies.add(std::move(bod
 void Caster::move_body(std::size_t number, Shape shape) { impl_->bodies.move(number, std::move(shape)); }
 void Caster::remove_body(std::size_t number) { impl_->bodies.remove(number); }
 
+double Hit::incidence() const {
+  Vec2 along{1.0, 0.0};
+  if (const auto* edge = std::get_if<Segment>(&surface)) along = edge->b - edge->a;
+  if (const auto* circle = std::get_if<Circle>(&surface)) {
+    const Vec2 normal = point - circle->center;
+    along = {-normal.y, normal.x};
+  }
+  return std::atan2(std::fabs(dot(direction, along)), std::fabs(cross(direction, along)));
+}
+
 Hit Caster::cast(const Ray& ray) const {
   Hit hit;
   hit.range = ray.max_range;
   impl_->grid.cast(ray, hit.range, hit.surface);
   impl_->bodies.cast(ray, hit.range, hit.surface);
-  if (hit.found())
-    hit.incidence = incidence_on(hit.surface, ray.origin + hit.range * ray.direction, ray.direction);
+  hit.point = ray.origin + hit.range * ray.direction;
+  hit.direction = ray.direction;
   return hit;
 }
 

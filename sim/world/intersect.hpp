@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "orca/sim/geometry.hpp"
 
 // The closed forms of a ray against an edge and a circle; both write the nearest distance if it is below
@@ -17,14 +19,14 @@ inline bool meet(Vec2 o, Vec2 u, const Segment& edge, double& best) {
   // How far to the left of the ray the ends lie. Most edges lie on one side: no division for those.
   const double left_a = cross(u, a);
   const double left_b = cross(u, b);
-  if (std::fmin(left_a, left_b) > kTouch || std::fmax(left_a, left_b) < -kTouch) return false;
+  if (std::min(left_a, left_b) > kTouch || std::max(left_a, left_b) < -kTouch) return false;
   if (left_a == left_b) return false;
   // Between the ends, however badly conditioned the crossing is at grazing incidence.
-  const double share = std::fmin(std::fmax(left_a / (left_a - left_b), 0.0), 1.0);
+  const double share = std::min(std::max(left_a / (left_a - left_b), 0.0), 1.0);
   const double along_a = dot(u, a);
   const double t = along_a + share * (dot(u, b) - along_a);
   if (!(t >= -kTouch) || t >= best) return false;
-  best = std::fmax(t, 0.0);
+  best = std::max(t, 0.0);
   return true;
 }
 
@@ -37,7 +39,7 @@ inline bool meet(Vec2 o, Vec2 u, const Circle& circle, double& best) {
   const double half = std::sqrt(rest);
   const double t = along - half >= -kTouch ? along - half : along + half;
   if (!(t >= -kTouch) || t >= best) return false;
-  best = std::fmax(t, 0.0);
+  best = std::max(t, 0.0);
   return true;
 }
 

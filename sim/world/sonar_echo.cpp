@@ -38,7 +38,7 @@ class Listener {
   void probe(double off_axis) {
     const Hit hit = caster_.cast(ray(beam_.sensor.yaw + off_axis));
     if (!hit.found()) return;
-    if (hit.incidence <= critical_angle_) offer(hit.range, off_axis, 1.0);
+    if (hit.incidence() <= critical_angle_) offer(hit.range, off_axis, 1.0);
     if (std::ranges::find(surfaces_, hit.surface) == surfaces_.end()) surfaces_.push_back(hit.surface);
   }
 

@@ -24,10 +24,13 @@ using Surface = std::variant<std::monostate, Segment, Circle>;
 
 /// What a ray met first.
 struct Hit {
-  double range = 0.0;      ///< [m] Distance along the ray; max_range if nothing was met.
-  double incidence = 0.0;  ///< [rad] Angle between ray and surface normal, 0 (head on) to pi/2 (grazing).
+  double range = 0.0;  ///< [m] Distance along the ray; max_range if nothing was met.
   Surface surface;
+  Vec2 point;      ///< Where the ray ends.
+  Vec2 direction;  ///< Of the ray.
   [[nodiscard]] bool found() const { return surface.index() != 0; }
+  /// Angle between ray and surface normal, 0 (head on) to pi/2 (grazing) [rad]. @pre  found()
+  [[nodiscard]] double incidence() const;
 };
 
 /// Something upright that can be seen and can come, move and go: a robot, a person, a box put down.
