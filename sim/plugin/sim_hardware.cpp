@@ -84,7 +84,8 @@ class SimHardware final : public orca::hw::HardwareContainer {
       }
       start_ = place->pose;
     }
-    if (const Obstacle* hit = world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom))
+    if (const Obstacle* hit =
+            world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom, robot_->top))
       errors.push_back({place_->empty() ? "x" : "place",
                         "the robot \"" + *name_ + "\" would start inside \"" + hit->name + "\" at x " +
                             orca::xml::number_text(start_.x) + " m, y " + orca::xml::number_text(start_.y) +
