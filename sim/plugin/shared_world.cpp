@@ -9,6 +9,23 @@ namespace {
 
 constexpr Duration kFarBehind = std::chrono::milliseconds(200);
 
+template <class Reading>
+void shift(Reading& reading, Duration by) {
+  reading.stamp += by;
+}
+void shift(SonarScan& scan, Duration by) {
+  for (SonarReading& reading : scan.readings) reading.stamp += by;
+}
+
+// Puts a reading, if there is one, into the box with its stamp moved.
+template <class Reading>
+void take(const std::optional<Reading>& reading, std::size_t device, Duration by,
+          SharedWorld::Inbox::Readings<Reading>& box) {
+  if (!reading) return;
+  box.emplace_back(device, *reading);
+  shift(box.back().second, by);
+}
+
 }  // namespace
 
 std::shared_ptr<SharedWorld> SharedWorld::join(const std::string& key, TimePoint now,
@@ -52,15 +69,20 @@ void SharedWorld::step() {
   for (Member& member : members_) collect(member);
 }
 
+void SharedWorld::collect_readings(Member& member) {
+  const RobotId robot = member.robot;
+  const RobotModel& model = world_.robot_model(robot);
+  Inbox& inbox = member.inbox;
+  for (std::size_t i = 0; i < model.sonars.size(); ++i) take(world_.sonar(robot, i), i, epoch_, inbox.sonar);
+  for (std::size_t i = 0; i < model.lasers.size(); ++i) take(world_.laser(robot, i), i, epoch_, inbox.laser);
+  for (std::size_t i = 0; i < model.infrareds.size(); ++i)
+    take(world_.infrared(robot, i), i, epoch_, inbox.infrared);
+  for (std::size_t i = 0; i < model.bumpers.size(); ++i)
+    take(world_.bumper(robot, i), i, epoch_, inbox.bumper);
+}
+
 void SharedWorld::collect(Member& member) {
-  const std::size_t rings = world_.robot_model(member.robot).sonars.size();
-  for (std::size_t ring = 0; ring < rings; ++ring) {
-    if (const auto& scan = world_.sonar(member.robot, ring)) {
-      member.inbox.sonar.emplace_back(ring, *scan);
-      for (SonarReading& reading : member.inbox.sonar.back().second.readings)
-        reading.stamp = on_run_clock(reading.stamp);
-    }
-  }
+  collect_readings(member);
   if (const auto& odometry = world_.odometry(member.robot)) {
     member.inbox.odometry.push_back(*odometry);
     member.inbox.odometry.back().stamp = on_run_clock(odometry->stamp);

@@ -26,7 +26,13 @@ class SharedWorld {
       Pose2 pose;
       Velocity velocity;
     };
-    std::vector<std::pair<std::size_t, SonarScan>> sonar;  ///< Ring number and round.
+    /// What a device measured, and its number among those of its kind.
+    template <class Reading>
+    using Readings = std::vector<std::pair<std::size_t, Reading>>;
+    Readings<SonarScan> sonar;
+    Readings<LaserScan> laser;
+    Readings<InfraredScan> infrared;
+    Readings<BumperReading> bumper;
     std::vector<OdometryReading> odometry;
     std::vector<Truth> truth;
     struct Contact {
@@ -72,6 +78,7 @@ class SharedWorld {
 
   void step();
   void collect(Member& member);
+  void collect_readings(Member& member);
   [[nodiscard]] TimePoint on_run_clock(TimePoint time) const { return time + epoch_; }
 
   mutable std::mutex mutex_;

@@ -25,6 +25,12 @@ std::string too_far(std::string_view text) {
   return "\"" + std::string(text) + "\" is farther than the 100 km that a world may reach";
 }
 
+std::vector<std::string_view> words(std::string_view text) {
+  auto pieces = split(text, " \t\n\r");
+  std::erase(pieces, std::string_view{});
+  return pieces;
+}
+
 bool is_name(std::string_view text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; };
@@ -176,21 +182,43 @@ std::optional<std::string> Attributes::choice(std::string_view name,
   return wrong(*a, "\"" + a->value + "\" is not known" + help(a->value, choices, "known are")), std::nullopt;
 }
 
+std::optional<std::vector<double>> Attributes::exactly(const xml::Attribute& a, std::size_t n,
+                                                       std::vector<double> values) const {
+  if (values.size() == n) return values;
+  return wrong(a, "\"" + a.value + "\" holds " + std::to_string(values.size()) + " numbers, expected " +
+                      std::to_string(n)),
+         std::nullopt;
+}
+
 std::optional<std::vector<double>> Attributes::numbers(std::string_view name, std::size_t n) const {
   const xml::Attribute* a = required(name);
   if (a == nullptr) return std::nullopt;
-  auto pieces = split(a->value, " \t\n\r");
-  std::erase(pieces, std::string_view{});
   std::vector<double> values;
-  for (const std::string_view piece : pieces) {
+  for (const std::string_view piece : words(a->value)) {
     const Result<double> value = xml::parse_number(piece);
     if (!value) return wrong(*a, value.error().message), std::nullopt;
     values.push_back(*value);
   }
-  if (values.size() == n) return values;
-  return wrong(*a, "\"" + a->value + "\" holds " + std::to_string(values.size()) + " numbers, expected " +
-                       std::to_string(n)),
-         std::nullopt;
+  return exactly(*a, n, std::move(values));
+}
+
+std::optional<std::vector<double>> Attributes::quantities(std::string_view name, std::string_view unit,
+                                                          std::size_t n) const {
+  const xml::Attribute* a = required(name);
+  if (a == nullptr) return std::nullopt;
+  auto pieces = words(a->value);
+  std::string suffix;
+  if (!pieces.empty() && !xml::parse_number(pieces.back())) {
+    suffix = " " + std::string(pieces.back());
+    pieces.pop_back();
+  }
+  std::vector<double> values;
+  for (const std::string_view piece : pieces) {
+    const Result<double> value = xml::parse_quantity(std::string(piece) + suffix, unit);
+    if (!value) return wrong(*a, value.error().message), std::nullopt;
+    values.push_back(*value);
+  }
+  return exactly(*a, n, std::move(values));
 }
 
 std::optional<double> Attributes::number(std::string_view name) const {

@@ -41,6 +41,9 @@ class Attributes {
   // Bare numbers with blanks between them, exactly `n` of them.
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view name, std::size_t n) const;
   [[nodiscard]] std::optional<double> number(std::string_view name) const;
+  // Numbers with blanks between them, exactly `n`; the last word may be a unit for all: "90 45 0 deg".
+  [[nodiscard]] std::optional<std::vector<double>> quantities(std::string_view name, std::string_view unit,
+                                                              std::size_t n) const;
   // A name as in graphs: a letter, then letters, digits and underscores.
   [[nodiscard]] std::optional<std::string> name(std::string_view attribute) const;
   [[nodiscard]] std::optional<std::string> text(std::string_view name) const;
@@ -58,6 +61,8 @@ class Attributes {
   [[nodiscard]] const xml::Attribute* required(std::string_view name) const;
   [[nodiscard]] std::optional<double> checked(const xml::Attribute& attribute, std::string_view unit,
                                               Sign sign) const;
+  [[nodiscard]] std::optional<std::vector<double>> exactly(const xml::Attribute& attribute, std::size_t n,
+                                                           std::vector<double> values) const;
   [[nodiscard]] std::optional<Vec2> point_in(const xml::Attribute& attribute, std::string_view text) const;
   void wrong(const xml::Attribute& attribute, const std::string& message) const;
   [[nodiscard]] std::string code(int number) const;

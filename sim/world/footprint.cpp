@@ -127,8 +127,8 @@ std::pair<double, double> height_range_of(const std::vector<Part>& parts) {
 }
 
 Pose2 SonarRing::transducer(std::size_t k) const {
-  const double angle = first_angle + static_cast<double>(k) * pitch;
-  const Vec2 p = radius * direction(angle);
+  const double angle = angles.empty() ? first_angle + static_cast<double>(k) * pitch : angles[k];
+  const Vec2 p = positions.empty() ? radius * direction(angle) : positions[k];
   return center * Pose2{p.x, p.y, angle};
 }
 

@@ -18,9 +18,14 @@ struct Body {
   double yaw = 0.0;
 };
 
+// Something kinematic, and where Bullet's shape lies in its frame.
+struct Mover {
+  Body body;
+  btTransform offset;
+};
+
 // Which kind of thing a Bullet body is stands in its second user index.
-constexpr int kRobot = 1;
-constexpr int kObstacle = 0;
+Kind kind_of(const btCollisionObject& body) { return static_cast<Kind>(body.getUserIndex2()); }
 
 Body make_body(OwnedShape shape, double mass, const btVector3& inertia, const btTransform& X) {
   Body made{std::move(shape), nullptr};
@@ -32,7 +37,7 @@ Body make_body(OwnedShape shape, double mass, const btVector3& inertia, const bt
 }
 
 Pair pair_of(const btCollisionObject& robot, const btCollisionObject& other) {
-  return {static_cast<std::size_t>(robot.getUserIndex()), other.getUserIndex2() == kRobot,
+  return {static_cast<std::size_t>(robot.getUserIndex()), kind_of(other),
           static_cast<std::size_t>(other.getUserIndex())};
 }
 
@@ -51,12 +56,16 @@ struct Physics::Impl {
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<Body> obstacles;
   std::vector<Body> robots;
+  std::vector<Mover> movers;  // Without a body: gone.
 
-  void insert(std::vector<Body>& list, Body body, int kind) {
-    body.body->setUserIndex(static_cast<int>(list.size()));
-    body.body->setUserIndex2(kind);
+  void insert(std::vector<Body>& list, Body body, Kind kind) {
+    enter(*body.body, list.size(), kind);
     list.push_back(std::move(body));
-    world.addRigidBody(list.back().body.get());
+  }
+  void enter(btRigidBody& body, std::size_t number, Kind kind) {
+    body.setUserIndex(static_cast<int>(number));
+    body.setUserIndex2(static_cast<int>(kind));
+    world.addRigidBody(&body);
   }
 };
 
@@ -65,13 +74,14 @@ Physics::Physics(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
   for (const Obstacle& o : world.obstacles) {
     btTransform X;
     OwnedShape shape = obstacle_shape(o, X);
-    impl_->insert(impl_->obstacles, make_body(std::move(shape), 0, btVector3(0, 0, 0), X), kObstacle);
+    impl_->insert(impl_->obstacles, make_body(std::move(shape), 0, btVector3(0, 0, 0), X), Kind::obstacle);
   }
 }
 
 Physics::~Physics() {
   for (auto* list : {&impl_->robots, &impl_->obstacles})
     for (const Body& b : *list) impl_->world.removeRigidBody(b.body.get());
+  for (std::size_t i = 0; i < impl_->movers.size(); ++i) remove_mover(i);
 }
 
 std::size_t Physics::add_robot(const RobotModel& model, const Pose2& X_WB) {
@@ -82,8 +92,39 @@ std::size_t Physics::add_robot(const RobotModel& model, const Pose2& X_WB) {
   robot.body->setLinearFactor(btVector3(1, 1, 0));
   robot.body->setAngularFactor(btVector3(0, 0, 1));
   robot.body->setActivationState(DISABLE_DEACTIVATION);
-  impl_->insert(impl_->robots, std::move(robot), kRobot);
+  impl_->insert(impl_->robots, std::move(robot), Kind::robot);
   return impl_->robots.size() - 1;
+}
+
+std::size_t Physics::add_mover(const Shape& shape, double height, const Pose2& X_WO) {
+  Mover mover;
+  OwnedShape owned = obstacle_shape({"", shape, height}, mover.offset);
+  mover.body = make_body(std::move(owned), 0, btVector3(0, 0, 0), upright(X_WO, 0) * mover.offset);
+  btRigidBody& body = *mover.body.body;
+  body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+  body.setActivationState(DISABLE_DEACTIVATION);
+  impl_->enter(body, impl_->movers.size(), Kind::mover);
+  impl_->movers.push_back(std::move(mover));
+  return impl_->movers.size() - 1;
+}
+
+void Physics::place_mover(std::size_t mover, const Pose2& X_WO) {
+  carry_mover(mover, X_WO);
+  btRigidBody& body = *impl_->movers[mover].body.body;
+  body.setInterpolationWorldTransform(body.getWorldTransform());
+}
+
+// Bullet finds the velocity of something kinematic from where it stood before.
+void Physics::carry_mover(std::size_t mover, const Pose2& X_WO) {
+  const Mover& m = impl_->movers[mover];
+  m.body.body->setWorldTransform(upright(X_WO, 0) * m.offset);
+}
+
+void Physics::remove_mover(std::size_t mover) {
+  Body& body = impl_->movers[mover].body;
+  if (body.body == nullptr) return;
+  impl_->world.removeRigidBody(body.body.get());
+  body = {};
 }
 
 void Physics::set_velocity(std::size_t robot, Vec2 linear, double turn) {
@@ -107,6 +148,23 @@ Pose2 Physics::pose(std::size_t robot) const {
   return {p.x(), p.y(), r.yaw};
 }
 
+std::vector<Touch> Physics::touches(std::size_t robot) const {
+  std::vector<Touch> touches;
+  const btRigidBody& own = *impl_->robots[robot].body;
+  const Pose2 at = pose(robot);
+  for (int i = 0; i < impl_->dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& m = *impl_->dispatcher.getManifoldByIndexInternal(i);
+    const bool first = m.getBody0() == &own;
+    if (!first && m.getBody1() != &own) continue;
+    for (int k = 0; k < m.getNumContacts(); ++k) {
+      const btManifoldPoint& contact = m.getContactPoint(k);
+      const btVector3& p = first ? contact.getPositionWorldOnA() : contact.getPositionWorldOnB();
+      touches.push_back({rotated(Vec2{p.x(), p.y()} - at.position(), -at.yaw), contact.getDistance()});
+    }
+  }
+  return touches;
+}
+
 std::map<Pair, double> Physics::near_pairs() const {
   std::map<Pair, double> pairs;
   const btDispatcher& dispatcher = impl_->dispatcher;
@@ -116,8 +174,8 @@ std::map<Pair, double> Physics::near_pairs() const {
     const btCollisionObject& b = *m.getBody1();
     for (int k = 0; k < m.getNumContacts(); ++k) {
       const double distance = m.getContactPoint(k).getDistance();
-      if (a.getUserIndex2() == kRobot) note(pairs, pair_of(a, b), distance);
-      if (b.getUserIndex2() == kRobot) note(pairs, pair_of(b, a), distance);
+      if (kind_of(a) == Kind::robot) note(pairs, pair_of(a, b), distance);
+      if (kind_of(b) == Kind::robot) note(pairs, pair_of(b, a), distance);
     }
   }
   return pairs;

@@ -30,6 +30,12 @@ ErrorLevels error_levels(Realism realism) {
               .sonar_noise = 0.01,
               .sonar_outliers = 0.01,
               .critical_angle = 25.0 * kDegree,
+              .sonar_crosstalk = true,
+              .laser_bias = 0.01,
+              .laser_sigma = 0.005,
+              .laser_drop_angle = 80.0 * kDegree,
+              .mixed_pixels = true,
+              .infrared_noise = 0.05,
               .quantised = true};
     case Realism::harsh:
       return {.wheel_mismatch = 0.01,
@@ -39,6 +45,12 @@ ErrorLevels error_levels(Realism realism) {
               .sonar_noise = 0.02,
               .sonar_outliers = 0.05,
               .critical_angle = 20.0 * kDegree,
+              .sonar_crosstalk = true,
+              .laser_bias = 0.02,
+              .laser_sigma = 0.01,
+              .laser_drop_angle = 75.0 * kDegree,
+              .mixed_pixels = true,
+              .infrared_noise = 0.1,
               .quantised = true};
   }
   return {};

@@ -24,8 +24,11 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
       last_tick_{birth.time, birth.time, birth.X_WB, birth.X_WB},
       odometry_due_(model.odometer ? birth.time + model.odometer->period : kForever),
       trajectory_{{birth.time, birth.X_WB}} {
-  for (const SonarRing& ring : model.sonars)
-    sonars.emplace_back(ring, errors, RandomStream(birth.seed, name, ring.name), birth.time);
+  const auto stream = [&](const std::string& device) { return RandomStream(birth.seed, name, device); };
+  for (const SonarRing& s : model.sonars) sonars.emplace_back(s, errors, stream(s.name), birth.time);
+  for (const LaserScanner& s : model.lasers) lasers.emplace_back(s, errors, stream(s.name), birth.time);
+  for (const InfraredRing& s : model.infrareds) infrareds.emplace_back(s, errors, stream(s.name), birth.time);
+  for (const BumperRing& s : model.bumpers) bumpers.emplace_back(s, birth.time);
 }
 
 void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
@@ -46,8 +49,18 @@ void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
   sample(now);
 }
 
-void Robot::sense(const Caster& caster, std::size_t own_body) {
-  for (SonarModel& s : sonars) s.run(caster, own_body, last_tick_);
+void Robot::chirp(SonarAir& air, std::size_t own_body) {
+  for (SonarModel& s : sonars) s.fire(own_body, last_tick_, air);
+}
+
+void Robot::sense(const Caster& caster, const SonarAir& air, std::size_t own_body) {
+  for (SonarModel& s : sonars) s.listen(caster, air);
+  for (LaserModel& s : lasers) s.run(caster, own_body, last_tick_);
+  for (InfraredModel& s : infrareds) s.run(caster, own_body, last_tick_);
+}
+
+void Robot::feel(std::span<const Touch> touches) {
+  for (BumperModel& s : bumpers) s.run(touches, last_tick_.to);
 }
 
 void Robot::sample(TimePoint now) {

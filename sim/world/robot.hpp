@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "bumper_model.hpp"
 #include "drive_model.hpp"
+#include "infrared_model.hpp"
+#include "laser_model.hpp"
 #include "odometry_model.hpp"
 #include "orca/base/hash.hpp"
 #include "orca/sim/scene.hpp"
@@ -27,8 +31,12 @@ class Robot {
 
   // The base has moved to `X_WB` in the tick that ended at `now`; `blocked`: something was in its way.
   void moved(const Pose2& X_WB, TimePoint now, bool blocked);
-  // Lets the sensors measure, in the world as it is now. @pre moved() was called for all robots.
-  void sense(const Caster& caster, std::size_t own_body);
+  // Lets the sonars fire. @pre  moved() was called for all robots.
+  void chirp(SonarAir& air, std::size_t own_body);
+  // Lets the sensors measure, in the world as it is now. @pre  chirp() was called for all robots.
+  void sense(const Caster& caster, const SonarAir& air, std::size_t own_body);
+  // Lets the bumpers feel what touches the robot now.
+  void feel(std::span<const Touch> touches);
 
   [[nodiscard]] SceneRobot drawn() const;
   void add_to(Fnv1a& hash) const;
@@ -40,6 +48,9 @@ class Robot {
   Velocity velocity;  // True, in the last tick.
   Pose2 pose;
   std::vector<SonarModel> sonars;
+  std::vector<LaserModel> lasers;
+  std::vector<InfraredModel> infrareds;
+  std::vector<BumperModel> bumpers;
   std::optional<OdometryReading> odometry;  // Set in the tick in which it is due.
 
  private:
@@ -47,7 +58,7 @@ class Robot {
 
   Duration tick_;
   OdometryModel odometry_model_;
-  SonarModel::Span last_tick_;
+  TickSpan last_tick_;
   TimePoint odometry_due_;
   std::vector<SceneRobot::Sample> trajectory_;
 };

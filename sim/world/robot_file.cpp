@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "mounts.hpp"
 #include "orca/xml/document.hpp"
-#include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
 #include "robot_extension.hpp"
 #include "urdf_body.hpp"
@@ -37,30 +37,6 @@ void check_body(const RobotModel& model, const detail::Attributes& robot,
                            " m; make them agree");
 }
 
-// Where the rings are mounted. `orca` is the element they were read from, in the same order.
-void mount_rings(RobotModel& model, const std::map<std::string, Pose3>& links, const xml::Element& orca,
-                 xml::Diagnostics& diagnostics) {
-  std::vector<std::string> names;
-  for (const auto& entry : links) names.push_back(entry.first);
-  for (SonarRing& ring : model.sonars) {
-    const auto link = links.find(ring.link);
-    if (link != links.end()) {
-      const Pose3& X = link->second;
-      const double yaw =
-          std::atan2(2.0 * (X.qw * X.qz + X.qx * X.qy), 1.0 - 2.0 * (X.qy * X.qy + X.qz * X.qz));
-      ring.center = {X.x, X.y, yaw};
-      ring.height = X.z;
-      continue;
-    }
-    for (const xml::Element& e : orca.children())
-      if (e.attribute("link") != nullptr && e.attribute("link")->value == ring.link)
-        detail::Attributes(e, 'R', diagnostics)
-            .error_at("link", 12,
-                      "there is no link \"" + ring.link + "\"" +
-                          xml::did_you_mean(xml::nearest_name(ring.link, names)));
-  }
-}
-
 // @pre  the root is <robot> and has an <orca>; urdf and extension are checked as far as they stand alone.
 void read_body(const xml::Element& root, const xml::Element& orca, RobotModel& model,
                xml::Diagnostics& diagnostics) {
@@ -76,7 +52,7 @@ void read_body(const xml::Element& root, const xml::Element& orca, RobotModel& m
     std::tie(model.bottom, model.top) = height_range_of(model.parts);
   }
   check_body(model, robot, {orca, 'R', diagnostics});
-  mount_rings(model, body->links, orca, diagnostics);
+  detail::mount_sensors(model, body->links, orca, diagnostics);
 }
 
 std::optional<RobotModel> read_root(const xml::Element& root, std::string text,

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <utility>
 #include <vector>
 
-#include "sonar_model.hpp"
+#include "sonar_beam.hpp"
 
 namespace orca::sim::detail {
 namespace {
 
 constexpr int kRays = 9;
-// An edge scatters a part of the sound only, so it is heard in the middle of the beam only.
-constexpr double kEdgeStrength = 0.3;
-// Of the strength on the axis. A smooth wall is just heard at the rim of the lobe, exp(-2) = 0.135.
-constexpr double kThreshold = 0.1;
-// [m] A point of a surface is seen if the ray to it ends this close to it.
-constexpr double kSeen = 1e-6;
+// [m] Where a mirrored ray starts off the wall that mirrors it.
+constexpr double kOff = 1e-6;
 
 // Where two edges cross, if they do.
 std::optional<Vec2> crossing(const Segment& one, const Segment& other) {
@@ -36,10 +33,31 @@ class Listener {
   // A ray of the fan: a surface met steeply enough answers; its nearest and end points are looked at
   // afterwards.
   void probe(double off_axis) {
-    const Hit hit = caster_.cast(ray(beam_.sensor.yaw + off_axis));
+    const Ray ray = beam_.ray(direction(beam_.sensor.yaw + off_axis));
+    const Hit hit = caster_.cast(ray);
     if (!hit.found()) return;
-    if (hit.incidence <= critical_angle_) offer(hit.range, off_axis, 1.0);
+    if (hit.incidence() <= critical_angle_) {
+      offer(hit.range, off_axis, 1.0);
+    } else {
+      mirrored_.push_back({ray, hit, off_axis});
+    }
     if (std::ranges::find(surfaces_, hit.surface) == surfaces_.end()) surfaces_.push_back(hit.surface);
+  }
+
+  // What is met behind a mirror, if it sends the sound back the way it came. Only flat walls mirror.
+  void probe_mirrors() {
+    for (const Mirrored& m : mirrored_) {
+      const auto* wall = std::get_if<Segment>(&m.hit.surface);
+      if (wall == nullptr) continue;
+      const Vec2 along = (1.0 / norm(wall->b - wall->a)) * (wall->b - wall->a);
+      const Vec2 away = 2.0 * dot(m.ray.direction, along) * along - m.ray.direction;
+      Ray second = m.ray;
+      second.origin = m.ray.origin + (m.hit.range - kOff) * m.ray.direction;
+      second.direction = away;
+      second.max_range = beam_.max_range - m.hit.range;
+      const Hit hit = caster_.cast(second);
+      if (hit.found() && hit.incidence() <= critical_angle_) offer(m.hit.range + hit.range, m.off_axis, 1.0);
+    }
   }
 
   void probe_surfaces() {
@@ -67,12 +85,16 @@ class Listener {
       }
   }
 
-  [[nodiscard]] std::optional<double> nearest() const { return nearest_; }
+  [[nodiscard]] bool heard() const { return nearest_.has_value(); }
+  [[nodiscard]] Echo result() && { return {nearest_, std::move(surfaces_)}; }
 
  private:
-  [[nodiscard]] Ray ray(double angle) const {
-    return {beam_.sensor.position(), direction(angle), beam_.max_range, beam_.height, beam_.own_body};
-  }
+  struct Mirrored {
+    Ray ray;
+    Hit hit;
+    double off_axis;
+  };
+
   // Where the surface faces the sensor, if that point is not an end: sound comes straight back from there.
   void probe_foot(const Segment& edge, Vec2 from) {
     const Vec2 foot = nearest_point(edge, from);
@@ -83,7 +105,8 @@ class Listener {
     const double angle = std::atan2(w.y, w.x);
     const double off_axis = wrapped(angle - beam_.sensor.yaw);
     if (std::fabs(off_axis) > beam_.half_lobe || norm(w) > beam_.max_range) return;
-    if (caster_.cast(ray(angle)).range >= norm(w) - kSeen) offer(norm(w), off_axis, strength);
+    if (caster_.cast(beam_.ray(direction(angle))).range >= norm(w) - kSeen)
+      offer(norm(w), off_axis, strength);
   }
   // A Gaussian beam whose deviation is half the half lobe.
   void offer(double range, double off_axis, double strength) {
@@ -96,17 +119,19 @@ class Listener {
   const Beam& beam_;
   double critical_angle_;
   std::vector<Surface> surfaces_;
+  std::vector<Mirrored> mirrored_;
   std::optional<double> nearest_;
 };
 
 }  // namespace
 
-std::optional<double> first_echo(const Caster& caster, const Beam& beam, double critical_angle) {
+Echo echo_of(const Caster& caster, const Beam& beam, double critical_angle) {
   Listener listener(caster, beam, critical_angle);
   for (int i = 0; i < kRays; ++i) listener.probe(beam.half_lobe * (2.0 * i / (kRays - 1) - 1.0));
   listener.probe_surfaces();
   listener.probe_corners();
-  return listener.nearest();
+  if (!listener.heard()) listener.probe_mirrors();
+  return std::move(listener).result();
 }
 
 }  // namespace orca::sim::detail

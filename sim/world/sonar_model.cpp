@@ -5,50 +5,56 @@
 #include <utility>
 
 namespace orca::sim::detail {
-namespace {
-
-Pose2 between(const Pose2& a, const Pose2& b, double share) {
-  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
-          wrapped(a.yaw + share * wrapped(b.yaw - a.yaw))};
-}
-
-double share_of(const SonarModel::Span& span, TimePoint t) {
-  return to_seconds(t - span.from) / to_seconds(span.to - span.from);
-}
-
-}  // namespace
 
 SonarModel::SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start)
     : ring_(std::move(ring)), errors_(errors), random_(random), round_start_(start) {
   scan_.readings.resize(ring_.count);
 }
 
-// The last transducer of a round fires exactly at its end.
+// The last of a round fire exactly at its end.
 TimePoint SonarModel::next_due() const {
-  const auto number = static_cast<std::int64_t>(fired_) + 1;
-  return round_start_ + Duration{ring_.period.count() * number / static_cast<std::int64_t>(ring_.count)};
+  const auto slots = static_cast<std::int64_t>((ring_.count + ring_.parallel - 1) / ring_.parallel);
+  const auto slot = static_cast<std::int64_t>(fired_ / ring_.parallel) + 1;
+  return round_start_ + Duration{ring_.period.count() * slot / slots};
 }
 
-void SonarModel::run(const Caster& caster, std::size_t own_body, const Span& span) {
-  completed_.reset();
+void SonarModel::fire(std::size_t own_body, const TickSpan& span, SonarAir& air) {
+  shots_.clear();
   for (TimePoint due = next_due(); due <= span.to; due = next_due()) {
-    fire(caster, own_body, between(span.X_from, span.X_to, share_of(span, due)), due);
+    const std::size_t k = ring_.order[fired_++];
+    const Beam beam{span.at(due) * ring_.transducer(k),
+                    ring_.half_lobe,
+                    ring_.min_range,
+                    ring_.max_range,
+                    ring_.height,
+                    own_body};
+    shots_.push_back({k, due, beam, air.send(due, beam)});
     if (fired_ < ring_.count) continue;
-    completed_ = scan_;
     fired_ = 0;
     round_start_ += ring_.period;
   }
 }
 
-void SonarModel::fire(const Caster& caster, std::size_t own_body, const Pose2& X_WB, TimePoint stamp) {
-  const std::size_t k = ring_.order[fired_++];
-  const Pose2 sensor = ring_.transducer(k);
-  const Beam beam{X_WB * sensor, ring_.half_lobe, ring_.max_range, ring_.height, own_body};
-  SonarReading reading = measured(first_echo(caster, beam, errors_.critical_angle));
-  reading.transducer = k;
-  reading.stamp = stamp;
-  reading.sensor = sensor;
-  scan_.readings[k] = reading;
+void SonarModel::listen(const Caster& caster, const SonarAir& air) {
+  completed_.reset();
+  for (const Shot& shot : shots_) {
+    SonarReading reading = measured(heard(caster, air, shot));
+    reading.transducer = shot.transducer;
+    reading.stamp = shot.time;
+    reading.sensor = ring_.transducer(shot.transducer);
+    scan_.readings[shot.transducer] = reading;
+    if (++listened_ < ring_.count) continue;
+    completed_ = scan_;
+    listened_ = 0;
+  }
+}
+
+std::optional<double> SonarModel::heard(const Caster& caster, const SonarAir& air, const Shot& shot) const {
+  const Echo echo = echo_of(caster, shot.beam, errors_.critical_angle);
+  if (!errors_.sonar_crosstalk) return echo.range;
+  const std::optional<double> stray = air.stray(caster, shot.beam, shot.chirp, shot.time, echo.surfaces);
+  if (!stray || !echo.range) return stray ? stray : echo.range;
+  return std::min(*stray, *echo.range);
 }
 
 SonarReading SonarModel::measured(std::optional<double> echo) {

@@ -2,52 +2,52 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "orca/base/random.hpp"
 #include "orca/sim/caster.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
+#include "sonar_air.hpp"
+#include "tick_span.hpp"
 
 namespace orca::sim::detail {
 
-// The cone of one transducer at the moment it fires.
-struct Beam {
-  Pose2 sensor;            // In the world.
-  double half_lobe = 0.0;  // [rad]
-  double max_range = 0.0;  // [m]
-  double height = 0.0;     // [m]
-  std::size_t own_body = 0;
-};
-
-// The distance from which the first echo comes back [m], without noise; nothing if none is strong enough.
-[[nodiscard]] std::optional<double> first_echo(const Caster& caster, const Beam& beam, double critical_angle);
-
-// A ring whose transducers fire one after the other, evenly over its period.
+// A ring whose transducers fire one after the other, or some at once, evenly over its period. All rings of a
+// world fire before any of them listens, so that each hears the others.
 class SonarModel {
  public:
   SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start);
 
-  // Fires everything due in (from, to], while the robot moves from X_from to X_to.
-  struct Span {
-    TimePoint from, to;
-    Pose2 X_from, X_to;
-  };
-  void run(const Caster& caster, std::size_t own_body, const Span& span);
+  // Sends everything due in the span.
+  void fire(std::size_t own_body, const TickSpan& span, SonarAir& air);
+  // Takes what comes back.
+  void listen(const Caster& caster, const SonarAir& air);
 
-  // The round that was completed in the last run(), if one was.
+  // The round that was completed in the last listen(), if one was.
   [[nodiscard]] const std::optional<SonarScan>& completed() const { return completed_; }
 
  private:
-  void fire(const Caster& caster, std::size_t own_body, const Pose2& X_WB, TimePoint stamp);
-  [[nodiscard]] SonarReading measured(std::optional<double> echo);
+  struct Shot {
+    std::size_t transducer;
+    TimePoint time;
+    Beam beam;
+    std::uint64_t chirp;
+  };
+
   [[nodiscard]] TimePoint next_due() const;
+  [[nodiscard]] std::optional<double> heard(const Caster& caster, const SonarAir& air,
+                                            const Shot& shot) const;
+  [[nodiscard]] SonarReading measured(std::optional<double> echo);
 
   SonarRing ring_;
   ErrorLevels errors_;
   RandomStream random_;
   TimePoint round_start_;
-  std::size_t fired_ = 0;  // In the present round.
+  std::size_t fired_ = 0;     // In the present round.
+  std::size_t listened_ = 0;  // Likewise.
+  std::vector<Shot> shots_;   // Of this tick.
   SonarScan scan_;
   std::optional<SonarScan> completed_;
 };

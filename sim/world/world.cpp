@@ -7,6 +7,7 @@
 
 #include "arc.hpp"
 #include "contact_log.hpp"
+#include "movers.hpp"
 #include "physics.hpp"
 #include "robot.hpp"
 
@@ -16,6 +17,18 @@ namespace {
 constexpr double kFarthest = 1e5;  // [m]
 
 std::size_t index(RobotId id) { return static_cast<std::size_t>(id); }
+
+bool is_near(const Pose2& pose) {
+  return std::fabs(pose.x) <= kFarthest && std::fabs(pose.y) <= kFarthest && std::isfinite(pose.yaw);
+}
+
+// True for a plan that something solid can have.
+bool has_area(const Shape& shape) {
+  if (const auto* circle = std::get_if<Circle>(&shape)) return circle->radius > 0.0;
+  if (const auto* box = std::get_if<Box>(&shape)) return box->half.x > 0.0 && box->half.y > 0.0;
+  const Bounds b = bounds_of(shape);
+  return b.low.x < b.high.x && b.low.y < b.high.y;
+}
 
 std::string text(const Pose2& pose) {
   const auto number = [](double v) {
@@ -29,7 +42,12 @@ std::string text(const Pose2& pose) {
 
 struct World::Impl {
   Impl(WorldModel m, Options o)
-      : model(std::move(m)), options(o), errors(error_levels(o.realism)), caster(model), physics(model) {}
+      : model(std::move(m)),
+        options(o),
+        errors(error_levels(o.realism)),
+        caster(model),
+        physics(model),
+        movers(model, o.seed, caster, physics) {}
 
   WorldModel model;
   Options options;
@@ -37,23 +55,28 @@ struct World::Impl {
   Caster caster;
   detail::Physics physics;
   detail::ContactLog contact_log;
-  std::deque<detail::Robot> robots;  // Robots do not move in memory. Same numbers as in caster and physics.
+  detail::Movers movers;
+  std::deque<detail::Robot> robots;  // Robots do not move in memory. Same numbers as in physics.
+  std::vector<std::size_t> bodies;   // Of the robots, in the caster.
+  detail::SonarAir air;
   std::vector<ContactEvent> contacts;
   TimePoint now{};
 
   [[nodiscard]] detail::Robot& robot(RobotId id) { return robots.at(index(id)); }
   [[nodiscard]] Status check_birth(const std::string& name, const RobotModel& model, const Pose2& X_WB) const;
+  [[nodiscard]] Status check_room(const std::string& name, const Body& body, const Pose2& X_WO) const;
+  [[nodiscard]] const std::string& name_of(const detail::Pair& pair) const;
   void drive();
   void report_contacts();
   void move();
+  void sense();
 };
 
 Status World::Impl::check_birth(const std::string& name, const RobotModel& robot_model,
                                 const Pose2& X_WB) const {
   if (name.empty()) return fail(Code::invalid_argument, "a robot needs a name");
   const std::string who = "robot '" + name + "'";
-  const bool near = std::fabs(X_WB.x) <= kFarthest && std::fabs(X_WB.y) <= kFarthest;
-  if (!near || !std::isfinite(X_WB.yaw))
+  if (!is_near(X_WB))
     return fail(Code::invalid_argument, who + ": its start pose is not finite or beyond 100 km");
   const std::string there = who + " cannot start at " + text(X_WB) + ": it would stand in ";
   const std::string remedy = "; choose a free place";
@@ -64,9 +87,21 @@ Status World::Impl::check_birth(const std::string& name, const RobotModel& robot
     if (overlap(body, placed(other.model.footprint, other.pose)))
       return fail(Code::failed_precondition, there + "robot '" + other.name + "'" + remedy);
   }
-  if (const Obstacle* o = model.obstacle_at(body, robot_model.bottom))
+  if (const Obstacle* o = model.obstacle_at(body, robot_model.bottom, robot_model.top))
     return fail(Code::failed_precondition,
                 there + "obstacle '" + o->name + "' of world '" + model.name + "'" + remedy);
+  if (const std::string* name_there = movers.at(body, robot_model.bottom))
+    return fail(Code::failed_precondition, there + "'" + *name_there + "'" + remedy);
+  return ok();
+}
+
+Status World::Impl::check_room(const std::string& name, const Body& body, const Pose2& X_WO) const {
+  const std::string who = "obstacle '" + name + "'";
+  if (!is_near(X_WO)) return fail(Code::invalid_argument, who + ": its pose is not finite or beyond 100 km");
+  for (const detail::Robot& robot : robots)
+    if (body.top > robot.model.bottom && overlap(body.shape, placed(robot.model.footprint, robot.pose)))
+      return fail(Code::failed_precondition, who + " cannot stand at " + text(X_WO) + ": robot '" +
+                                                 robot.name + "' is there; choose a free place");
   return ok();
 }
 
@@ -80,16 +115,21 @@ void World::Impl::drive() {
     const double speed = r.driving.forward * detail::chord_ratio(turn);
     physics.set_velocity(i, speed * direction(r.pose.yaw + 0.5 * turn), r.driving.turn);
   }
+  movers.walk(kTick, robots);
   physics.step(seconds);
   now += kTick;
+}
+
+const std::string& World::Impl::name_of(const detail::Pair& pair) const {
+  if (pair.kind == detail::Kind::robot) return robots[pair.other].name;
+  return pair.kind == detail::Kind::mover ? movers.name(pair.other) : model.obstacles[pair.other].name;
 }
 
 void World::Impl::report_contacts() {
   contacts.clear();
   for (const detail::Pair& p : contact_log.update(physics.near_pairs())) {
     const detail::Robot& r = robots[p.robot];
-    const std::string& other = p.other_is_robot ? robots[p.other].name : model.obstacles[p.other].name;
-    contacts.push_back({r.name, now, other, std::fabs(r.driving.forward)});
+    contacts.push_back({r.name, now, name_of(p), std::fabs(r.driving.forward)});
   }
 }
 
@@ -97,7 +137,16 @@ void World::Impl::move() {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     detail::Robot& r = robots[i];
     r.moved(physics.pose(i), now, contact_log.touches(i));
-    caster.move_body(i, placed(r.model.footprint, r.pose));
+    caster.move_body(bodies[i], placed(r.model.footprint, r.pose));
+  }
+}
+
+void World::Impl::sense() {
+  air.settle(now - kTick);
+  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].chirp(air, bodies[i]);
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    robots[i].sense(caster, air, bodies[i]);
+    if (!robots[i].bumpers.empty()) robots[i].feel(physics.touches(i));
   }
 }
 
@@ -110,8 +159,40 @@ Result<RobotId> World::add_robot(const std::string& name, const RobotModel& mode
   if (const Status s = impl_->check_birth(name, model, X_WB); !s) return s.error();
   impl_->robots.emplace_back(detail::Robot::Birth{name, X_WB, impl_->now, impl_->options.seed, kTick}, model,
                              impl_->errors);
-  impl_->physics.add_robot(model, X_WB);
-  return RobotId{impl_->caster.add_body({placed(model.footprint, X_WB), model.bottom, model.top})};
+  impl_->bodies.push_back(impl_->caster.add_body({placed(model.footprint, X_WB), model.bottom, model.top}));
+  return RobotId{impl_->physics.add_robot(model, X_WB)};
+}
+
+Result<ObstacleId> World::add_obstacle(const std::string& name, const Shape& shape, double height,
+                                       const Pose2& X_WO) {
+  if (name.empty()) return fail(Code::invalid_argument, "an obstacle needs a name");
+  if (impl_->movers.has_name(name))
+    return fail(Code::already_exists, "there is a '" + name + "' already; choose another name");
+  const std::string who = "obstacle '" + name + "'";
+  if (!(height > 0.0 && height <= kFarthest))
+    return fail(Code::invalid_argument, who + ": its height must be more than 0 m and at most 100 km");
+  if (!has_area(shape)) return fail(Code::invalid_argument, who + ": its shape has no area");
+  if (const Status s = impl_->check_room(name, {placed(shape, X_WO), 0.0, height}, X_WO); !s)
+    return s.error();
+  return ObstacleId{impl_->movers.add(name, shape, height, X_WO)};
+}
+
+Status World::move_obstacle(ObstacleId obstacle, const Pose2& X_WO) {
+  const auto number = static_cast<std::size_t>(obstacle);
+  detail::Movers& movers = impl_->movers;
+  if (!movers.is_obstacle(number)) return fail(Code::not_found, "there is no such obstacle in the world");
+  if (const Status s = impl_->check_room(movers.name(number), movers.body_at(number, X_WO), X_WO); !s)
+    return s;
+  movers.move(number, X_WO);
+  return ok();
+}
+
+Status World::remove_obstacle(ObstacleId obstacle) {
+  const auto number = static_cast<std::size_t>(obstacle);
+  if (!impl_->movers.is_obstacle(number))
+    return fail(Code::not_found, "there is no such obstacle in the world");
+  impl_->movers.remove(number);
+  return ok();
 }
 
 std::optional<RobotId> World::find(std::string_view name) const {
@@ -131,7 +212,7 @@ void World::step() {
   impl_->drive();
   impl_->report_contacts();
   impl_->move();
-  for (std::size_t i = 0; i < impl_->robots.size(); ++i) impl_->robots[i].sense(impl_->caster, i);
+  impl_->sense();
 }
 
 TimePoint World::time() const { return impl_->now; }
@@ -141,15 +222,26 @@ const std::vector<ContactEvent>& World::contacts() const { return impl_->contact
 const std::optional<SonarScan>& World::sonar(RobotId robot, std::size_t ring) const {
   return impl_->robot(robot).sonars.at(ring).completed();
 }
+const std::optional<LaserScan>& World::laser(RobotId robot, std::size_t laser) const {
+  return impl_->robot(robot).lasers.at(laser).completed();
+}
+const std::optional<InfraredScan>& World::infrared(RobotId robot, std::size_t ring) const {
+  return impl_->robot(robot).infrareds.at(ring).completed();
+}
+const std::optional<BumperReading>& World::bumper(RobotId robot, std::size_t ring) const {
+  return impl_->robot(robot).bumpers.at(ring).completed();
+}
 const std::optional<OdometryReading>& World::odometry(RobotId robot) const {
   return impl_->robot(robot).odometry;
 }
 const WorldModel& World::model() const { return impl_->model; }
 const RobotModel& World::robot_model(RobotId robot) const { return impl_->robot(robot).model; }
 const Caster& World::caster() const { return impl_->caster; }
+std::size_t World::body(RobotId robot) const { return impl_->bodies.at(index(robot)); }
 
 Scene World::scene() const {
   Scene scene = scene_of(impl_->model);
+  impl_->movers.draw(scene);
   for (const detail::Robot& r : impl_->robots) scene.robots.push_back(r.drawn());
   return scene;
 }
@@ -158,6 +250,7 @@ std::uint64_t World::state_hash() const {
   Fnv1a hash;
   hash.add_u64(static_cast<std::uint64_t>(impl_->now.time_since_epoch().count()));
   for (const detail::Robot& r : impl_->robots) r.add_to(hash);
+  impl_->movers.add_to(hash);
   return hash.value();
 }
 

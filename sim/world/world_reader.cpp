@@ -8,6 +8,7 @@
 
 #include "generator_reader.hpp"
 #include "orca/sim/bitmap.hpp"
+#include "walker_reader.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -53,9 +54,10 @@ std::optional<BitmapScale> scale_of(const Attributes& bitmap) {
 // Each place is compared with each obstacle.
 constexpr std::size_t kMaxObstacles = 100'000;
 constexpr std::size_t kMaxPlaces = 1000;
+constexpr std::size_t kMaxWalkers = 200;
 
-const std::vector<std::string> kElements{"wall",    "room",   "box",   "cylinder",
-                                         "polygon", "bitmap", "place", "generate"};
+const std::vector<std::string> kElements{"wall",   "room",  "box",      "cylinder", "polygon",
+                                         "bitmap", "place", "generate", "walker"};
 
 }  // namespace
 
@@ -63,9 +65,10 @@ WorldModel WorldReader::read(const xml::Element& root) {
   const Attributes world = of(root);
   header(world);
   if (!within_limits(world)) return std::move(world_);
-  constexpr std::array<Read, 8> kReaders{&WorldReader::wall,     &WorldReader::room,    &WorldReader::box,
-                                         &WorldReader::cylinder, &WorldReader::polygon, &WorldReader::bitmap,
-                                         &WorldReader::place,    &WorldReader::generate};
+  constexpr std::array<Read, 9> kReaders{
+      &WorldReader::wall,     &WorldReader::room,     &WorldReader::box,
+      &WorldReader::cylinder, &WorldReader::polygon,  &WorldReader::bitmap,
+      &WorldReader::place,    &WorldReader::generate, &WorldReader::walker};
   for (const xml::Element& e : root.children()) {
     const auto known = std::ranges::find(kElements, e.name());
     if (known == kElements.end()) continue;
@@ -73,6 +76,7 @@ WorldModel WorldReader::read(const xml::Element& root) {
   }
   check_seed(world);
   check_places();
+  check_walkers();
   return std::move(world_);
 }
 
@@ -87,16 +91,20 @@ void WorldReader::header(const Attributes& world) {
 
 bool WorldReader::within_limits(const Attributes& world) const {
   const auto& elements = world.element().children();
-  const auto is_place = [](const xml::Element& e) { return e.name() == "place"; };
-  const auto places = static_cast<std::size_t>(std::ranges::count_if(elements, is_place));
-  const auto too_many = [&](std::size_t count, const char* what, std::size_t limit) {
-    if (count <= limit) return false;
-    world.error(14, "the world has " + std::to_string(count) + " " + what + ", at most " +
+  const auto count = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::ranges::count(elements, name, &xml::Element::name));
+  };
+  const auto too_many = [&](std::size_t found, const char* what, std::size_t limit) {
+    if (found <= limit) return false;
+    world.error(14, "the world has " + std::to_string(found) + " " + what + ", at most " +
                         std::to_string(limit) + " are read");
     return true;
   };
-  const bool obstacles_fit = !too_many(elements.size() - places, "obstacles", kMaxObstacles);
-  return !too_many(places, "places", kMaxPlaces) && obstacles_fit;
+  const bool obstacles = too_many(elements.size() - count("place"), "obstacles", kMaxObstacles);
+  const bool places = too_many(count("place"), "places", kMaxPlaces);
+  const bool walkers = too_many(count("walker"), "walkers", kMaxWalkers);
+  const bool generated = too_many(count("generate"), "generated parts", 1);
+  return !obstacles && !places && !walkers && !generated;
 }
 
 std::optional<double> WorldReader::height(const Attributes& element) const {
@@ -253,6 +261,21 @@ void WorldReader::generate(const Attributes& element) {
     claim(element, "place", place.name);
     add_place(element, std::move(place));
   }
+}
+
+void WorldReader::walker(const Attributes& element) {
+  auto walker = read_walker(element);
+  if (element.has("name") && !walker.name.empty()) claim(element, "obstacle", walker.name);
+  world_.walkers.push_back(std::move(walker));
+  walker_positions_.push_back(element.element().position());
+}
+
+void WorldReader::check_walkers() const {
+  for (std::size_t i = 0; i < world_.walkers.size(); ++i)
+    if (const Obstacle* o = obstacle_on_track(world_.walkers[i], world_))
+      diagnostics_.error("W019", walker_positions_[i],
+                         "\"" + world_.walkers[i].name + "\" would walk through obstacle \"" + o->name +
+                             "\"; lead its track around");
 }
 
 void WorldReader::check_seed(const Attributes& world) const {

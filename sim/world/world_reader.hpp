@@ -35,6 +35,7 @@ class WorldReader {
   void bitmap(const Attributes& element);
   void place(const Attributes& element);
   void generate(const Attributes& element);
+  void walker(const Attributes& element);
 
   void add_wall(const Attributes& element, WallPlan plan);
   void add(const Attributes& element, Shape shape, double height);
@@ -45,6 +46,7 @@ class WorldReader {
   std::string own_name(const Attributes& element);
   void claim(const Attributes& element, const std::string& kind, const std::string& name);
   void check_places() const;
+  void check_walkers() const;
   void check_seed(const Attributes& world) const;
 
   std::string file_name_;
@@ -53,6 +55,7 @@ class WorldReader {
   WorldModel world_;
   std::map<std::string, xml::Position> taken_;  // By kind and name.
   std::vector<xml::Position> place_positions_;
+  std::vector<xml::Position> walker_positions_;
 };
 
 }  // namespace orca::sim::detail

@@ -6,9 +6,10 @@
 
 namespace orca::hw {
 
-void SensorEndpoint::set_sink(Sink sink) {
+void SensorEndpoint::set_sink(const void* owner, Sink sink) {
   const std::lock_guard lock(mutex_);
-  sink_ = std::move(sink);
+  std::erase_if(sinks_, [owner](const auto& entry) { return entry.first == owner; });
+  if (sink) sinks_.emplace_back(owner, std::move(sink));
 }
 
 ObjectRef SensorEndpoint::latest() const {
@@ -23,7 +24,8 @@ void SensorEndpoint::forget() {
 
 void SensorEndpoint::publish_loan(ObjectLoan reading) {
   const std::lock_guard lock(mutex_);
-  latest_ = sink_ ? sink_(std::move(reading)) : std::move(reading).seal();
+  latest_ = sinks_.empty() ? std::move(reading).seal() : sinks_.front().second(std::move(reading));
+  for (std::size_t i = 1; i < sinks_.size(); ++i) sinks_[i].second(copy_value(latest_));
 }
 
 MotionHW::MotionHW(const DriveLimits& limits, Duration max_command_age)

@@ -36,12 +36,12 @@ class HardwareServer::SensorPorts {
         push_(server, std::string(sensor.type().name) + "Push", sensor),
         query_(server, std::string(sensor.type().name) + "Query", type_id(object_type<idl::Ask>()),
                type_id(sensor.type()), [this](const ObjectRef&) { return answer(); }, {}) {}
-  ~SensorPorts() { sensor_.set_sink(nullptr); }
+  ~SensorPorts() { sensor_.set_sink(this, nullptr); }
   SensorPorts(const SensorPorts&) = delete;
   SensorPorts& operator=(const SensorPorts&) = delete;
 
   void connect() {
-    sensor_.set_sink([this](ObjectLoan reading) {
+    sensor_.set_sink(this, [this](ObjectLoan reading) {
       ObjectRef pushed = push_.push(std::move(reading));
       server_.host().strand().wake();  // a query may wait for it
       return pushed;
@@ -76,12 +76,15 @@ class HardwareServer::SensorPorts {
   QueryServerHandle query_;
 };
 
-HardwareServer::HardwareServer(ComponentHost& host, Source source)
+HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectType* only)
     : Component(host), container_(host.hardware()) {
   lap_every(kWatchPeriod);
   if (container_ == nullptr) return;
-  for (SensorEndpoint* sensor : container_->sensors())
-    if (sensor->source() == source) sensors_.push_back(std::make_unique<SensorPorts>(*this, *sensor));
+  for (SensorEndpoint* sensor : container_->sensors()) {
+    const bool wanted = only == nullptr || only == &sensor->type();
+    if (wanted && sensor->source() == source)
+      sensors_.push_back(std::make_unique<SensorPorts>(*this, *sensor));
+  }
 }
 
 HardwareServer::~HardwareServer() = default;

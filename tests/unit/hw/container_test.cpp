@@ -42,7 +42,7 @@ TEST_CASE("readings come only while the device runs, and old ones are forgotten 
     RunningScout robot(executive);
     hw::SensorEndpoint& odometry = *robot.scout.sensors().at(1);
     std::atomic<int> seen{0};
-    odometry.set_sink([&](ObjectLoan reading) {
+    odometry.set_sink(&robot, [&](ObjectLoan reading) {
       ++seen;
       return std::move(reading).seal();
     });
@@ -54,7 +54,7 @@ TEST_CASE("readings come only while the device runs, and old ones are forgotten 
     robot.scout.release();
     CHECK(robot.gets(HardwareState::ready));
     CHECK_FALSE(odometry.latest());
-    odometry.set_sink(nullptr);
+    odometry.set_sink(&robot, nullptr);
   });
 }
 

@@ -9,6 +9,16 @@ using namespace orca::test;
 using Catch::Contains;
 using hw::HardwareState;
 
+namespace {
+
+class OnlySonar final : public hw::HardwareServer {
+ public:
+  explicit OnlySonar(ComponentHost& host)
+      : HardwareServer(host, hw::Source::sensor, &object_type<idl::SonarRangeReadings>()) {}
+};
+
+}  // namespace
+
 TEST_CASE("a base with sonars, odometry and wheels has five interfaces, named after what they carry",
           "[hw][server]") {
   run_on({}, [](Executive& executive) {
@@ -135,5 +145,42 @@ TEST_CASE("hardware that does not start fails the server with the driver's reaso
     CHECK(eventually(executive, [&] {
       return base.bench.diary().has("failed in start: the hardware does not start: no answer");
     }));
+  });
+}
+
+TEST_CASE("a server of one type offers the sensors that deliver it, and no others", "[hw][server]") {
+  run_on({}, [](Executive& executive) {
+    RunningScout robot(executive);
+    ComponentBench bench(executive, "sonar", &robot.scout);
+    const OnlySonar server(bench);
+    std::vector<std::string> ports;
+    for (const auto& endpoint : bench.peer().endpoints()) ports.push_back(endpoint->contract().name);
+    CHECK(ports == std::vector<std::string>{"SonarRangeReadingsPush", "SonarRangeReadingsQuery"});
+  });
+}
+
+TEST_CASE("two servers around one sensor hand out the same readings, each an object of its own",
+          "[hw][server]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    RunningScout robot(executive);
+    hw::SensorEndpoint& odometry = *robot.scout.sensors().at(1);
+    const int first = 1;
+    const int second = 2;
+    std::vector<ObjectRef> one;
+    std::vector<ObjectRef> other;
+    const auto into = [](std::vector<ObjectRef>& list) {
+      return [&list](ObjectLoan reading) { return list.emplace_back(std::move(reading).seal()); };
+    };
+    odometry.set_sink(&first, into(one));
+    odometry.set_sink(&second, into(other));
+    robot.scout.acquire();
+    CHECK(robot.gets(HardwareState::active));
+    sleep(executive, 300ms);
+    odometry.set_sink(&first, nullptr);
+    odometry.set_sink(&second, nullptr);
+    REQUIRE(one.size() >= 2);
+    REQUIRE(other.size() == one.size());
+    CHECK(one.back().get() != other.back().get());
+    CHECK(object_cast<idl::Odometry>(one.back())->x() == object_cast<idl::Odometry>(other.back())->x());
   });
 }

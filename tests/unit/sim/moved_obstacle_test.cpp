@@ -2,6 +2,7 @@
 // Obstacles that are put in, moved and taken out while the world runs.
 #include <catch2/catch.hpp>
 
+#include "orca/base/hash.hpp"
 #include "orca/sim/world.hpp"
 #include "scout.hpp"
 

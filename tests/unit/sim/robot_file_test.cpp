@@ -201,6 +201,32 @@ TEST_CASE("wrong devices are told where they stand", "[sim][robot_file]") {
       Catch::Contains("error R002: <odometri> is not known inside <orca>; did you mean \"odometry\"?"));
 }
 
+TEST_CASE("an uneven sonar ring lists where its transducers look and sit", "[sim][robot_file]") {
+  const auto ring_with = [](const std::string& directions) {
+    return robot(kBase, kDrive + replaced(kRing, "pitch=\"90 deg\"", directions));
+  };
+  std::string errors;
+  const auto listed = read(ring_with("angles='90 50 -50 -90 deg'"), errors);
+  REQUIRE(listed);
+  CHECK(listed->sonars[0].transducer(1).yaw == Approx(50.0 * kDegree));
+  CHECK(listed->sonars[0].transducer(3).y == Approx(-0.2));
+  const auto placed =
+      read(ring_with("angles='1.5 1 -1 -1.5' positions='0 0.1; 0.1 0.1; 0.1 -0.1; 0 -0.1'"), errors);
+  REQUIRE(placed);
+  CHECK(placed->sonars[0].transducer(2) == Pose2{0.1, -0.1, -1.0});
+
+  CHECK_THAT(errors_in(ring_with("angles='90 50 -50 deg'")),
+             Catch::Contains("R005: angles: \"90 50 -50 deg\" holds 3 numbers, expected 4"));
+  CHECK_THAT(errors_in(ring_with("angles='90 x -50 5 deg'")), Catch::Contains("error R005: angles"));
+  CHECK_THAT(errors_in(ring_with("angles='1 2 3 4 m'")), Catch::Contains("error R005: angles"));
+  CHECK_THAT(errors_in(ring_with("angles='1 2 3 4' pitch='90 deg'")),
+             Catch::Contains("error R022: the directions are given by angles already"));
+  CHECK_THAT(errors_in(ring_with("pitch='90 deg' positions='0 0; 0 0; 0 0; 0 0'")),
+             Catch::Contains("error R022: positions need angles"));
+  CHECK_THAT(errors_in(ring_with("angles='1 2 3 4' positions='0 0; 1 1'")),
+             Catch::Contains("error R022: there are 2 positions for 4 transducers"));
+}
+
 TEST_CASE("a missing robot file is told with its name", "[sim][robot_file]") {
   orca::xml::Diagnostics diagnostics;
   CHECK_FALSE(read_robot("no/robot.urdf", diagnostics).has_value());

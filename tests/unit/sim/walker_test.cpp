@@ -2,6 +2,7 @@
 // People who walk about.
 #include <catch2/catch.hpp>
 
+#include "orca/base/hash.hpp"
 #include "orca/sim/world.hpp"
 #include "orca/sim/world_file.hpp"
 #include "scout.hpp"

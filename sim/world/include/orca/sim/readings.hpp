@@ -24,6 +24,24 @@ struct SonarScan {
   std::vector<SonarReading> readings;
 };
 
+/// One sweep of a laser.
+struct LaserScan {
+  TimePoint stamp;             ///< Of the first reading; the last came the scanner's `sweep` later.
+  std::vector<double> ranges;  ///< [m] One per beam; the scanner's max_range: nothing came back.
+};
+
+/// What the sensors of an infrared ring measured, all at once.
+struct InfraredScan {
+  TimePoint stamp;
+  std::vector<double> ranges;  ///< [m] One per sensor; the ring's max_range: nothing is near.
+};
+
+/// What a bumper felt since its last reading.
+struct BumperReading {
+  TimePoint stamp;
+  std::vector<bool> pressed;  ///< One per segment.
+};
+
 /// What the wheel encoders tell: a pose that starts at zero where the robot was set down.
 struct OdometryReading {
   TimePoint stamp;

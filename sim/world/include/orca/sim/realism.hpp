@@ -27,8 +27,15 @@ struct ErrorLevels {
   double sonar_noise = 0.0;  ///< Deviation of a range, relative.
   double sonar_outliers = 0.0;  ///< Probability that a reading is arbitrary.
   double critical_angle =
-      0.5 * std::numbers::pi;  ///< [rad] A smooth surface hit at more than this gives no echo.
-  bool quantised = false;      ///< Readings come in the device's steps.
+      0.5 * std::numbers::pi;    ///< [rad] A smooth surface hit at more than this gives no echo.
+  bool sonar_crosstalk = false;  ///< Transducers hear what others have sent.
+  double laser_bias = 0.0;       ///< [m] Bound of the error that all ranges of a laser share in a run.
+  double laser_sigma = 0.0;      ///< [m] Deviation of a range.
+  double laser_drop_angle =
+      0.5 * std::numbers::pi;   ///< [rad] A surface hit at more than this returns nothing.
+  bool mixed_pixels = false;    ///< A spot on two surfaces reads as something in between.
+  double infrared_noise = 0.0;  ///< [1/m] Deviation of an infrared range per square of the range.
+  bool quantised = false;       ///< Readings come in the device's steps.
 };
 
 [[nodiscard]] ErrorLevels error_levels(Realism realism);

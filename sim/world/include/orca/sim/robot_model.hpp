@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
+#include "orca/sim/sensors.hpp"
 #include "orca/sim/shape.hpp"
 
 namespace orca::sim {
@@ -55,12 +56,14 @@ struct Drive {
 };
 
 /// A ring of sonar transducers. Number k looks along first_angle + k * pitch from the ring's centre and sits
-/// `radius` from it in that direction.
+/// `radius` from it in that direction; an uneven ring lists where each looks, and may list where each sits.
 struct SonarRing {
   std::string name;
   std::size_t count = 0;
   double first_angle = 0.0;        ///< [rad] In the base frame, counter-clockwise from ahead.
   double pitch = 0.0;              ///< [rad] Positive: counter-clockwise.
+  std::vector<double> angles;      ///< [rad] Of each transducer; empty: evenly spaced as above.
+  std::vector<Vec2> positions;     ///< [m] Of each transducer about the centre; empty: on the circle.
   double half_lobe = 0.0;          ///< [rad] Half the opening of the cone.
   double min_range = 0.0;          ///< [m] Nearer echoes read as this.
   double max_range = 0.0;          ///< [m] What no echo reads as.
@@ -71,6 +74,7 @@ struct SonarRing {
   Pose2 center;                    ///< Of that link in the base frame.
   double height = 0.0;             ///< [m] Of that link above the floor.
   std::vector<std::size_t> order;  ///< Firing order, a permutation of 0 .. count - 1.
+  std::size_t parallel = 1;        ///< So many that follow each other in `order` fire at once.
 
   /// Where transducer `k` sits and looks, in the base frame.
   [[nodiscard]] Pose2 transducer(std::size_t k) const;
@@ -96,6 +100,9 @@ struct RobotModel {
   double top = 0.0;            ///< [m] Highest point of the parts.
   Drive drive;
   std::vector<SonarRing> sonars;
+  std::vector<LaserScanner> lasers;
+  std::vector<InfraredRing> infrareds;
+  std::vector<BumperRing> bumpers;
   std::optional<Odometer> odometer;
   std::string urdf;  ///< The file's text, for viewers.
 

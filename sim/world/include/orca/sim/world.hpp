@@ -21,6 +21,9 @@ namespace orca::sim {
 /// Names a robot of one World; comes from add_robot.
 enum class RobotId : std::size_t {};
 
+/// Names an obstacle that was put into one World while it ran; comes from add_obstacle.
+enum class ObstacleId : std::size_t {};
+
 /// A running simulation: a world, robots in it, and time that advances by step() and by nothing else.
 ///
 /// Two worlds that are built and used alike with the same options are bit-identical at each tick. A World
@@ -53,6 +56,25 @@ class World {
   /// The robot of that name, if there is one.
   [[nodiscard]] std::optional<RobotId> find(std::string_view name) const;
 
+  /// Puts an obstacle in. Sensors see it and robots touch it from the next tick on.
+  ///
+  /// @param name    as contacts tell it; not empty, no other such obstacle's and no walker's.
+  /// @param shape   in a frame of its own.
+  /// @param height  [m] how tall it stands on the floor.
+  /// @param X_WO    where that frame is in the world.
+  /// @errors  already_exists: the name is taken. invalid_argument: no name, no area, no height, or a pose
+  /// that is
+  ///          not finite. failed_precondition: a robot is there, and which.
+  [[nodiscard]] Result<ObstacleId> add_obstacle(const std::string& name, const Shape& shape, double height,
+                                                const Pose2& X_WO);
+
+  /// Takes such an obstacle elsewhere, at once: it pushes nothing on the way.
+  /// @errors  not_found: it was taken out. Else as add_obstacle().
+  Status move_obstacle(ObstacleId obstacle, const Pose2& X_WO);
+
+  /// @errors  not_found: it was taken out already.
+  Status remove_obstacle(ObstacleId obstacle);
+
   /// What the base shall do from now on; the drive's limits, lag and dead time apply.
   ///
   /// @param forward [m/s]    along the robot's x axis.
@@ -78,13 +100,24 @@ class World {
   /// The round that the robot's sonar ring number `ring` completed in the last tick, if it did.
   [[nodiscard]] const std::optional<SonarScan>& sonar(RobotId robot, std::size_t ring = 0) const;
 
+  /// The scan that the robot's laser number `laser` completed in the last tick, if it did.
+  [[nodiscard]] const std::optional<LaserScan>& laser(RobotId robot, std::size_t laser = 0) const;
+
+  /// The round that the robot's infrared ring number `ring` measured in the last tick, if it did.
+  [[nodiscard]] const std::optional<InfraredScan>& infrared(RobotId robot, std::size_t ring = 0) const;
+
+  /// What the robot's bumper number `ring` tells, if a reading became due in the last tick.
+  [[nodiscard]] const std::optional<BumperReading>& bumper(RobotId robot, std::size_t ring = 0) const;
+
   /// The odometry if it became due in the last tick. Never for a robot without odometer.
   [[nodiscard]] const std::optional<OdometryReading>& odometry(RobotId robot) const;
 
   [[nodiscard]] const WorldModel& model() const;
   [[nodiscard]] const RobotModel& robot_model(RobotId robot) const;
-  /// For further sensors: casts see the robots where they are now; body number = the RobotId's value.
+  /// For further sensors: casts see the robots, walkers and obstacles where they are now.
   [[nodiscard]] const Caster& caster() const;
+  /// The robot's number among the caster's bodies.
+  [[nodiscard]] std::size_t body(RobotId robot) const;
   /// What to draw, with the way each robot has come.
   [[nodiscard]] Scene scene() const;
 

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "orca/sim/shape.hpp"
+#include "orca/sim/walker.hpp"
 
 namespace orca::sim {
 
-/// Something solid that stands on the floor and never moves.
+/// Something solid that never moves: an upright body over its plan.
 struct Obstacle {
   std::string name;     ///< For people, e.g. "wall" or "desk_2"; need not be unique.
   Shape shape;          ///< Its plan, in the world frame.
-  double height = 0.0;  ///< [m] A sensor mounted higher does not see it.
+  double height = 0.0;  ///< [m] Its top above the floor; a sensor as high or higher does not see it.
+  double bottom = 0.0;  ///< [m] Its underside above the floor, e.g. of a table top; 0: it stands on it.
 };
 
 /// A named pose, e.g. where a robot starts or is to go.
@@ -22,11 +25,13 @@ struct Place {
   Pose2 pose;
 };
 
-/// A world without robots: a plan with heights (2.5-D), and named places. A plain value.
+/// A world without robots: a plan with heights (2.5-D), named places, and people who walk about. A plain
+/// value.
 struct WorldModel {
   std::string name;
   std::vector<Obstacle> obstacles;
   std::vector<Place> places;
+  std::vector<Walker> walkers{};
 
   /// The place of that name, or null.
   [[nodiscard]] const Place* place(std::string_view name) const;
@@ -34,8 +39,10 @@ struct WorldModel {
   /// The rectangle that holds all obstacles and places.
   [[nodiscard]] Bounds bounds() const;
 
-  /// The first obstacle that overlaps `body` and is taller than `bottom` [m], or null.
-  [[nodiscard]] const Obstacle* obstacle_at(const Shape& body, double bottom) const;
+  /// The first obstacle that shares a point with the upright body over `body` between `bottom` and `top` [m],
+  /// or null.
+  [[nodiscard]] const Obstacle* obstacle_at(const Shape& body, double bottom,
+                                            double top = std::numeric_limits<double>::infinity()) const;
 };
 
 }  // namespace orca::sim

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
@@ -36,8 +37,9 @@ class SensorEndpoint {
   [[nodiscard]] Duration period() const { return period_; }
   [[nodiscard]] Source source() const { return source_; }
 
-  /// Where readings go; null: nowhere.
-  void set_sink(Sink sink);
+  /// Where readings go for `owner`, which has one sink at most; null takes it back. Several servers may wrap
+  /// one sensor: each gets an object of its own.
+  void set_sink(const void* owner, Sink sink);
 
   /// The last reading since the hardware was started, or null.
   [[nodiscard]] ObjectRef latest() const;
@@ -52,7 +54,7 @@ class SensorEndpoint {
   const Duration period_;
   const Source source_;
   mutable std::mutex mutex_;
-  Sink sink_;
+  std::vector<std::pair<const void*, Sink>> sinks_;  // in the order in which they came
   ObjectRef latest_;
 };
 

@@ -24,7 +24,8 @@ namespace orca::hw {
 class HardwareServer : public Component {
  public:
   /// @param source  which of the container's sensors to offer.
-  HardwareServer(ComponentHost& host, Source source);
+  /// @param only    of these, the ones that deliver objects of this type; null: all.
+  HardwareServer(ComponentHost& host, Source source, const ObjectType* only = nullptr);
   ~HardwareServer() override;
 
   Status configure() override;

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "orca/base/random.hpp"
+#include "orca/sim/caster.hpp"
+#include "orca/sim/readings.hpp"
+#include "orca/sim/realism.hpp"
+#include "orca/sim/sensors.hpp"
+#include "tick_span.hpp"
+
+namespace orca::sim::detail {
+
+// A scanning laser. Each beam is cast from where the robot is at that beam's own instant; the last one falls
+// at the end of the period.
+class LaserModel {
+ public:
+  LaserModel(LaserScanner scanner, const ErrorLevels& errors, RandomStream random, TimePoint start);
+
+  // Shoots every beam due in the span.
+  void run(const Caster& caster, std::size_t own_body, const TickSpan& span);
+
+  // The scan that was completed in the last run(), if one was.
+  [[nodiscard]] const std::optional<LaserScan>& completed() const { return completed_; }
+
+ private:
+  struct Beam {
+    Ray ray;
+    Hit hit;
+  };
+
+  [[nodiscard]] TimePoint due(std::size_t beam) const;
+  [[nodiscard]] Ray ray(const Pose2& X_WB, std::size_t own_body) const;
+  void shoot(const Caster& caster, const Ray& ray);
+  [[nodiscard]] bool returns(const Hit& hit) const;
+  void mix(const Caster& caster, const Beam& beam, double rim, double& range) const;
+  void complete();
+  [[nodiscard]] double measured(double range);
+
+  LaserScanner scanner_;
+  ErrorLevels errors_;
+  RandomStream random_;
+  double bias_;  // [m] Of this device in this run.
+  TimePoint scan_end_;
+  Beam previous_;
+  std::vector<double> ranges_;  // Of the present scan, without noise; max_range: nothing came back.
+  std::optional<LaserScan> completed_;
+};
+
+}  // namespace orca::sim::detail

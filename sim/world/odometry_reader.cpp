@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "extension_readers.hpp"
+
+namespace orca::sim::detail {
+
+void read_odometry(const Attributes& e, RobotModel& model) {
+  e.allow({"period"}, {});
+  const auto period = e.duration("period", Sign::positive);
+  if (!period) return;
+  check_period(e, *period);
+  model.odometer = Odometer{*period};
+}
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "orca/base/time.hpp"
+#include "orca/sim/caster.hpp"
+
+namespace orca::sim::detail {
+
+// The cone of one transducer at the moment it fires.
+struct Beam {
+  Pose2 sensor;            // In the world.
+  double half_lobe = 0.0;  // [rad]
+  double min_range = 0.0;  // [m] It is deaf to what comes back sooner.
+  double max_range = 0.0;  // [m]
+  double height = 0.0;     // [m]
+  std::size_t own_body = 0;
+
+  [[nodiscard]] Ray ray(Vec2 towards) const {
+    return {sensor.position(), towards, max_range, height, own_body};
+  }
+};
+
+// Of the sound on the axis. A smooth wall is just heard at the rim of the lobe, exp(-2) = 0.135.
+constexpr double kThreshold = 0.1;
+// An edge scatters a part of the sound only, so it is heard in the middle of the beam only.
+constexpr double kEdgeStrength = 0.3;
+// [m] A point of a surface is seen if the ray to it ends this close to it.
+constexpr double kSeen = 1e-6;
+
+// What there is to hear of a transducer's own sound.
+struct Echo {
+  std::optional<double> range;    // [m] From where the first comes back that is strong enough.
+  std::vector<Surface> surfaces;  // All that the beam meets.
+};
+
+// The first echo, without noise. Surfaces met at more than `critical_angle` [rad] mirror the sound away; if
+// nothing else is heard, what it meets behind such a mirror counts, as far as the sound has gone.
+[[nodiscard]] Echo echo_of(const Caster& caster, const Beam& beam, double critical_angle);
+
+}  // namespace orca::sim::detail

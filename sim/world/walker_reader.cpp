@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "walker_reader.hpp"
+
+#include <algorithm>
+
+#include "generator_reader.hpp"
+
+namespace orca::sim::detail {
+namespace {
+
+constexpr std::size_t kMaxCorners = 100;
+
+template <class To, class From>
+void set(To& to, const std::optional<From>& from) {
+  if (from) to = *from;
+}
+
+// Why nobody can walk along these corners; empty if one can.
+std::string track_fault(const std::vector<Vec2>& track) {
+  if (track.size() < 2) return "a track needs at least 2 corners, found " + std::to_string(track.size());
+  if (track.size() > kMaxCorners)
+    return "a track may have 100 corners, found " + std::to_string(track.size());
+  const auto elsewhere = [&](Vec2 corner) { return !(corner == track.front()); };
+  return std::ranges::any_of(track, elsewhere) ? ""
+                                               : "the track has no length: all its corners are one point";
+}
+
+void read_track(const Attributes& element, Walker& walker) {
+  auto track = element.points("track");
+  if (!track) return;
+  if (const std::string fault = track_fault(*track); !fault.empty())
+    return element.error_at("track", 19, fault);
+  walker.track = std::move(*track);
+}
+
+// What a circle covers on its way along a leg, but for the half circles at the ends.
+Box swept(Vec2 from, Vec2 to, double radius) {
+  const Vec2 middle = 0.5 * (from + to);
+  const Vec2 way = to - from;
+  return {{middle.x, middle.y, std::atan2(way.y, way.x)}, {0.5 * norm(way), radius}};
+}
+
+}  // namespace
+
+Walker read_walker(const Attributes& element) {
+  element.allow({"name", "track", "speed", "radius", "height", "loop", "pause", "start", "seed", "stops"},
+                {});
+  Walker walker;
+  set(walker.name, element.name("name"));
+  read_track(element, walker);
+  set(walker.speed, element.quantity_or("speed", "m/s", Sign::positive, walker.speed));
+  set(walker.radius, element.quantity_or("radius", "m", Sign::positive, walker.radius));
+  set(walker.height, element.quantity_or("height", "m", Sign::positive, walker.height));
+  if (element.has("loop")) walker.round = element.choice("loop", {"back", "round"}) == "round";
+  set(walker.pause, element.duration_or("pause", walker.pause));
+  if (element.has("start")) walker.start = element.duration("start", Sign::not_negative);
+  if (element.has("seed")) walker.seed = read_seed(element);
+  set(walker.stops, element.quantity_or("stops", "m", Sign::not_negative, walker.stops));
+  return walker;
+}
+
+const Obstacle* obstacle_on_track(const Walker& walker, const WorldModel& world) {
+  const std::vector<Vec2>& track = walker.track;
+  const std::size_t legs = track.empty() ? 0 : walker.round ? track.size() : track.size() - 1;
+  for (std::size_t i = 0; i < legs; ++i) {
+    const Vec2 from = track[i];
+    const Vec2 to = track[(i + 1) % track.size()];
+    const Obstacle* const at_corner = world.obstacle_at(Circle{from, walker.radius}, 0.0, walker.height);
+    if (at_corner != nullptr) return at_corner;
+    const Obstacle* const at_end = world.obstacle_at(Circle{to, walker.radius}, 0.0, walker.height);
+    if (at_end != nullptr) return at_end;
+    if (from == to) continue;
+    if (const Obstacle* o = world.obstacle_at(swept(from, to, walker.radius), 0.0, walker.height)) return o;
+  }
+  return nullptr;
+}
+
+}  // namespace orca::sim::detail

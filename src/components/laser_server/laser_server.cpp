@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/component.hpp"
+#include "orca/hw/server.hpp"
+#include "orca/idl/hardware.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/system.hpp"
+
+namespace {
+
+/// A scanning laser of any brand (thesis 11.1, Fig. 11.4): its scans by Push and Query, and what it is by
+/// Query.
+class LaserServer final : public orca::hw::HardwareServer {
+ public:
+  explicit LaserServer(orca::ComponentHost& host)
+      : HardwareServer(host, orca::hw::Source::sensor, &orca::object_type<orca::idl::LaserRangeReadings>()) {}
+
+ private:
+  orca::Status configure() override {
+    if (container() != nullptr && container()->description().laser_sensors().empty())
+      return orca::fail(orca::Code::failed_precondition,
+                        "its hardware has no laser; bind hardware that has one to it");
+    return HardwareServer::configure();
+  }
+
+  orca::Result<orca::Loan<orca::idl::LaserSensor>> on_describe(
+      const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
+    return orca::make_object<orca::idl::LaserSensor>(container()->description().laser_sensors().front());
+  }
+
+  orca::QueryServer<orca::idl::Ask, orca::idl::LaserSensor> description_{
+      *this,
+      "LaserSensorQuery",
+      &LaserServer::on_describe,
+      {.text = "Where the laser is mounted and what it can measure."}};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(LaserServer, "orca.LaserServer")
