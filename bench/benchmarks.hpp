@@ -10,5 +10,7 @@ void register_isolation();
 void register_query();
 void register_throughput();
 void register_graph();
+void register_sim_cast();
+void register_sim_world();
 
 }  // namespace orca::bench

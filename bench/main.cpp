@@ -52,6 +52,8 @@ int main(int argc, char** argv) {
   register_query();
   register_throughput();
   register_graph();
+  register_sim_cast();
+  register_sim_world();
   Progress progress;
   benchmark::RunSpecifiedBenchmarks(&progress);
   const int missed = print_table(std::cout, rows());

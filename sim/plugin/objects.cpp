@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "objects.hpp"
 
-#include <cmath>
 #include <numbers>
-
-#include "orca/idl/time.hpp"
 
 namespace orca::sim {
 namespace {
 
 constexpr const char* kLibrary = "sim.so";
 
-idl::Frame3D frame(const Pose2& pose, double height) {
-  idl::Frame3D frame;
-  frame.position().x(pose.x);
-  frame.position().y(pose.y);
-  frame.position().z(height);
-  frame.rotation().yaw(pose.yaw);
-  return frame;
+idl::DriveType type_of(DriveKind kind) {
+  switch (kind) {
+    case DriveKind::differential: return idl::DIFFERENTIAL;
+    case DriveKind::synchro: return idl::SYNCHRO;
+    case DriveKind::holonomic: return idl::HOLONOMIC;
+  }
+  return idl::DIFFERENTIAL;
+}
+
+idl::Actuator describe(const Turret& turret) {
+  idl::Actuator object;
+  object.name(turret.joint);
+  object.library(kLibrary);
+  object.driver("orca.hw.Sim");
+  return object;
 }
 
 idl::Drive describe(const Drive& drive) {
@@ -25,31 +30,13 @@ idl::Drive describe(const Drive& drive) {
   object.name("drive");
   object.library(kLibrary);
   object.driver("orca.hw.Sim");
-  object.type(idl::DIFFERENTIAL);
+  object.type(type_of(drive.kind));
   object.max_speed(drive.max_speed);
   object.max_steer_speed(drive.max_steer_speed);
   object.steer_gain(drive.steer_gain);
   object.speed_change(drive.max_acceleration);
   object.big_turn_angle(drive.big_turn_angle);
   object.big_turn_speed(drive.big_turn_speed);
-  return object;
-}
-
-idl::SonarRing describe(const SonarRing& ring) {
-  idl::SonarRing object;
-  object.name(ring.name);
-  object.library(kLibrary);
-  object.driver("orca.hw.Sim");
-  object.type("SonarRangeReadings");
-  object.update_interval(to_seconds(ring.period));
-  object.number(static_cast<std::uint32_t>(ring.count));
-  object.dphi(ring.pitch);
-  object.angle_sonar0(ring.first_angle);
-  object.radius(ring.radius);
-  object.half_lobe(ring.half_lobe);
-  object.scale_factor(ring.quantum);
-  object.min_range(ring.min_range);
-  object.max_range(ring.max_range);
   return object;
 }
 
@@ -67,37 +54,15 @@ void draw_circle(const Circle& circle, orca::Scene& to) {
 
 }  // namespace
 
-void fill(idl::SonarRangeReadings& object, const SonarScan& scan, const SonarRing& ring) {
-  object.ranges().clear();
-  object.poses().clear();
-  object.stamps().clear();
-  for (const SonarReading& reading : scan.readings) {
-    object.ranges().push_back(reading.range);
-    object.poses().push_back(frame(reading.sensor, ring.height));
-    object.stamps().push_back(to_time_value(reading.stamp));
-  }
-  object.min_range(ring.min_range);
-  object.max_range(ring.max_range);
-  object.half_lobe(ring.half_lobe);
-  object.pose(frame(ring.center, ring.height));
-}
-
-void fill(idl::Odometry& object, const OdometryReading& reading) {
-  object.x(reading.pose.x);
-  object.y(reading.pose.y);
-  object.steer_angle(reading.pose.yaw);
-  object.translational_velocity(reading.velocity.forward);
-  object.steering_velocity(reading.velocity.turn);
-  object.stamp(to_time_value(reading.stamp));
-}
-
-void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth) {
-  object.x(truth.pose.x);
-  object.y(truth.pose.y);
-  object.orientation(truth.pose.yaw);
-  object.translational_velocity(truth.velocity.forward);
-  object.steering_velocity(truth.velocity.turn);
-  object.stamp(to_time_value(truth.stamp));
+hw::DriveLimits limits_of(const RobotModel& robot) {
+  const Drive& drive = robot.drive;
+  return {.max_speed = drive.max_speed,
+          .max_steer_speed = drive.max_steer_speed,
+          .steer_gain = drive.steer_gain,
+          .big_turn_angle = drive.big_turn_angle,
+          .big_turn_speed = drive.big_turn_speed,
+          .type = type_of(drive.kind),
+          .turret = robot.turret.has_value()};
 }
 
 idl::Robot describe(const RobotModel& model, const std::string& name) {
@@ -109,7 +74,8 @@ idl::Robot describe(const RobotModel& model, const std::string& name) {
   robot.radius(model.radius);
   robot.bumper_radius(model.bumper_radius);
   robot.drives({describe(model.drive)});
-  for (const SonarRing& ring : model.sonars) robot.sonar_rings().push_back(describe(ring));
+  if (model.turret) robot.actuators({describe(*model.turret)});
+  describe_sensors(model, robot);
   return robot;
 }
 

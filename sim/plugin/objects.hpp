@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "orca/hw/endpoints.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/sensing.hpp"
@@ -13,11 +14,21 @@ namespace orca::sim {
 
 /// Fills the framework's objects with what the simulator measured.
 void fill(idl::SonarRangeReadings& object, const SonarScan& scan, const SonarRing& ring);
+void fill(idl::LaserRangeReadings& object, const LaserScan& scan, const LaserScanner& laser);
+void fill(idl::InfraredRangeReadings& object, const InfraredScan& scan, const InfraredRing& ring);
+void fill(idl::BumperReadings& object, const BumperReading& reading, const BumperRing& ring);
 void fill(idl::Odometry& object, const OdometryReading& reading);
+void fill(idl::TurretAngle& object, const TurretReading& reading);
 void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
+
+/// What commands the robot's base takes.
+[[nodiscard]] hw::DriveLimits limits_of(const RobotModel& robot);
 
 /// The robot's description for whoever asks.
 [[nodiscard]] idl::Robot describe(const RobotModel& model, const std::string& name);
+
+/// Adds the sensors to the robot's description.
+void describe_sensors(const RobotModel& model, idl::Robot& robot);
 
 /// Adds the walls, if no other robot of the same world has done so, and the robot of that name.
 void draw(const Scene& from, const std::string& robot, double radius, orca::Scene& to);

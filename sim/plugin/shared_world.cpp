@@ -9,6 +9,23 @@ namespace {
 
 constexpr Duration kFarBehind = std::chrono::milliseconds(200);
 
+template <class Reading>
+void shift(Reading& reading, Duration by) {
+  reading.stamp += by;
+}
+void shift(SonarScan& scan, Duration by) {
+  for (SonarReading& reading : scan.readings) reading.stamp += by;
+}
+
+// Puts a reading, if there is one, into the box with its stamp moved.
+template <class Reading>
+void take(const std::optional<Reading>& reading, std::size_t device, Duration by,
+          SharedWorld::Inbox::Readings<Reading>& box) {
+  if (!reading) return;
+  box.emplace_back(device, *reading);
+  shift(box.back().second, by);
+}
+
 }  // namespace
 
 std::shared_ptr<SharedWorld> SharedWorld::join(const std::string& key, TimePoint now,
@@ -28,13 +45,16 @@ Result<RobotId> SharedWorld::add_robot(const std::string& name, const RobotModel
                                        Duration truth_period) {
   const std::lock_guard lock(mutex_);
   const Result<RobotId> robot = world_.add_robot(name, model, X_WB);
-  if (robot) members_.push_back({*robot, name, truth_period, world_.time() + truth_period, {}});
+  const TimePoint next_turret = model.turret ? world_.time() + model.turret->period : kForever;
+  if (robot) members_.push_back({*robot, name, truth_period, world_.time() + truth_period, next_turret, {}});
   return robot;
 }
 
-Status SharedWorld::command(RobotId robot, double forward, double turn) {
+Status SharedWorld::command(RobotId robot, const Velocity& wanted, double turret_angle) {
   const std::lock_guard lock(mutex_);
-  return world_.set_velocity_command(robot, forward, turn);
+  if (world_.robot_model(robot).turret)
+    if (Status pointed = world_.set_turret_command(robot, turret_angle); !pointed.ok()) return pointed;
+  return world_.set_velocity_command(robot, wanted);
 }
 
 SharedWorld::Inbox SharedWorld::advance(RobotId robot, TimePoint now) {
@@ -52,15 +72,28 @@ void SharedWorld::step() {
   for (Member& member : members_) collect(member);
 }
 
+void SharedWorld::collect_readings(Member& member) {
+  const RobotId robot = member.robot;
+  const RobotModel& model = world_.robot_model(robot);
+  Inbox& inbox = member.inbox;
+  for (std::size_t i = 0; i < model.sonars.size(); ++i) take(world_.sonar(robot, i), i, epoch_, inbox.sonar);
+  for (std::size_t i = 0; i < model.lasers.size(); ++i) take(world_.laser(robot, i), i, epoch_, inbox.laser);
+  for (std::size_t i = 0; i < model.infrareds.size(); ++i)
+    take(world_.infrared(robot, i), i, epoch_, inbox.infrared);
+  for (std::size_t i = 0; i < model.bumpers.size(); ++i)
+    take(world_.bumper(robot, i), i, epoch_, inbox.bumper);
+}
+
+void SharedWorld::collect_turret(Member& member) {
+  if (world_.time() < member.next_turret) return;
+  member.next_turret += world_.robot_model(member.robot).turret->period;
+  member.inbox.turret.push_back(world_.turret(member.robot).value());
+  member.inbox.turret.back().stamp = on_run_clock(world_.time());
+}
+
 void SharedWorld::collect(Member& member) {
-  const std::size_t rings = world_.robot_model(member.robot).sonars.size();
-  for (std::size_t ring = 0; ring < rings; ++ring) {
-    if (const auto& scan = world_.sonar(member.robot, ring)) {
-      member.inbox.sonar.emplace_back(ring, *scan);
-      for (SonarReading& reading : member.inbox.sonar.back().second.readings)
-        reading.stamp = on_run_clock(reading.stamp);
-    }
-  }
+  collect_readings(member);
+  collect_turret(member);
   if (const auto& odometry = world_.odometry(member.robot)) {
     member.inbox.odometry.push_back(*odometry);
     member.inbox.odometry.back().stamp = on_run_clock(odometry->stamp);

@@ -26,8 +26,15 @@ class SharedWorld {
       Pose2 pose;
       Velocity velocity;
     };
-    std::vector<std::pair<std::size_t, SonarScan>> sonar;  ///< Ring number and round.
+    /// What a device measured, and its number among those of its kind.
+    template <class Reading>
+    using Readings = std::vector<std::pair<std::size_t, Reading>>;
+    Readings<SonarScan> sonar;
+    Readings<LaserScan> laser;
+    Readings<InfraredScan> infrared;
+    Readings<BumperReading> bumper;
     std::vector<OdometryReading> odometry;
+    std::vector<TurretReading> turret;
     std::vector<Truth> truth;
     struct Contact {
       ContactEvent event;
@@ -48,7 +55,8 @@ class SharedWorld {
   Result<RobotId> add_robot(const std::string& name, const RobotModel& model, const Pose2& X_WB,
                             Duration truth_period);
 
-  Status command(RobotId robot, double forward, double turn);
+  /// @errors  as World::set_velocity_command() and, for a robot with a turret, set_turret_command().
+  Status command(RobotId robot, const Velocity& wanted, double turret_angle);
 
   /// Simulates up to `now` [run's clock] and returns what the robot has sensed; its stamps are of the run's
   /// clock.
@@ -67,11 +75,14 @@ class SharedWorld {
     std::string name;
     Duration truth_period{0};
     TimePoint next_truth;
+    TimePoint next_turret;
     Inbox inbox;
   };
 
   void step();
   void collect(Member& member);
+  void collect_readings(Member& member);
+  void collect_turret(Member& member);
   [[nodiscard]] TimePoint on_run_clock(TimePoint time) const { return time + epoch_; }
 
   mutable std::mutex mutex_;

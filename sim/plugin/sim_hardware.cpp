@@ -11,6 +11,7 @@
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
 #include "shared_world.hpp"
+#include "sim_sensors.hpp"
 
 namespace {
 
@@ -20,7 +21,6 @@ using orca::TimePoint;
 
 // Longest time that a motion command holds (DESIGN 11).
 constexpr orca::Duration kMaxCommandAge = std::chrono::milliseconds(200);
-constexpr orca::Duration kTruthPeriod = std::chrono::milliseconds(100);
 
 /// A robot in the simulated world: behind the same container as real hardware. Robots whose graph entries
 /// name the same world file share one world.
@@ -35,6 +35,8 @@ class SimHardware final : public orca::hw::HardwareContainer {
     robot_ = read_robot_file(errors);
     if (!world_ || !robot_) return errors;
     find_start(errors);
+    if (const std::string why = unserved(*robot_); !why.empty())
+      errors.push_back({"robot", "\"" + *robot_file_ + "\": " + why});
     declare_endpoints();
     return errors;
   }
@@ -82,7 +84,8 @@ class SimHardware final : public orca::hw::HardwareContainer {
       }
       start_ = place->pose;
     }
-    if (const Obstacle* hit = world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom))
+    if (const Obstacle* hit =
+            world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom, robot_->top))
       errors.push_back({place_->empty() ? "x" : "place",
                         "the robot \"" + *name_ + "\" would start inside \"" + hit->name + "\" at x " +
                             orca::xml::number_text(start_.x) + " m, y " + orca::xml::number_text(start_.y) +
@@ -96,20 +99,9 @@ class SimHardware final : public orca::hw::HardwareContainer {
   }
 
   void declare_endpoints() {
-    for (const SonarRing& ring : robot_->sonars) {
-      sonars_.push_back(std::make_unique<orca::hw::SensorHW<orca::idl::SonarRangeReadings>>(ring.period));
-      add_sensor(*sonars_.back());
-    }
-    if (robot_->odometer) {
-      odometry_ = std::make_unique<orca::hw::SensorHW<orca::idl::Odometry>>(robot_->odometer->period);
-      add_sensor(*odometry_);
-    }
-    add_sensor(truth_);
-    const Drive& drive = robot_->drive;
-    motion_ = std::make_unique<orca::hw::MotionHW>(
-        orca::hw::DriveLimits{drive.max_speed, drive.max_steer_speed, drive.steer_gain, drive.big_turn_angle,
-                              drive.big_turn_speed},
-        kMaxCommandAge);
+    sensors_ = std::make_unique<SimSensors>(*robot_);
+    for (orca::hw::SensorEndpoint* endpoint : sensors_->endpoints()) add_sensor(*endpoint);
+    motion_ = std::make_unique<orca::hw::MotionHW>(limits_of(*robot_), kMaxCommandAge);
     set_motion(*motion_);
   }
 
@@ -133,7 +125,9 @@ class SimHardware final : public orca::hw::HardwareContainer {
   }
 
   Status drive(const orca::hw::DriveSetpoint& setpoint) override {
-    return shared_->command(id_, setpoint.speed, setpoint.steer_speed);
+    return shared_->command(
+        id_, {.forward = setpoint.speed, .turn = setpoint.steer_speed, .left = setpoint.side_speed},
+        setpoint.turret_angle);
   }
 
   [[nodiscard]] TimePoint next_poll() const override { return shared_->next_tick(); }
@@ -142,18 +136,8 @@ class SimHardware final : public orca::hw::HardwareContainer {
   Status poll() override {
     const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
     for (const auto& contact : inbox.contacts) report(contact);
-    if (state() != orca::hw::HardwareState::active) return orca::ok();
-    for (const auto& [ring, scan] : inbox.sonar) publish(*sonars_[ring], scan, robot_->sonars[ring]);
-    for (const OdometryReading& reading : inbox.odometry) publish(*odometry_, reading);
-    for (const auto& truth : inbox.truth) publish(truth_, truth);
+    if (state() == orca::hw::HardwareState::active) sensors_->publish(inbox);
     return orca::ok();
-  }
-
-  template <class T, class... Readings>
-  static void publish(orca::hw::SensorHW<T>& sensor, const Readings&... readings) {
-    orca::Loan<T> object = sensor.loan();
-    fill(*object, readings...);
-    sensor.publish(std::move(object));
   }
 
   void report(const SharedWorld::Inbox::Contact& contact) {
@@ -190,9 +174,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
   std::optional<WorldModel> world_;
   std::optional<RobotModel> robot_;
   Pose2 start_;
-  std::vector<std::unique_ptr<orca::hw::SensorHW<orca::idl::SonarRangeReadings>>> sonars_;
-  std::unique_ptr<orca::hw::SensorHW<orca::idl::Odometry>> odometry_;
-  orca::hw::SensorHW<orca::idl::RobotPose> truth_{kTruthPeriod, orca::hw::Source::truth};
+  std::unique_ptr<SimSensors> sensors_;
   std::unique_ptr<orca::hw::MotionHW> motion_;
   std::shared_ptr<SharedWorld> shared_;
   RobotId id_{};

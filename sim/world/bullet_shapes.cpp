@@ -6,13 +6,13 @@ namespace {
 
 // The boundary as upright rectangles of two triangles each. It is hollow, which does no harm: robots start
 // outside.
-OwnedShape extruded(const Outline& outline, double height) {
+OwnedShape extruded(const Outline& outline, double bottom, double top) {
   OwnedShape owned;
   owned.mesh = std::make_unique<btTriangleMesh>();
   for (const Segment& e : outline.edges) {
-    const btVector3 a(e.a.x, e.a.y, 0);
-    const btVector3 b(e.b.x, e.b.y, 0);
-    const btVector3 up(0, 0, height);
+    const btVector3 a(e.a.x, e.a.y, bottom);
+    const btVector3 b(e.b.x, e.b.y, bottom);
+    const btVector3 up(0, 0, top - bottom);
     owned.mesh->addTriangle(a, b, b + up);
     owned.mesh->addTriangle(a, b + up, a + up);
   }
@@ -36,17 +36,18 @@ btTransform upright(const Pose2& pose, double z) {
 }
 
 OwnedShape obstacle_shape(const Obstacle& obstacle, btTransform& X) {
-  const double half_height = 0.5 * obstacle.height;
+  const double half_height = 0.5 * (obstacle.height - obstacle.bottom);
+  const double middle = 0.5 * (obstacle.height + obstacle.bottom);
   OwnedShape owned;
   if (const auto* box = std::get_if<Box>(&obstacle.shape)) {
-    X = upright(box->pose, half_height);
+    X = upright(box->pose, middle);
     owned.shape = std::make_unique<btBoxShape>(btVector3(box->half.x, box->half.y, half_height));
   } else if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) {
-    X = upright({circle->center.x, circle->center.y, 0.0}, half_height);
+    X = upright({circle->center.x, circle->center.y, 0.0}, middle);
     owned.shape = std::make_unique<btCylinderShapeZ>(btVector3(circle->radius, circle->radius, half_height));
   } else {
     X = btTransform::getIdentity();
-    owned = extruded(std::get<Outline>(obstacle.shape), obstacle.height);
+    owned = extruded(std::get<Outline>(obstacle.shape), obstacle.bottom, obstacle.height);
   }
   return owned;
 }

@@ -30,8 +30,7 @@ void read_drive(const Attributes& e, RobotModel& model) {
   set(drive.steer_gain, e.quantity_or("steer_gain", "", Sign::positive, drive.steer_gain));
   set(drive.speed_step, e.quantity_or("speed_step", "m/s", Sign::not_negative, drive.speed_step));
   set(drive.big_turn_angle, e.quantity_or("big_turn_angle", "rad", Sign::positive, drive.big_turn_angle));
-  set(drive.big_turn_speed,
-      e.quantity_or("big_turn_speed", "m/s", Sign::not_negative, drive.big_turn_speed));
+  set(drive.big_turn_speed, e.quantity_or("big_turn_speed", "m/s", Sign::not_negative, drive.big_turn_speed));
   if (drive.dead_time > std::chrono::seconds{5})
     e.error_at("dead_time", 22, "a dead time of more than 5 s is not simulated");
 }

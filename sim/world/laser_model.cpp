@@ -49,8 +49,7 @@ void LaserModel::run(const Caster& caster, std::size_t own_body, const TickSpan&
 
 void LaserModel::shoot(const Caster& caster, const Ray& ray) {
   const Beam beam{ray, caster.cast(ray)};
-  const bool grazes = beam.hit.incidence > errors_.laser_drop_angle;
-  ranges_.push_back(grazes ? scanner_.max_range : beam.hit.range);
+  ranges_.push_back(returns(beam.hit) ? beam.hit.range : scanner_.max_range);
   const std::size_t k = ranges_.size() - 1;
   // Only where two neighbours meet different surfaces there may be an edge in the spot of either.
   if (errors_.mixed_pixels && k > 0 && beam.hit.surface != previous_.hit.surface) {
@@ -61,12 +60,13 @@ void LaserModel::shoot(const Caster& caster, const Ray& ray) {
   previous_ = beam;
 }
 
+bool LaserModel::returns(const Hit& hit) const {
+  return hit.found() && hit.incidence() <= errors_.laser_drop_angle;
+}
+
 // A spot that lies on two surfaces reads as their mean, weighted by their shares of its width. `rim` [rad] is
 // where the spot ends on the side to look at; what returns nothing has no share.
 void LaserModel::mix(const Caster& caster, const Beam& beam, double rim, double& range) const {
-  const auto returns = [this](const Hit& hit) {
-    return hit.found() && hit.incidence <= errors_.laser_drop_angle;
-  };
   const Hit other = caster.cast(turned(beam.ray, rim));
   if (!returns(beam.hit) || !returns(other)) return;
   if (std::fabs(other.range - beam.hit.range) < kDepthEdge) return;

@@ -34,6 +34,7 @@ class LaserModel {
   [[nodiscard]] TimePoint due(std::size_t beam) const;
   [[nodiscard]] Ray ray(const Pose2& X_WB, std::size_t own_body) const;
   void shoot(const Caster& caster, const Ray& ray);
+  [[nodiscard]] bool returns(const Hit& hit) const;
   void mix(const Caster& caster, const Beam& beam, double rim, double& range) const;
   void complete();
   [[nodiscard]] double measured(double range);

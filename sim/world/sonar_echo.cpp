@@ -36,7 +36,7 @@ class Listener {
     const Ray ray = beam_.ray(direction(beam_.sensor.yaw + off_axis));
     const Hit hit = caster_.cast(ray);
     if (!hit.found()) return;
-    if (hit.incidence <= critical_angle_) {
+    if (hit.incidence() <= critical_angle_) {
       offer(hit.range, off_axis, 1.0);
     } else {
       mirrored_.push_back({ray, hit, off_axis});
@@ -56,7 +56,7 @@ class Listener {
       second.direction = away;
       second.max_range = beam_.max_range - m.hit.range;
       const Hit hit = caster_.cast(second);
-      if (hit.found() && hit.incidence <= critical_angle_) offer(m.hit.range + hit.range, m.off_axis, 1.0);
+      if (hit.found() && hit.incidence() <= critical_angle_) offer(m.hit.range + hit.range, m.off_axis, 1.0);
     }
   }
 

@@ -63,7 +63,7 @@ void check_ring(const Attributes& e, const SonarRing& ring) {
 
 void read_sonar_ring(const Attributes& e, RobotModel& model) {
   e.allow({"name", "count", "first_angle", "pitch", "angles", "positions", "heights", "half_lobe",
-           "min_range", "max_range", "quantum", "radius", "period", "link", "order"},
+           "min_range", "max_range", "quantum", "radius", "period", "link", "order", "parallel"},
           {});
   SonarRing ring;
   set(ring.name, e.name("name"));
@@ -77,10 +77,9 @@ void read_sonar_ring(const Attributes& e, RobotModel& model) {
   set(ring.period, e.duration("period", Sign::positive));
   set(ring.link, e.text("link"));
   read_order(e, ring);
+  if (e.has("parallel") && ring.count > 0) set(ring.parallel, e.count("parallel", 1, ring.count));
   check_ring(e, ring);
-  if (model.sonar(ring.name) != nullptr)
-    return e.error_at("name", 10, "there is a sonar ring \"" + ring.name + "\" already; choose another name");
-  model.sonars.push_back(std::move(ring));
+  if (name_is_free(e, ring.name, model)) model.sonars.push_back(std::move(ring));
 }
 
 }  // namespace orca::sim::detail

@@ -66,7 +66,7 @@ Status World::Impl::check_birth(const std::string& name, const RobotModel& robot
     if (overlap(body, placed(other.model.footprint, other.body)))
       return fail(Code::failed_precondition, there + "robot '" + other.name + "'" + remedy);
   }
-  if (const Obstacle* o = model.obstacle_at(body, robot_model.bottom))
+  if (const Obstacle* o = model.obstacle_at(body, robot_model.bottom, robot_model.top))
     return fail(Code::failed_precondition,
                 there + "obstacle '" + o->name + "' of world '" + model.name + "'" + remedy);
   return ok();

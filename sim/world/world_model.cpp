@@ -21,8 +21,10 @@ Bounds WorldModel::bounds() const {
   return all;
 }
 
-const Obstacle* WorldModel::obstacle_at(const Shape& body, double bottom) const {
-  const auto hit = [&](const Obstacle& o) { return o.height > bottom && overlap(body, o.shape); };
+const Obstacle* WorldModel::obstacle_at(const Shape& body, double bottom, double top) const {
+  const auto hit = [&](const Obstacle& o) {
+    return o.height > bottom && o.bottom < top && overlap(body, o.shape);
+  };
   const auto found = std::ranges::find_if(obstacles, hit);
   return found == obstacles.end() ? nullptr : &*found;
 }

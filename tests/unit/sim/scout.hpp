@@ -2,6 +2,7 @@
 #pragma once
 
 #include "orca/sim/robot_model.hpp"
+#include "orca/sim/world_model.hpp"
 
 namespace orca::sim::test {
 

@@ -15,7 +15,7 @@ constexpr double kAcceleration = 4.0;  // [rad/s2]
 // A synchro base whose sonars are on a turret.
 RobotModel turreted(DriveKind kind = DriveKind::synchro) {
   RobotModel model = base_of(kind);
-  model.turret = Turret{"turret_joint", kSpeed, kAcceleration, {}};
+  model.turret = Turret{"turret_joint", kSpeed, kAcceleration, std::chrono::milliseconds{50}, {}};
   model.sonars[0].on_turret = true;
   return model;
 }

@@ -14,7 +14,7 @@ struct Ray {
   Vec2 origin;
   Vec2 direction;              ///< Of length 1.
   double max_range = 0.0;      ///< [m] Nothing farther is reported.
-  double sensor_height = 0.0;  ///< [m] Obstacles that are not taller than this are not seen.
+  double sensor_height = 0.0;  ///< [m] Above the floor: only what is solid there is seen.
   std::size_t ignore_body =
       static_cast<std::size_t>(-1);  ///< A moving body that is not seen: the sensor's own.
 };
@@ -24,17 +24,20 @@ using Surface = std::variant<std::monostate, Segment, Circle>;
 
 /// What a ray met first.
 struct Hit {
-  double range = 0.0;      ///< [m] Distance along the ray; max_range if nothing was met.
-  double incidence = 0.0;  ///< [rad] Angle between ray and surface normal, 0 (head on) to pi/2 (grazing).
+  double range = 0.0;  ///< [m] Distance along the ray; max_range if nothing was met.
   Surface surface;
+  Vec2 point;      ///< Where the ray ends.
+  Vec2 direction;  ///< Of the ray.
   [[nodiscard]] bool found() const { return surface.index() != 0; }
+  /// Angle between ray and surface normal, 0 (head on) to pi/2 (grazing) [rad]. @pre  found()
+  [[nodiscard]] double incidence() const;
 };
 
-/// Something that moves and can be seen.
+/// Something upright that can be seen and can come, move and go: a robot, a person, a box put down.
 struct Body {
   Shape shape;          ///< In the world frame, at its present pose.
-  double bottom = 0.0;  ///< [m] Lowest point above the floor.
-  double top = 0.0;     ///< [m] Highest point above the floor.
+  double bottom = 0.0;  ///< [m] Lowest point above the floor: a sensor as high as this sees it.
+  double top = 0.0;     ///< [m] Highest point above the floor: a sensor as high as this does not.
 };
 
 /// Exact ray casting against a world and the bodies in it, in closed form on a uniform grid.
@@ -44,7 +47,7 @@ struct Body {
 /// closed, so an edge parallel to the ray may be left to its neighbours. (Bullet's own ray test is off by
 /// more than 1 cm for some 4 % of rays on boxes and is not used.)
 ///
-/// Thread contract: cast() from many threads; add_body and move_body need exclusive access.
+/// Thread contract: cast() from many threads; add_body, move_body and remove_body need exclusive access.
 class Caster {
  public:
   explicit Caster(const WorldModel& world);
@@ -52,11 +55,14 @@ class Caster {
   Caster(Caster&&) noexcept;
   Caster& operator=(Caster&&) noexcept;
 
-  /// @return  the number of the new body, counting from 0.
+  /// @return  the number of the new body, counting from 0; numbers are not used again.
   std::size_t add_body(Body body);
 
   /// @pre  `number` came from add_body.
   void move_body(std::size_t number, Shape shape);
+
+  /// The body is not seen any more, whatever is done with it. @pre  `number` came from add_body.
+  void remove_body(std::size_t number);
 
   /// The first thing on the ray's way.
   [[nodiscard]] Hit cast(const Ray& ray) const;

@@ -70,6 +70,7 @@ struct Turret {
   std::string joint;              ///< The URDF joint that turns.
   double max_speed = 0.0;         ///< [rad/s]
   double max_acceleration = 0.0;  ///< [rad/s2]
+  Duration period{0};             ///< From one reading of its angle to the next.
   Vec2 axis;                      ///< [m] Where it stands in the base frame.
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,11 +10,12 @@
 
 namespace orca::sim {
 
-/// Something solid that stands on the floor and never moves.
+/// Something solid that never moves: an upright body over its plan.
 struct Obstacle {
   std::string name;     ///< For people, e.g. "wall" or "desk_2"; need not be unique.
   Shape shape;          ///< Its plan, in the world frame.
-  double height = 0.0;  ///< [m] A sensor mounted higher does not see it.
+  double height = 0.0;  ///< [m] Its top above the floor; a sensor as high or higher does not see it.
+  double bottom = 0.0;  ///< [m] Its underside above the floor, e.g. of a table top; 0: it stands on it.
 };
 
 /// A named pose, e.g. where a robot starts or is to go.
@@ -34,8 +36,10 @@ struct WorldModel {
   /// The rectangle that holds all obstacles and places.
   [[nodiscard]] Bounds bounds() const;
 
-  /// The first obstacle that overlaps `body` and is taller than `bottom` [m], or null.
-  [[nodiscard]] const Obstacle* obstacle_at(const Shape& body, double bottom) const;
+  /// The first obstacle that shares a point with the upright body over `body` between `bottom` and `top` [m],
+  /// or null.
+  [[nodiscard]] const Obstacle* obstacle_at(const Shape& body, double bottom,
+                                            double top = std::numeric_limits<double>::infinity()) const;
 };
 
 }  // namespace orca::sim

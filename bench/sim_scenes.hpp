@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "orca/sim/caster.hpp"
+#include "orca/sim/robot_model.hpp"
+#include "orca/sim/world_model.hpp"
+
+namespace orca::bench {
+
+/// 200 turned boxes and four walls in 30 x 20 m.
+sim::WorldModel two_hundred_boxes();
+
+/// The cave of the Stage simulator, 16 m wide, where its picture is at hand: in ORCA_DATA or ../shared/data.
+std::optional<sim::WorldModel> cave();
+
+/// Like the Nomad Scout, its 16 sonars fired within 100 ms.
+sim::RobotModel scout();
+
+/// 361 laser beams over 180 degrees, up to 8 m.
+class Fan {
+ public:
+  static constexpr std::size_t kBeams = 361;
+  static constexpr double kRange = 8.0;   // [m]
+  static constexpr double kHeight = 0.3;  // [m]
+  Fan();
+  /// Casts all beams from `X_WS`, not seeing `own_body`. The ranges are valid until the next call.
+  const std::array<double, kBeams>& cast(const sim::Caster& caster, const sim::Pose2& X_WS,
+                                         std::size_t own_body = static_cast<std::size_t>(-1));
+  /// The rays themselves.
+  [[nodiscard]] sim::Ray ray(std::size_t beam, const sim::Pose2& X_WS) const;
+
+ private:
+  std::array<sim::Vec2, kBeams> directions_;  // Of the sensor's frame.
+  std::array<double, kBeams> ranges_{};
+};
+
+}  // namespace orca::bench

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "frames.hpp"
+#include "objects.hpp"
+
+namespace orca::sim {
+namespace {
+
+// What every sensor's description holds.
+template <class Object, class Device>
+Object named(const Device& device, const char* type) {
+  Object object;
+  object.name(device.name);
+  object.library("sim.so");
+  object.driver("orca.hw.Sim");
+  object.type(type);
+  object.update_interval(to_seconds(device.period));
+  return object;
+}
+
+idl::SonarRing describe(const SonarRing& ring) {
+  auto object = named<idl::SonarRing>(ring, "SonarRangeReadings");
+  object.number(static_cast<std::uint32_t>(ring.count));
+  object.dphi(ring.pitch);
+  object.angle_sonar0(ring.first_angle);
+  object.radius(ring.radius);
+  object.half_lobe(ring.half_lobe);
+  object.scale_factor(ring.quantum);
+  object.min_range(ring.min_range);
+  object.max_range(ring.max_range);
+  return object;
+}
+
+idl::LaserSensor describe(const LaserScanner& laser) {
+  auto object = named<idl::LaserSensor>(laser, "LaserRangeReadings");
+  object.mount(frame(laser.center, laser.height));
+  object.number(static_cast<std::uint32_t>(laser.count));
+  object.angle_start(laser.first_angle);
+  object.angle_increment(laser.pitch);
+  object.min_range(laser.min_range);
+  object.max_range(laser.max_range);
+  return object;
+}
+
+}  // namespace
+
+void describe_sensors(const RobotModel& model, idl::Robot& robot) {
+  for (const SonarRing& ring : model.sonars) robot.sonar_rings().push_back(describe(ring));
+  for (const LaserScanner& laser : model.lasers) robot.laser_sensors().push_back(describe(laser));
+  for (const InfraredRing& ring : model.infrareds)
+    robot.sensors().push_back(named<idl::Sensor>(ring, "InfraredRangeReadings"));
+  for (const BumperRing& ring : model.bumpers)
+    robot.sensors().push_back(named<idl::Sensor>(ring, "BumperReadings"));
+}
+
+}  // namespace orca::sim

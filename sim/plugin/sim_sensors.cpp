@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "sim_sensors.hpp"
+
+#include <utility>
+
+#include "objects.hpp"
+
+namespace orca::sim {
+namespace {
+
+template <class Devices, class Models>
+void make(Devices& devices, const Models& models) {
+  for (const auto& model : models)
+    devices.push_back(std::make_unique<typename Devices::value_type::element_type>(model));
+}
+
+template <class Devices>
+void list(const Devices& devices, std::vector<hw::SensorEndpoint*>& endpoints) {
+  for (const auto& device : devices) endpoints.push_back(&device->endpoint);
+}
+
+template <class T, class... Readings>
+void publish_one(hw::SensorHW<T>& sensor, const Readings&... readings) {
+  Loan<T> object = sensor.loan();
+  fill(*object, readings...);
+  sensor.publish(std::move(object));
+}
+
+template <class Devices, class Readings>
+void publish_all(const Devices& devices, const Readings& readings) {
+  for (const auto& [number, reading] : readings)
+    publish_one(devices[number]->endpoint, reading, devices[number]->model);
+}
+
+}  // namespace
+
+SimSensors::SimSensors(const RobotModel& robot) {
+  make(sonars_, robot.sonars);
+  make(lasers_, robot.lasers);
+  make(infrareds_, robot.infrareds);
+  make(bumpers_, robot.bumpers);
+  if (robot.turret) turret_ = std::make_unique<hw::SensorHW<idl::TurretAngle>>(robot.turret->period);
+  if (robot.odometer) odometry_ = std::make_unique<hw::SensorHW<idl::Odometry>>(robot.odometer->period);
+}
+
+std::vector<hw::SensorEndpoint*> SimSensors::endpoints() {
+  std::vector<hw::SensorEndpoint*> all;
+  list(sonars_, all);
+  list(lasers_, all);
+  list(infrareds_, all);
+  list(bumpers_, all);
+  if (odometry_) all.push_back(odometry_.get());
+  if (turret_) all.push_back(turret_.get());
+  all.push_back(&truth_);
+  return all;
+}
+
+void SimSensors::publish(const SharedWorld::Inbox& inbox) {
+  publish_all(sonars_, inbox.sonar);
+  publish_all(lasers_, inbox.laser);
+  publish_all(infrareds_, inbox.infrared);
+  publish_all(bumpers_, inbox.bumper);
+  for (const OdometryReading& reading : inbox.odometry) publish_one(*odometry_, reading);
+  for (const TurretReading& reading : inbox.turret) publish_one(*turret_, reading);
+  for (const auto& truth : inbox.truth) publish_one(truth_, truth);
+}
+
+std::string unserved(const RobotModel& robot) {
+  const std::pair<const char*, std::size_t> kinds[] = {{"sonar rings", robot.sonars.size()},
+                                                       {"lasers", robot.lasers.size()},
+                                                       {"infrared rings", robot.infrareds.size()},
+                                                       {"bumper rings", robot.bumpers.size()}};
+  for (const auto& [kind, count] : kinds)
+    if (count > 1)
+      return "it has " + std::to_string(count) + " " + kind +
+             ", but ports are named after what they carry, so one of each kind can be served";
+  return "";
+}
+
+}  // namespace orca::sim

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/hw/endpoints.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/sim/robot_model.hpp"
+#include "shared_world.hpp"
+
+namespace orca::sim {
+
+/// Time between two true poses.
+inline constexpr Duration kTruthPeriod = std::chrono::milliseconds(100);
+
+/// The sensor endpoints of a simulated robot: one per device that its file lists, and one for its true pose.
+///
+/// Thread contract: one strand.
+class SimSensors {
+ public:
+  explicit SimSensors(const RobotModel& robot);
+
+  /// In the order of the robot's file, kind by kind.
+  [[nodiscard]] std::vector<hw::SensorEndpoint*> endpoints();
+
+  /// Hands out what was sensed.
+  void publish(const SharedWorld::Inbox& inbox);
+
+ private:
+  /// A device of the robot's file with its endpoint.
+  template <class Object, class Model>
+  struct Device {
+    explicit Device(const Model& made) : model(made), endpoint(made.period) {}
+    const Model model;
+    hw::SensorHW<Object> endpoint;
+  };
+  template <class Object, class Model>
+  using Devices = std::vector<std::unique_ptr<Device<Object, Model>>>;
+
+  Devices<idl::SonarRangeReadings, SonarRing> sonars_;
+  Devices<idl::LaserRangeReadings, LaserScanner> lasers_;
+  Devices<idl::InfraredRangeReadings, InfraredRing> infrareds_;
+  Devices<idl::BumperReadings, BumperRing> bumpers_;
+  std::unique_ptr<hw::SensorHW<idl::Odometry>> odometry_;
+  std::unique_ptr<hw::SensorHW<idl::TurretAngle>> turret_;
+  hw::SensorHW<idl::RobotPose> truth_{kTruthPeriod, hw::Source::truth};
+};
+
+/// What keeps the robot's sensors from being served, in words; empty: nothing does. A server names its ports
+/// after the object type, so a robot can have one device of each kind.
+[[nodiscard]] std::string unserved(const RobotModel& robot);
+
+}  // namespace orca::sim

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "bodies.hpp"
+
+#include <utility>
+
+#include "intersect.hpp"
+
+namespace orca::sim::detail {
+namespace {
+
+constexpr double kCell = 1.0;   // [m] A few robots' size.
+constexpr double kRoom = 10.0;  // [m] Around all bodies, so that they rarely leave the cells.
+constexpr double kMaxCells = 1e5;
+
+template <class Visit>
+void for_cells_of(const Cells& cells, const Cells::Range& range, const Visit& visit) {
+  for (int r = range.first_row; r <= range.last_row; ++r)
+    for (int c = range.first_column; c <= range.last_column; ++c) visit(cells.cell(c, r));
+}
+
+}  // namespace
+
+Bodies::Moving::Moving(Body b) : body(std::move(b)) { refresh(); }
+
+void Bodies::Moving::refresh() {
+  edges = edges_of(body.shape);
+  bounds = bounds_of(body.shape);
+  around.center = 0.5 * (bounds.low + bounds.high);
+  around.radius = 0.5 * norm(bounds.high - bounds.low) + kTouch;
+}
+
+bool Bodies::Moving::in_reach(const Ray& ray, double best) const {
+  const Vec2 w = around.center - ray.origin;
+  const double along = dot(ray.direction, w);
+  return std::fabs(cross(ray.direction, w)) <= around.radius && along + around.radius >= 0.0 &&
+         along - around.radius <= best;
+}
+
+void Bodies::Moving::cast(const Ray& ray, double& best, Surface& surface) const {
+  if (const auto* circle = std::get_if<Circle>(&body.shape))
+    if (meet(ray.origin, ray.direction, *circle, best)) surface = *circle;
+  for (const Segment& e : edges)
+    if (meet(ray.origin, ray.direction, e, best)) surface = e;
+}
+
+std::size_t Bodies::add(Body body) {
+  bodies_.emplace_back(std::move(body));
+  place(bodies_.size() - 1);
+  return bodies_.size() - 1;
+}
+
+void Bodies::move(std::size_t number, Shape shape) {
+  Moving& moving = bodies_.at(number);
+  moving.body.shape = std::move(shape);
+  moving.refresh();
+  if (!moving.present) return;
+  if (cells_.hold(moving.bounds) && cells_.range(moving.bounds) == moving.listed) return;
+  unlist(number);
+  place(number);
+}
+
+void Bodies::remove(std::size_t number) {
+  if (bodies_.at(number).present) unlist(number);
+  bodies_[number].present = false;
+}
+
+void Bodies::place(std::size_t number) {
+  if (cells_.hold(bodies_[number].bounds)) return list(number);
+  choose_cells();
+  lists_.assign(cells_.count(), {});
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i].present) list(i);
+}
+
+void Bodies::choose_cells() {
+  Bounds all;
+  for (const Moving& m : bodies_) {
+    if (!m.present) continue;
+    all.add(m.bounds.low);
+    all.add(m.bounds.high);
+  }
+  // Half as far again to each side: a body that goes on and on makes this happen ever more seldom.
+  const Vec2 room = Vec2{kRoom, kRoom} + 0.5 * (all.high - all.low);
+  all.add(all.low - room);
+  all.add(all.high + room);
+  const Vec2 side = all.high - all.low;
+  cells_ = Cells(all, std::max(kCell, std::sqrt(side.x * side.y / kMaxCells)));
+}
+
+void Bodies::list(std::size_t number) {
+  Moving& moving = bodies_[number];
+  moving.listed = cells_.range(moving.bounds);
+  for_cells_of(cells_, moving.listed,
+               [&](std::size_t c) { lists_[c].push_back(static_cast<std::uint32_t>(number)); });
+}
+
+void Bodies::unlist(std::size_t number) {
+  for_cells_of(cells_, bodies_[number].listed,
+               [&](std::size_t c) { std::erase(lists_[c], static_cast<std::uint32_t>(number)); });
+}
+
+void Bodies::cast(const Ray& ray, double& best, Surface& surface) const {
+  cells_.walk(ray, best, [&](std::size_t cell) {
+    for (const std::uint32_t number : lists_[cell]) {
+      const Moving& m = bodies_[number];
+      if (number == ray.ignore_body || !m.in_reach(ray, best)) continue;
+      if (m.body.bottom <= ray.sensor_height && ray.sensor_height < m.body.top) m.cast(ray, best, surface);
+    }
+  });
+}
+
+}  // namespace orca::sim::detail

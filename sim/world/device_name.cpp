@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+
+#include "extension_readers.hpp"
+
+namespace orca::sim::detail {
+namespace {
+
+template <class Device>
+bool holds(const std::vector<Device>& devices, const std::string& name) {
+  return std::ranges::find(devices, name, &Device::name) != devices.end();
+}
+
+// What kind of device has this name; null: none.
+const char* owner_of(const std::string& name, const RobotModel& model) {
+  if (holds(model.sonars, name)) return "sonar ring";
+  if (holds(model.lasers, name)) return "laser";
+  if (holds(model.infrareds, name)) return "infrared ring";
+  if (holds(model.bumpers, name)) return "bumper ring";
+  return nullptr;
+}
+
+}  // namespace
+
+bool name_is_free(const Attributes& e, const std::string& name, const RobotModel& model) {
+  const char* const owner = owner_of(name, model);
+  if (owner == nullptr) return true;
+  e.error_at("name", 10,
+             std::string("there is a ") + owner + " \"" + name + "\" already; choose another name");
+  return false;
+}
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sonars that hear each other, against closed forms: a sound that has gone the way L when it arrives, and was
+// sent dt before the listener's own, reads as (L - c dt) / 2.
+#include <catch2/catch.hpp>
+
+#include "orca/sim/world.hpp"
+#include "scout.hpp"
+#include "sonar_air.hpp"
+
+using namespace orca::sim;
+using namespace orca::sim::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr double kSoundSpeed = 343.0;
+constexpr auto kNobody = static_cast<std::size_t>(-1);
+
+detail::Beam beam_at(const Pose2& sensor) { return {sensor, 12.5 * kDegree, 0.15, 6.5, 0.3, kNobody}; }
+
+// What the listener takes another's sound for, which was sent `earlier` than its own.
+std::optional<double> stray(const WorldModel& world, const Pose2& sender, const Pose2& listener,
+                            orca::Duration earlier = 0ms) {
+  const Caster caster(world);
+  const orca::TimePoint now = orca::TimePoint{} + 1s;
+  detail::SonarAir air;
+  air.send(now - earlier, beam_at(sender));
+  const std::uint64_t own = air.send(now, beam_at(listener));
+  const auto surfaces = detail::echo_of(caster, beam_at(listener), 25.0 * kDegree).surfaces;
+  return air.stray(caster, beam_at(listener), own, now, surfaces);
+}
+
+WorldModel wall_at(double distance) {
+  return {"wall", {{"wall", Box{{distance + 0.1, 0, 0}, {0.1, 10}}, 2.5}}, {}};
+}
+
+constexpr Pose2 kAhead{0, 0, 0};
+Pose2 facing(double distance) { return {distance, 0, std::numbers::pi}; }
+
+// A Scout with a single transducer, ahead.
+RobotModel one_eared() {
+  RobotModel model = scout();
+  model.sonars[0].count = 1;
+  model.sonars[0].order = {0};
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("of two sonars that face each other and fire at once each reads half the distance",
+          "[sim][sonar][crosstalk][validation]") {
+  CHECK(stray({}, facing(4.0), kAhead).value() == Approx(2.0).margin(1e-9));
+}
+
+TEST_CASE("a facing sonar that fired earlier reads nearer by half the way its sound had gone",
+          "[sim][sonar][crosstalk][validation]") {
+  CHECK(stray({}, facing(8.0), kAhead, 10ms).value() ==
+        Approx(0.5 * (8.0 - kSoundSpeed * 0.010)).margin(1e-9));
+  CHECK_FALSE(stray({}, facing(8.0), kAhead, 25ms));  // It has passed before the listener fires.
+}
+
+TEST_CASE("a neighbour's sound comes off a wall as from its image behind it",
+          "[sim][sonar][crosstalk][validation]") {
+  const Pose2 neighbour{0, 0.4, 0};
+  const double way = std::hypot(2.0 * 3.0, 0.4);
+  CHECK(stray(wall_at(3.0), neighbour, kAhead).value() == Approx(0.5 * way).margin(1e-9));
+  CHECK(stray(wall_at(3.0), neighbour, kAhead, 10ms).value() ==
+        Approx(0.5 * (way - kSoundSpeed * 0.010)).margin(1e-9));
+}
+
+TEST_CASE("a post sends a neighbour's sound on", "[sim][sonar][crosstalk]") {
+  const WorldModel post{"post", {{"post", Circle{{3.0, 0.0}, 0.2}, 2.5}}, {}};
+  // Both sit as far from the post, so the way is by the point of it between them.
+  const double one_way = std::hypot(2.8, 0.2);
+  CHECK(stray(post, {0, 0.2, 0}, {0, -0.2, 0}).value() == Approx(one_way).margin(1e-9));
+}
+
+TEST_CASE("nobody hears what was sent more than forty milliseconds ago, or by itself just now",
+          "[sim][sonar][crosstalk]") {
+  CHECK(stray(wall_at(6.4), {0, 0.1, 0}, kAhead, 30ms).has_value());
+  CHECK_FALSE(stray(wall_at(6.4), {0, 0.1, 0}, kAhead, 41ms));
+  detail::SonarAir air;
+  const std::uint64_t own = air.send({}, beam_at(kAhead));
+  const Caster caster(wall_at(3.0));
+  const auto surfaces = detail::echo_of(caster, beam_at(kAhead), 25.0 * kDegree).surfaces;
+  REQUIRE(surfaces.size() >= 1);
+  CHECK_FALSE(air.stray(caster, beam_at(kAhead), own, {}, surfaces));
+}
+
+TEST_CASE("sound does not go through walls, nor out of a lobe", "[sim][sonar][crosstalk]") {
+  CHECK_FALSE(stray(wall_at(2.0), facing(4.0), kAhead));
+  CHECK_FALSE(stray({}, {4.0, 0, 0}, kAhead));                   // It looks away.
+  CHECK_FALSE(stray({}, {4.0, 0, 160.0 * kDegree}, kAhead));     // 20 deg off the listener.
+  CHECK_FALSE(stray({}, {2.0, 2.0, -135.0 * kDegree}, kAhead));  // It faces, but from the side.
+  CHECK_FALSE(stray(wall_at(3.0), {0, 0.4, std::numbers::pi}, kAhead));
+}
+
+TEST_CASE("two robots face to face hear each other at nominal realism, not at ideal",
+          "[sim][sonar][crosstalk][validation]") {
+  for (const Realism realism : {Realism::ideal, Realism::nominal}) {
+    World world({}, {.seed = 1, .realism = realism});
+    const RobotId a = *world.add_robot("a", one_eared(), {});
+    const RobotId b = *world.add_robot("b", one_eared(), {3, 0, std::numbers::pi});
+    const double apart = 3.0 - 2 * 0.19;
+    const double expected = realism == Realism::ideal ? 3.0 - 0.19 - 0.205 : 0.5 * apart;
+    for (const RobotId robot : {a, b}) {
+      std::vector<double> ranges;
+      for (int round = 0; round < 21; ++round) {
+        do world.step();
+        while (!world.sonar(robot));
+        ranges.push_back(world.sonar(robot)->readings[0].range);
+      }
+      std::ranges::sort(ranges);  // The median leaves the few outliers aside.
+      CHECK(ranges[10] == Approx(expected).epsilon(0.02));
+    }
+  }
+}
