@@ -8,12 +8,29 @@ namespace {
 
 constexpr const char* kLibrary = "sim.so";
 
+idl::DriveType type_of(DriveKind kind) {
+  switch (kind) {
+    case DriveKind::differential: return idl::DIFFERENTIAL;
+    case DriveKind::synchro: return idl::SYNCHRO;
+    case DriveKind::holonomic: return idl::HOLONOMIC;
+  }
+  return idl::DIFFERENTIAL;
+}
+
+idl::Actuator describe(const Turret& turret) {
+  idl::Actuator object;
+  object.name(turret.joint);
+  object.library(kLibrary);
+  object.driver("orca.hw.Sim");
+  return object;
+}
+
 idl::Drive describe(const Drive& drive) {
   idl::Drive object;
   object.name("drive");
   object.library(kLibrary);
   object.driver("orca.hw.Sim");
-  object.type(idl::DIFFERENTIAL);
+  object.type(type_of(drive.kind));
   object.max_speed(drive.max_speed);
   object.max_steer_speed(drive.max_steer_speed);
   object.steer_gain(drive.steer_gain);
@@ -37,6 +54,17 @@ void draw_circle(const Circle& circle, orca::Scene& to) {
 
 }  // namespace
 
+hw::DriveLimits limits_of(const RobotModel& robot) {
+  const Drive& drive = robot.drive;
+  return {.max_speed = drive.max_speed,
+          .max_steer_speed = drive.max_steer_speed,
+          .steer_gain = drive.steer_gain,
+          .big_turn_angle = drive.big_turn_angle,
+          .big_turn_speed = drive.big_turn_speed,
+          .type = type_of(drive.kind),
+          .turret = robot.turret.has_value()};
+}
+
 idl::Robot describe(const RobotModel& model, const std::string& name) {
   idl::Robot robot;
   robot.name(name);
@@ -46,6 +74,7 @@ idl::Robot describe(const RobotModel& model, const std::string& name) {
   robot.radius(model.radius);
   robot.bumper_radius(model.bumper_radius);
   robot.drives({describe(model.drive)});
+  if (model.turret) robot.actuators({describe(*model.turret)});
   describe_sensors(model, robot);
   return robot;
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "orca/hw/endpoints.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/sensing.hpp"
@@ -17,7 +18,11 @@ void fill(idl::LaserRangeReadings& object, const LaserScan& scan, const LaserSca
 void fill(idl::InfraredRangeReadings& object, const InfraredScan& scan, const InfraredRing& ring);
 void fill(idl::BumperReadings& object, const BumperReading& reading, const BumperRing& ring);
 void fill(idl::Odometry& object, const OdometryReading& reading);
+void fill(idl::TurretAngle& object, const TurretReading& reading);
 void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
+
+/// What commands the robot's base takes.
+[[nodiscard]] hw::DriveLimits limits_of(const RobotModel& robot);
 
 /// The robot's description for whoever asks.
 [[nodiscard]] idl::Robot describe(const RobotModel& model, const std::string& name);

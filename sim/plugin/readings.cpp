@@ -11,7 +11,7 @@ void fill(idl::SonarRangeReadings& object, const SonarScan& scan, const SonarRin
   object.stamps().clear();
   for (const SonarReading& reading : scan.readings) {
     object.ranges().push_back(reading.range);
-    object.poses().push_back(frame(reading.sensor, ring.height));
+    object.poses().push_back(frame(reading.sensor, ring.height_of(reading.transducer)));
     object.stamps().push_back(to_time_value(reading.stamp));
   }
   object.min_range(ring.min_range);
@@ -24,7 +24,7 @@ void fill(idl::LaserRangeReadings& object, const LaserScan& scan, const LaserSca
   object.ranges().assign(scan.ranges.begin(), scan.ranges.end());
   object.min_range(laser.min_range);
   object.max_range(laser.max_range);
-  object.pose(frame(laser.center, laser.height));
+  object.pose(frame(scan.X_RB * laser.center, laser.height));
   object.stamp(to_time_value(scan.stamp));
   object.angle_start(laser.first_angle);
   object.angle_increment(laser.pitch);
@@ -35,18 +35,20 @@ void fill(idl::LaserRangeReadings& object, const LaserScan& scan, const LaserSca
 void fill(idl::InfraredRangeReadings& object, const InfraredScan& scan, const InfraredRing& ring) {
   object.ranges().assign(scan.ranges.begin(), scan.ranges.end());
   object.poses().clear();
-  for (std::size_t k = 0; k < ring.count; ++k) object.poses().push_back(frame(ring.sensor(k), ring.height));
+  for (std::size_t k = 0; k < ring.count; ++k)
+    object.poses().push_back(frame(scan.X_RB * ring.sensor(k), ring.height));
   object.stamps().assign(ring.count, to_time_value(scan.stamp));
   object.min_range(ring.min_range);
   object.max_range(ring.max_range);
   object.half_beam(ring.half_beam);
-  object.pose(frame(ring.center, ring.height));
+  object.pose(frame(scan.X_RB * ring.center, ring.height));
 }
 
 void fill(idl::BumperReadings& object, const BumperReading& reading, const BumperRing& ring) {
   object.pressed().assign(reading.pressed.begin(), reading.pressed.end());
   object.poses().clear();
-  for (std::size_t k = 0; k < ring.count; ++k) object.poses().push_back(frame(ring.segment(k), 0.0));
+  for (std::size_t k = 0; k < ring.count; ++k)
+    object.poses().push_back(frame(reading.X_RB * ring.segment(k), 0.0));
   object.stamp(to_time_value(reading.stamp));
 }
 
@@ -55,7 +57,14 @@ void fill(idl::Odometry& object, const OdometryReading& reading) {
   object.y(reading.pose.y);
   object.steer_angle(reading.pose.yaw);
   object.translational_velocity(reading.velocity.forward);
+  object.sideways_velocity(reading.velocity.left);
   object.steering_velocity(reading.velocity.turn);
+  object.stamp(to_time_value(reading.stamp));
+}
+
+void fill(idl::TurretAngle& object, const TurretReading& reading) {
+  object.angle(reading.angle);
+  object.turn_rate(reading.turn_rate);
   object.stamp(to_time_value(reading.stamp));
 }
 
@@ -64,6 +73,7 @@ void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth) {
   object.y(truth.pose.y);
   object.orientation(truth.pose.yaw);
   object.translational_velocity(truth.velocity.forward);
+  object.sideways_velocity(truth.velocity.left);
   object.steering_velocity(truth.velocity.turn);
   object.stamp(to_time_value(truth.stamp));
 }

@@ -45,13 +45,16 @@ Result<RobotId> SharedWorld::add_robot(const std::string& name, const RobotModel
                                        Duration truth_period) {
   const std::lock_guard lock(mutex_);
   const Result<RobotId> robot = world_.add_robot(name, model, X_WB);
-  if (robot) members_.push_back({*robot, name, truth_period, world_.time() + truth_period, {}});
+  const TimePoint next_turret = model.turret ? world_.time() + model.turret->period : kForever;
+  if (robot) members_.push_back({*robot, name, truth_period, world_.time() + truth_period, next_turret, {}});
   return robot;
 }
 
-Status SharedWorld::command(RobotId robot, double forward, double turn) {
+Status SharedWorld::command(RobotId robot, const Velocity& wanted, double turret_angle) {
   const std::lock_guard lock(mutex_);
-  return world_.set_velocity_command(robot, forward, turn);
+  if (world_.robot_model(robot).turret)
+    if (Status pointed = world_.set_turret_command(robot, turret_angle); !pointed.ok()) return pointed;
+  return world_.set_velocity_command(robot, wanted);
 }
 
 SharedWorld::Inbox SharedWorld::advance(RobotId robot, TimePoint now) {
@@ -81,8 +84,16 @@ void SharedWorld::collect_readings(Member& member) {
     take(world_.bumper(robot, i), i, epoch_, inbox.bumper);
 }
 
+void SharedWorld::collect_turret(Member& member) {
+  if (world_.time() < member.next_turret) return;
+  member.next_turret += world_.robot_model(member.robot).turret->period;
+  member.inbox.turret.push_back(world_.turret(member.robot).value());
+  member.inbox.turret.back().stamp = on_run_clock(world_.time());
+}
+
 void SharedWorld::collect(Member& member) {
   collect_readings(member);
+  collect_turret(member);
   if (const auto& odometry = world_.odometry(member.robot)) {
     member.inbox.odometry.push_back(*odometry);
     member.inbox.odometry.back().stamp = on_run_clock(odometry->stamp);

@@ -34,6 +34,7 @@ class SharedWorld {
     Readings<InfraredScan> infrared;
     Readings<BumperReading> bumper;
     std::vector<OdometryReading> odometry;
+    std::vector<TurretReading> turret;
     std::vector<Truth> truth;
     struct Contact {
       ContactEvent event;
@@ -54,7 +55,8 @@ class SharedWorld {
   Result<RobotId> add_robot(const std::string& name, const RobotModel& model, const Pose2& X_WB,
                             Duration truth_period);
 
-  Status command(RobotId robot, double forward, double turn);
+  /// @errors  as World::set_velocity_command() and, for a robot with a turret, set_turret_command().
+  Status command(RobotId robot, const Velocity& wanted, double turret_angle);
 
   /// Simulates up to `now` [run's clock] and returns what the robot has sensed; its stamps are of the run's
   /// clock.
@@ -73,12 +75,14 @@ class SharedWorld {
     std::string name;
     Duration truth_period{0};
     TimePoint next_truth;
+    TimePoint next_turret;
     Inbox inbox;
   };
 
   void step();
   void collect(Member& member);
   void collect_readings(Member& member);
+  void collect_turret(Member& member);
   [[nodiscard]] TimePoint on_run_clock(TimePoint time) const { return time + epoch_; }
 
   mutable std::mutex mutex_;

@@ -105,11 +105,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
   void declare_endpoints() {
     sensors_ = std::make_unique<SimSensors>(*robot_);
     for (orca::hw::SensorEndpoint* endpoint : sensors_->endpoints()) add_sensor(*endpoint);
-    const Drive& drive = robot_->drive;
-    motion_ = std::make_unique<orca::hw::MotionHW>(
-        orca::hw::DriveLimits{drive.max_speed, drive.max_steer_speed, drive.steer_gain, drive.big_turn_angle,
-                              drive.big_turn_speed},
-        kMaxCommandAge);
+    motion_ = std::make_unique<orca::hw::MotionHW>(limits_of(*robot_), kMaxCommandAge);
     set_motion(*motion_);
   }
 
@@ -133,7 +129,9 @@ class SimHardware final : public orca::hw::HardwareContainer {
   }
 
   Status drive(const orca::hw::DriveSetpoint& setpoint) override {
-    return shared_->command(id_, setpoint.speed, setpoint.steer_speed);
+    return shared_->command(
+        id_, {.forward = setpoint.speed, .turn = setpoint.steer_speed, .left = setpoint.side_speed},
+        setpoint.turret_angle);
   }
 
   [[nodiscard]] TimePoint next_poll() const override { return shared_->next_tick(); }

@@ -39,6 +39,7 @@ SimSensors::SimSensors(const RobotModel& robot) {
   make(lasers_, robot.lasers);
   make(infrareds_, robot.infrareds);
   make(bumpers_, robot.bumpers);
+  if (robot.turret) turret_ = std::make_unique<hw::SensorHW<idl::TurretAngle>>(robot.turret->period);
   if (robot.odometer) odometry_ = std::make_unique<hw::SensorHW<idl::Odometry>>(robot.odometer->period);
 }
 
@@ -49,6 +50,7 @@ std::vector<hw::SensorEndpoint*> SimSensors::endpoints() {
   list(infrareds_, all);
   list(bumpers_, all);
   if (odometry_) all.push_back(odometry_.get());
+  if (turret_) all.push_back(turret_.get());
   all.push_back(&truth_);
   return all;
 }
@@ -59,6 +61,7 @@ void SimSensors::publish(const SharedWorld::Inbox& inbox) {
   publish_all(infrareds_, inbox.infrared);
   publish_all(bumpers_, inbox.bumper);
   for (const OdometryReading& reading : inbox.odometry) publish_one(*odometry_, reading);
+  for (const TurretReading& reading : inbox.turret) publish_one(*turret_, reading);
   for (const auto& truth : inbox.truth) publish_one(truth_, truth);
 }
 

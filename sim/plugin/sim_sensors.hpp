@@ -45,6 +45,7 @@ class SimSensors {
   Devices<idl::InfraredRangeReadings, InfraredRing> infrareds_;
   Devices<idl::BumperReadings, BumperRing> bumpers_;
   std::unique_ptr<hw::SensorHW<idl::Odometry>> odometry_;
+  std::unique_ptr<hw::SensorHW<idl::TurretAngle>> turret_;
   hw::SensorHW<idl::RobotPose> truth_{kTruthPeriod, hw::Source::truth};
 };
 

@@ -24,14 +24,14 @@ bool BumperModel::reaches(std::size_t segment, const Touch& touch) const {
          touch.distance <= (pressed_[segment] ? kReleased : kTouching);
 }
 
-void BumperModel::run(std::span<const Touch> touches, TimePoint now) {
+void BumperModel::run(std::span<const Touch> touches, TimePoint now, const Pose2& X_RB) {
   completed_.reset();
   for (std::size_t k = 0; k < ring_.count; ++k) {
     pressed_[k] = std::ranges::any_of(touches, [&](const Touch& touch) { return reaches(k, touch); });
     if (pressed_[k]) felt_[k] = true;
   }
   if (now < due_) return;
-  completed_ = BumperReading{now, std::exchange(felt_, std::vector<bool>(ring_.count))};
+  completed_ = BumperReading{now, std::exchange(felt_, std::vector<bool>(ring_.count)), X_RB};
   due_ += ring_.period;
 }
 

@@ -22,8 +22,9 @@ class BumperModel {
  public:
   BumperModel(BumperRing ring, TimePoint start);
 
-  // @param touches  all of the robot's, at the end of the tick.
-  void run(std::span<const Touch> touches, TimePoint now);
+  // @param touches  all of the robot's, at the end of the tick, which was `now`.
+  // @param X_RB     of the body in the robot's frame.
+  void run(std::span<const Touch> touches, TimePoint now, const Pose2& X_RB);
 
   // The reading that became due in the last run(), if one did.
   [[nodiscard]] const std::optional<BumperReading>& completed() const { return completed_; }

@@ -4,6 +4,15 @@
 #include <algorithm>
 
 namespace orca::sim::detail {
+namespace {
+
+// The same direction, not longer than `longest`.
+Vec2 shortened(Vec2 v, double longest) {
+  const double length = norm(v);
+  return length > longest ? (longest / length) * v : v;
+}
+
+}  // namespace
 
 DriveModel::DriveModel(const Drive& drive, const ErrorLevels& errors, Duration tick)
     : drive_(drive), tick_s_(to_seconds(tick)) {
@@ -13,21 +22,28 @@ DriveModel::DriveModel(const Drive& drive, const ErrorLevels& errors, Duration t
   pending_.resize(static_cast<std::size_t>(ticks) + 1);
 }
 
-void DriveModel::command(Velocity wanted) {
-  pending_.back() = {std::clamp(wanted.forward, -drive_.max_speed, drive_.max_speed),
-                     std::clamp(wanted.turn, -drive_.max_steer_speed, drive_.max_steer_speed)};
+void DriveModel::command(const Velocity& wanted) {
+  const Vec2 way = shortened({wanted.forward, wanted.left}, drive_.max_speed);
+  pending_.back().velocity = {way.x, std::clamp(wanted.turn, -drive_.max_steer_speed, drive_.max_steer_speed),
+                              way.y};
 }
 
 double DriveModel::approach(double now, double target, double max_change) const {
   return now + std::clamp(share_ * (target - now), -max_change, max_change);
 }
 
+Vec2 DriveModel::approach(Vec2 now, Vec2 target, double max_change) const {
+  return now + shortened(share_ * (target - now), max_change);
+}
+
 Velocity DriveModel::step() {
-  const Velocity target = pending_.front();
+  target_ = pending_.front();
   pending_.push_back(pending_.back());
   pending_.pop_front();
-  velocity_ = {approach(velocity_.forward, target.forward, drive_.max_acceleration * tick_s_),
-               approach(velocity_.turn, target.turn, drive_.max_steer_acceleration * tick_s_)};
+  const Velocity& target = target_.velocity;
+  const Vec2 way = approach({velocity_.forward, velocity_.left}, {target.forward, target.left},
+                            drive_.max_acceleration * tick_s_);
+  velocity_ = {way.x, approach(velocity_.turn, target.turn, drive_.max_steer_acceleration * tick_s_), way.y};
   return velocity_;
 }
 

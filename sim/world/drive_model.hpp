@@ -8,28 +8,39 @@
 
 namespace orca::sim::detail {
 
+// What a base was last told.
+struct BaseCommand {
+  Velocity velocity;
+  double turret_angle = 0.0;  // [rad] In the robot's frame.
+};
+
 // From commanded to driven velocity, tick by tick: dead time, speed limits, first-order lag, acceleration
-// limits.
+// limits. Alike for all kinds of base: what moves them differs, not what holds them back.
 class DriveModel {
  public:
   DriveModel(const Drive& drive, const ErrorLevels& errors, Duration tick);
 
-  void command(Velocity wanted);
+  void command(const Velocity& wanted);
+  void point_turret(double angle) { pending_.back().turret_angle = angle; }
 
   // The velocity to drive in the tick that begins now.
   Velocity step();
+  // Where the turret shall point in that tick.
+  [[nodiscard]] double turret_angle() const { return target_.turret_angle; }
 
   // Something stood in the way: the base really moved like this. The next step starts from it.
-  void held_to(Velocity real) { velocity_ = real; }
+  void held_to(const Velocity& real) { velocity_ = real; }
 
  private:
   [[nodiscard]] double approach(double now, double target, double max_change) const;
+  [[nodiscard]] Vec2 approach(Vec2 now, Vec2 target, double max_change) const;
 
   Drive drive_;
   double tick_s_;
   double share_;  // Of the difference to its target that the velocity covers in a tick.
   Velocity velocity_;
-  std::deque<Velocity> pending_;  // One per tick of dead time, the oldest first, and the newest command last.
+  BaseCommand target_;
+  std::deque<BaseCommand> pending_;  // One per tick of dead time, the oldest first, the newest command last.
 };
 
 }  // namespace orca::sim::detail

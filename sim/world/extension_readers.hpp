@@ -12,6 +12,7 @@
 namespace orca::sim::detail {
 
 void read_drive(const Attributes& e, RobotModel& model);
+void read_turret(const Attributes& e, RobotModel& model);
 void read_sonar_ring(const Attributes& e, RobotModel& model);
 void read_laser(const Attributes& e, RobotModel& model);
 void read_infrared_ring(const Attributes& e, RobotModel& model);

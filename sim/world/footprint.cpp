@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include "footprint.hpp"
+
 #include <algorithm>
 #include <array>
 #include <utility>
-
-#include "orca/sim/robot_model.hpp"
 
 namespace orca::sim {
 namespace {
@@ -62,17 +62,6 @@ void add_plan(const Part& part, std::vector<Vec2>& plan) {
   }
 }
 
-// The radius of a part that looks round from above and is centred on the base's z axis; negative if it is
-// not.
-double round_radius(const Part& part) {
-  const Pose3& X = part.X_BP;
-  if (std::hypot(X.x, X.y) > kOnAxis) return -1.0;
-  if (const auto* ball = std::get_if<Part::Ball>(&part.form)) return ball->radius;
-  const auto* cylinder = std::get_if<Part::Cylinder>(&part.form);
-  const bool upright = std::hypot(X.qx, X.qy) < kOnAxis || std::hypot(X.qz, X.qw) < kOnAxis;
-  return cylinder != nullptr && upright ? cylinder->radius : -1.0;
-}
-
 // Convex hull, counter-clockwise: Andrew's monotone chain (Inf. Proc. Letters 9(5), 1979).
 std::vector<Vec2> hull_of(std::vector<Vec2> points) {
   std::ranges::sort(points, [](Vec2 a, Vec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
@@ -105,11 +94,21 @@ std::pair<double, double> part_heights(const Part& part) {
 
 }  // namespace
 
+double detail::round_radius(const Part& part, Vec2 center) {
+  const Pose3& X = part.X_BP;
+  if (std::hypot(X.x - center.x, X.y - center.y) > kOnAxis) return -1.0;
+  if (const auto* ball = std::get_if<Part::Ball>(&part.form)) return ball->radius;
+  const auto* cylinder = std::get_if<Part::Cylinder>(&part.form);
+  const bool upright = std::hypot(X.qx, X.qy) < kOnAxis || std::hypot(X.qz, X.qw) < kOnAxis;
+  return cylinder != nullptr && upright ? cylinder->radius : -1.0;
+}
+
 Shape footprint_of(const std::vector<Part>& parts) {
-  const bool round = std::ranges::all_of(parts, [](const Part& p) { return round_radius(p) >= 0.0; });
+  const bool round =
+      std::ranges::all_of(parts, [](const Part& p) { return detail::round_radius(p, {}) >= 0.0; });
   if (round) {
     double radius = 0.0;
-    for (const Part& p : parts) radius = std::max(radius, round_radius(p));
+    for (const Part& p : parts) radius = std::max(radius, detail::round_radius(p, {}));
     return Circle{{0.0, 0.0}, radius};
   }
   std::vector<Vec2> plan;

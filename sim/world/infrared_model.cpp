@@ -19,7 +19,7 @@ void InfraredModel::run(const Caster& caster, std::size_t own_body, const TickSp
   completed_.reset();
   if (due_ > span.to) return;
   const Pose2 X_WB = span.at(due_);
-  InfraredScan scan{due_, {}};
+  InfraredScan scan{due_, {}, span.in_robot(due_)};
   for (std::size_t k = 0; k < ring_.count; ++k)
     scan.ranges.push_back(measured(closest(caster, own_body, X_WB * ring_.sensor(k))));
   completed_ = std::move(scan);

@@ -41,6 +41,7 @@ Ray LaserModel::ray(const Pose2& X_WB, std::size_t own_body) const {
 void LaserModel::run(const Caster& caster, std::size_t own_body, const TickSpan& span) {
   completed_.reset();
   for (TimePoint next = due(ranges_.size()); next <= span.to; next = due(ranges_.size())) {
+    if (ranges_.empty()) X_RB_ = span.in_robot(next);
     shoot(caster, ray(span.at(next), own_body));
     if (ranges_.size() == scanner_.count) complete();
   }
@@ -81,7 +82,7 @@ void LaserModel::mix(const Caster& caster, const Beam& beam, double rim, double&
 }
 
 void LaserModel::complete() {
-  LaserScan scan{due(0), std::move(ranges_)};
+  LaserScan scan{due(0), std::move(ranges_), X_RB_};
   for (double& range : scan.ranges) range = measured(range);
   completed_ = std::move(scan);
   ranges_.clear();

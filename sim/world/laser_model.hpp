@@ -46,6 +46,7 @@ class LaserModel {
   TimePoint scan_end_;
   Beam previous_;
   std::vector<double> ranges_;  // Of the present scan, without noise; max_range: nothing came back.
+  Pose2 X_RB_;                  // When the present scan began.
   std::optional<LaserScan> completed_;
 };
 

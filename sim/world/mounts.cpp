@@ -1,49 +1,75 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mounts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "attributes.hpp"
+#include "footprint.hpp"
 #include "orca/xml/names.hpp"
+#include "urdf_parts.hpp"
 
 namespace orca::sim::detail {
 namespace {
 
-void check_links(const std::map<std::string, Pose3>& links, const xml::Element& orca,
-                 xml::Diagnostics& diagnostics) {
+constexpr double kUpright = 1.0 - 1e-9;
+
+// R012 unless `map` has what the attribute of that name says, if there is one.
+template <class Map>
+bool names_one_of(const Map& map, const Attributes& e, const char* attribute) {
+  const xml::Attribute* a = e.element().attribute(attribute);
+  if (a == nullptr || !a->intact) return false;
+  if (map.contains(a->value)) return true;
   std::vector<std::string> names;
-  for (const auto& entry : links) names.push_back(entry.first);
-  for (const xml::Element& e : orca.children()) {
-    const xml::Attribute* link = e.attribute("link");
-    if (link == nullptr || !link->intact || links.contains(link->value)) continue;
-    Attributes(e, 'R', diagnostics)
-        .error_at("link", 12,
-                  "there is no link \"" + link->value + "\"" +
-                      xml::did_you_mean(xml::nearest_name(link->value, names)));
-  }
+  for (const auto& entry : map) names.push_back(entry.first);
+  e.error_at(attribute, 12,
+             std::string("there is no ") + attribute + " \"" + a->value + "\"" +
+                 xml::did_you_mean(xml::nearest_name(a->value, names)));
+  return false;
 }
 
-// @tparam Sensor  has link, center and height.
+void mount_turret(Turret& turret, const UrdfBody& body, const Attributes& e) {
+  if (!names_one_of(body.joints, e, "joint")) return;
+  const UrdfJoint& joint = body.joints.at(turret.joint);
+  if (!joint.continuous || joint.upright < kUpright)
+    return e.error_at("joint", 22,
+                      "a turret needs a joint of type continuous whose axis points up: it turns without end");
+  turret.axis = {joint.X_BJ.x, joint.X_BJ.y};
+  for (std::size_t i = joint.first_part; i < joint.end_part; ++i)
+    if (round_radius(body.parts[i], turret.axis) < 0.0)
+      return e.error_at("joint", 22,
+                        "the collision geometry of a turret must be round about its axis, upright cylinders "
+                        "and spheres on it: the simulator does not turn it");
+}
+
+// @tparam Sensor  has link, center, height and on_turret.
 template <class Sensor>
-void mount(std::vector<Sensor>& sensors, const std::map<std::string, Pose3>& links) {
+void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* turret) {
   for (Sensor& sensor : sensors) {
-    const auto link = links.find(sensor.link);
-    if (link == links.end()) continue;
+    const auto link = body.links.find(sensor.link);
+    if (link == body.links.end()) continue;
     const Pose3& X = link->second;
     const double yaw = std::atan2(2.0 * (X.qw * X.qz + X.qx * X.qy), 1.0 - 2.0 * (X.qy * X.qy + X.qz * X.qz));
     sensor.center = {X.x, X.y, yaw};
     sensor.height = X.z;
+    sensor.on_turret =
+        turret != nullptr && std::ranges::find(turret->links, sensor.link) != turret->links.end();
   }
 }
 
 }  // namespace
 
-void mount_sensors(RobotModel& model, const std::map<std::string, Pose3>& links, const xml::Element& orca,
+void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& orca,
                    xml::Diagnostics& diagnostics) {
-  check_links(links, orca, diagnostics);
-  mount(model.sonars, links);
-  mount(model.lasers, links);
-  mount(model.infrareds, links);
+  const xml::Element* turret = only_child(orca, "turret");
+  if (turret != nullptr && model.turret) mount_turret(*model.turret, body, {*turret, 'R', diagnostics});
+  for (const xml::Element& e : orca.children())
+    static_cast<void>(names_one_of(body.links, {e, 'R', diagnostics}, "link"));
+  const auto joint = model.turret ? body.joints.find(model.turret->joint) : body.joints.end();
+  const UrdfJoint* turns = joint != body.joints.end() ? &joint->second : nullptr;
+  mount(model.sonars, body, turns);
+  mount(model.lasers, body, turns);
+  mount(model.infrareds, body, turns);
 }
 
 }  // namespace orca::sim::detail

@@ -10,7 +10,7 @@ namespace {
 
 bool in_the_way(const Robot& robot, const WalkerTrack::Place& place, double radius, double stops) {
   if (dot(robot.pose.position() - place.position, place.ahead) <= 0.0) return false;
-  return distance(placed(robot.model.footprint, robot.pose), place.position) < radius + stops;
+  return distance(placed(robot.model.footprint, robot.body), place.position) < radius + stops;
 }
 
 Pose2 standing(Vec2 position) { return {position.x, position.y, 0.0}; }

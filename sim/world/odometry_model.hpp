@@ -5,30 +5,27 @@
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
+#include "wheel_model.hpp"
 
 namespace orca::sim::detail {
 
-// What wheel encoders make of the true motion: each wheel's travel, with this robot's wrong diameters, wrong
-// track and slip, integrated by the exact arc model. Sideways motion (being pushed) turns no wheel and goes
-// unseen.
+// Dead reckoning: what the wheels' encoders tell, integrated by the exact arc model.
 class OdometryModel {
  public:
-  OdometryModel(const Drive& drive, const ErrorLevels& errors, RandomStream random);
+  OdometryModel(const Drive& drive, const ErrorLevels& errors, RandomStream random)
+      : random_(random), wheels_(drive, WheelErrors::drawn(drive.kind, errors, random_)) {}
+  // With errors that are given, not drawn.
+  OdometryModel(const Drive& drive, const WheelErrors& errors, RandomStream random)
+      : random_(random), wheels_(drive, errors) {}
 
-  // The base went `travel` [m] forward and turned `turn` [rad] in `seconds`.
-  void add(double travel, double turn, double seconds);
+  // The base moved so in `seconds`.
+  void add(const Travel& real, double seconds);
 
   [[nodiscard]] OdometryReading reading(TimePoint stamp) const { return {stamp, pose_, velocity_}; }
 
  private:
-  double measured(double travel, double diameter_error);
-
   RandomStream random_;
-  double slip_;
-  double track_;           // True [m].
-  double believed_track_;  // What the integration uses [m].
-  double left_error_;      // Relative, of the wheel's diameter.
-  double right_error_;
+  WheelModel wheels_;
   Pose2 pose_;
   Velocity velocity_;
 };

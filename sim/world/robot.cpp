@@ -19,11 +19,14 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
       model(std::move(robot_model)),
       drive(model.drive, errors, birth.tick),
       pose(birth.X_WB),
+      body(birth.X_WB),
       tick_(birth.tick),
       odometry_model_(model.drive, errors, RandomStream(birth.seed, name, "odometry")),
-      last_tick_{birth.time, birth.time, birth.X_WB, birth.X_WB},
+      on_body_{birth.time, birth.time, birth.X_WB, birth.X_WB, birth.X_WB, birth.X_WB},
+      on_turret_(on_body_),
       odometry_due_(model.odometer ? birth.time + model.odometer->period : kForever),
       trajectory_{{birth.time, birth.X_WB}} {
+  if (model.turret) turret_.emplace(*model.turret);
   const auto stream = [&](const std::string& device) { return RandomStream(birth.seed, name, device); };
   for (const SonarRing& s : model.sonars) sonars.emplace_back(s, errors, stream(s.name), birth.time);
   for (const LaserScanner& s : model.lasers) lasers.emplace_back(s, errors, stream(s.name), birth.time);
@@ -31,36 +34,79 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
   for (const BumperRing& s : model.bumpers) bumpers.emplace_back(s, birth.time);
 }
 
+Travel Robot::set_off() {
+  driving_ = drive.step();
+  const double seconds = to_seconds(tick_);
+  return {driving_.forward * seconds, driving_.left * seconds, driving_.turn * seconds};
+}
+
 void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
   const double seconds = to_seconds(tick_);
-  const double turn = wrapped(X_WB.yaw - pose.yaw);
-  const Vec2 along = direction(pose.yaw + 0.5 * turn);
-  const double travel = dot(X_WB.position() - pose.position(), along) / chord_ratio(turn);
-  velocity = {travel / seconds, turn / seconds};
-  if (blocked) drive.held_to(velocity);
-  odometry_model_.add(travel, turn, seconds);
-  odometry.reset();
-  if (now >= odometry_due_) {
-    odometry = odometry_model_.reading(now);
-    odometry_due_ += model.odometer->period;
-  }
-  last_tick_ = {now - tick_, now, pose, X_WB};
-  pose = X_WB;
+  if (steers()) steer_ = wrapped(steer_ + driving_.turn * seconds);
+  const Pose2 X_WR{X_WB.x, X_WB.y, steers() ? wrapped(X_WB.yaw + steer_) : X_WB.yaw};
+  const Travel real = arc_between(pose, X_WR);
+  velocity = {real.forward / seconds, real.turn / seconds, real.left / seconds};
+  // Whatever stands in the way holds the body, not the wheels' steering.
+  const bool slides = model.drive.kind == DriveKind::holonomic;
+  if (blocked)
+    drive.held_to({velocity.forward, steers() ? driving_.turn : velocity.turn, slides ? velocity.left : 0.0});
+  reckon(real, now);
+  carry(X_WB, X_WR, now);
   sample(now);
 }
 
+void Robot::reckon(const Travel& real, TimePoint now) {
+  Travel seen = real;
+  if (steers()) seen.turn = driving_.turn * to_seconds(tick_);
+  odometry_model_.add(seen, to_seconds(tick_));
+  odometry.reset();
+  if (now < odometry_due_) return;
+  odometry = odometry_model_.reading(now);
+  odometry_due_ += model.odometer->period;
+}
+
+void Robot::carry(const Pose2& X_WB, const Pose2& X_WR, TimePoint now) {
+  on_body_ = {now - tick_, now, body, X_WB, pose, X_WR};
+  if (turret_) {
+    const Pose2 before = turret_pose(body);
+    const double turn = wrapped(X_WR.yaw - X_WB.yaw - (pose.yaw - body.yaw));
+    turret_->step(wrapped(X_WR.yaw - X_WB.yaw) + drive.turret_angle(), turn / to_seconds(tick_),
+                  to_seconds(tick_));
+    on_turret_ = {now - tick_, now, before, turret_pose(X_WB), pose, X_WR};
+  }
+  pose = X_WR;
+  body = X_WB;
+}
+
+// The base frame as the turret has turned it about its axis.
+Pose2 Robot::turret_pose(const Pose2& X_WB) const {
+  const Vec2 axis = turret_->axis();
+  const Vec2 back = rotated(-1.0 * axis, turret_->angle());
+  return X_WB * Pose2{axis.x + back.x, axis.y + back.y, turret_->angle()};
+}
+
+std::optional<TurretReading> Robot::turret() const {
+  if (!turret_) return std::nullopt;
+  const double steering = steers() ? driving_.turn : 0.0;
+  return TurretReading{on_body_.to, wrapped(turret_->angle() - wrapped(pose.yaw - body.yaw)),
+                       turret_->rate() - steering};
+}
+
 void Robot::chirp(SonarAir& air, std::size_t own_body) {
-  for (SonarModel& s : sonars) s.fire(own_body, last_tick_, air);
+  for (std::size_t k = 0; k < sonars.size(); ++k)
+    sonars[k].fire(own_body, span(model.sonars[k].on_turret), air);
 }
 
 void Robot::sense(const Caster& caster, const SonarAir& air, std::size_t own_body) {
   for (SonarModel& s : sonars) s.listen(caster, air);
-  for (LaserModel& s : lasers) s.run(caster, own_body, last_tick_);
-  for (InfraredModel& s : infrareds) s.run(caster, own_body, last_tick_);
+  for (std::size_t k = 0; k < lasers.size(); ++k)
+    lasers[k].run(caster, own_body, span(model.lasers[k].on_turret));
+  for (std::size_t k = 0; k < infrareds.size(); ++k)
+    infrareds[k].run(caster, own_body, span(model.infrareds[k].on_turret));
 }
 
 void Robot::feel(std::span<const Touch> touches) {
-  for (BumperModel& s : bumpers) s.run(touches, last_tick_.to);
+  for (BumperModel& s : bumpers) s.run(touches, on_body_.to, on_body_.in_robot(on_body_.to));
 }
 
 void Robot::sample(TimePoint now) {
@@ -71,15 +117,16 @@ void Robot::sample(TimePoint now) {
 }
 
 SceneRobot Robot::drawn() const {
-  SceneRobot drawn{name, pose, placed(model.footprint, pose), trajectory_};
-  if (!(drawn.trajectory.back().pose == pose)) drawn.trajectory.push_back({last_tick_.to, pose});
+  SceneRobot drawn{name, pose, placed(model.footprint, body), trajectory_};
+  if (!(drawn.trajectory.back().pose == pose)) drawn.trajectory.push_back({on_body_.to, pose});
   return drawn;
 }
 
 void Robot::add_to(Fnv1a& hash) const {
   const Pose2 odometric = odometry_model_.reading({}).pose;
   for (const double value :
-       {pose.x, pose.y, pose.yaw, velocity.forward, velocity.turn, odometric.x, odometric.y, odometric.yaw})
+       {pose.x, pose.y, pose.yaw, body.yaw, turret_ ? turret_->angle() : 0.0, velocity.forward, velocity.left,
+        velocity.turn, odometric.x, odometric.y, odometric.yaw})
     hash.add_u64(std::bit_cast<std::uint64_t>(value));
 }
 

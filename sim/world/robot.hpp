@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "orca/base/hash.hpp"
 #include "orca/sim/scene.hpp"
 #include "sonar_model.hpp"
+#include "turret_model.hpp"
 
 namespace orca::sim::detail {
 
@@ -29,7 +31,11 @@ class Robot {
   };
   Robot(Birth birth, RobotModel model, const ErrorLevels& errors);
 
-  // The base has moved to `X_WB` in the tick that ended at `now`; `blocked`: something was in its way.
+  // Sets off for a tick. @return  how the robot's frame moves if nothing is in its way.
+  Travel set_off();
+  // How fast the body turns meanwhile [rad/s].
+  [[nodiscard]] double body_turn() const { return steers() ? 0.0 : driving_.turn; }
+  // The body has moved to `X_WB` in the tick that ended at `now`; `blocked`: something was in its way.
   void moved(const Pose2& X_WB, TimePoint now, bool blocked);
   // Lets the sonars fire. @pre  moved() was called for all robots.
   void chirp(SonarAir& air, std::size_t own_body);
@@ -38,15 +44,17 @@ class Robot {
   // Lets the bumpers feel what touches the robot now.
   void feel(std::span<const Touch> touches);
 
+  [[nodiscard]] double speed() const { return std::hypot(driving_.forward, driving_.left); }  // [m/s]
+  [[nodiscard]] std::optional<TurretReading> turret() const;
   [[nodiscard]] SceneRobot drawn() const;
   void add_to(Fnv1a& hash) const;
 
   const std::string name;
   const RobotModel model;
   DriveModel drive;
-  Velocity driving;   // Of the drive, in the present tick.
-  Velocity velocity;  // True, in the last tick.
-  Pose2 pose;
+  Velocity velocity;  // True, in the last tick, in the robot's frame.
+  Pose2 pose;         // Of the robot's frame: x is forward.
+  Pose2 body;         // The same but on a synchro base, which does not turn with its wheels.
   std::vector<SonarModel> sonars;
   std::vector<LaserModel> lasers;
   std::vector<InfraredModel> infrareds;
@@ -54,11 +62,20 @@ class Robot {
   std::optional<OdometryReading> odometry;  // Set in the tick in which it is due.
 
  private:
+  [[nodiscard]] bool steers() const { return model.drive.kind == DriveKind::synchro; }
+  void reckon(const Travel& real, TimePoint now);
+  void carry(const Pose2& X_WB, const Pose2& X_WR, TimePoint now);
+  [[nodiscard]] Pose2 turret_pose(const Pose2& X_WB) const;
+  [[nodiscard]] const TickSpan& span(bool on_turret) const { return on_turret ? on_turret_ : on_body_; }
   void sample(TimePoint now);
 
   Duration tick_;
+  Velocity driving_;    // Of the drive, in the present tick.
+  double steer_ = 0.0;  // [rad] Of the wheels on the body.
+  std::optional<TurretModel> turret_;
   OdometryModel odometry_model_;
-  TickSpan last_tick_;
+  TickSpan on_body_;  // The last tick.
+  TickSpan on_turret_;
   TimePoint odometry_due_;
   std::vector<SceneRobot::Sample> trajectory_;
 };

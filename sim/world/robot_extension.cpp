@@ -19,6 +19,7 @@ struct Kind {
 
 constexpr std::array kKinds{
     Kind{"drive", true, read_drive},
+    Kind{"turret", true, read_turret},
     Kind{"sonar_ring", false, read_sonar_ring},
     Kind{"laser", false, read_laser},
     Kind{"infrared_ring", false, read_infrared_ring},

@@ -46,13 +46,13 @@ void read_body(const xml::Element& root, const xml::Element& orca, RobotModel& m
   model.name = body->name;
   model.mass = body->mass;
   model.yaw_inertia = body->yaw_inertia;
-  model.parts = std::move(body->parts);
+  model.parts = body->parts;
   if (!model.parts.empty()) {
     model.footprint = footprint_of(model.parts);
     std::tie(model.bottom, model.top) = height_range_of(model.parts);
   }
   check_body(model, robot, {orca, 'R', diagnostics});
-  detail::mount_sensors(model, body->links, orca, diagnostics);
+  detail::mount_devices(model, *body, orca, diagnostics);
 }
 
 std::optional<RobotModel> read_root(const xml::Element& root, std::string text,

@@ -26,9 +26,9 @@ void SonarModel::fire(std::size_t own_body, const TickSpan& span, SonarAir& air)
                     ring_.half_lobe,
                     ring_.min_range,
                     ring_.max_range,
-                    ring_.height,
+                    ring_.height_of(k),
                     own_body};
-    shots_.push_back({k, due, beam, air.send(due, beam)});
+    shots_.push_back({k, due, beam, span.in_robot(due) * ring_.transducer(k), air.send(due, beam)});
     if (fired_ < ring_.count) continue;
     fired_ = 0;
     round_start_ += ring_.period;
@@ -41,7 +41,7 @@ void SonarModel::listen(const Caster& caster, const SonarAir& air) {
     SonarReading reading = measured(heard(caster, air, shot));
     reading.transducer = shot.transducer;
     reading.stamp = shot.time;
-    reading.sensor = ring_.transducer(shot.transducer);
+    reading.sensor = shot.X_RS;
     scan_.readings[shot.transducer] = reading;
     if (++listened_ < ring_.count) continue;
     completed_ = scan_;

@@ -33,6 +33,7 @@ class SonarModel {
     std::size_t transducer;
     TimePoint time;
     Beam beam;
+    Pose2 X_RS;  // Of the transducer in the robot's frame.
     std::uint64_t chirp;
   };
 

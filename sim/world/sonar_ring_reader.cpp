@@ -25,9 +25,8 @@ void read_order(const Attributes& e, SonarRing& ring) {
   std::ranges::transform(*given, ring.order.begin(), [](double k) { return static_cast<std::size_t>(k); });
 }
 
-// Where the transducers look and sit: evenly on a circle, or as listed.
-void read_directions(const Attributes& e, SonarRing& ring, double robot_radius) {
-  set(ring.radius, e.quantity_or("radius", "m", Sign::not_negative, robot_radius));
+// Evenly on a circle, or as listed.
+void read_directions(const Attributes& e, SonarRing& ring) {
   if (!e.has("angles")) {
     set(ring.first_angle, e.quantity_or("first_angle", "rad", Sign::any, 0.0));
     set(ring.pitch, e.quantity("pitch", "rad", Sign::any));
@@ -37,9 +36,14 @@ void read_directions(const Attributes& e, SonarRing& ring, double robot_radius) 
   }
   for (const char* even : {"first_angle", "pitch"})
     if (e.has(even)) e.error_at(even, 22, "the directions are given by angles already; write one of the two");
+  if (ring.count > 0) set(ring.angles, e.quantities("angles", "rad", ring.count));
+}
+
+void read_positions(const Attributes& e, SonarRing& ring, double robot_radius) {
+  set(ring.radius, e.quantity_or("radius", "m", Sign::not_negative, robot_radius));
   if (ring.count == 0) return;  // Told already.
-  set(ring.angles, e.quantities("angles", "rad", ring.count));
-  if (!e.has("positions")) return;
+  if (e.has("heights")) set(ring.heights, e.quantities("heights", "m", ring.count));
+  if (!e.has("positions") || !e.has("angles")) return;
   set(ring.positions, e.points("positions"));
   if (!ring.positions.empty() && ring.positions.size() != ring.count)
     e.error_at("positions", 22,
@@ -58,13 +62,14 @@ void check_ring(const Attributes& e, const SonarRing& ring) {
 }  // namespace
 
 void read_sonar_ring(const Attributes& e, RobotModel& model) {
-  e.allow({"name", "count", "first_angle", "pitch", "angles", "positions", "half_lobe", "min_range",
-           "max_range", "quantum", "radius", "period", "link", "order", "parallel"},
+  e.allow({"name", "count", "first_angle", "pitch", "angles", "positions", "heights", "half_lobe",
+           "min_range", "max_range", "quantum", "radius", "period", "link", "order", "parallel"},
           {});
   SonarRing ring;
   set(ring.name, e.name("name"));
   set(ring.count, e.count("count", 1, kMaxTransducers));
-  read_directions(e, ring, model.radius);
+  read_directions(e, ring);
+  read_positions(e, ring, model.radius);
   set(ring.half_lobe, e.quantity("half_lobe", "rad", Sign::positive));
   set(ring.min_range, e.quantity("min_range", "m", Sign::not_negative));
   set(ring.max_range, e.quantity("max_range", "m", Sign::positive));

@@ -45,14 +45,32 @@ void add_inertial(const urdf::Inertial& inertial, const btTransform& X_BL, UrdfB
   body.yaw_inertia += z.dot(about_center * z) + inertial.mass * (c.x() * c.x() + c.y() * c.y());
 }
 
-void add_link(const urdf::Link& link, const btTransform& X_BL, UrdfBody& body) {
+UrdfJoint joint_of(const urdf::Joint& joint, const btTransform& X_BJ) {
+  UrdfJoint made;
+  made.X_BJ = pose_of(X_BJ);
+  made.continuous = joint.type == urdf::Joint::CONTINUOUS;
+  const btVector3 axis(joint.axis.x, joint.axis.y, joint.axis.z);
+  if (made.continuous) made.upright = X_BJ.getBasis().getRow(2).dot(axis) / axis.length();
+  return made;
+}
+
+// @return  the names of the link and of all below it.
+std::vector<std::string> add_link(const urdf::Link& link, const btTransform& X_BL, UrdfBody& body) {
+  std::vector<std::string> names{link.name};
   body.links[link.name] = pose_of(X_BL);
   if (link.inertial) add_inertial(*link.inertial, X_BL, body);
   for (const auto& collision : link.collision_array) body.parts.push_back(part_of(*collision, X_BL));
-  for (const auto& joint : link.child_joints)
-    for (const auto& child : link.child_links)
-      if (child->name == joint->child_link_name)
-        add_link(*child, X_BL * transform_of(joint->parent_to_joint_origin_transform), body);
+  for (const auto& child : link.child_links) {
+    const urdf::Joint& joint = *child->parent_joint;
+    const btTransform X_BJ = X_BL * transform_of(joint.parent_to_joint_origin_transform);
+    UrdfJoint made = joint_of(joint, X_BJ);
+    made.first_part = body.parts.size();
+    made.links = add_link(*child, X_BJ, body);
+    made.end_part = body.parts.size();
+    names.insert(names.end(), made.links.begin(), made.links.end());
+    body.joints[joint.name] = std::move(made);
+  }
+  return names;
 }
 
 urdf::ModelInterfaceSharedPtr parsed(const std::string& text) {

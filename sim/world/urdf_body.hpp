@@ -9,6 +9,16 @@
 
 namespace orca::sim::detail {
 
+// A joint and what moves with it.
+struct UrdfJoint {
+  Pose3 X_BJ;
+  double upright = 0.0;            // z component of its unit axis.
+  bool continuous = false;         // It turns without end.
+  std::vector<std::string> links;  // All below it.
+  std::size_t first_part = 0;      // Of the body's parts, the ones below it: up to, not with, end_part.
+  std::size_t end_part = 0;
+};
+
 // What of a URDF the simulation uses; everything in the frame of the root link.
 struct UrdfBody {
   std::string name;
@@ -16,6 +26,7 @@ struct UrdfBody {
   double yaw_inertia = 0.0;
   std::vector<Part> parts;
   std::map<std::string, Pose3> links;
+  std::map<std::string, UrdfJoint> joints;
 };
 
 // @errors  invalid_argument if urdfdom does not take the text, without saying where.

@@ -84,7 +84,7 @@ Status World::Impl::check_birth(const std::string& name, const RobotModel& robot
   for (const detail::Robot& other : robots) {
     if (other.name == name)
       return fail(Code::already_exists, "there is a " + who + " already; choose another name");
-    if (overlap(body, placed(other.model.footprint, other.pose)))
+    if (overlap(body, placed(other.model.footprint, other.body)))
       return fail(Code::failed_precondition, there + "robot '" + other.name + "'" + remedy);
   }
   if (const Obstacle* o = model.obstacle_at(body, robot_model.bottom, robot_model.top))
@@ -99,7 +99,7 @@ Status World::Impl::check_room(const std::string& name, const Body& body, const 
   const std::string who = "obstacle '" + name + "'";
   if (!is_near(X_WO)) return fail(Code::invalid_argument, who + ": its pose is not finite or beyond 100 km");
   for (const detail::Robot& robot : robots)
-    if (body.top > robot.model.bottom && overlap(body.shape, placed(robot.model.footprint, robot.pose)))
+    if (body.top > robot.model.bottom && overlap(body.shape, placed(robot.model.footprint, robot.body)))
       return fail(Code::failed_precondition, who + " cannot stand at " + text(X_WO) + ": robot '" +
                                                  robot.name + "' is there; choose a free place");
   return ok();
@@ -110,10 +110,8 @@ void World::Impl::drive() {
   const double seconds = to_seconds(kTick);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     detail::Robot& r = robots[i];
-    r.driving = r.drive.step();
-    const double turn = r.driving.turn * seconds;
-    const double speed = r.driving.forward * detail::chord_ratio(turn);
-    physics.set_velocity(i, speed * direction(r.pose.yaw + 0.5 * turn), r.driving.turn);
+    const Vec2 way = detail::chord(r.pose.yaw, r.set_off());
+    physics.set_velocity(i, (1.0 / seconds) * way, r.body_turn());
   }
   movers.walk(kTick, robots);
   physics.step(seconds);
@@ -129,7 +127,7 @@ void World::Impl::report_contacts() {
   contacts.clear();
   for (const detail::Pair& p : contact_log.update(physics.near_pairs())) {
     const detail::Robot& r = robots[p.robot];
-    contacts.push_back({r.name, now, name_of(p), std::fabs(r.driving.forward)});
+    contacts.push_back({r.name, now, name_of(p), r.speed()});
   }
 }
 
@@ -137,7 +135,7 @@ void World::Impl::move() {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     detail::Robot& r = robots[i];
     r.moved(physics.pose(i), now, contact_log.touches(i));
-    caster.move_body(bodies[i], placed(r.model.footprint, r.pose));
+    caster.move_body(bodies[i], placed(r.model.footprint, r.body));
   }
 }
 
@@ -202,9 +200,25 @@ std::optional<RobotId> World::find(std::string_view name) const {
 }
 
 Status World::set_velocity_command(RobotId robot, double forward, double turn) {
-  if (!std::isfinite(forward) || !std::isfinite(turn))
-    return fail(Code::invalid_argument, "a velocity command must be finite", impl_->robot(robot).name);
-  impl_->robot(robot).drive.command({forward, turn});
+  return set_velocity_command(robot, Velocity{.forward = forward, .turn = turn});
+}
+
+Status World::set_velocity_command(RobotId robot, const Velocity& wanted) {
+  detail::Robot& r = impl_->robot(robot);
+  if (!std::isfinite(wanted.forward) || !std::isfinite(wanted.turn) || !std::isfinite(wanted.left))
+    return fail(Code::invalid_argument, "a velocity command must be finite", r.name);
+  if (wanted.left != 0.0 && r.model.drive.kind != DriveKind::holonomic)
+    return fail(Code::failed_precondition, "this base cannot move sideways; only a holonomic one can",
+                r.name);
+  r.drive.command(wanted);
+  return ok();
+}
+
+Status World::set_turret_command(RobotId robot, double angle) {
+  detail::Robot& r = impl_->robot(robot);
+  if (!r.model.turret) return fail(Code::failed_precondition, "this robot has no turret", r.name);
+  if (!std::isfinite(angle)) return fail(Code::invalid_argument, "a turret's angle must be finite", r.name);
+  r.drive.point_turret(angle);
   return ok();
 }
 
@@ -217,6 +231,8 @@ void World::step() {
 
 TimePoint World::time() const { return impl_->now; }
 Pose2 World::pose(RobotId robot) const { return impl_->robot(robot).pose; }
+Pose2 World::body_pose(RobotId robot) const { return impl_->robot(robot).body; }
+std::optional<TurretReading> World::turret(RobotId robot) const { return impl_->robot(robot).turret(); }
 Velocity World::velocity(RobotId robot) const { return impl_->robot(robot).velocity; }
 const std::vector<ContactEvent>& World::contacts() const { return impl_->contacts; }
 const std::optional<SonarScan>& World::sonar(RobotId robot, std::size_t ring) const {

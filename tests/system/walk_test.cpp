@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// graphs/scout_walk.xml: a robot that drives about.
+// graphs/random_walk.xml: a robot that drives about.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
@@ -9,7 +9,7 @@ using namespace orca::test;
 namespace {
 
 Run walk(const Words& more) {
-  return run_deployer(Words{source_file("graphs/scout_walk.xml"), "--until", "300 s"} + virtual_clock() +
+  return run_deployer(Words{source_file("graphs/random_walk.xml"), "--until", "300 s"} + virtual_clock() +
                       more);
 }
 

@@ -32,14 +32,12 @@ void HardwareContainer::release() {
   if (strand_ != nullptr) strand_->wake();
 }
 
-Status HardwareContainer::command(const idl::MotionCommand& command) {
+Status HardwareContainer::check_active() const {
   if (motion_ == nullptr) return fail(Code::failed_precondition, host_.name() + " has nothing that moves");
   if (state() != HardwareState::active)
     return fail(Code::unavailable,
                 host_.name() + " is " + to_string(state()) + ", not Active: nobody has started it");
-  const Status taken = motion_->command(command, host_.now());
-  if (taken.ok()) strand_->wake();
-  return taken;
+  return ok();
 }
 
 std::string HardwareContainer::fault() const {
@@ -75,7 +73,7 @@ void HardwareContainer::fail_with(const std::string& reason) {
 // The device has failed in some way, but its motors may run and may still listen.
 void HardwareContainer::still_stop() {
   try {
-    applied_ = DriveSetpoint{};
+    applied_ = DriveSetpoint{.turret_angle = applied_.turret_angle};
     if (motion_ != nullptr && !drive(applied_).ok())
       host_.write_log(log::Level::error, "the motors did not take the stop command either");
     stop();
@@ -147,7 +145,7 @@ void HardwareContainer::start_device() {
 
 void HardwareContainer::stop_device() {
   if (motion_ != nullptr) motion_->halt();
-  drive_to(DriveSetpoint{});
+  drive_to({.turret_angle = applied_.turret_angle});
   if (state() != HardwareState::active) return;
   stop();
   for (SensorEndpoint* sensor : sensors_) sensor->forget();

@@ -43,13 +43,51 @@ Status MotionHW::check(const idl::MotionCommand& command) {
               "a motion command holds a number that is not finite, or a negative weight");
 }
 
+Status MotionHW::check(const idl::HolonomicVelocity& velocity) {
+  if (std::isfinite(velocity.forward()) && std::isfinite(velocity.left()) &&
+      std::isfinite(velocity.turn_rate()))
+    return ok();
+  return fail(Code::invalid_argument, "a holonomic velocity holds a number that is not finite");
+}
+
 Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
   if (Status checked = check(command); !checked.ok()) return checked;
-  const std::lock_guard lock(mutex_);
-  setpoint_ = command.kind() == idl::FULLSTOP ? DriveSetpoint{} : within_limits(command);
-  received_ = now;
+  move(command.kind() == idl::FULLSTOP ? DriveSetpoint{} : within_limits(command), now);
   return ok();
 }
+
+Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) {
+  if (limits_.type != idl::HOLONOMIC)
+    return fail(Code::failed_precondition,
+                "this base cannot move sideways; send it a MotionCommand, not a HolonomicVelocity");
+  if (Status checked = check(velocity); !checked.ok()) return checked;
+  const double speed = std::hypot(velocity.forward(), velocity.left());
+  const double share = speed > limits_.max_speed ? limits_.max_speed / speed : 1.0;
+  move({.speed = share * velocity.forward(),
+        .steer_speed = std::clamp(velocity.turn_rate(), -limits_.max_steer_speed, limits_.max_steer_speed),
+        .side_speed = share * velocity.left()},
+       now);
+  return ok();
+}
+
+Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
+  if (!limits_.turret) return fail(Code::failed_precondition, "this base has no turret");
+  if (!std::isfinite(turret.angle())) return fail(Code::invalid_argument, "a turret's angle must be finite");
+  const std::lock_guard lock(mutex_);
+  setpoint_.turret_angle = turret.angle();
+  return ok();
+}
+
+void MotionHW::move(const DriveSetpoint& wanted, TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  const double turret_angle = setpoint_.turret_angle;
+  setpoint_ = wanted;
+  setpoint_.turret_angle = turret_angle;
+  received_ = now;
+}
+
+// @pre  mutex_ is held.
+void MotionHW::stand() { setpoint_ = DriveSetpoint{.turret_angle = setpoint_.turret_angle}; }
 
 DriveSetpoint MotionHW::within_limits(const idl::MotionCommand& command) const {
   DriveSetpoint setpoint;
@@ -67,21 +105,21 @@ DriveSetpoint MotionHW::within_limits(const idl::MotionCommand& command) const {
 
 DriveSetpoint MotionHW::due(TimePoint now) {
   const std::lock_guard lock(mutex_);
-  if (setpoint_ != DriveSetpoint{} && now >= received_ + max_command_age_) {
+  if (!setpoint_.stands() && now >= received_ + max_command_age_) {
     ++expired_;
-    setpoint_ = DriveSetpoint{};
+    stand();
   }
   return setpoint_;
 }
 
 void MotionHW::halt() {
   const std::lock_guard lock(mutex_);
-  setpoint_ = DriveSetpoint{};
+  stand();
 }
 
 TimePoint MotionHW::expiry() const {
   const std::lock_guard lock(mutex_);
-  return setpoint_ == DriveSetpoint{} ? kForever : received_ + max_command_age_;
+  return setpoint_.stands() ? kForever : received_ + max_command_age_;
 }
 
 std::uint64_t MotionHW::expired_count() const {

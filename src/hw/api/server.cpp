@@ -93,6 +93,13 @@ void HardwareServer::offer_motion() {
   if (container_ == nullptr || container_->motion() == nullptr) return;
   motion_ = std::make_unique<SendServer<idl::MotionCommand>>(*this, "MotionCommandSend",
                                                              &HardwareServer::on_motion);
+  const DriveLimits& base = container_->motion()->limits();
+  if (base.type == idl::HOLONOMIC)
+    velocity_ = std::make_unique<SendServer<idl::HolonomicVelocity>>(*this, "HolonomicVelocitySend",
+                                                                     &HardwareServer::on_velocity);
+  if (base.turret)
+    turret_ = std::make_unique<SendServer<idl::TurretCommand>>(*this, "TurretCommandSend",
+                                                               &HardwareServer::on_turret);
 }
 
 Status HardwareServer::configure() {
@@ -115,11 +122,11 @@ Status HardwareServer::start() {
 }
 
 void HardwareServer::carry_out_waiting_command() {
-  const ObjectPtr<idl::MotionCommand> command = std::exchange(waiting_command_, nullptr);
+  const std::function<Status()> command = std::exchange(waiting_command_, nullptr);
   if (!command) return;
   if (now() - last_command_ >= container_->motion()->max_command_age()) {
     log_warning("a motion command grew too old while the hardware was started");
-  } else if (const Status taken = container_->command(*command); !taken.ok()) {
+  } else if (const Status taken = command(); !taken.ok()) {
     log_warning("the command that started the hardware was lost: " + taken.error().text());
   }
 }
@@ -135,14 +142,35 @@ void HardwareServer::stop() { container_->release(); }
 
 Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {
   if (Status checked = MotionHW::check(*command); !checked.ok()) return checked;
+  return carry_out(command, command->kind() == idl::FULLSTOP);
+}
+
+Status HardwareServer::on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velocity) {
+  if (Status checked = MotionHW::check(*velocity); !checked.ok()) return checked;
+  return carry_out(velocity,
+                   velocity->forward() == 0.0 && velocity->left() == 0.0 && velocity->turn_rate() == 0.0);
+}
+
+// It holds no age, so that idle hardware takes it before it is started.
+Status HardwareServer::on_turret(const ObjectPtr<idl::TurretCommand>& turret) {
+  const bool active = container_->state() == HardwareState::active;
+  const Status taken = active ? container_->command(*turret) : container_->motion()->command(*turret, now());
+  if (!taken.ok()) return taken;
+  if (!waiting_command_) last_command_ = now();
+  stay_active(true);
+  return ok();
+}
+
+template <class Command>
+Status HardwareServer::carry_out(const ObjectPtr<Command>& command, bool stands) {
   last_command_ = now();
-  const bool stands = command->kind() == idl::FULLSTOP;
   if (container_->state() == HardwareState::active) {
     stay_active(!stands);
     return container_->command(*command);
   }
   // Idle hardware stands already; what it was to be started for is not wanted any more.
-  waiting_command_ = stands ? nullptr : command;
+  waiting_command_ = nullptr;
+  if (!stands) waiting_command_ = [this, command] { return container_->command(*command); };
   stay_active(!stands);
   return ok();
 }

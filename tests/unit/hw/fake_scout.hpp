@@ -51,7 +51,8 @@ class FakeScout : public hw::HardwareContainer {
   /// Called at the start of the driver's function of that name.
   std::map<std::string, std::function<Status()>> trouble;
 
-  explicit FakeScout(hw::HardwareHost& host, Diary& diary) : HardwareContainer(host), diary_(diary) {
+  explicit FakeScout(hw::HardwareHost& host, Diary& diary, const hw::DriveLimits& limits = kScoutLimits)
+      : HardwareContainer(host), diary_(diary), wheels_(limits, kScoutCommandAge) {
     add_sensor(sonar_);
     add_sensor(odometry_);
     set_motion(wheels_);
@@ -69,6 +70,8 @@ class FakeScout : public hw::HardwareContainer {
   Status drive(const hw::DriveSetpoint& setpoint) override {
     std::ostringstream line;
     line << "drive " << setpoint.speed << " " << setpoint.steer_speed;
+    if (wheels_.limits().type == idl::HOLONOMIC) line << " left " << setpoint.side_speed;
+    if (wheels_.limits().turret) line << " turret " << setpoint.turret_angle;
     diary_.note(line.str());
     return meet_trouble("drive");
   }
@@ -100,7 +103,7 @@ class FakeScout : public hw::HardwareContainer {
   Diary& diary_;
   hw::SensorHW<idl::SonarRangeReadings> sonar_{50ms};
   hw::SensorHW<idl::Odometry> odometry_{50ms};
-  hw::MotionHW wheels_{kScoutLimits, kScoutCommandAge};
+  hw::MotionHW wheels_;
   TimePoint next_poll_{};
   double x_ = 0.0;
 };
@@ -108,8 +111,9 @@ class FakeScout : public hw::HardwareContainer {
 /// A scout whose strand runs as long as this lives.
 struct RunningScout {
   explicit RunningScout(Executive& used) : RunningScout(used, {}) {}
-  RunningScout(Executive& used, std::map<std::string, std::function<Status()>> trouble)
-      : executive(used), host(used, diary), scout(host, diary) {
+  RunningScout(Executive& used, std::map<std::string, std::function<Status()>> trouble,
+               const hw::DriveLimits& limits = kScoutLimits)
+      : executive(used), host(used, diary), scout(host, diary, limits) {
     scout.trouble = std::move(trouble);
     scout.run();
   }

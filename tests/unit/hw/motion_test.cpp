@@ -30,6 +30,20 @@ DriveSetpoint carried_out(const Loan<idl::MotionCommand>& command, const DriveLi
   return motion.due(kStart);
 }
 
+DriveLimits omni() {
+  DriveLimits limits = kLimits;
+  limits.type = idl::HOLONOMIC;
+  return limits;
+}
+
+Loan<idl::HolonomicVelocity> velocity(double forward, double left, double turn_rate) {
+  auto made = make_object<idl::HolonomicVelocity>();
+  made->forward(forward);
+  made->left(left);
+  made->turn_rate(turn_rate);
+  return made;
+}
+
 }  // namespace
 
 TEST_CASE("a base stands until the first command", "[hw][motion]") {
@@ -145,4 +159,83 @@ TEST_CASE("a command with a number that is not finite, or a negative weight, is 
     CHECK(refused.error().code == Code::invalid_argument);
     CHECK(motion.due(kStart) == kStand);
   }
+}
+
+TEST_CASE("a holonomic base carries out a velocity with a sideways part", "[hw][motion]") {
+  MotionHW motion(omni(), kAge);
+  REQUIRE(motion.command(*velocity(0.3, -0.4, 0.5), kStart).ok());
+  CHECK(motion.due(kStart) == DriveSetpoint{.speed = 0.3, .steer_speed = 0.5, .side_speed = -0.4});
+  CHECK(motion.due(kStart + kAge) == kStand);
+  CHECK(motion.expired_count() == 1);
+}
+
+TEST_CASE("a velocity faster than a holonomic base keeps its direction", "[hw][motion]") {
+  MotionHW motion(omni(), kAge);
+  REQUIRE(motion.command(*velocity(-3.0, 4.0, -9.0), kStart).ok());
+  const DriveSetpoint setpoint = motion.due(kStart);
+  CHECK(setpoint.speed == Approx(-0.6));
+  CHECK(setpoint.side_speed == Approx(0.8));
+  CHECK(setpoint.steer_speed == -2.0);
+}
+
+TEST_CASE("a holonomic base takes motion commands too, and drives them without a sideways part",
+          "[hw][motion]") {
+  MotionHW motion(omni(), kAge);
+  REQUIRE(motion.command(*velocity(0.1, 0.5, 0.0), kStart).ok());
+  REQUIRE(motion.command(*turn(0.25, 0.5), kStart).ok());
+  CHECK(motion.due(kStart) == DriveSetpoint{0.5, 0.25});
+}
+
+TEST_CASE("a base that cannot move sideways refuses a holonomic velocity and says what to send",
+          "[hw][motion]") {
+  for (const auto type : {idl::DIFFERENTIAL, idl::SYNCHRO}) {
+    DriveLimits limits = kLimits;
+    limits.type = type;
+    MotionHW motion(limits, kAge);
+    REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
+    const Status refused = motion.command(*velocity(0.1, 0.0, 0.0), kStart);
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == Code::failed_precondition);
+    CHECK_THAT(refused.error().text(), Contains("cannot move sideways") && Contains("MotionCommand"));
+    CHECK(motion.due(kStart) == DriveSetpoint{0.5, 0.1});
+  }
+}
+
+TEST_CASE("a holonomic velocity with a number that is not finite is refused and changes nothing",
+          "[hw][motion]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  MotionHW motion(omni(), kAge);
+  for (const auto& wrong : {velocity(nan, 0, 0), velocity(0, nan, 0), velocity(0, 0, nan)}) {
+    const Status refused = motion.command(*wrong, kStart);
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == Code::invalid_argument);
+    CHECK(motion.due(kStart) == kStand);
+  }
+}
+
+TEST_CASE("a turret stays where it was pointed when the base is commanded, halted, or its command expires",
+          "[hw][motion]") {
+  DriveLimits limits = kLimits;
+  limits.turret = true;
+  MotionHW motion(limits, kAge);
+  const auto point = make_object<idl::TurretCommand>();
+  point->angle(1.5);
+  REQUIRE(motion.command(*point, kStart).ok());
+  CHECK(motion.due(kStart) == DriveSetpoint{.turret_angle = 1.5});
+  CHECK(motion.expiry() == kForever);
+  REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
+  CHECK(motion.due(kStart) == DriveSetpoint{.speed = 0.5, .steer_speed = 0.1, .turret_angle = 1.5});
+  CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5});
+  motion.halt();
+  CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5});
+  point->angle(std::numeric_limits<double>::infinity());
+  CHECK_FALSE(motion.command(*point, kStart).ok());
+  CHECK(motion.due(kStart + kAge).turret_angle == 1.5);
+}
+
+TEST_CASE("a base without turret refuses to point it", "[hw][motion]") {
+  MotionHW motion(kLimits, kAge);
+  const Status refused = motion.command(*make_object<idl::TurretCommand>(), kStart);
+  REQUIRE_FALSE(refused.ok());
+  CHECK_THAT(refused.error().text(), Contains("no turret"));
 }

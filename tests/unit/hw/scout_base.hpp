@@ -23,13 +23,16 @@ struct Client : Peer {
   QueryProxy<idl::Ask, idl::Odometry> ask_odometry{*this, "ask_odometry"};
   QueryProxy<idl::Ask, idl::SonarRangeReadings> ask_sonar{*this, "ask_sonar"};
   SendProxy<idl::MotionCommand> motion{*this, "motion"};
+  SendProxy<idl::HolonomicVelocity> velocity{*this, "velocity"};
+  SendProxy<idl::TurretCommand> turret{*this, "turret"};
 };
 
 /// A scout, a server around it, a client connected to all five interfaces; server and scout run.
 struct ScoutBase {
-  explicit ScoutBase(Executive& used, std::map<std::string, std::function<Status()>> trouble = {})
+  explicit ScoutBase(Executive& used, std::map<std::string, std::function<Status()>> trouble = {},
+                     const hw::DriveLimits& limits = kScoutLimits)
       : executive(used),
-        robot(used, std::move(trouble)),
+        robot(used, std::move(trouble), limits),
         bench(used, "base", &robot.scout),
         server(bench),
         client(used) {
@@ -52,6 +55,14 @@ struct ScoutBase {
     robot.end();  // before the server's strand, which the scout wakes, is gone
   }
 
+  /// Connects a proxy of the client with a port of the server, whichever way the pattern goes.
+  void connect(const std::string& from, const std::string& to) {
+    const bool pushed = from.ends_with("Push");
+    Endpoint& first = pushed ? bench.peer().endpoint(from) : client.endpoint(from);
+    Endpoint& second = pushed ? client.endpoint(to) : bench.peer().endpoint(to);
+    CHECK(connect_locally(first, second).ok());
+  }
+
   [[nodiscard]] bool gets(hw::HardwareState state) { return robot.gets(state); }
 
   Executive& executive;
@@ -60,14 +71,6 @@ struct ScoutBase {
   Base server;
   Client client;
   std::unique_ptr<Script> service;
-
- private:
-  void connect(const std::string& from, const std::string& to) {
-    const bool pushed = from.ends_with("Push");
-    Endpoint& first = pushed ? bench.peer().endpoint(from) : client.endpoint(from);
-    Endpoint& second = pushed ? client.endpoint(to) : bench.peer().endpoint(to);
-    CHECK(connect_locally(first, second).ok());
-  }
 };
 
 }  // namespace orca::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// MotionCommand, short ways to make one, and FusionReason. What each field means, its unit and frame, is
-/// said in idl/orca/motion.idl.
+/// MotionCommand, short ways to make one, HolonomicVelocity, TurretCommand and FusionReason. What each field
+/// means, its unit and frame, is said in idl/orca/motion.idl.
 #pragma once
 
 #include "orca/idl/generated/motion.h"

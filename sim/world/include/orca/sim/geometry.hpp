@@ -52,10 +52,18 @@ struct Pose2 {
   return ab.position() + rotated(p_b, ab.yaw);
 }
 
-/// Velocity of a body in its own frame: forward [m/s] and turning [rad/s, counter-clockwise].
+/// The pose of A in B from that of B in A.
+[[nodiscard]] inline Pose2 inverse(const Pose2& ab) {
+  const Vec2 p = rotated(-1.0 * ab.position(), -ab.yaw);
+  return {p.x, p.y, wrapped(-ab.yaw)};
+}
+
+/// Velocity of a body in its own frame: forward [m/s], turning [rad/s, counter-clockwise], sideways [m/s, to
+/// the left].
 struct Velocity {
   double forward = 0.0;
   double turn = 0.0;
+  double left = 0.0;
   friend bool operator==(const Velocity&, const Velocity&) = default;
 };
 

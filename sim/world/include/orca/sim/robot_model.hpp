@@ -15,7 +15,8 @@
 namespace orca::sim {
 
 /// A pose in space: position [m] and unit quaternion. Here of a part in the robot's base frame B (x forward,
-/// y left, z up, origin on the floor between the wheels).
+/// y left, z up, origin on the floor between the wheels). On a synchro base B is the body's frame, which is
+/// the robot's frame R (x the way the wheels point) as long as they point ahead.
 struct Pose3 {
   double x = 0.0, y = 0.0, z = 0.0;
   double qx = 0.0, qy = 0.0, qz = 0.0, qw = 1.0;
@@ -37,22 +38,40 @@ struct Part {
   Pose3 X_BP;
 };
 
-/// How the base moves. Speeds and accelerations are limits, > 0.
+/// How the wheels of a base work together; docs/simulation.md has the models.
+enum class DriveKind {
+  differential,  ///< Two wheels on one axle.
+  synchro,       ///< Three wheels, steered and driven together; the body does not turn with them.
+  holonomic,     ///< Three omnidirectional wheels, 120 degrees apart.
+};
+
+/// How the base moves. Speeds and accelerations are limits, > 0; those of a holonomic base hold for its speed
+/// in whatever direction.
 struct Drive {
-  std::string type = "differential";
+  DriveKind kind = DriveKind::differential;
   double max_speed = 0.0;               ///< [m/s]
   double max_steer_speed = 0.0;         ///< [rad/s]
   double max_acceleration = 0.0;        ///< [m/s2]
   double max_steer_acceleration = 0.0;  ///< [rad/s2]
-  double track = 0.0;                   ///< [m] Distance between the wheels' contact points.
+  double track = 0.0;                   ///< [m] Diameter of the circle through the wheels' contact points.
   double wheel_diameter = 0.0;          ///< [m]
   Duration lag{0};                      ///< Time constant of the first-order answer to a command.
   Duration dead_time{0};                ///< From a command to the first effect.
   // For those who steer the base (thesis 8.4.1); the simulation itself does not use these.
   double steer_gain = 1.0;                         ///< [1/s] Turn rate per heading error.
   double speed_step = 0.0;                         ///< [m/s] Smallest change of speed worth a command.
-  double big_turn_angle = 0.5 * std::numbers::pi;  ///< [rad] Larger heading errors are turned on the spot.
-  double big_turn_speed = 0.0;                     ///< [rad/s] With this turn rate.
+  double big_turn_angle = 0.5 * std::numbers::pi;  ///< [rad] Towards larger ones it slows down,
+  double big_turn_speed = 0.0;                     ///< [m/s] to this speed at most.
+};
+
+/// A turret: an upright axis of its own on top of the base, with sensors on it. It turns without end, and its
+/// collision geometry is round, so that turning moves nothing but sensors.
+struct Turret {
+  std::string joint;              ///< The URDF joint that turns.
+  double max_speed = 0.0;         ///< [rad/s]
+  double max_acceleration = 0.0;  ///< [rad/s2]
+  Duration period{0};             ///< From one reading of its angle to the next.
+  Vec2 axis;                      ///< [m] Where it stands in the base frame.
 };
 
 /// A ring of sonar transducers. Number k looks along first_angle + k * pitch from the ring's centre and sits
@@ -64,6 +83,7 @@ struct SonarRing {
   double pitch = 0.0;              ///< [rad] Positive: counter-clockwise.
   std::vector<double> angles;      ///< [rad] Of each transducer; empty: evenly spaced as above.
   std::vector<Vec2> positions;     ///< [m] Of each transducer about the centre; empty: on the circle.
+  std::vector<double> heights;     ///< [m] Of each transducer above the link; empty: all at its height.
   double half_lobe = 0.0;          ///< [rad] Half the opening of the cone.
   double min_range = 0.0;          ///< [m] Nearer echoes read as this.
   double max_range = 0.0;          ///< [m] What no echo reads as.
@@ -73,11 +93,16 @@ struct SonarRing {
   std::string link;                ///< The URDF link at the ring's centre.
   Pose2 center;                    ///< Of that link in the base frame.
   double height = 0.0;             ///< [m] Of that link above the floor.
+  bool on_turret = false;          ///< Whether that link turns with the turret.
   std::vector<std::size_t> order;  ///< Firing order, a permutation of 0 .. count - 1.
   std::size_t parallel = 1;        ///< So many that follow each other in `order` fire at once.
 
   /// Where transducer `k` sits and looks, in the base frame.
   [[nodiscard]] Pose2 transducer(std::size_t k) const;
+  /// How high transducer `k` sits above the floor [m].
+  [[nodiscard]] double height_of(std::size_t k) const {
+    return heights.empty() ? height : height + heights[k];
+  }
 };
 
 /// The device that counts wheel travel.
@@ -99,6 +124,7 @@ struct RobotModel {
   double bottom = 0.0;         ///< [m] Lowest point of the parts.
   double top = 0.0;            ///< [m] Highest point of the parts.
   Drive drive;
+  std::optional<Turret> turret;
   std::vector<SonarRing> sonars;
   std::vector<LaserScanner> lasers;
   std::vector<InfraredRing> infrareds;

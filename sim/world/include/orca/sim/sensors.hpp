@@ -25,6 +25,7 @@ struct LaserScanner {
   std::string link;          ///< The URDF link it sits at.
   Pose2 center;              ///< Of that link in the base frame.
   double height = 0.0;       ///< [m] Of that link above the floor.
+  bool on_turret = false;    ///< Whether that link turns with the turret.
 };
 
 /// A ring of short-range infrared sensors, all of which measure at once. Number k looks along
@@ -39,9 +40,10 @@ struct InfraredRing {
   double max_range = 0.0;    ///< [m] What nothing in sight reads as.
   double radius = 0.0;       ///< [m]
   Duration period{0};
-  std::string link;     ///< The URDF link at the ring's centre.
-  Pose2 center;         ///< Of that link in the base frame.
-  double height = 0.0;  ///< [m] Of that link above the floor.
+  std::string link;        ///< The URDF link at the ring's centre.
+  Pose2 center;            ///< Of that link in the base frame.
+  double height = 0.0;     ///< [m] Of that link above the floor.
+  bool on_turret = false;  ///< Whether that link turns with the turret.
 
   /// Where sensor `k` sits and looks, in the base frame.
   [[nodiscard]] Pose2 sensor(std::size_t k) const {

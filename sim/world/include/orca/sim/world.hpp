@@ -44,7 +44,7 @@ class World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Sets a robot down, at rest. Its sensors and odometry start now.
+  /// Sets a robot down, at rest, its wheels and turret ahead. Its sensors and odometry start now.
   ///
   /// @param name  not empty; the robot's random streams are keyed by it.
   /// @param X_WB  pose of its base frame in the world.
@@ -82,15 +82,31 @@ class World {
   /// @errors  invalid_argument if a number is not finite; the former command stays.
   Status set_velocity_command(RobotId robot, double forward, double turn);
 
+  /// The same, with a sideways part.
+  /// @errors  also failed_precondition for a sideways part if the base is not holonomic; the former command
+  ///          stays.
+  Status set_velocity_command(RobotId robot, const Velocity& wanted);
+
+  /// Where the turret shall point from now on; within its limits it goes there by the shorter way and keeps
+  /// to it while the robot turns. At first it points ahead.
+  ///
+  /// @param angle [rad]  in the robot's frame, counter-clockwise.
+  /// @errors  failed_precondition if the robot has no turret, invalid_argument if the angle is not finite.
+  Status set_turret_command(RobotId robot, double angle);
+
   /// Advances the time by exactly one tick.
   void step();
 
   /// Time since the world was made: ticks times kTick.
   [[nodiscard]] TimePoint time() const;
 
-  /// True pose of the base frame in the world.
+  /// True pose of the robot's frame in the world: x is forward, on a synchro base the way the wheels point.
   [[nodiscard]] Pose2 pose(RobotId robot) const;
-  /// True velocity in the last tick, in the base frame.
+  /// True pose of the body: pose() but on a synchro base, whose body does not turn with its wheels.
+  [[nodiscard]] Pose2 body_pose(RobotId robot) const;
+  /// Where the turret points now; nothing without turret.
+  [[nodiscard]] std::optional<TurretReading> turret(RobotId robot) const;
+  /// True velocity in the last tick, in the robot's frame.
   [[nodiscard]] Velocity velocity(RobotId robot) const;
 
   /// Contacts that began in the last tick: one for each touch, until the two have come apart again. If two

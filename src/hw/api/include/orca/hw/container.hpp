@@ -85,9 +85,16 @@ class HardwareContainer {
   void release();
 
   /// Takes a command for the motion endpoint, to be carried out at once.
+  /// @tparam Command  what MotionHW takes: idl::MotionCommand, HolonomicVelocity, TurretCommand.
   /// @errors  failed_precondition without a motion endpoint, unavailable unless active, and
   /// MotionHW::command()'s.
-  Status command(const idl::MotionCommand& command);
+  template <class Command>
+  Status command(const Command& command) {
+    if (Status able = check_active(); !able.ok()) return able;
+    const Status taken = motion_->command(command, host_.now());
+    if (taken.ok()) strand_->wake();
+    return taken;
+  }
 
   [[nodiscard]] HardwareState state() const { return state_.load(std::memory_order_acquire); }
   /// Why the state is Fault.
@@ -114,6 +121,7 @@ class HardwareContainer {
   [[nodiscard]] HardwareHost& host() const { return host_; }
 
  private:
+  [[nodiscard]] Status check_active() const;
   void main();
   void guarded(void (HardwareContainer::*step)());
   void open_device();

@@ -10,6 +10,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
+#include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/object.hpp"
 
@@ -76,13 +77,19 @@ struct DriveLimits {
   double steer_gain = 0.5;       ///< [1/s] turn rate per radian of direction asked for.
   double big_turn_angle =
       0.0;  ///< [rad] at larger directions the base drives at most `big_turn_speed`; 0: no such limit.
-  double big_turn_speed = 0.0;  ///< [m/s]
+  double big_turn_speed = 0.0;              ///< [m/s]
+  idl::DriveType type = idl::DIFFERENTIAL;  ///< Only a holonomic base takes velocities with a sideways part.
+  bool turret = false;                      ///< Whether there is a turret to be pointed.
 };
 
-/// A crisp set-point for the motors of a differential or synchro base, robot frame.
+/// A crisp set-point for the motors of a base of any kind, robot frame.
 struct DriveSetpoint {
-  double speed = 0.0;        ///< [m/s] forward positive.
-  double steer_speed = 0.0;  ///< [rad/s] counter-clockwise positive.
+  double speed = 0.0;         ///< [m/s] forward positive.
+  double steer_speed = 0.0;   ///< [rad/s] counter-clockwise positive.
+  double side_speed = 0.0;    ///< [m/s] to the left positive; 0 unless the base is holonomic.
+  double turret_angle = 0.0;  ///< [rad] where a turret points, counter-clockwise from ahead.
+  /// Whether the base is to stand; a turret may turn meanwhile.
+  [[nodiscard]] bool stands() const { return speed == 0.0 && steer_speed == 0.0 && side_speed == 0.0; }
   friend bool operator==(const DriveSetpoint&, const DriveSetpoint&) = default;
 };
 
@@ -98,15 +105,26 @@ class MotionHW {
   /// @errors  invalid_argument for DONTCARE (fuse first), for a negative weight, and for values that are not
   /// finite. A full stop is never refused.
   [[nodiscard]] static Status check(const idl::MotionCommand& command);
+  /// @errors  invalid_argument for values that are not finite.
+  [[nodiscard]] static Status check(const idl::HolonomicVelocity& velocity);
 
   /// Takes a command, to be carried out at the container's next turn.
   /// @errors  check()'s.
   Status command(const idl::MotionCommand& command, TimePoint now);
 
-  /// The set-point that holds now: zero when the last command is older than max_command_age.
+  /// Takes a velocity, to be carried out at the container's next turn. What is faster than the base keeps its
+  /// direction.
+  /// @errors  failed_precondition unless the base is holonomic, and check()'s.
+  Status command(const idl::HolonomicVelocity& velocity, TimePoint now);
+
+  /// Points the turret, which then stays so: no age, for a turret carries nobody away.
+  /// @errors  failed_precondition without turret, invalid_argument for an angle that is not finite.
+  Status command(const idl::TurretCommand& turret, TimePoint now);
+
+  /// The set-point that holds now: it stands when the last command is older than max_command_age.
   [[nodiscard]] DriveSetpoint due(TimePoint now);
 
-  /// Zero from now on until the next command.
+  /// The base stands from now on until the next command.
   void halt();
 
   /// When the present command becomes too old; kForever when the base stands.
@@ -119,6 +137,8 @@ class MotionHW {
 
  private:
   [[nodiscard]] DriveSetpoint within_limits(const idl::MotionCommand& command) const;
+  void move(const DriveSetpoint& wanted, TimePoint now);
+  void stand();
 
   const DriveLimits limits_;
   const Duration max_command_age_;

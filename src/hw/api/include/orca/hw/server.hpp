@@ -16,8 +16,10 @@ namespace orca::hw {
 
 /// Wraps a hardware container in a component, whatever endpoints it has (thesis 10.2-10.3): each sensor of
 /// the chosen source becomes a Push and a Query port named after its object type (`OdometryPush`,
-/// `OdometryQuery`), the motion endpoint a Send port `MotionCommandSend`. A new sensor type needs no change
-/// here. RobotBaseServer, LaserServer and TruthLocalizer are this with a few lines of their own.
+/// `OdometryQuery`), the motion endpoint a Send port `MotionCommandSend`, and what only some bases can do a
+/// port on those bases alone: `HolonomicVelocitySend` on one that moves sideways, `TurretCommandSend` on one
+/// with a turret. A new sensor type needs no change here. RobotBaseServer, LaserServer and TruthLocalizer are
+/// this with a few lines of their own.
 ///
 /// The hardware is active while somebody subscribes, for a moment after a motion command, and while a query
 /// waits.
@@ -36,20 +38,26 @@ class HardwareServer : public Component {
  protected:
   /// The container that the graph binds to this component; null while a type is described without hardware.
   [[nodiscard]] HardwareContainer* container() const { return container_; }
-  /// Offers the motion endpoint, if the container has one.
+  /// Offers what the container's motion endpoint can do, if it has one.
   void offer_motion();
 
  private:
   class SensorPorts;
 
   Status on_motion(const ObjectPtr<idl::MotionCommand>& command);
+  Status on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velocity);
+  Status on_turret(const ObjectPtr<idl::TurretCommand>& turret);
+  template <class Command>
+  Status carry_out(const ObjectPtr<Command>& command, bool stands);
   void carry_out_waiting_command();
   void release_idle_motion();
 
   HardwareContainer* const container_;
   std::vector<std::unique_ptr<SensorPorts>> sensors_;
   std::unique_ptr<SendServer<idl::MotionCommand>> motion_;
-  ObjectPtr<idl::MotionCommand> waiting_command_;  // came while the hardware was idle
+  std::unique_ptr<SendServer<idl::HolonomicVelocity>> velocity_;
+  std::unique_ptr<SendServer<idl::TurretCommand>> turret_;
+  std::function<Status()> waiting_command_;  // came while the hardware was idle
   TimePoint last_command_{};
 };
 

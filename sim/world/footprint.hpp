@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "orca/sim/robot_model.hpp"
+
+namespace orca::sim::detail {
+
+// The radius of a part that looks round from above and is centred on the upright axis through `center`;
+// negative if it is not.
+[[nodiscard]] double round_radius(const Part& part, Vec2 center);
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "orca/sim/robot_model.hpp"
+
+namespace orca::sim::detail {
+
+// A turret under position control: it goes to its angle with full acceleration, at most at full speed, and
+// brakes so as to stop there. Angles are of the turret on the body.
+class TurretModel {
+ public:
+  explicit TurretModel(const Turret& turret) : turret_(turret) {}
+
+  // One tick towards `target` [rad], which itself turns at `target_rate` [rad/s].
+  void step(double target, double target_rate, double seconds) {
+    const double off = wrapped(target - angle_);
+    // Braking with a from rate r takes r^2 / 2a; half a tick's change is kept back, since time goes in ticks.
+    const double step_rate = 0.5 * turret_.max_acceleration * seconds;
+    const double braking =
+        std::sqrt(step_rate * step_rate + 2.0 * turret_.max_acceleration * std::fabs(off)) - step_rate;
+    const double closing = std::copysign(std::min(braking, std::fabs(off) / seconds), off);
+    const double wanted = std::clamp(target_rate + closing, -turret_.max_speed, turret_.max_speed);
+    const double most = turret_.max_acceleration * seconds;
+    rate_ += std::clamp(wanted - rate_, -most, most);
+    angle_ = wrapped(angle_ + rate_ * seconds);
+  }
+
+  [[nodiscard]] double angle() const { return angle_; }  // [rad] In (-pi, pi].
+  [[nodiscard]] double rate() const { return rate_; }    // [rad/s]
+  [[nodiscard]] Vec2 axis() const { return turret_.axis; }
+
+ private:
+  Turret turret_;
+  double angle_ = 0.0;
+  double rate_ = 0.0;
+};
+
+}  // namespace orca::sim::detail

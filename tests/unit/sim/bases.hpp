@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <catch2/catch.hpp>
+
+#include "orca/sim/world.hpp"
+#include "scout.hpp"
+
+namespace orca::sim::test {
+
+/// The scout on other wheels.
+inline RobotModel base_of(DriveKind kind) {
+  RobotModel model = scout();
+  model.drive.kind = kind;
+  return model;
+}
+
+/// One robot in the test room, driven by the test.
+struct Bench {
+  Bench(const RobotModel& model, Realism realism, Pose2 start = {})
+      : world(test_room(), {.seed = 1, .realism = realism}) {
+    const auto added = world.add_robot("dewey", model, start);
+    REQUIRE(added);
+    id = *added;
+  }
+
+  void drive(const Velocity& velocity) { REQUIRE(world.set_velocity_command(id, velocity)); }
+  void run(double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 100.0 + 0.5); ++i) {
+      world.step();
+      contacts += world.contacts().size();
+    }
+  }
+  [[nodiscard]] Pose2 pose() const { return world.pose(id); }
+  [[nodiscard]] Pose2 body() const { return world.body_pose(id); }
+  [[nodiscard]] Velocity velocity() const { return world.velocity(id); }
+
+  World world;
+  RobotId id{};
+  std::size_t contacts = 0;
+};
+
+}  // namespace orca::sim::test
