@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "walks.hpp"
+
+TEST_CASE("a robot walks about in ten worlds for two minutes each without a crash", "[system][walk]") {
+  orca::test::walk_in_ten_worlds("120 s", orca::test::Seconds(60));
+}
