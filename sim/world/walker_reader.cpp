@@ -9,6 +9,10 @@ namespace orca::sim::detail {
 namespace {
 
 constexpr std::size_t kMaxCorners = 100;
+constexpr double kShortest = 0.001;  // [m]
+constexpr double kSlowest = 0.01;    // [m/s]
+constexpr double kFastest = 20.0;
+constexpr Duration kLongest = std::chrono::hours{1000};
 
 template <class To, class From>
 void set(To& to, const std::optional<From>& from) {
@@ -20,7 +24,7 @@ std::string track_fault(const std::vector<Vec2>& track) {
   if (track.size() < 2) return "a track needs at least 2 corners, found " + std::to_string(track.size());
   if (track.size() > kMaxCorners)
     return "a track may have 100 corners, found " + std::to_string(track.size());
-  const auto elsewhere = [&](Vec2 corner) { return !(corner == track.front()); };
+  const auto elsewhere = [&](Vec2 corner) { return norm(corner - track.front()) >= kShortest; };
   return std::ranges::any_of(track, elsewhere) ? ""
                                                : "the track has no length: all its corners are one point";
 }
@@ -31,6 +35,13 @@ void read_track(const Attributes& element, Walker& walker) {
   if (const std::string fault = track_fault(*track); !fault.empty())
     return element.error_at("track", 19, fault);
   walker.track = std::move(*track);
+}
+
+void check_limits(const Attributes& element, const Walker& walker) {
+  if (walker.speed < kSlowest || walker.speed > kFastest)
+    element.error_at("speed", 19, "a walker's speed is between 0.01 m/s and 20 m/s");
+  if (walker.pause > kLongest) element.error_at("pause", 19, "a rest of more than 1000 h is not simulated");
+  if (walker.start > kLongest) element.error_at("start", 19, "a walker's start is at most 1000 h");
 }
 
 // What a circle covers on its way along a leg, but for the half circles at the ends.
@@ -55,6 +66,7 @@ Walker read_walker(const Attributes& element) {
   set(walker.pause, element.duration_or("pause", walker.pause));
   if (element.has("start")) walker.start = element.duration("start", Sign::not_negative);
   if (element.has("seed")) walker.seed = read_seed(element);
+  check_limits(element, walker);
   set(walker.stops, element.quantity_or("stops", "m", Sign::not_negative, walker.stops));
   return walker;
 }
