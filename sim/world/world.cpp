@@ -103,7 +103,7 @@ void World::Impl::move() {
 
 void World::Impl::sense() {
   air.settle(now - kTick);
-  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].chirp(air, i);
+  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].chirp(caster, air, i);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     robots[i].sense(caster, air, i);
     if (!robots[i].bumpers.empty()) robots[i].feel(physics.touches(i));
