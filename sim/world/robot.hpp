@@ -38,7 +38,7 @@ class Robot {
   // The body has moved to `X_WB` in the tick that ended at `now`; `blocked`: something was in its way.
   void moved(const Pose2& X_WB, TimePoint now, bool blocked);
   // Lets the sonars fire. @pre  moved() was called for all robots.
-  void chirp(SonarAir& air, std::size_t own_body);
+  void chirp(const Caster& caster, SonarAir& air, std::size_t own_body);
   // Lets the sensors measure, in the world as it is now. @pre  chirp() was called for all robots.
   void sense(const Caster& caster, const SonarAir& air, std::size_t own_body);
   // Lets the bumpers feel what touches the robot now.

@@ -34,6 +34,7 @@ constexpr double kSeen = 1e-6;
 struct Echo {
   std::optional<double> range;    // [m] From where the first comes back that is strong enough.
   std::vector<Surface> surfaces;  // All that the beam meets.
+  double reach = 0.0;             // [m] It meets nothing farther.
 };
 
 // The first echo, without noise. Surfaces met at more than `critical_angle` [rad] mirror the sound away; if

@@ -35,6 +35,7 @@ class Listener {
   void probe(double off_axis) {
     const Ray ray = beam_.ray(direction(beam_.sensor.yaw + off_axis));
     const Hit hit = caster_.cast(ray);
+    reach_ = std::max(reach_, hit.range);
     if (!hit.found()) return;
     if (hit.incidence() <= critical_angle_) {
       offer(hit.range, off_axis, 1.0);
@@ -86,7 +87,7 @@ class Listener {
   }
 
   [[nodiscard]] bool heard() const { return nearest_.has_value(); }
-  [[nodiscard]] Echo result() && { return {nearest_, std::move(surfaces_)}; }
+  [[nodiscard]] Echo result() && { return {nearest_, std::move(surfaces_), reach_}; }
 
  private:
   struct Mirrored {
@@ -121,6 +122,7 @@ class Listener {
   std::vector<Surface> surfaces_;
   std::vector<Mirrored> mirrored_;
   std::optional<double> nearest_;
+  double reach_ = 0.0;
 };
 
 }  // namespace

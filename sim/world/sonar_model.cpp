@@ -18,7 +18,7 @@ TimePoint SonarModel::next_due() const {
   return round_start_ + Duration{ring_.period.count() * slot / slots};
 }
 
-void SonarModel::fire(std::size_t own_body, const TickSpan& span, SonarAir& air) {
+void SonarModel::fire(const Caster& caster, std::size_t own_body, const TickSpan& span, SonarAir& air) {
   shots_.clear();
   for (TimePoint due = next_due(); due <= span.to; due = next_due()) {
     const std::size_t k = ring_.order[fired_++];
@@ -28,7 +28,9 @@ void SonarModel::fire(std::size_t own_body, const TickSpan& span, SonarAir& air)
                     ring_.max_range,
                     ring_.height_of(k),
                     own_body};
-    shots_.push_back({k, due, beam, span.in_robot(due) * ring_.transducer(k), air.send(due, beam)});
+    Echo echo = echo_of(caster, beam, errors_.critical_angle);
+    const std::uint64_t chirp = air.send(due, beam, echo.reach);
+    shots_.push_back({k, due, beam, span.in_robot(due) * ring_.transducer(k), std::move(echo), chirp});
     if (fired_ < ring_.count) continue;
     fired_ = 0;
     round_start_ += ring_.period;
@@ -38,7 +40,10 @@ void SonarModel::fire(std::size_t own_body, const TickSpan& span, SonarAir& air)
 void SonarModel::listen(const Caster& caster, const SonarAir& air) {
   completed_.reset();
   for (const Shot& shot : shots_) {
-    SonarReading reading = measured(heard(caster, air, shot));
+    const bool deaf_to_others = !errors_.sonar_crosstalk;
+    SonarReading reading =
+        measured(deaf_to_others ? shot.echo.range
+                                : air.first_heard(caster, shot.beam, shot.chirp, shot.time, shot.echo));
     reading.transducer = shot.transducer;
     reading.stamp = shot.time;
     reading.sensor = shot.X_RS;
@@ -47,14 +52,6 @@ void SonarModel::listen(const Caster& caster, const SonarAir& air) {
     completed_ = scan_;
     listened_ = 0;
   }
-}
-
-std::optional<double> SonarModel::heard(const Caster& caster, const SonarAir& air, const Shot& shot) const {
-  const Echo echo = echo_of(caster, shot.beam, errors_.critical_angle);
-  if (!errors_.sonar_crosstalk) return echo.range;
-  const std::optional<double> stray = air.stray(caster, shot.beam, shot.chirp, shot.time, echo.surfaces);
-  if (!stray || !echo.range) return stray ? stray : echo.range;
-  return std::min(*stray, *echo.range);
 }
 
 SonarReading SonarModel::measured(std::optional<double> echo) {

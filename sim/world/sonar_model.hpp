@@ -21,8 +21,8 @@ class SonarModel {
   SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start);
 
   // Sends everything due in the span.
-  void fire(std::size_t own_body, const TickSpan& span, SonarAir& air);
-  // Takes what comes back.
+  void fire(const Caster& caster, std::size_t own_body, const TickSpan& span, SonarAir& air);
+  // Takes what comes back, also of others.
   void listen(const Caster& caster, const SonarAir& air);
 
   // The round that was completed in the last listen(), if one was.
@@ -34,12 +34,11 @@ class SonarModel {
     TimePoint time;
     Beam beam;
     Pose2 X_RS;  // Of the transducer in the robot's frame.
+    Echo echo;   // Its own.
     std::uint64_t chirp;
   };
 
   [[nodiscard]] TimePoint next_due() const;
-  [[nodiscard]] std::optional<double> heard(const Caster& caster, const SonarAir& air,
-                                            const Shot& shot) const;
   [[nodiscard]] SonarReading measured(std::optional<double> echo);
 
   SonarRing ring_;

@@ -11,19 +11,19 @@ using namespace orca::test;
 
 namespace {
 
-// What the base of scout_goto.xml offers, asked as the graph checker asks.
-std::set<std::string> exported_by_the_scout() {
+// What a component with hardware offers, asked as the graph checker asks.
+std::set<std::string> exported(const std::string& graph_file, const std::string& component) {
   orca::PluginCatalogue catalogue{orca::PluginIndex({ORCA_BINARY_DIR "/plugins"})};
   orca::xml::Diagnostics diagnostics;
-  const auto graph = orca::graph::load_file(source_file("graphs/scout_goto.xml"), {}, catalogue, diagnostics);
+  const auto graph = orca::graph::load_file(source_file(graph_file), {}, catalogue, diagnostics);
   INFO(diagnostics.text());
   REQUIRE(graph);
-  const auto* const base = graph->find_component("base");
-  REQUIRE(base != nullptr);
-  const auto* const scout = graph->find_hardware(base->hardware);
-  REQUIRE(scout != nullptr);
-  const orca::graph::HardwareUse use{scout->name, scout->type, scout->params};
-  const orca::Result<orca::Contract> contract = catalogue.component(base->type, &use);
+  const auto* const server = graph->find_component(component);
+  REQUIRE(server != nullptr);
+  const auto* const hardware = graph->find_hardware(server->hardware);
+  REQUIRE(hardware != nullptr);
+  const orca::graph::HardwareUse use{hardware->name, hardware->type, hardware->params};
+  const orca::Result<orca::Contract> contract = catalogue.component(server->type, &use);
   REQUIRE(contract.has_value());
   std::set<std::string> names;
   for (const orca::PortContract& port : contract->ports) {
@@ -39,9 +39,19 @@ std::set<std::string> exported_by_the_scout() {
 TEST_CASE(
     "the Scout exports the five hardware interfaces of thesis Fig. 11.3 and its description, nothing else",
     "[system][scout]") {
-  CHECK(exported_by_the_scout() == std::set<std::string>{"MotionCommandSend", "OdometryPush", "OdometryQuery",
-                                                         "RobotQuery", "SonarRangeReadingsPush",
-                                                         "SonarRangeReadingsQuery"});
+  CHECK(exported("graphs/scout_goto.xml", "base") ==
+        std::set<std::string>{"MotionCommandSend", "OdometryPush", "OdometryQuery", "RobotQuery",
+                              "SonarRangeReadingsPush", "SonarRangeReadingsQuery"});
+}
+
+TEST_CASE("a LaserServer exports Push and Query of the laser's readings and its description, nothing else",
+          "[system][laser]") {
+  CHECK(exported("graphs/pioneer_laser_goto.xml", "laser") ==
+        std::set<std::string>{"LaserRangeReadingsPush", "LaserRangeReadingsQuery", "LaserSensorQuery"});
+}
+
+TEST_CASE("a RobotBaseServer around the same hardware exports all of its sensors", "[system][laser]") {
+  CHECK(exported("graphs/pioneer_laser_goto.xml", "base").contains("LaserRangeReadingsPush"));
 }
 
 TEST_CASE("a graph that asks the Scout for a laser is told what it has instead", "[system][scout]") {

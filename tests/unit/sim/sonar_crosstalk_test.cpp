@@ -24,10 +24,11 @@ std::optional<double> stray(const WorldModel& world, const Pose2& sender, const 
   const Caster caster(world);
   const orca::TimePoint now = orca::TimePoint{} + 1s;
   detail::SonarAir air;
-  air.send(now - earlier, beam_at(sender));
-  const std::uint64_t own = air.send(now, beam_at(listener));
-  const auto surfaces = detail::echo_of(caster, beam_at(listener), 25.0 * kDegree).surfaces;
-  return air.stray(caster, beam_at(listener), own, now, surfaces);
+  air.send(now - earlier, beam_at(sender), 6.5);
+  const std::uint64_t own = air.send(now, beam_at(listener), 6.5);
+  detail::Echo echo = detail::echo_of(caster, beam_at(listener), 25.0 * kDegree);
+  echo.range.reset();  // Nearer echoes of its own would hide the other's.
+  return air.first_heard(caster, beam_at(listener), own, now, echo);
 }
 
 WorldModel wall_at(double distance) {
@@ -79,12 +80,21 @@ TEST_CASE("nobody hears what was sent more than forty milliseconds ago, or by it
           "[sim][sonar][crosstalk]") {
   CHECK(stray(wall_at(6.4), {0, 0.1, 0}, kAhead, 30ms).has_value());
   CHECK_FALSE(stray(wall_at(6.4), {0, 0.1, 0}, kAhead, 41ms));
-  detail::SonarAir air;
-  const std::uint64_t own = air.send({}, beam_at(kAhead));
+}
+
+TEST_CASE("what arrives first counts: the own echo or another's sound", "[sim][sonar][crosstalk]") {
   const Caster caster(wall_at(3.0));
-  const auto surfaces = detail::echo_of(caster, beam_at(kAhead), 25.0 * kDegree).surfaces;
-  REQUIRE(surfaces.size() >= 1);
-  CHECK_FALSE(air.stray(caster, beam_at(kAhead), own, {}, surfaces));
+  const detail::Echo echo = detail::echo_of(caster, beam_at(kAhead), 25.0 * kDegree);
+  REQUIRE(echo.range.value() == Approx(3.0));
+  const orca::TimePoint now = orca::TimePoint{} + 1s;
+  for (const bool earlier : {false, true}) {
+    detail::SonarAir air;
+    air.send(earlier ? now - 10ms : now, beam_at({0, 0.4, 0}), 3.1);
+    const std::uint64_t own = air.send(now, beam_at(kAhead), echo.reach);
+    const double stray = 0.5 * (std::hypot(6.0, 0.4) - kSoundSpeed * 0.010);
+    CHECK(air.first_heard(caster, beam_at(kAhead), own, now, echo).value() ==
+          Approx(earlier ? stray : 3.0).margin(1e-9));
+  }
 }
 
 TEST_CASE("sound does not go through walls, nor out of a lobe", "[sim][sonar][crosstalk]") {
