@@ -17,7 +17,7 @@ namespace orca::sim::detail {
 struct TickSpan {
   TimePoint from, to;
   Pose2 X_from, X_to;
-  Pose2 robot_from, robot_to;  // The robot's frame: another one on a synchro base, and below a turret.
+  Pose2 robot_from{}, robot_to{};  // The robot's frame: another one on a synchro base, and below a turret.
 
   // Where the carrier was at `t`, taken to move evenly.
   [[nodiscard]] Pose2 at(TimePoint t) const { return between(X_from, X_to, share(t)); }

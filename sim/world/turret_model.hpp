@@ -14,9 +14,9 @@ class TurretModel {
  public:
   explicit TurretModel(const Turret& turret) : turret_(turret) {}
 
-  // One tick towards `target` [rad], which itself turns at `target_rate` [rad/s].
+  // One tick towards `target` [rad], where it will be at the tick's end, turning at `target_rate` [rad/s].
   void step(double target, double target_rate, double seconds) {
-    const double off = wrapped(target - angle_);
+    const double off = wrapped(target - target_rate * seconds - angle_);
     // Braking with a from rate r takes r^2 / 2a; half a tick's change is kept back, since time goes in ticks.
     const double step_rate = 0.5 * turret_.max_acceleration * seconds;
     const double braking =

@@ -141,7 +141,7 @@ void World::Impl::move() {
 
 void World::Impl::sense() {
   air.settle(now - kTick);
-for (std::size_t i = 0; i < robots.size(); ++i) robots[i].chirp(caster, air, bodies[i]);
+  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].chirp(caster, air, bodies[i]);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     robots[i].sense(caster, air, bodies[i]);
     if (!robots[i].bumpers.empty()) robots[i].feel(physics.touches(i));

@@ -218,7 +218,7 @@ TEST_CASE("a turret stays where it was pointed when the base is commanded, halte
   DriveLimits limits = kLimits;
   limits.turret = true;
   MotionHW motion(limits, kAge);
-  const auto point = make_object<idl::TurretCommand>();
+  auto point = make_object<idl::TurretCommand>();
   point->angle(1.5);
   REQUIRE(motion.command(*point, kStart).ok());
   CHECK(motion.due(kStart) == DriveSetpoint{.turret_angle = 1.5});

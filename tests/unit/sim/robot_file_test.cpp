@@ -177,8 +177,8 @@ TEST_CASE("wrong devices are told where they stand", "[sim][robot_file]") {
   };
   CHECK_THAT(errors_in(robot(kBase, replaced(kDrive, "1 m/s\"", "1 kg\""))),
              Catch::Contains("r.urdf:3:60: error R005: max_speed: \"1 kg\""));
-  CHECK_THAT(errors_in(robot(kBase, replaced(kDrive, "differential", "synchro"))),
-             Catch::Contains("error R005: type: \"synchro\" is not known"));
+  CHECK_THAT(errors_in(robot(kBase, replaced(kDrive, "differential", "synkro"))),
+             Catch::Contains("error R005: type: \"synkro\" is not known; did you mean \"synchro\"?"));
   CHECK_THAT(errors_in(robot(kBase, kDrive + kDrive)),
              Catch::Contains("error R010: there is a <drive> already"));
   CHECK_THAT(errors_in(robot(kBase, kDrive + kRing + kRing)),
