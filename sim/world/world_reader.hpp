@@ -30,6 +30,7 @@ class WorldReader {
   void cylinder(const Attributes& element);
   void polygon(const Attributes& element);
   void bitmap(const Attributes& element);
+  void mesh(const Attributes& element);
   void place(const Attributes& element);
 
   void add_wall(const Attributes& element, WallPlan plan);
