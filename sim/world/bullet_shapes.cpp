@@ -4,6 +4,13 @@
 namespace orca::sim::detail {
 namespace {
 
+btVector3 vector(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+void make_shape_of_mesh(OwnedShape& owned) {
+  owned.shape = std::make_unique<btBvhTriangleMeshShape>(owned.mesh.get(), true);
+  owned.shape->setMargin(0);
+}
+
 // The boundary as upright rectangles of two triangles each. It is hollow, which does no harm: robots start
 // outside.
 OwnedShape extruded(const Outline& outline, double bottom, double top) {
@@ -16,9 +23,24 @@ OwnedShape extruded(const Outline& outline, double bottom, double top) {
     owned.mesh->addTriangle(a, b, b + up);
     owned.mesh->addTriangle(a, b + up, a + up);
   }
-  owned.shape = std::make_unique<btBvhTriangleMeshShape>(owned.mesh.get(), true);
-  owned.shape->setMargin(0);
+  make_shape_of_mesh(owned);
   return owned;
+}
+
+OwnedShape triangles_of(const Mesh& mesh) {
+  OwnedShape owned;
+  owned.mesh = std::make_unique<btTriangleMesh>();
+  for (const Triangle& t : mesh.triangles) owned.mesh->addTriangle(vector(t[0]), vector(t[1]), vector(t[2]));
+  make_shape_of_mesh(owned);
+  return owned;
+}
+
+std::unique_ptr<btCollisionShape> hull_shape(const Part::Hull& hull) {
+  auto shape = std::make_unique<btConvexHullShape>();
+  for (const Vec3& p : hull.corners) shape->addPoint(vector(p), false);
+  shape->recalcLocalAabb();
+  shape->setMargin(0);
+  return shape;
 }
 
 std::unique_ptr<btCollisionShape> part_shape(const Part& part) {
@@ -26,6 +48,7 @@ std::unique_ptr<btCollisionShape> part_shape(const Part& part) {
     return std::make_unique<btBoxShape>(btVector3(0.5 * block->x, 0.5 * block->y, 0.5 * block->z));
   if (const auto* c = std::get_if<Part::Cylinder>(&part.form))
     return std::make_unique<btCylinderShapeZ>(btVector3(c->radius, c->radius, 0.5 * c->length));
+  if (const auto* hull = std::get_if<Part::Hull>(&part.form)) return hull_shape(*hull);
   return std::make_unique<btSphereShape>(std::get<Part::Ball>(part.form).radius);
 }
 
@@ -39,7 +62,10 @@ OwnedShape obstacle_shape(const Obstacle& obstacle, btTransform& X) {
   const double half_height = 0.5 * (obstacle.height - obstacle.bottom);
   const double middle = 0.5 * (obstacle.height + obstacle.bottom);
   OwnedShape owned;
-  if (const auto* box = std::get_if<Box>(&obstacle.shape)) {
+  if (obstacle.mesh != nullptr) {
+    X = btTransform::getIdentity();
+    owned = triangles_of(*obstacle.mesh);
+  } else if (const auto* box = std::get_if<Box>(&obstacle.shape)) {
     X = upright(box->pose, middle);
     owned.shape = std::make_unique<btBoxShape>(btVector3(box->half.x, box->half.y, half_height));
   } else if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) {

@@ -5,21 +5,31 @@
 
 #include "bodies.hpp"
 #include "grid.hpp"
+#include "mesh_sections.hpp"
 
 namespace orca::sim {
 namespace {
 
 detail::Grid::Elements elements_of(const WorldModel& world) {
   detail::Grid::Elements elements;
-  for (const Obstacle& o : world.obstacles) elements.add(o.shape, {o.bottom, o.height});
+  for (const Obstacle& o : world.obstacles)
+    if (o.mesh == nullptr) elements.add(o.shape, {o.bottom, o.height});
   return elements;
+}
+
+std::vector<std::shared_ptr<const Mesh>> meshes_of(const WorldModel& world) {
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (const Obstacle& o : world.obstacles)
+    if (o.mesh != nullptr) meshes.push_back(o.mesh);
+  return meshes;
 }
 
 }  // namespace
 
 struct Caster::Impl {
-  explicit Impl(const WorldModel& world) : grid(elements_of(world)) {}
+  explicit Impl(const WorldModel& world) : grid(elements_of(world)), meshes(meshes_of(world)) {}
   detail::Grid grid;
+  detail::MeshSections meshes;
   detail::Bodies bodies;
 };
 
@@ -46,6 +56,7 @@ Hit Caster::cast(const Ray& ray) const {
   Hit hit;
   hit.range = ray.max_range;
   impl_->grid.cast(ray, hit.range, hit.surface);
+  impl_->meshes.cast(ray, hit.range, hit.surface);
   impl_->bodies.cast(ray, hit.range, hit.surface);
   hit.point = ray.origin + hit.range * ray.direction;
   hit.direction = ray.direction;

@@ -11,19 +11,15 @@ namespace {
 constexpr double kOnAxis = 1e-9;
 constexpr int kCorners = 24;
 
-struct Point3 {
-  double x, y, z;
-};
-
 // The columns of the rotation, that is: the part's axes in the base frame.
-std::array<Point3, 3> axes_of(const Pose3& q) {
+std::array<Vec3, 3> axes_of(const Pose3& q) {
   const double x = q.qx, y = q.qy, z = q.qz, w = q.qw;
-  return {Point3{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-          Point3{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-          Point3{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+  return {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+          Vec3{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+          Vec3{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
 }
 
-Point3 in_base(const Pose3& X, const std::array<Point3, 3>& axes, Point3 p) {
+Vec3 in_base(const Pose3& X, const std::array<Vec3, 3>& axes, Vec3 p) {
   return {X.x + axes[0].x * p.x + axes[1].x * p.y + axes[2].x * p.z,
           X.y + axes[0].y * p.x + axes[1].y * p.y + axes[2].y * p.z,
           X.z + axes[0].z * p.x + axes[1].z * p.y + axes[2].z * p.z};
@@ -35,8 +31,8 @@ Vec2 around_circle(double radius, int i) {
   return outer * direction(2.0 * std::numbers::pi * i / kCorners);
 }
 
-std::vector<Point3> own_points(const Part& part) {
-  std::vector<Point3> points;
+std::vector<Vec3> own_points(const Part& part) {
+  std::vector<Vec3> points;
   if (const auto* b = std::get_if<Part::Block>(&part.form)) {
     for (int i = 0; i < 8; ++i)
       points.push_back(
@@ -47,6 +43,8 @@ std::vector<Point3> own_points(const Part& part) {
       points.push_back({p.x, p.y, -0.5 * c->length});
       points.push_back({p.x, p.y, 0.5 * c->length});
     }
+  } else if (const auto* hull = std::get_if<Part::Hull>(&part.form)) {
+    points = hull->corners;
   }
   return points;
 }
@@ -56,32 +54,25 @@ void add_plan(const Part& part, std::vector<Vec2>& plan) {
     for (int i = 0; i < kCorners; ++i)
       plan.push_back(Vec2{part.X_BP.x, part.X_BP.y} + around_circle(ball->radius, i));
   const auto axes = axes_of(part.X_BP);
-  for (const Point3& p : own_points(part)) {
-    const Point3 b = in_base(part.X_BP, axes, p);
+  for (const Vec3& p : own_points(part)) {
+    const Vec3 b = in_base(part.X_BP, axes, p);
     plan.push_back({b.x, b.y});
   }
 }
 
-// Convex hull, counter-clockwise: Andrew's monotone chain (Inf. Proc. Letters 9(5), 1979).
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  std::ranges::sort(points, [](Vec2 a, Vec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
-  std::vector<Vec2> hull;
-  const auto half = [&hull](const auto& range) {
-    const std::size_t base = hull.size();
-    for (const Vec2& p : range) {
-      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 1e-15)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-  };
-  half(points);
-  std::ranges::reverse(points);
-  half(points);
-  return hull;
+std::pair<double, double> hull_heights(const Part& part) {
+  const auto axes = axes_of(part.X_BP);
+  std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity()};
+  for (const Vec3& p : own_points(part)) {
+    const double z = in_base(part.X_BP, axes, p).z;
+    range = {std::min(range.first, z), std::max(range.second, z)};
+  }
+  return range;
 }
 
 std::pair<double, double> part_heights(const Part& part) {
+  if (std::holds_alternative<Part::Hull>(part.form)) return hull_heights(part);
   const auto axes = axes_of(part.X_BP);
   double reach = 0.0;
   if (const auto* b = std::get_if<Part::Block>(&part.form))

@@ -38,10 +38,10 @@ void check_body(const RobotModel& model, const detail::Attributes& robot,
 }
 
 // @pre  the root is <robot> and has an <orca>; urdf and extension are checked as far as they stand alone.
-void read_body(const xml::Element& root, const xml::Element& orca, RobotModel& model,
-               xml::Diagnostics& diagnostics) {
+void read_body(const xml::Element& root, const xml::Element& orca, const detail::MeshHulls& hulls,
+               RobotModel& model, xml::Diagnostics& diagnostics) {
   const detail::Attributes robot(root, 'R', diagnostics);
-  Result<detail::UrdfBody> body = detail::read_urdf_body(model.urdf);
+  Result<detail::UrdfBody> body = detail::read_urdf_body(model.urdf, hulls);
   if (!body) return robot.error(24, body.error().message);
   model.name = body->name;
   model.mass = body->mass;
@@ -64,7 +64,8 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
                1, "the root element is <" + root.name() + ">; a robot file begins with <robot name=\"...\">"),
            std::nullopt;
   static_cast<void>(robot.text("name"));
-  detail::check_urdf(root, diagnostics);
+  detail::MeshHulls hulls;
+  detail::check_urdf(root, diagnostics, hulls);
   const bool urdf_is_sound = diagnostics.error_count() == before;
   RobotModel model;
   model.urdf = std::move(text);
@@ -73,7 +74,7 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
     return robot.error(4, "<robot> needs the element <orca radius=\"...\"> with its drive and sensors"),
            std::nullopt;
   detail::read_extension(*orca, model, diagnostics);
-  if (urdf_is_sound) read_body(root, *orca, model, diagnostics);
+  if (urdf_is_sound) read_body(root, *orca, hulls, model, diagnostics);
   if (diagnostics.error_count() != before) return std::nullopt;
   return model;
 }

@@ -47,6 +47,25 @@ bool edges_overlap(const Shape& one, const Shape& other) {
 
 }  // namespace
 
+// Andrew's monotone chain (Inf. Proc. Letters 9(5), 1979).
+std::vector<Vec2> hull_of(std::vector<Vec2> points) {
+  std::ranges::sort(points, [](Vec2 a, Vec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
+  std::vector<Vec2> hull;
+  const auto half = [&hull](const auto& range) {
+    const std::size_t base = hull.size();
+    for (const Vec2& p : range) {
+      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 1e-15)
+        hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+  };
+  half(points);
+  std::ranges::reverse(points);
+  half(points);
+  return hull;
+}
+
 Outline outline_of(std::vector<Vec2> corners) {
   if (twice_area(corners) < 0.0) std::ranges::reverse(corners);
   Outline outline;

@@ -21,8 +21,13 @@ Pose3 pose_of(const btTransform& X) {
   return {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
 }
 
-// Mesh shapes were refused before.
-Part part_of(const urdf::Collision& collision, const btTransform& X_BL) {
+Part::Hull hull_of(const urdf::Mesh& mesh, const MeshHulls& hulls) {
+  Part::Hull hull{hulls.at(mesh.filename)};
+  for (Vec3& p : hull.corners) p = {mesh.scale.x * p.x, mesh.scale.y * p.y, mesh.scale.z * p.z};
+  return hull;
+}
+
+Part part_of(const urdf::Collision& collision, const btTransform& X_BL, const MeshHulls& hulls) {
   Part part;
   part.X_BP = pose_of(X_BL * transform_of(collision.origin));
   if (const auto* box = dynamic_cast<const urdf::Box*>(collision.geometry.get()))
@@ -31,6 +36,8 @@ Part part_of(const urdf::Collision& collision, const btTransform& X_BL) {
     part.form = Part::Cylinder{cylinder->radius, cylinder->length};
   if (const auto* ball = dynamic_cast<const urdf::Sphere*>(collision.geometry.get()))
     part.form = Part::Ball{ball->radius};
+  if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(collision.geometry.get()))
+    part.form = hull_of(*mesh, hulls);
   return part;
 }
 
@@ -55,17 +62,18 @@ UrdfJoint joint_of(const urdf::Joint& joint, const btTransform& X_BJ) {
 }
 
 // @return  the names of the link and of all below it.
-std::vector<std::string> add_link(const urdf::Link& link, const btTransform& X_BL, UrdfBody& body) {
+std::vector<std::string> add_link(const urdf::Link& link, const btTransform& X_BL, const MeshHulls& hulls,
+                                  UrdfBody& body) {
   std::vector<std::string> names{link.name};
   body.links[link.name] = pose_of(X_BL);
   if (link.inertial) add_inertial(*link.inertial, X_BL, body);
-  for (const auto& collision : link.collision_array) body.parts.push_back(part_of(*collision, X_BL));
+  for (const auto& collision : link.collision_array) body.parts.push_back(part_of(*collision, X_BL, hulls));
   for (const auto& child : link.child_links) {
     const urdf::Joint& joint = *child->parent_joint;
     const btTransform X_BJ = X_BL * transform_of(joint.parent_to_joint_origin_transform);
     UrdfJoint made = joint_of(joint, X_BJ);
     made.first_part = body.parts.size();
-    made.links = add_link(*child, X_BJ, body);
+    made.links = add_link(*child, X_BJ, hulls, body);
     made.end_part = body.parts.size();
     names.insert(names.end(), made.links.begin(), made.links.end());
     body.joints[joint.name] = std::move(made);
@@ -83,14 +91,14 @@ urdf::ModelInterfaceSharedPtr parsed(const std::string& text) {
 
 }  // namespace
 
-Result<UrdfBody> read_urdf_body(const std::string& text) {
+Result<UrdfBody> read_urdf_body(const std::string& text, const MeshHulls& hulls) {
   const urdf::ModelInterfaceSharedPtr model = parsed(text);
   if (!model || !model->getRoot())
     return fail(Code::invalid_argument,
                 "urdfdom does not read this robot; the program check_urdf may say more");
   UrdfBody body;
   body.name = model->getName();
-  add_link(*model->getRoot(), btTransform::getIdentity(), body);
+  add_link(*model->getRoot(), btTransform::getIdentity(), hulls, body);
   return body;
 }
 

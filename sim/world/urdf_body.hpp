@@ -6,6 +6,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/sim/robot_model.hpp"
+#include "urdf_check.hpp"
 
 namespace orca::sim::detail {
 
@@ -29,7 +30,8 @@ struct UrdfBody {
   std::map<std::string, UrdfJoint> joints;
 };
 
+// @pre  check_urdf() found the text sound and gave `hulls`.
 // @errors  invalid_argument if urdfdom does not take the text, without saying where.
-[[nodiscard]] Result<UrdfBody> read_urdf_body(const std::string& text);
+[[nodiscard]] Result<UrdfBody> read_urdf_body(const std::string& text, const MeshHulls& hulls);
 
 }  // namespace orca::sim::detail

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "attributes.hpp"
+#include "hull_corners.hpp"
 #include "urdf_parts.hpp"
 
 namespace orca::sim::detail {
@@ -12,7 +14,7 @@ namespace {
 
 class UrdfChecker {
  public:
-  explicit UrdfChecker(xml::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  UrdfChecker(xml::Diagnostics& diagnostics, MeshHulls& hulls) : diagnostics_(diagnostics), hulls_(hulls) {}
 
   void link(const xml::Element& link) const {
     if (const auto* inertial = only_child(link, "inertial")) this->inertial(*inertial);
@@ -103,12 +105,26 @@ class UrdfChecker {
       length(a, "radius");
       if (shape.name() == "cylinder") length(a, "length");
     } else if (shape.name() == "mesh") {
-      if (collision)
-        a.error(21,
-                "a mesh cannot be used for collisions; describe the body by <box>, <cylinder> and <sphere>");
+      if (collision) mesh(a);
     } else {
       a.error(2, "<" + shape.name() + "> is not a shape; known are: box, cylinder, sphere, mesh");
     }
+  }
+
+  // Pictures of a robot are nobody's concern here: only meshes for collisions are read.
+  void mesh(const Attributes& a) const {
+    const auto name = a.text("filename");
+    const auto scale = a.has("scale") ? a.numbers("scale", 3) : std::vector<double>{1.0, 1.0, 1.0};
+    if (scale && std::ranges::any_of(*scale, [](double v) { return v == 0.0; }))
+      a.error_at("scale", 20, "scale of <mesh> must not be 0");
+    if (!name || hulls_.contains(*name)) return;
+    if (name->find("://") != std::string::npos)
+      return a.error_at("filename", 21,
+                        "\"" + *name + "\" cannot be looked up; write the path, beside this file or from /");
+    const auto folder = std::filesystem::path(a.element().position().file).parent_path();
+    const auto mesh = read_mesh((folder / *name).lexically_normal().string());
+    if (!mesh) return a.error_at("filename", 21, mesh.error().text());
+    hulls_[*name] = hull_corners(*mesh);
   }
 
   void length(const Attributes& a, const char* name) const {
@@ -120,12 +136,13 @@ class UrdfChecker {
   }
 
   xml::Diagnostics& diagnostics_;
+  MeshHulls& hulls_;
 };
 
 }  // namespace
 
-void check_urdf(const xml::Element& robot, xml::Diagnostics& diagnostics) {
-  const UrdfChecker checker(diagnostics);
+void check_urdf(const xml::Element& robot, xml::Diagnostics& diagnostics, MeshHulls& hulls) {
+  const UrdfChecker checker(diagnostics, hulls);
   for (const xml::Element& e : robot.children()) {
     if (e.name() == "link") checker.link(e);
     if (e.name() == "joint") checker.joint(e);

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <map>
+#include <string>
+#include <vector>
+
+#include "orca/sim/mesh.hpp"
 #include "orca/xml/document.hpp"
 
 namespace orca::sim::detail {
 
+// The corners of the convex hulls of the mesh files that are named as collision geometry, by that name, not
+// scaled.
+using MeshHulls = std::map<std::string, std::vector<Vec3>>;
+
 // Reports what is wrong with the links and joints of a <robot>, with line and column; urdfdom, which reads
-// the file afterwards, cannot tell where a mistake is.
-void check_urdf(const xml::Element& robot, xml::Diagnostics& diagnostics);
+// the file afterwards, cannot tell where a mistake is. Reads the meshes of collision geometry, beside the
+// file, into `hulls`.
+void check_urdf(const xml::Element& robot, xml::Diagnostics& diagnostics, MeshHulls& hulls);
 
 }  // namespace orca::sim::detail

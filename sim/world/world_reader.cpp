@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "generator_reader.hpp"
+#include "mesh_file.hpp"
 #include "orca/sim/bitmap.hpp"
 #include "walker_reader.hpp"
 
@@ -57,7 +58,7 @@ constexpr std::size_t kMaxPlaces = 1000;
 constexpr std::size_t kMaxWalkers = 200;
 
 const std::vector<std::string> kElements{"wall",   "room",  "box",      "cylinder", "polygon",
-                                         "bitmap", "place", "generate", "walker"};
+                                         "bitmap", "mesh", "place", "generate", "walker"};
 
 }  // namespace
 
@@ -65,10 +66,11 @@ WorldModel WorldReader::read(const xml::Element& root) {
   const Attributes world = of(root);
   header(world);
   if (!within_limits(world)) return std::move(world_);
-  constexpr std::array<Read, 9> kReaders{
+  constexpr std::array<Read, 10> kReaders{
       &WorldReader::wall,     &WorldReader::room,     &WorldReader::box,
       &WorldReader::cylinder, &WorldReader::polygon,  &WorldReader::bitmap,
-      &WorldReader::place,    &WorldReader::generate, &WorldReader::walker};
+      &WorldReader::mesh,     &WorldReader::place,    &WorldReader::generate,
+      &WorldReader::walker};
   for (const xml::Element& e : root.children()) {
     const auto known = std::ranges::find(kElements, e.name());
     if (known == kElements.end()) continue;
@@ -127,7 +129,10 @@ std::string WorldReader::own_name(const Attributes& element) {
 }
 
 void WorldReader::add(const Attributes& element, Shape shape, double obstacle_height) {
-  world_.obstacles.push_back({own_name(element), std::move(shape), obstacle_height});
+  const auto bottom = element.quantity_or("bottom", "m", Sign::not_negative, 0.0);
+  if (bottom && *bottom >= obstacle_height)
+    return element.error_at("bottom", 22, "the bottom must lie below the height, which is that of the top");
+  if (bottom) world_.obstacles.push_back({own_name(element), std::move(shape), obstacle_height, *bottom});
 }
 
 void WorldReader::add_wall(const Attributes& element, WallPlan plan) {
@@ -194,7 +199,7 @@ void WorldReader::room(const Attributes& element) {
 }
 
 void WorldReader::box(const Attributes& element) {
-  element.allow({"name", "x", "y", "yaw", "length", "width", "height"}, {});
+  element.allow({"name", "x", "y", "yaw", "length", "width", "height", "bottom"}, {});
   const auto x = element.quantity("x", "m", Sign::any);
   const auto y = element.quantity("y", "m", Sign::any);
   const auto yaw = element.quantity_or("yaw", "rad", Sign::any, 0.0);
@@ -206,7 +211,7 @@ void WorldReader::box(const Attributes& element) {
 }
 
 void WorldReader::cylinder(const Attributes& element) {
-  element.allow({"name", "x", "y", "radius", "height"}, {});
+  element.allow({"name", "x", "y", "radius", "height", "bottom"}, {});
   const auto x = element.quantity("x", "m", Sign::any);
   const auto y = element.quantity("y", "m", Sign::any);
   const auto radius = element.quantity("radius", "m", Sign::positive);
@@ -215,7 +220,7 @@ void WorldReader::cylinder(const Attributes& element) {
 }
 
 void WorldReader::polygon(const Attributes& element) {
-  element.allow({"name", "points", "height"}, {});
+  element.allow({"name", "points", "height", "bottom"}, {});
   const auto corners = element.points("points");
   const auto tall = height(element);
   if (!corners) return;
@@ -234,6 +239,24 @@ void WorldReader::bitmap(const Attributes& element) {
   auto map = read_bitmap_world(path.lexically_normal().string(), *scale, *tall);
   if (!map) return element.error_at("file", 11, map.error().text());
   add(element, std::move(map->obstacles.front().shape), *tall);
+}
+
+void WorldReader::mesh(const Attributes& element) {
+  element.allow({"name", "file", "x", "y", "z", "yaw", "scale"}, {});
+  const auto file = element.text("file");
+  const auto x = element.quantity("x", "m", Sign::any);
+  const auto y = element.quantity("y", "m", Sign::any);
+  const auto z = element.quantity_or("z", "m", Sign::any, 0.0);
+  const auto yaw = element.quantity_or("yaw", "rad", Sign::any, 0.0);
+  const auto scale = element.quantity_or("scale", "", Sign::positive, 1.0);
+  if (!file || !x || !y || !z || !yaw || !scale) return;
+  const auto path = std::filesystem::path(file_name_).parent_path() / *file;
+  auto read = read_mesh(path.lexically_normal().string());
+  if (!read) return element.error_at("file", 21, read.error().text());
+  Mesh mesh = placed(std::move(*read), {*scale, *scale, *scale}, {*x, *y, *yaw}, *z);
+  if (const Status sound = check_mesh(mesh, path.lexically_normal().string()); !sound)
+    return element.error_at("scale", 21, sound.error().text());
+  world_.obstacles.push_back(mesh_obstacle(own_name(element), std::move(mesh)));
 }
 
 void WorldReader::place(const Attributes& element) {
@@ -288,6 +311,7 @@ void WorldReader::check_seed(const Attributes& world) const {
 
 void WorldReader::check_places() const {
   for (const Obstacle& o : world_.obstacles) {
+    if (o.mesh != nullptr) continue;  // Its plan holds its rooms, too; whoever starts inside is told then.
     const Bounds b = bounds_of(o.shape);
     for (std::size_t i = 0; i < world_.places.size(); ++i) {
       const Place& place = world_.places[i];

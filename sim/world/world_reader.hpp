@@ -33,6 +33,7 @@ class WorldReader {
   void cylinder(const Attributes& element);
   void polygon(const Attributes& element);
   void bitmap(const Attributes& element);
+  void mesh(const Attributes& element);
   void place(const Attributes& element);
   void generate(const Attributes& element);
   void walker(const Attributes& element);

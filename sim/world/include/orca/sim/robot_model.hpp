@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
+#include "orca/sim/mesh.hpp"
 #include "orca/sim/sensors.hpp"
-#include "orca/sim/shape.hpp"
 
 namespace orca::sim {
 
@@ -22,7 +22,7 @@ struct Pose3 {
   double qx = 0.0, qy = 0.0, qz = 0.0, qw = 1.0;
 };
 
-/// One solid of the robot, centred at its own frame.
+/// One solid of the robot, centred at its own frame but for a hull.
 struct Part {
   struct Block {
     double x, y, z;  ///< Full lengths [m].
@@ -34,7 +34,10 @@ struct Part {
   struct Ball {
     double radius;  ///< [m]
   };
-  std::variant<Block, Cylinder, Ball> form;
+  struct Hull {
+    std::vector<Vec3> corners;  ///< Of a convex body, in the part's frame.
+  };
+  std::variant<Block, Cylinder, Ball, Hull> form;
   Pose3 X_BP;
 };
 

@@ -26,6 +26,9 @@ using Shape = std::variant<Circle, Box, Outline>;
 /// The outline through `corners`, closed by itself and turned counter-clockwise.
 [[nodiscard]] Outline outline_of(std::vector<Vec2> corners);
 
+/// The corners of the convex hull, counter-clockwise.
+[[nodiscard]] std::vector<Vec2> hull_of(std::vector<Vec2> points);
+
 /// The boundary as edges; none for a circle, which is not made of edges.
 [[nodiscard]] std::vector<Segment> edges_of(const Shape& shape);
 

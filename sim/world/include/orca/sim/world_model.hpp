@@ -2,11 +2,12 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "orca/sim/shape.hpp"
+#include "orca/sim/mesh.hpp"
 #include "orca/sim/walker.hpp"
 
 namespace orca::sim {
@@ -17,7 +18,17 @@ struct Obstacle {
   Shape shape;          ///< Its plan, in the world frame.
   double height = 0.0;  ///< [m] Its top above the floor; a sensor as high or higher does not see it.
   double bottom = 0.0;  ///< [m] Its underside above the floor, e.g. of a table top; 0: it stands on it.
+  /// If it is a mesh, in the world frame: then `shape` is its convex hull seen from above, `bottom` and
+  /// `height` hold it, and only what the mesh says is solid. Shared, because models are copied and meshes are
+  /// large.
+  std::shared_ptr<const Mesh> mesh{};
 };
+
+/// An obstacle of a mesh that is in its place already. @pre  the mesh has triangles.
+[[nodiscard]] Obstacle mesh_obstacle(std::string name, Mesh mesh);
+
+/// True if the obstacle shares a point with the upright body over `plan` between `bottom` and `top` [m].
+[[nodiscard]] bool overlap(const Obstacle& obstacle, const Shape& plan, double bottom, double top);
 
 /// A named pose, e.g. where a robot starts or is to go.
 struct Place {
