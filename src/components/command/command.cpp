@@ -148,12 +148,15 @@ class Command final : public orca::Component {
       *this, "arrived", {.text = "Tells when a goal is reached.", .manual = true, .depth = 16}};
 
   orca::Param<std::vector<std::string>> goals_{
-      *this, "goals", {}, {.text = "Goals, each \"name: x y > x y\" in metres: via points, last the goal."}};
+      *this,
+      "goals",
+      {},
+      {.fixed = true, .text = "Goals, each \"name: x y > x y\" in metres: via points, last the goal."}};
   orca::Param<std::string> goals_file_{
       *this,
       "goals_file",
       "",
-      {.file = true, .text = "A file of goals, one a line; # starts a comment line."}};
+      {.file = true, .fixed = true, .text = "A file of goals, one a line; # starts a comment line."}};
   orca::Param<std::vector<std::string>> behaviours_{
       *this, "behaviours", {"goto", "avoid"}, {.text = "Whom the fuser shall listen to on the way."}};
   orca::Param<double> reach_radius_{

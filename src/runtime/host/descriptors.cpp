@@ -16,18 +16,6 @@ int count_descriptors() {
          1;  // without the one that reads the folder
 }
 
-void DescriptorGrowth::start(int lowest_free) {
-  first_ = last_ = lowest_free;
-  by_who_.clear();
-}
-
-int DescriptorGrowth::take(const std::string& who, int lowest_free) {
-  int& own = by_who_[who];
-  own = std::max(0, own + lowest_free - last_);
-  last_ = lowest_free;
-  return own;
-}
-
 void OwnDescriptors::remember() {
   release();
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

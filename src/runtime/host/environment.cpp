@@ -20,12 +20,14 @@ namespace {
 
 constexpr unsigned kTurnsPerLook = 64;
 constexpr int kWatchfulTurns = 256;
+constexpr int kNoticedPages = 16384;  // 64 MB: from here on one looks who takes them,
+constexpr int kManyPages = 4096;      // and 16 MB in the turns that are looked at one by one are too many
 constexpr int kManyDescriptors = 32;  // more than a component has reason to open in its laps
 
 const char* advice(std::string_view kind) {
-  return kind == "DESCRIPTORS"
-             ? "; what is opened must be closed"
-             : "; it is put back where it can be: a component must leave alone what all share";
+  if (kind == "DESCRIPTORS") return "; what is opened must be closed";
+  if (kind == "MEMORY") return "; it will run out of it";
+  return "; it is put back where it can be: a component must leave alone what all share";
 }
 
 std::string current_folder() {
@@ -80,7 +82,9 @@ void Environment::keep() {
              {RLIMIT_NOFILE, "number of descriptors", {}}};
   for (Limit& limit : limits_) getrlimit(static_cast<__rlimit_resource_t>(limit.resource), &limit.value);
   own_.remember();
-  growth_.start(own_.lowest_free());
+  open_.start(own_.lowest_free());
+  memory_.start(count_memory_pages());
+  memory_watched_ = false;
   guests_.clear();
   said_.clear();
   watchful_turns_ = 0;
@@ -133,7 +137,7 @@ void Environment::left(const Activity& turn) {
 bool Environment::is_due(Guest& guest) {
   ++guest.turns;
   if (watchful_turns_ > 0) return --watchful_turns_, true;
-  return guest.turns <= 2 || guest.turns % kTurnsPerLook == 0 || growth_.total() >= kManyDescriptors;
+  return guest.turns <= 2 || guest.turns % kTurnsPerLook == 0 || open_.total() >= kManyDescriptors;
 }
 
 std::vector<const Environment::Guest*> Environment::suspects() const {
@@ -168,6 +172,7 @@ void Environment::look_at_all(bool rare) {
   look_at_files();
   look_at_limits();
   look_at_descriptors(rare);
+  look_at_memory(rare);
   for (Guest& guest : guests_) guest.suspect = false;
 }
 
@@ -215,13 +220,30 @@ void Environment::look_at_descriptors(bool rare) {
     return;
   }
   exhausted_ = false;
-  if (rare) return growth_.accept(lowest);  // these hooks may open what others close
+  if (rare) return open_.accept(lowest);  // these hooks may open what others close
   const auto possible = suspects();
-  if (possible.size() != 1) return growth_.skip_to(lowest);
-  const int own = growth_.take(possible.front()->name, lowest);
+  if (possible.size() != 1) return open_.skip_to(lowest);
+  const int own = open_.take(possible.front()->name, lowest);
   if (own >= kManyDescriptors)
     alarm(*possible.front(), "DESCRIPTORS",
           "opened at least " + std::to_string(own) + " descriptors and not closed them");
+}
+
+void Environment::look_at_memory(bool rare) {
+  const int taken = count_memory_pages();
+  if (rare) return memory_.accept(taken);  // these hooks may take what is needed as long as it works
+  memory_watched_ = memory_watched_ && watchful_turns_ > 0;
+  const auto possible = suspects();
+  if (!memory_watched_ || possible.size() != 1) {
+    memory_.skip_to(taken);
+  } else if (const int own = memory_.take(possible.front()->name, taken); own >= kManyPages) {
+    alarm(*possible.front(), "MEMORY",
+          "taken " + std::to_string(own / 256) + " MB in a few turns and not given them back");
+  }
+  if (memory_.total() < kNoticedPages) return;
+  memory_.start(taken);
+  memory_watched_ = true;
+  watchful_turns_ = kWatchfulTurns;
 }
 
 void Environment::begin_balance(Guest& guest) {

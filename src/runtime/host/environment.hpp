@@ -14,20 +14,22 @@
 #include <vector>
 
 #include "descriptors.hpp"
+#include "growth.hpp"
 #include "orca/base/activity.hpp"
 
 namespace orca {
 
 /// What belongs to the whole process or to a thread, and what no component may therefore change:
 /// floating-point control, locale, signal mask and handlers, working folder, umask, resource limits,
-/// descriptors. Looks whether it is as it was when control leaves a component, puts it back, and raises an
-/// alarm in the log that names component and hook, once per component and kind. Of a component that closes
-/// the process's own descriptors the process ends.
+/// descriptors, memory. Looks whether it is as it was when control leaves a component, puts it back, and
+/// raises an alarm in the log that names component and hook, once per component and kind. Of a component that
+/// closes the process's own descriptors the process ends.
 ///
 /// Floating-point control and locale are looked at each time, because that costs next to nothing; the rest
 /// around configure(), start() and stop() and at a component's first two and then each 64th turn. If several
 /// components had a turn since the last look, the alarm names them all, and the next turns are looked at one
-/// by one.
+/// by one. Memory that grows much within few turns is told likewise; what a component takes in the hooks that
+/// run once is its good right.
 ///
 /// Thread contract: keep() and let_go() before and after the strands live; the rest from the strands.
 class Environment {
@@ -80,6 +82,7 @@ class Environment {
   void look_at_files();
   void look_at_limits();
   void look_at_descriptors(bool rare);
+  void look_at_memory(bool rare);
   void begin_balance(Guest& guest);
   void end_balance(Guest& guest);
 
@@ -98,7 +101,9 @@ class Environment {
   mode_t umask_ = 0;
   std::vector<Limit> limits_;
   OwnDescriptors own_;
-  DescriptorGrowth growth_;
+  Growth open_;
+  Growth memory_;
+  bool memory_watched_ = false;
   bool exhausted_ = false;  // there are no descriptors left
   std::vector<Guest> guests_;
   std::uint64_t rare_turns_ = 0;

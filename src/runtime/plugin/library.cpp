@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "load_error.hpp"
 #include "loaded_plugins.hpp"
@@ -88,6 +90,14 @@ Result<Judgement> judge_once(const std::string& path, const std::string& file) {
   return judged;
 }
 
+// Plugins that stay in memory for ever stay known for ever.
+void keep_known(std::unique_ptr<LoadedPlugin> plugin) {
+  static std::mutex mutex;
+  static auto& kept = *new std::vector<std::unique_ptr<LoadedPlugin>>;
+  const std::lock_guard lock(mutex);
+  kept.push_back(std::move(plugin));
+}
+
 Error cannot_load(const std::string& path, const std::string& file, const std::string& words) {
   const Result<PluginFile> read = PluginFile::read(path);
   return refuse(path, "cannot be loaded: " + (read ? explain_load_error(read->elf(), file, words) : words));
@@ -118,11 +128,10 @@ PluginLibrary::PluginLibrary(std::string path, void* handle, const Manifest* man
 
 PluginLibrary::~PluginLibrary() {
   if (may_start_threads_ && threads_may_run_in(entry_->start(), entry_->end())) {
-    entry_.release();  // stays known for ever, as the plugin does
+    keep_known(std::move(entry_));
     tell_pinned(
         "a thread runs in it, and would crash without it, so it stays in memory. A component must have ended "
-        "its "
-        "threads when it is destroyed");
+        "its threads when it is destroyed");
     return;
   }
   entry_.reset();

@@ -11,9 +11,11 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "orca/component.hpp"
 
@@ -63,6 +65,11 @@ void leave_thread() {
   }).detach();
 }
 
+void take_memory() {
+  static std::vector<std::unique_ptr<char[]>> taken;  // until the plugin is unloaded
+  taken.push_back(std::make_unique<char[]>(1 << 20));
+}
+
 /// Does `deed` in the hook that `where` names, and works quietly otherwise.
 class Hooligan final : public orca::Component {
  public:
@@ -96,6 +103,7 @@ class Hooligan final : public orca::Component {
         {"locale", [] { std::setlocale(LC_ALL, "C.UTF-8"); }},
         {"mask", block_signal},
         {"noexcept", throw_where_nothing_may},
+        {"memory", take_memory},
         {"none", [] {}},
         {"overflow", [] { g_zero = overflow(0); }},
         {"quick_exit", [] { std::quick_exit(0); }},

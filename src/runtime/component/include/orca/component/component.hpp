@@ -27,7 +27,7 @@ namespace orca {
 class Component : public PortOwner {
  public:
   explicit Component(ComponentHost& host) : host_(host) {}
-  ~Component() noexcept(false) override = default;
+  ~Component() noexcept(false) override {}  // clang 14 takes no "= default" here
   Component(const Component&) = delete;
   Component& operator=(const Component&) = delete;
 
