@@ -79,14 +79,18 @@ idl::Robot describe(const RobotModel& model, const std::string& name) {
   return robot;
 }
 
-void draw(const Scene& from, const std::string& robot, double radius, orca::Scene& to) {
+void draw(const Scene& from, const std::string& name, const RobotModel& model,
+          std::vector<orca::Scene::Moment> moments, orca::Scene& to) {
   if (to.walls.empty()) {
     for (const Segment& edge : from.edges) to.walls.push_back({point(edge.a), point(edge.b)});
     for (const Circle& circle : from.circles) draw_circle(circle, to);
   }
   for (const SceneRobot& body : from.robots) {
-    if (body.name != robot) continue;
-    orca::Scene::Robot drawn{body.name, point(body.pose.position()), body.pose.yaw, radius, {}};
+    if (body.name != name) continue;
+    orca::Scene::Robot drawn{body.name, point(body.pose.position()), body.pose.yaw, model.radius, {},
+                             {},        std::move(moments)};
+    for (const Segment& edge : edges_of(model.footprint))
+      drawn.outline.push_back({point(edge.a), point(edge.b)});
     for (const SceneRobot::Sample& sample : body.trajectory)
       drawn.track.push_back(point(sample.pose.position()));
     to.robots.push_back(std::move(drawn));

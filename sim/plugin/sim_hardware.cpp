@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "moment_log.hpp"
 #include "objects.hpp"
 #include "orca/hardware.hpp"
 #include "orca/sim/robot_file.hpp"
@@ -112,7 +113,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
   [[nodiscard]] orca::idl::Robot description() const override { return describe(*robot_, *name_); }
 
   void draw(orca::Scene& scene) override {
-    if (shared_ != nullptr) orca::sim::draw(shared_->scene(), *name_, robot_->radius, scene);
+    if (shared_ != nullptr) orca::sim::draw(shared_->scene(), *name_, *robot_, moments_->moments(), scene);
   }
 
   Status open() override {
@@ -125,6 +126,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
     const orca::Result<RobotId> added = shared_->add_robot(*name_, *robot_, start_, kTruthPeriod);
     if (!added) return added.error();
     id_ = *added;
+    moments_.emplace(*robot_);
     return orca::ok();
   }
 
@@ -140,6 +142,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
   Status poll() override {
     const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
     for (const auto& contact : inbox.contacts) report(contact);
+    if (host().wants_scene()) moments_->add(inbox);
     if (state() == orca::hw::HardwareState::active) sensors_->publish(inbox);
     return orca::ok();
   }
@@ -193,6 +196,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
   std::unique_ptr<orca::hw::MotionHW> motion_;
   std::shared_ptr<SharedWorld> shared_;
   RobotId id_{};
+  std::optional<MomentLog> moments_;
 };
 
 }  // namespace

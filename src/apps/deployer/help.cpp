@@ -23,7 +23,10 @@ How to run it
 
 What to write
   --trace FILE          one line per delivery, connection and change of state
-  --picture FILE        what the world looked like in the end: .svg or .png
+  --picture FILE        draws the run, in the end, if it was simulated: .svg or .png
+  --view WHAT           of the picture: world (default), robot (around the first robot, ahead is up) or film (key
+                        moments: start, arrivals, contacts, end)
+  --hide LAYERS         of the picture, e.g. sonar,track; layers: walls, track, robot, sonar, laser, motion, marks
   --log LEVEL           debug, info (default), warning, error or off; logs go to stderr
 
 Instead of running

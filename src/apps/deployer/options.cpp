@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "orca/xml/names.hpp"
@@ -76,7 +77,25 @@ Status set_argument(Options& options, const std::string& value) {
 Status set_picture(Options& options, const std::string& value) {
   if (!value.ends_with(".svg") && !value.ends_with(".png"))
     return expected("--picture", "a file ending in .svg or .png", value);
-  options.run.picture_file = value;
+  options.run.picture.file = value;
+  return ok();
+}
+
+Status set_view(Options& options, const std::string& value) {
+  const std::optional<View> view = view_from(value);
+  if (!view) return expected("--view", xml::listed(view_names()), value);
+  options.run.picture.view = *view;
+  return ok();
+}
+
+Status hide(Options& options, const std::string& value) {
+  std::istringstream words(value);
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::optional<Layer> layer = layer_from(word);
+    if (!layer)
+      return expected("--hide", "some of " + xml::listed(layer_names()) + ", with commas between", word);
+    options.run.picture.hidden.insert(*layer);
+  }
   return ok();
 }
 
@@ -113,6 +132,8 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--until", {true, set_until}},
       {"--trace", {true, [](Options& o, const std::string& v) { return o.run.trace_file = v, ok(); }}},
       {"--picture", {true, set_picture}},
+      {"--view", {true, set_view}},
+      {"--hide", {true, hide}},
       {"--log", {true, set_log}},
   };
 }

@@ -26,7 +26,8 @@ void Announcer::print_trace_hash(std::uint64_t hash) {
 void Announcer::draw(Scene& scene) const {
   const std::lock_guard lock(mutex_);
   for (const Announcement& said : said_)
-    (said.kind == "contact" ? scene.contacts : scene.arrivals).push_back({said.name, {said.x, said.y}});
+    (said.kind == "contact" ? scene.contacts : scene.arrivals)
+        .push_back({said.name, {said.x, said.y}, said.time});
 }
 
 }  // namespace orca

@@ -19,6 +19,8 @@ struct RunContext {
   std::function<void(const Announcement&)> announce;
   /// Called whenever an instance has changed its state. Any strand.
   std::function<void()> changed;
+  /// A picture is to be drawn in the end.
+  bool wants_scene = false;
 };
 
 }  // namespace orca

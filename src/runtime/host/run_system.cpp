@@ -8,7 +8,6 @@
 #include "environment.hpp"
 #include "orca/host/stop_signal.hpp"
 #include "orca/host/system.hpp"
-#include "picture.hpp"
 #include "stall_monitor.hpp"
 #include "system.hpp"
 
@@ -30,7 +29,8 @@ class Run {
         executive_(executive),
         stop_(stop),
         trace_(executive),
-        announcer_(executive.now()) {}
+        start_(executive.now()),
+        announcer_(start_) {}
 
   ExitCode execute() {
     if (!options_.trace_file.empty())
@@ -104,15 +104,16 @@ class Run {
   }
 
   void finish_output() {
-    if (!options_.picture_file.empty()) draw();
+    if (!options_.picture.file.empty()) draw();
     if (executive_.is_virtual()) announcer_.print_trace_hash(trace_.hash());
   }
 
   void draw() {
     Scene scene;
+    scene.start = start_;
     system_.draw(scene);
     announcer_.draw(scene);
-    if (const Status drawn = write_picture(scene, options_.picture_file); !drawn.ok())
+    if (const Status drawn = write_picture(scene, options_.picture); !drawn.ok())
       log::error("deployer", drawn.error().text());
   }
 
@@ -122,11 +123,15 @@ class Run {
   Executive& executive_;
   StopSignal& stop_;
   Trace trace_;
+  const TimePoint start_;
   Announcer announcer_;
   std::unique_ptr<Event> changed_ = executive_.make_event();
-  RunContext context_{executive_, trace_, options_.seed.value_or(graph_.seed.value_or(1)),
+  RunContext context_{executive_,
+                      trace_,
+                      options_.seed.value_or(graph_.seed.value_or(1)),
                       [this](const Announcement& a) { announcer_.announce(a); },
-                      [this] { changed_->notify(); }};
+                      [this] { changed_->notify(); },
+                      !options_.picture.file.empty()};
   System system_{graph_, context_, [this] { return stop_.requested(); }};
   ExitCode code_ = ExitCode::finished;
 };

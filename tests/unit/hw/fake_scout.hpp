@@ -30,6 +30,7 @@ class FakeHardwareHost final : public hw::HardwareHost {
   [[nodiscard]] std::uint64_t run_seed() const override { return 1; }
   void state_changed(hw::HardwareState state) override { diary_.note(std::string("-> ") + to_string(state)); }
   [[nodiscard]] Executive& executive() override { return executive_; }
+  [[nodiscard]] bool wants_scene() const override { return false; }
 
  private:
   Executive& executive_;

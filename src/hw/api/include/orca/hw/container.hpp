@@ -40,6 +40,8 @@ class HardwareHost : public PluginHost {
   /// For traces: the container's state has changed.
   virtual void state_changed(HardwareState state) = 0;
   [[nodiscard]] virtual Executive& executive() = 0;
+  /// Whether somebody will ask draw() for more than where the robot ended: what is to be drawn must be kept.
+  [[nodiscard]] virtual bool wants_scene() const = 0;
 };
 
 /// All hardware behind one port or bus: it opens, starts, stops and closes the device, and has sensor and

@@ -8,6 +8,7 @@
 #include "orca/base/executive.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/host/picture.hpp"
 #include "orca/host/stop_signal.hpp"
 
 namespace orca {
@@ -18,7 +19,7 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;  ///< None: the graph's, else 1.
   std::optional<Duration> until;      ///< End then [s of the run's clock]; none: no such limit.
   std::string trace_file;             ///< Empty: none.
-  std::string picture_file;           ///< Ends in .svg or .png; empty: none.
+  PictureOptions picture;
 };
 
 /// Exit codes of the deployer (DESIGN 15).

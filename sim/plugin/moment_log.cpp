@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "moment_log.hpp"
+
+#include <cmath>
+
+namespace orca::sim {
+namespace {
+
+constexpr std::size_t kMost = 512;
+
+std::vector<orca::Scene::Cone> cones_of(const SonarScan& scan, const SonarRing& ring) {
+  std::vector<orca::Scene::Cone> cones;
+  for (const SonarReading& reading : scan.readings)
+    cones.push_back({{reading.sensor.x, reading.sensor.y},
+                     reading.sensor.yaw,
+                     ring.half_lobe,
+                     reading.range,
+                     reading.echo});
+  return cones;
+}
+
+orca::Scene::Scan scan_of(const LaserScan& scan, const LaserScanner& laser) {
+  const Pose2& at = laser.center;
+  orca::Scene::Scan drawn{{at.x, at.y}, {}};
+  for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
+    const double angle = at.yaw + laser.first_angle + static_cast<double>(k) * laser.pitch;
+    drawn.ends.push_back({at.x + scan.ranges[k] * std::cos(angle), at.y + scan.ranges[k] * std::sin(angle)});
+  }
+  return drawn;
+}
+
+}  // namespace
+
+void MomentLog::add(const SharedWorld::Inbox& inbox) {
+  see(inbox);
+  for (const SharedWorld::Inbox::Truth& truth : inbox.truth) {
+    now_.time = truth.stamp;
+    now_.position = {truth.pose.x, truth.pose.y};
+    now_.heading_rad = truth.pose.yaw;
+    now_.speed = truth.velocity.forward;
+    now_.turn_rate = truth.velocity.turn;
+    keep();
+  }
+}
+
+// Of several rings the first is drawn.
+void MomentLog::see(const SharedWorld::Inbox& inbox) {
+  for (const auto& [ring, scan] : inbox.sonar)
+    if (ring == 0) now_.sonar = cones_of(scan, robot_.sonars[ring]);
+  now_.lasers.resize(robot_.lasers.size());
+  for (const auto& [laser, scan] : inbox.laser) now_.lasers[laser] = scan_of(scan, robot_.lasers[laser]);
+}
+
+void MomentLog::keep() {
+  if (count_++ % step_ != 0) return;
+  kept_.push_back(now_);
+  if (kept_.size() < kMost) return;
+  for (std::size_t i = 0; 2 * i < kept_.size(); ++i) kept_[i] = std::move(kept_[2 * i]);
+  kept_.resize((kMost + 1) / 2);
+  step_ *= 2;
+}
+
+std::vector<orca::Scene::Moment> MomentLog::moments() const {
+  std::vector<orca::Scene::Moment> all = kept_;
+  if (!all.empty() && all.back().time < now_.time) all.push_back(now_);
+  return all;
+}
+
+}  // namespace orca::sim

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace orca {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kTurnRadius = 0.6;         // [m] of the arc that shows a turn
+constexpr double kLeastMotion = 0.02;       // [m/s, rad/s] nothing is drawn below
+constexpr double kLongestTurn = 1.9 * kPi;  // [rad] an arc never closes
+
+}  // namespace
+
+Painter::Painter(cairo_t* cairo, const Window& window, const std::set<Layer>& hidden)
+    : cairo_(cairo), window_(window), hidden_(hidden), pixel_(1.0 / window.scale) {
+  cairo_save(cairo_);
+  cairo_rectangle(cairo_, window.left, window.top, window.width, window.height);
+  cairo_clip(cairo_);
+  cairo_translate(cairo_, window.left + 0.5 * window.width, window.top + 0.5 * window.height);
+  cairo_scale(cairo_, window.scale, -window.scale);
+  cairo_rotate(cairo_, 0.5 * kPi - window.up_rad);
+  cairo_translate(cairo_, -window.centre.x, -window.centre.y);
+  cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
+}
+
+Painter::~Painter() { cairo_restore(cairo_); }
+
+void Painter::pen(const Colour& colour, double width_pixels) {
+  cairo_set_source_rgba(cairo_, colour.red, colour.green, colour.blue, colour.alpha);
+  cairo_set_line_width(cairo_, width_pixels * pixel_);
+}
+
+void Painter::ring(const Scene::Point& centre, double radius) {
+  cairo_new_sub_path(cairo_);
+  cairo_arc(cairo_, centre.x, centre.y, radius, 0, 2 * kPi);
+  cairo_stroke(cairo_);
+}
+
+void Painter::walls(const std::vector<Scene::Line>& lines) {
+  if (!shows(Layer::walls)) return;
+  pen({0.15, 0.15, 0.15}, 1.6);
+  for (const Scene::Line& line : lines) {
+    cairo_move_to(cairo_, line.a.x, line.a.y);
+    cairo_line_to(cairo_, line.b.x, line.b.y);
+  }
+  cairo_stroke(cairo_);
+}
+
+void Painter::track(const std::vector<Scene::Point>& points) {
+  if (!shows(Layer::track) || points.empty()) return;
+  pen({0.12, 0.35, 0.75}, 2.0);
+  for (const Scene::Point& p : points) cairo_line_to(cairo_, p.x, p.y);
+  cairo_stroke(cairo_);
+  ring(points.front(), 4 * pixel_);
+}
+
+void Painter::arrival(const Scene::Mark& arrival) { mark(arrival, {0.0, 0.55, 0.2}); }
+
+void Painter::contact(const Scene::Mark& contact) { mark(contact, {0.9, 0.0, 0.0}); }
+
+void Painter::mark(const Scene::Mark& mark, const Colour& colour) {
+  if (!shows(Layer::marks)) return;
+  pen(colour, 3.0);
+  ring(mark.position, 7 * pixel_);
+  cairo_save(cairo_);
+  cairo_translate(cairo_, mark.position.x, mark.position.y);
+  cairo_rotate(cairo_, window_.up_rad - 0.5 * kPi);  // letters stand upright
+  cairo_scale(cairo_, pixel_, -pixel_);
+  cairo_set_font_size(cairo_, 16);
+  cairo_move_to(cairo_, 10, -10);
+  cairo_show_text(cairo_, mark.label.c_str());
+  cairo_restore(cairo_);
+}
+
+void Painter::robot(const Scene::Robot& robot, const Scene::Moment& moment) {
+  cairo_save(cairo_);
+  cairo_translate(cairo_, moment.position.x, moment.position.y);
+  cairo_rotate(cairo_, moment.heading_rad);
+  if (shows(Layer::laser))
+    for (const Scene::Scan& scan : moment.lasers) this->scan(scan);
+  if (shows(Layer::sonar))
+    for (const Scene::Cone& cone : moment.sonar) this->cone(cone);
+  if (shows(Layer::robot)) body(robot);
+  if (shows(Layer::motion)) motion(moment);
+  cairo_restore(cairo_);
+}
+
+void Painter::body(const Scene::Robot& robot) {
+  pen({0.1, 0.1, 0.1}, 2.0);
+  if (robot.outline.empty()) ring({}, robot.radius_m);
+  for (const Scene::Line& edge : robot.outline) {
+    cairo_move_to(cairo_, edge.a.x, edge.a.y);
+    cairo_line_to(cairo_, edge.b.x, edge.b.y);
+  }
+  cairo_move_to(cairo_, 0, 0);
+  cairo_line_to(cairo_, robot.radius_m, 0);
+  cairo_stroke(cairo_);
+}
+
+void Painter::cone(const Scene::Cone& cone) {
+  cairo_move_to(cairo_, cone.at.x, cone.at.y);
+  cairo_arc(cairo_, cone.at.x, cone.at.y, cone.range_m, cone.direction_rad - cone.half_lobe_rad,
+            cone.direction_rad + cone.half_lobe_rad);
+  cairo_close_path(cairo_);
+  pen({1.0, 0.85, 0.0, cone.echo ? 0.35 : 0.07}, 1.0);
+  cairo_fill(cairo_);
+  if (!cone.echo) return;
+  pen({0.85, 0.65, 0.0}, 2.0);
+  cairo_arc(cairo_, cone.at.x, cone.at.y, cone.range_m, cone.direction_rad - cone.half_lobe_rad,
+            cone.direction_rad + cone.half_lobe_rad);
+  cairo_stroke(cairo_);
+}
+
+void Painter::scan(const Scene::Scan& scan) {
+  cairo_move_to(cairo_, scan.at.x, scan.at.y);
+  for (const Scene::Point& end : scan.ends) cairo_line_to(cairo_, end.x, end.y);
+  cairo_close_path(cairo_);
+  pen({0.1, 0.4, 1.0, 0.12}, 1.0);
+  cairo_fill(cairo_);
+  pen({0.1, 0.3, 0.9}, 3.0);
+  for (const Scene::Point& end : scan.ends) {
+    cairo_move_to(cairo_, end.x, end.y);
+    cairo_close_path(cairo_);
+  }
+  cairo_stroke(cairo_);
+}
+
+void Painter::motion(const Scene::Moment& moment) {
+  pen({0.85, 0.05, 0.05}, 3.0);
+  if (std::abs(moment.speed) >= kLeastMotion) {
+    cairo_move_to(cairo_, 0, 0);
+    cairo_line_to(cairo_, moment.speed, 0);
+    cairo_stroke(cairo_);
+    head({moment.speed, 0}, moment.speed > 0 ? 0.0 : kPi);
+  }
+  if (std::abs(moment.turn_rate) < kLeastMotion) return;
+  const double turn = std::clamp(moment.turn_rate, -kLongestTurn, kLongestTurn);
+  (turn > 0 ? cairo_arc : cairo_arc_negative)(cairo_, 0, 0, kTurnRadius, 0, turn);
+  cairo_stroke(cairo_);
+  head({kTurnRadius * std::cos(turn), kTurnRadius * std::sin(turn)}, turn + std::copysign(0.5 * kPi, turn));
+}
+
+void Painter::head(const Scene::Point& tip, double direction_rad) {
+  const double length = 9 * pixel_;
+  for (const double side : {0.85 * kPi, -0.85 * kPi}) {
+    cairo_move_to(cairo_, tip.x, tip.y);
+    cairo_rel_line_to(cairo_, length * std::cos(direction_rad + side),
+                      length * std::sin(direction_rad + side));
+  }
+  cairo_stroke(cairo_);
+}
+
+void Painter::frame() {
+  cairo_save(cairo_);
+  cairo_identity_matrix(cairo_);
+  cairo_set_source_rgb(cairo_, 0.7, 0.7, 0.7);
+  cairo_set_line_width(cairo_, 2.0);
+  cairo_rectangle(cairo_, window_.left, window_.top, window_.width, window_.height);
+  cairo_stroke(cairo_);
+  cairo_restore(cairo_);
+}
+
+}  // namespace orca

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cairo.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "orca/host/picture.hpp"
+
+namespace orca {
+
+/// A rectangle of the picture [pixels] and what it shows.
+struct Window {
+  double left = 0.0;
+  double top = 0.0;
+  double width = 0.0;
+  double height = 0.0;
+  Scene::Point centre;  ///< Shown in the middle.
+  double up_rad = 0.0;  ///< Direction of the world that points up.
+  double scale = 1.0;   ///< [pixels/m]
+};
+
+/// Draws shapes that are given in metres into a window, and nothing outside of it.
+class Painter {
+ public:
+  Painter(cairo_t* cairo, const Window& window, const std::set<Layer>& hidden);
+  ~Painter();
+  Painter(const Painter&) = delete;
+  Painter& operator=(const Painter&) = delete;
+
+  void walls(const std::vector<Scene::Line>& lines);
+  void track(const std::vector<Scene::Point>& points);
+  void arrival(const Scene::Mark& mark);
+  void contact(const Scene::Mark& mark);
+  /// The robot, what it does and what it senses, at a moment of its run.
+  void robot(const Scene::Robot& robot, const Scene::Moment& moment);
+  void frame();
+
+ private:
+  struct Colour {
+    double red, green, blue, alpha = 1.0;
+  };
+  [[nodiscard]] bool shows(Layer layer) const { return !hidden_.contains(layer); }
+  void pen(const Colour& colour, double width_pixels);
+  void ring(const Scene::Point& centre, double radius);
+  void mark(const Scene::Mark& mark, const Colour& colour);
+  void body(const Scene::Robot& robot);
+  void cone(const Scene::Cone& cone);
+  void scan(const Scene::Scan& scan);
+  void motion(const Scene::Moment& moment);
+  void head(const Scene::Point& tip, double direction_rad);
+
+  cairo_t* const cairo_;
+  const Window window_;
+  const std::set<Layer>& hidden_;
+  const double pixel_;  // [m]
+};
+
+}  // namespace orca

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/host/picture.hpp"
+
+#include <cairo-svg.h>
+#include <cairo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "views.hpp"
+
+namespace orca {
+namespace {
+
+using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
+
+Surface make_surface(const std::string& path, double width, double height) {
+  cairo_surface_t* const surface =
+      path.ends_with(".svg")
+          ? cairo_svg_surface_create(path.c_str(), width, height)
+          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height));
+  return {surface, cairo_surface_destroy};
+}
+
+Status finish(cairo_surface_t* surface, const std::string& path) {
+  cairo_status_t status = cairo_surface_status(surface);
+  if (status == CAIRO_STATUS_SUCCESS && path.ends_with(".png"))
+    status = cairo_surface_write_to_png(surface, path.c_str());
+  cairo_surface_finish(surface);
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
+  if (status == CAIRO_STATUS_SUCCESS) return ok();
+  return fail(Code::unavailable, std::string("cannot write the picture: ") + cairo_status_to_string(status),
+              path);
+}
+
+Status draw(const Drawing& drawing, const std::string& path) {
+  const Surface surface = make_surface(path, drawing.width, drawing.height);
+  cairo_t* const cairo = cairo_create(surface.get());
+  cairo_set_source_rgb(cairo, 1, 1, 1);
+  cairo_paint(cairo);
+  drawing.draw(cairo);
+  cairo_destroy(cairo);
+  return finish(surface.get(), path);
+}
+
+Result<Drawing> drawing_of(const Scene& scene, const PictureOptions& options) {
+  switch (options.view) {
+    case View::robot: return robot_view(scene, options.hidden);
+    case View::film: return film(scene, options.hidden);
+    default: return world_view(scene, options.hidden);
+  }
+}
+
+// The place of a name in a list that is in the order of an enum.
+template <class Enum>
+std::optional<Enum> named(std::string_view name, const std::vector<std::string>& names) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Enum>(found - names.begin());
+}
+
+}  // namespace
+
+const std::vector<std::string>& view_names() {
+  static const std::vector<std::string> names{"world", "robot", "film"};
+  return names;
+}
+
+const std::vector<std::string>& layer_names() {
+  static const std::vector<std::string> names{"walls", "track", "robot", "sonar", "laser", "motion", "marks"};
+  return names;
+}
+
+std::optional<View> view_from(std::string_view name) { return named<View>(name, view_names()); }
+
+std::optional<Layer> layer_from(std::string_view name) { return named<Layer>(name, layer_names()); }
+
+Status write_picture(const Scene& scene, const PictureOptions& options) {
+  if (!options.file.ends_with(".svg") && !options.file.ends_with(".png"))
+    return fail(Code::invalid_argument, "a picture's name ends in .svg or .png", options.file);
+  const Result<Drawing> drawing = drawing_of(scene, options);
+  if (!drawing) return fail(drawing.error().code, drawing.error().message, options.file);
+  return draw(*drawing, options.file);
+}
+
+}  // namespace orca

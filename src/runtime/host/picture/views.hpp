@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cairo.h>
+
+#include <functional>
+#include <set>
+
+#include "orca/host/picture.hpp"
+
+namespace orca {
+
+/// A picture that can be drawn: how large it is, and how.
+struct Drawing {
+  double width = 0.0;   ///< [pixels]
+  double height = 0.0;  ///< [pixels]
+  std::function<void(cairo_t*)> draw;
+};
+
+/// One for each View. They hold references to their arguments.
+/// @errors  invalid_argument: there is nothing to show.
+[[nodiscard]] Result<Drawing> world_view(const Scene& scene, const std::set<Layer>& hidden);
+[[nodiscard]] Result<Drawing> robot_view(const Scene& scene, const std::set<Layer>& hidden);
+[[nodiscard]] Result<Drawing> film(const Scene& scene, const std::set<Layer>& hidden);
+
+}  // namespace orca
