@@ -81,7 +81,8 @@ HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectT
   lap_every(kWatchPeriod);
   if (container_ == nullptr) return;
   for (SensorEndpoint* sensor : container_->sensors()) {
-    const bool wanted = only == nullptr || only == &sensor->type();
+    // By name: a plugin may have a copy of the type's description.
+    const bool wanted = only == nullptr || only->name == sensor->type().name;
     if (wanted && sensor->source() == source)
       sensors_.push_back(std::make_unique<SensorPorts>(*this, *sensor));
   }

@@ -4,34 +4,11 @@
 
 #include "approval.hpp"
 #include "bases.hpp"
-#include "orca/sim/robot_file.hpp"
-#include "orca/sim/world_file.hpp"
+#include "shipped.hpp"
 
 using namespace orca::sim;
 using namespace orca::sim::test;
 using Catch::Contains;
-
-namespace {
-
-const std::string kRobots = ORCA_SOURCE_DIR "/sim/robots/";
-
-RobotModel shipped(const std::string& name) {
-  orca::xml::Diagnostics diagnostics;
-  auto model = read_robot(kRobots + name + ".urdf", diagnostics);
-  INFO(diagnostics.text());
-  REQUIRE(model);
-  REQUIRE(diagnostics.text().empty());
-  return *model;
-}
-
-WorldModel office() {
-  orca::xml::Diagnostics diagnostics;
-  auto world = read_world(ORCA_SOURCE_DIR "/sim/worlds/office.xml", {}, diagnostics);
-  REQUIRE(world);
-  return *world;
-}
-
-}  // namespace
 
 TEST_CASE("every shipped robot reads without a word, stands in the office and drives off without a contact",
           "[sim][robots]") {
@@ -40,7 +17,7 @@ TEST_CASE("every shipped robot reads without a word, stands in the office and dr
   for (const auto& file : files) {
     INFO(file.string());
     const RobotModel model = shipped(file.stem().string());
-    World world(office(), {.seed = 1, .realism = Realism::nominal});
+    World world(shipped_world("office"), {.seed = 1, .realism = Realism::nominal});
     const auto id = world.add_robot("dewey", model, world.model().place("start")->pose);
     REQUIRE(id);
     REQUIRE(world.set_velocity_command(*id, 0.3, 0.0));
