@@ -20,7 +20,7 @@ std::vector<orca::Scene::Cone> cones_of(const SonarScan& scan, const SonarRing& 
 }
 
 orca::Scene::Scan scan_of(const LaserScan& scan, const LaserScanner& laser) {
-  const Pose2& at = laser.center;
+  const Pose2 at = scan.X_RB * laser.center;
   orca::Scene::Scan drawn{{at.x, at.y}, {}};
   for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
     const double angle = at.yaw + laser.first_angle + static_cast<double>(k) * laser.pitch;

@@ -148,6 +148,16 @@ Pose2 Physics::pose(std::size_t robot) const {
   return {p.x(), p.y(), r.yaw};
 }
 
+Pose2 Physics::relative(const Pair& pair) const {
+  const Pose2 robot = pose(pair.robot);
+  btVector3 other(0, 0, 0);  // What stands for ever is where it is.
+  if (pair.kind == Kind::robot) other = impl_->robots[pair.other].body->getWorldTransform().getOrigin();
+  const btRigidBody* const mover =
+      pair.kind == Kind::mover ? impl_->movers[pair.other].body.body.get() : nullptr;
+  if (mover != nullptr) other = mover->getWorldTransform().getOrigin();
+  return {robot.x - other.x(), robot.y - other.y(), robot.yaw};
+}
+
 std::vector<Touch> Physics::touches(std::size_t robot) const {
   std::vector<Touch> touches;
   const btRigidBody& own = *impl_->robots[robot].body;

@@ -52,6 +52,9 @@ class Physics {
   // The distance of all near pairs [m], negative when they overlap; ordered, whatever order Bullet keeps.
   [[nodiscard]] std::map<Pair, double> near_pairs() const;
 
+  // Where the robot is, from where the other is, and which way it looks; axes as the world's.
+  [[nodiscard]] Pose2 relative(const Pair& pair) const;
+
   // Where the robot touches or nearly touches something, in its own frame.
   [[nodiscard]] std::vector<Touch> touches(std::size_t robot) const;
 

@@ -125,7 +125,7 @@ const std::string& World::Impl::name_of(const detail::Pair& pair) const {
 
 void World::Impl::report_contacts() {
   contacts.clear();
-  for (const detail::Pair& p : contact_log.update(physics.near_pairs())) {
+  for (const detail::Pair& p : contact_log.update(physics)) {
     const detail::Robot& r = robots[p.robot];
     contacts.push_back({r.name, now, name_of(p), r.speed()});
   }

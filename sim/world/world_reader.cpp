@@ -57,7 +57,7 @@ constexpr std::size_t kMaxObstacles = 100'000;
 constexpr std::size_t kMaxPlaces = 1000;
 constexpr std::size_t kMaxWalkers = 200;
 
-const std::vector<std::string> kElements{"wall",   "room",  "box",      "cylinder", "polygon",
+const std::vector<std::string> kElements{"wall",   "room", "box",   "cylinder", "polygon",
                                          "bitmap", "mesh", "place", "generate", "walker"};
 
 }  // namespace
@@ -67,10 +67,9 @@ WorldModel WorldReader::read(const xml::Element& root) {
   header(world);
   if (!within_limits(world)) return std::move(world_);
   constexpr std::array<Read, 10> kReaders{
-      &WorldReader::wall,     &WorldReader::room,     &WorldReader::box,
-      &WorldReader::cylinder, &WorldReader::polygon,  &WorldReader::bitmap,
-      &WorldReader::mesh,     &WorldReader::place,    &WorldReader::generate,
-      &WorldReader::walker};
+      &WorldReader::wall,     &WorldReader::room,   &WorldReader::box,  &WorldReader::cylinder,
+      &WorldReader::polygon,  &WorldReader::bitmap, &WorldReader::mesh, &WorldReader::place,
+      &WorldReader::generate, &WorldReader::walker};
   for (const xml::Element& e : root.children()) {
     const auto known = std::ranges::find(kElements, e.name());
     if (known == kElements.end()) continue;
@@ -105,8 +104,7 @@ bool WorldReader::within_limits(const Attributes& world) const {
   const bool obstacles = too_many(elements.size() - count("place"), "obstacles", kMaxObstacles);
   const bool places = too_many(count("place"), "places", kMaxPlaces);
   const bool walkers = too_many(count("walker"), "walkers", kMaxWalkers);
-  const bool generated = too_many(count("generate"), "generated parts", 1);
-  return !obstacles && !places && !walkers && !generated;
+  return !obstacles && !places && !walkers;
 }
 
 std::optional<double> WorldReader::height(const Attributes& element) const {
@@ -275,6 +273,10 @@ void WorldReader::add_place(const Attributes& element, Place place) {
 }
 
 void WorldReader::generate(const Attributes& element) {
+  if (generated_)
+    return element.error(
+        14, "there is a <generate> already, at " + generated_->text() + "; a world has one, leave this out");
+  generated_ = element.element().position();
   const auto order = read_generate(element);
   if (!order) return;
   auto made = sim::generate(order->family, seed_.value_or(order->seed), order->radius);

@@ -57,6 +57,7 @@ class WorldReader {
   std::map<std::string, xml::Position> taken_;  // By kind and name.
   std::vector<xml::Position> place_positions_;
   std::vector<xml::Position> walker_positions_;
+  std::optional<xml::Position> generated_;  // Where <generate> stands.
 };
 
 }  // namespace orca::sim::detail

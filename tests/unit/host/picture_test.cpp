@@ -58,7 +58,7 @@ class Pixels {
     const TempFolder folder;
     options.file = folder.file("picture.png");
     const Status written = write_picture(scene, options);
-    INFO(written.ok() ? "" : written.error().text());
+    INFO((written.ok() ? std::string() : written.error().text()));
     REQUIRE(written.ok());
     surface_ = cairo_image_surface_create_from_png(options.file.c_str());
     REQUIRE(cairo_surface_status(surface_) == CAIRO_STATUS_SUCCESS);
@@ -126,7 +126,8 @@ TEST_CASE("in the robot's view ahead is up, whatever its heading in the world", 
   }
 }
 
-TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments between", "[host][picture]") {
+TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments between",
+          "[host][picture]") {
   Scene scene = drive(10.0);
   CHECK(reasons(scene) == std::vector<std::string>{"start", "", "", "", "", "end"});
   scene.arrivals = {{"kitchen", {4.0, 0.0}, TimePoint(4s)}};
@@ -134,7 +135,8 @@ TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments
   CHECK(reasons(scene) == std::vector<std::string>{"start", "", "at kitchen", "", "contact of Dewey", "end"});
 }
 
-TEST_CASE("a film of a robot that does much shows twelve moments, first and last among them", "[host][picture]") {
+TEST_CASE("a film of a robot that does much shows twelve moments, first and last among them",
+          "[host][picture]") {
   Scene scene = drive(60.0);
   for (int i = 1; i < 40; ++i)
     scene.arrivals.push_back({"p" + std::to_string(i), {1.0 * i, 0.0}, TimePoint(std::chrono::seconds(i))});

@@ -53,10 +53,10 @@ TEST_CASE("a moment shows what was sensed last, in the robot's frame", "[sim][pi
   MomentLog log(robot);
   SharedWorld::Inbox inbox = truth_at(1);
   inbox.sonar.push_back({0, {{{0, TimePoint{}, {0.2, 0.1, 0.5}, 1.5, true}}}});
-  inbox.laser.push_back({0, {TimePoint{}, {2.0, 3.0}}});
+  inbox.laser.push_back({0, {TimePoint{}, {2.0, 3.0}, {}}});
   log.add(inbox);
   log.add(truth_at(2));
-  const Scene::Moment last = log.moments().back();
+  const orca::Scene::Moment last = log.moments().back();
   REQUIRE(last.sonar.size() == 1);
   CHECK(last.sonar[0].direction_rad == 0.5);
   CHECK(last.sonar[0].half_lobe_rad == 0.2);

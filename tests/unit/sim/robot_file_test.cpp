@@ -160,7 +160,7 @@ TEST_CASE("wrong masses, inertias and shapes are told", "[sim][robot_file]") {
   CHECK_THAT(base("<cylinder radius=\"0.2\" length=\"0.3\"/>", "<box size=\"0.1 0 0.1\"/>"),
              Catch::Contains("error R020: size of <box>"));
   CHECK_THAT(base("<cylinder radius=\"0.2\" length=\"0.3\"/>", "<mesh filename=\"a.stl\"/>"),
-             Catch::Contains("error R021: a mesh cannot be used for collisions"));
+             Catch::Contains("error R021: a.stl: there is no such mesh file"));
   CHECK_THAT(base("<cylinder radius=\"0.2\" length=\"0.3\"/>", "<cone/>"),
              Catch::Contains("error R002: <cone>"));
   CHECK_THAT(base("<cylinder radius=\"0.2\" length=\"0.3\"/>", ""),
