@@ -10,8 +10,8 @@
 namespace orca::sim::detail {
 
 // Tells when a touch begins, once. It ends only when the two are well apart, because a robot that pushes
-// against a wall hovers about distance zero; and Bullet knows no distance there, but only who is in contact. So
-// it ends as soon as the robot has gone or turned away from where it was last in contact.
+// against a wall hovers about distance zero; and Bullet knows no distance there, but only who is in contact.
+// So it ends as soon as the robot has gone or turned away from where it was last in contact.
 class ContactLog {
  public:
   // The pairs that began to touch in this tick.

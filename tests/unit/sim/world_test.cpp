@@ -158,7 +158,7 @@ TEST_CASE("backing off and coming again is a second contact", "[sim][contact]") 
   drive(-0.5, 300);
   CHECK(contacts == 1);
   CHECK(world.pose(id).x < 4.7);
-  drive(0.5, 400);
+  drive(0.5, 500);
   CHECK(contacts == 2);
 }
 
