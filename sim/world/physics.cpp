@@ -71,6 +71,8 @@ struct Physics::Impl {
 
 Physics::Physics(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
   impl_->world.setGravity(btVector3(0, 0, 0));
+  // What stands does not move: its boxes need no update in each step.
+  impl_->world.setForceUpdateAllAabbs(false);
   for (const Obstacle& o : world.obstacles) {
     btTransform X;
     OwnedShape shape = obstacle_shape(o, X);

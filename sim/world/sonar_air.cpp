@@ -26,11 +26,19 @@ class Ways {
        std::optional<double> nearest)
       : caster_(caster), from_(from), to_(to), head_start_(head_start), nearest_(nearest) {}
 
+  // False if all ways are too long or too short: longer than the straight one, shorter than both cones.
+  [[nodiscard]] bool may_be_heard() const {
+    const double shortest = norm(from_.beam.sensor.position() - to_.beam.sensor.position());
+    const double longest = from_.reach + to_.reach + 2.0 * kInBody;
+    return taken_for(longest) >= to_.beam.min_range && (!nearest_ || taken_for(shortest) < *nearest_);
+  }
+
   void straight() {
     const Vec2 way = from_.beam.sensor.position() - to_.beam.sensor.position();
     const double length = norm(way);
     if (length <= kInBody) return;
-    if (!in_window(length) || to_.strength(way) * from_.strength(-1.0 * way) < kThreshold) return;
+    if (!to_.holds(way) || !from_.holds(-1.0 * way) || !in_window(length)) return;
+    if (to_.strength(way) * from_.strength(-1.0 * way) < kThreshold) return;
     if (caster_.cast(to_.beam.ray((1.0 / length) * way)).range >=
         std::fmin(length - kInBody, to_.beam.max_range))
       keep(length);
@@ -70,6 +78,7 @@ class Ways {
   void off_point(Vec2 point, double strength) {
     const Vec2 from = point - from_.beam.sensor.position();
     const Vec2 to = point - to_.beam.sensor.position();
+    if (!to_.holds(to) || !from_.holds(from)) return;
     const double length = norm(from) + norm(to);
     if (!in_window(length) || strength * to_.strength(to) * from_.strength(from) < kThreshold) return;
     if (sees(from_.beam, from) && sees(to_.beam, to)) keep(length);
@@ -100,45 +109,48 @@ bool may_meet(const Circle& one, const Circle& other) {
 }
 
 // The smallest circle around the sector, if that is narrow.
-Circle around(Vec2 tip, Vec2 axis, double half_angle, double reach) {
-  if (half_angle > 0.25 * std::numbers::pi) return {tip, reach + kInBody};
-  const double radius = 0.5 * reach / std::cos(half_angle);
-  return {tip + radius * axis, radius + kInBody};
+Circle around(const SonarAir::Cone& cone) {
+  const Vec2 tip = cone.beam.sensor.position();
+  if (cone.beam.half_lobe > 0.25 * std::numbers::pi) return {tip, cone.reach + kInBody};
+  const double radius = 0.5 * cone.reach / std::cos(cone.beam.half_lobe);
+  return {tip + radius * cone.axis, radius + kInBody};
 }
 
 }  // namespace
 
-SonarAir::Cone::Cone(const Beam& from, double reach)
-    : beam(from),
-      axis(direction(from.sensor.yaw)),
-      tan_lobe(std::tan(from.half_lobe)),
-      around(detail::around(from.sensor.position(), axis, from.half_lobe, reach)) {}
+SonarAir::Cone::Cone(const Beam& from, double goes)
+    : beam(from), reach(goes), axis(direction(from.sensor.yaw)), tan_lobe(std::tan(from.half_lobe)) {}
 
 double SonarAir::Cone::strength(Vec2 towards) const {
-  const double along = dot(axis, towards);
-  const double across = std::fabs(cross(axis, towards));
-  if (across > along * tan_lobe) return 0.0;
-  const double share = std::atan2(across, along) / beam.half_lobe;
+  const double share = std::atan2(std::fabs(cross(axis, towards)), dot(axis, towards)) / beam.half_lobe;
   return std::exp(-share * share);
 }
 
 std::uint64_t SonarAir::send(TimePoint time, const Beam& beam, double reach) {
-  chirps_.push_back({sent_, time, Cone(beam, reach)});
-  return sent_++;
+  cones_.emplace_back(beam, reach);
+  chirps_.push_back({time, around(cones_.back())});
+  return first_ + chirps_.size() - 1;
 }
 
 void SonarAir::settle(TimePoint now) {
-  std::erase_if(chirps_, [&](const Chirp& chirp) { return chirp.time < now - kFadesAfter; });
+  const auto is_heard = [&](const Chirp& chirp) { return chirp.time >= now - kFadesAfter; };
+  const auto gone = std::ranges::find_if(chirps_, is_heard) - chirps_.begin();
+  chirps_.erase(chirps_.begin(), chirps_.begin() + gone);
+  cones_.erase(cones_.begin(), cones_.begin() + gone);
+  first_ += static_cast<std::uint64_t>(gone);
 }
 
 std::optional<double> SonarAir::first_heard(const Caster& caster, const Beam& listener, std::uint64_t own,
                                             TimePoint since, const Echo& echo) const {
   const Cone ear(listener, echo.reach);
+  const Circle near = around(ear);
   std::optional<double> nearest = echo.range;
-  for (const Chirp& chirp : chirps_) {
-    const bool foreign = chirp.number != own && chirp.time <= since && chirp.time >= since - kFadesAfter;
-    if (!foreign || !may_meet(chirp.cone.around, ear.around)) continue;
-    Ways ways(caster, chirp.cone, ear, kSoundSpeed * to_seconds(since - chirp.time), nearest);
+  for (std::size_t i = 0; i < chirps_.size(); ++i) {
+    const Duration age = since - chirps_[i].time;
+    if (age < Duration{} || age > kFadesAfter || first_ + i == own || !may_meet(chirps_[i].around, near))
+      continue;
+    Ways ways(caster, cones_[i], ear, kSoundSpeed * to_seconds(age), nearest);
+    if (!ways.may_be_heard()) continue;
     ways.straight();
     for (const Surface& surface : echo.surfaces) ways.off(surface);
     nearest = ways.nearest();

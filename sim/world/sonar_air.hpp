@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
+#include <vector>
 
 #include "sonar_beam.hpp"
 
@@ -15,14 +15,17 @@ class SonarAir {
   // A beam as far as it goes.
   struct Cone {
     Cone(const Beam& from, double reach);
-    // Strength of the transducer in a direction, on one way: squared, it is what its own echo has from there
-    // (sonar_echo.cpp).
+    [[nodiscard]] bool holds(Vec2 towards) const {
+      return std::fabs(cross(axis, towards)) <= dot(axis, towards) * tan_lobe;
+    }
+    // Strength of the transducer in a direction that it holds, on one way: squared, it is what its own echo
+    // has from there (sonar_echo.cpp).
     [[nodiscard]] double strength(Vec2 towards) const;
 
     Beam beam;
+    double reach;  // [m]
     Vec2 axis;
     double tan_lobe;
-    Circle around;  // Holds it all.
   };
 
   // @param reach  [m] of the beam's own echo.
@@ -38,14 +41,15 @@ class SonarAir {
                                                   std::uint64_t own, TimePoint since, const Echo& echo) const;
 
  private:
+  // What tells of most chirps that they cannot be heard; small, since every listener looks at all of them.
   struct Chirp {
-    std::uint64_t number;
     TimePoint time;
-    Cone cone;
+    Circle around;  // Holds the cone.
   };
 
-  std::deque<Chirp> chirps_;
-  std::uint64_t sent_ = 0;
+  std::vector<Chirp> chirps_;  // In the air, tick by tick;
+  std::vector<Cone> cones_;    // their cones,
+  std::uint64_t first_ = 0;    // and the first one's number.
 };
 
 }  // namespace orca::sim::detail

@@ -103,17 +103,21 @@ class Listener {
   }
   void probe_point(Vec2 point, double strength) {
     const Vec2 w = point - beam_.sensor.position();
+    const double range = norm(w);
+    if (range > beam_.max_range || !nearer(range)) return;
     const double angle = std::atan2(w.y, w.x);
     const double off_axis = wrapped(angle - beam_.sensor.yaw);
-    if (std::fabs(off_axis) > beam_.half_lobe || norm(w) > beam_.max_range) return;
-    if (caster_.cast(beam_.ray(direction(angle))).range >= norm(w) - kSeen)
-      offer(norm(w), off_axis, strength);
+    if (std::fabs(off_axis) > beam_.half_lobe || !is_strong(off_axis, strength)) return;
+    if (caster_.cast(beam_.ray(direction(angle))).range >= range - kSeen) nearest_ = range;
   }
-  // A Gaussian beam whose deviation is half the half lobe.
   void offer(double range, double off_axis, double strength) {
+    if (nearer(range) && is_strong(off_axis, strength)) nearest_ = range;
+  }
+  [[nodiscard]] bool nearer(double range) const { return !nearest_ || range < *nearest_; }
+  // A Gaussian beam whose deviation is half the half lobe.
+  [[nodiscard]] bool is_strong(double off_axis, double strength) const {
     const double deviations = 2.0 * off_axis / beam_.half_lobe;
-    if (strength * std::exp(-0.5 * deviations * deviations) < kThreshold) return;
-    if (!nearest_ || range < *nearest_) nearest_ = range;
+    return strength * std::exp(-0.5 * deviations * deviations) >= kThreshold;
   }
 
   const Caster& caster_;

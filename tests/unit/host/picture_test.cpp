@@ -133,6 +133,8 @@ TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments
   scene.arrivals = {{"kitchen", {4.0, 0.0}, TimePoint(4s)}};
   scene.contacts = {{"Dewey", {7.0, 0.1}, TimePoint(7s)}, {"Huey", {0.0, 5.0}, TimePoint(7s)}};
   CHECK(reasons(scene) == std::vector<std::string>{"start", "", "at kitchen", "", "contact of Dewey", "end"});
+  scene.arrivals.push_back({"hall", {10.0, 0.0}, TimePoint(10s)});
+  CHECK(reasons(scene).back() == "at hall, end");
 }
 
 TEST_CASE("a film of a robot that does much shows twelve moments, first and last among them",

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace orca {
 namespace {
@@ -30,15 +32,33 @@ void add_marks(const Scene::Robot& robot, const std::vector<Scene::Mark>& marks,
     if (is_near(robot, mark)) found.push_back({&robot, &at(robot, mark.time), verb + mark.label});
 }
 
-void fill_up(const Scene::Robot& robot, std::vector<KeyMoment>& found) {
-  const TimePoint first = robot.moments.front().time;
-  const Duration length = robot.moments.back().time - first;
-  for (std::size_t i = 1; i < kLeast - 1 && found.size() < kLeast; ++i) {
-    const Scene::Moment& between =
-        at(robot, first + length * static_cast<int>(i) / static_cast<int>(kLeast - 1));
-    if (std::ranges::none_of(found, [&](const KeyMoment& key) { return key.moment == &between; }))
-      found.push_back({&robot, &between, ""});
+// A moment that is worth a picture for two reasons is shown once.
+std::vector<KeyMoment> joined(std::vector<KeyMoment> found) {
+  std::ranges::stable_sort(found, {}, [](const KeyMoment& key) { return key.moment->time; });
+  std::vector<KeyMoment> keys;
+  for (KeyMoment& key : found) {
+    if (keys.empty() || keys.back().moment != key.moment)
+      keys.push_back(std::move(key));
+    else
+      keys.back().why += ", " + key.why;
   }
+  return keys;
+}
+
+// Between the two that are farthest apart in time, the middle; nothing if there is none.
+std::optional<KeyMoment> middle_of_the_longest_gap(const Scene::Robot& robot,
+                                                   const std::vector<KeyMoment>& keys) {
+  const Scene::Moment* best = nullptr;
+  Duration longest{};
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    const Scene::Moment& from = *keys[i - 1].moment;
+    const Duration gap = keys[i].moment->time - from.time;
+    const Scene::Moment& middle = at(robot, from.time + gap / 2);
+    if (gap <= longest || &middle == &from || &middle == keys[i].moment) continue;
+    longest = gap;
+    best = &middle;
+  }
+  return best == nullptr ? std::nullopt : std::optional(KeyMoment{&robot, best, ""});
 }
 
 std::vector<KeyMoment> thinned(const std::vector<KeyMoment>& all) {
@@ -50,12 +70,17 @@ std::vector<KeyMoment> thinned(const std::vector<KeyMoment>& all) {
 
 std::vector<KeyMoment> moments_of(const Scene::Robot& robot, const Scene& scene) {
   std::vector<KeyMoment> found{{&robot, &robot.moments.front(), "start"}};
-  if (robot.moments.size() > 1) found.push_back({&robot, &robot.moments.back(), "end"});
   add_marks(robot, scene.arrivals, "at ", found);
   add_marks(robot, scene.contacts, "contact of ", found);
-  fill_up(robot, found);
-  std::ranges::stable_sort(found, {}, [](const KeyMoment& key) { return key.moment->time; });
-  return thinned(found);
+  if (robot.moments.size() > 1) found.push_back({&robot, &robot.moments.back(), "end"});
+  std::vector<KeyMoment> keys = joined(std::move(found));
+  while (keys.size() < kLeast) {
+    const auto between = middle_of_the_longest_gap(robot, keys);
+    if (!between) break;
+    keys.push_back(*between);
+    std::ranges::stable_sort(keys, {}, [](const KeyMoment& key) { return key.moment->time; });
+  }
+  return thinned(keys);
 }
 
 }  // namespace

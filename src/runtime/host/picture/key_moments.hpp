@@ -12,12 +12,12 @@ namespace orca {
 struct KeyMoment {
   const Scene::Robot* robot = nullptr;
   const Scene::Moment* moment = nullptr;
-  std::string why;  ///< "start", "at kitchen", "touches wall", "end", or empty: one between.
+  std::string why;  ///< "start", "at kitchen", "contact of Dewey", "end", or empty: one between.
 };
 
-/// Start, arrivals, contacts and end of each robot's run, and between them moments at even distances in time,
-/// so that there are at least six; ordered by robot, then time. Of more than twelve of a robot, start, end
-/// and twelve less two in even steps are kept.
+/// Start, arrivals, contacts and end of each robot's run, and moments from the middle of the longest gaps, so
+/// that there are at least six if it had so many; ordered by robot, then time. Of more than twelve of a
+/// robot, start, end and twelve less two in even steps are kept.
 ///
 /// @return pointers into `scene`.
 [[nodiscard]] std::vector<KeyMoment> key_moments(const Scene& scene);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -17,10 +18,20 @@ constexpr double kCaptionPixels = 26.0;
 constexpr std::size_t kColumns = 3;
 
 std::string caption_of(const KeyMoment& key, TimePoint start) {
+  const auto shown = [](double value) { return std::round(100.0 * value) / 100.0 + 0.0; };  // never -0.00
   char numbers[96];
   std::snprintf(numbers, sizeof numbers, "%.1f s  %.2f m/s  %.2f rad/s", to_seconds(key.moment->time - start),
-                key.moment->speed, key.moment->turn_rate);
+                shown(key.moment->speed), shown(key.moment->turn_rate));
   return key.robot->name + "  " + numbers + (key.why.empty() ? "" : "  " + key.why);
+}
+
+// The way so far; moments are fewer than the points of the whole track.
+std::vector<Scene::Point> track_until(const Scene::Robot& robot, const Scene::Moment& now) {
+  if (&now == &robot.moments.back()) return robot.track;
+  std::vector<Scene::Point> points;
+  for (const Scene::Moment& moment : robot.moments)
+    if (moment.time <= now.time) points.push_back(moment.position);
+  return points;
 }
 
 // A square with the robot in its middle, looking up, and words below.
@@ -32,7 +43,7 @@ void draw_frame(cairo_t* cairo, const Scene& scene, const std::set<Layer>& hidde
         cairo, {corner.x, corner.y, size, size, moment.position, moment.heading_rad, size / kShownMetres},
         hidden);
     painter.walls(scene.walls);
-    painter.track(key.robot->track);
+    painter.track(track_until(*key.robot, moment));
     painter.robot(*key.robot, moment);
     for (const Scene::Mark& arrival : scene.arrivals)
       if (arrival.time <= moment.time) painter.arrival(arrival);
