@@ -21,8 +21,8 @@ constexpr int kTicksPerSecond = 100;
 /// they stand still.
 class Wanderers {
  public:
-  Wanderers(const sim::WorldModel& model, std::size_t count, bool sensing)
-      : world_(model, {.seed = 1, .realism = sim::Realism::nominal}), sensing_(sensing) {
+  Wanderers(const sim::WorldModel& model, std::size_t count, bool sensing, sim::Realism realism)
+      : world_(model, {.seed = 1, .realism = realism}), sensing_(sensing) {
     sim::RobotModel robot = scout();
     if (!sensing) robot.sonars.clear();
     RandomStream random(3, "bench", "starts");
@@ -67,14 +67,15 @@ Nanoseconds seconds_of(Wanderers& wanderers, int seconds) {
   });
 }
 
-void add(const std::string& name, const sim::WorldModel& model, std::size_t robots, double times_real_time) {
+void add(const std::string& name, const sim::WorldModel& model, std::size_t robots, double times_real_time,
+         sim::Realism realism = sim::Realism::nominal) {
   const int seconds = robots > 1 ? 1 : 20;
   const int samples = robots > 1 ? 20 : 50;
   add_row(
       {"a simulated second, " + name, "at rest and without sensors", median_at_most(1e9 / times_real_time)},
       samples, [=](auto& state, Row& row) {
-        Wanderers seeing(model, robots, true);
-        Wanderers resting(model, robots, false);
+        Wanderers seeing(model, robots, true, realism);
+        Wanderers resting(model, robots, false, realism);
         alternate(
             state, row, seconds, [&](int n) { return seconds_of(seeing, n); },
             [&](int n) { return seconds_of(resting, n); });
@@ -89,6 +90,7 @@ void register_sim_world() {
   if (!map) return;
   add("one Scout in the cave", *map, 1, 400.0);
   add("100 Scouts in the cave", *map, 100, 5.0);
+  add("100 Scouts that do not hear each other", *map, 100, 5.0, sim::Realism::ideal);
 }
 
 }  // namespace orca::bench

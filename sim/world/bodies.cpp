@@ -11,6 +11,7 @@ namespace {
 constexpr double kCell = 1.0;   // [m] A few robots' size.
 constexpr double kRoom = 10.0;  // [m] Around all bodies, so that they rarely leave the cells.
 constexpr double kMaxCells = 1e5;
+constexpr std::size_t kFew = 6;  // So many are looked at sooner than cells.
 
 template <class Visit>
 void for_cells_of(const Cells& cells, const Cells::Range& range, const Visit& visit) {
@@ -25,11 +26,18 @@ Bodies::Moving::Moving(Body b) : body(std::move(b)) { refresh(); }
 void Bodies::Moving::refresh() {
   edges = edges_of(body.shape);
   bounds = bounds_of(body.shape);
-  around.center = 0.5 * (bounds.low + bounds.high);
-  around.radius = 0.5 * norm(bounds.high - bounds.low) + kTouch;
 }
 
-bool Bodies::Moving::in_reach(const Ray& ray, double best) const {
+Bodies::Outer::Outer(const Moving& moving)
+    : around{0.5 * (moving.bounds.low + moving.bounds.high),
+             0.5 * norm(moving.bounds.high - moving.bounds.low) + kTouch},
+      bottom(moving.body.bottom),
+      top(moving.body.top) {
+  if (const auto* circle = std::get_if<Circle>(&moving.body.shape)) around.radius = circle->radius + kTouch;
+}
+
+bool Bodies::Outer::in_reach(const Ray& ray, double best) const {
+  if (!(bottom <= ray.sensor_height && ray.sensor_height < top)) return false;
   const Vec2 w = around.center - ray.origin;
   const double along = dot(ray.direction, w);
   return std::fabs(cross(ray.direction, w)) <= around.radius && along + around.radius >= 0.0 &&
@@ -44,7 +52,7 @@ void Bodies::Moving::cast(const Ray& ray, double& best, Surface& surface) const 
 }
 
 std::size_t Bodies::add(Body body) {
-  bodies_.emplace_back(std::move(body));
+  outer_.emplace_back(bodies_.emplace_back(std::move(body)));
   place(bodies_.size() - 1);
   return bodies_.size() - 1;
 }
@@ -53,6 +61,7 @@ void Bodies::move(std::size_t number, Shape shape) {
   Moving& moving = bodies_.at(number);
   moving.body.shape = std::move(shape);
   moving.refresh();
+  outer_[number] = Outer(moving);
   if (!moving.present) return;
   if (cells_.hold(moving.bounds) && cells_.range(moving.bounds) == moving.listed) return;
   unlist(number);
@@ -100,12 +109,17 @@ void Bodies::unlist(std::size_t number) {
 }
 
 void Bodies::cast(const Ray& ray, double& best, Surface& surface) const {
+  const auto test = [&](std::size_t number) {
+    if (number != ray.ignore_body && outer_[number].in_reach(ray, best))
+      bodies_[number].cast(ray, best, surface);
+  };
+  if (bodies_.size() <= kFew) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (bodies_[i].present) test(i);
+    return;
+  }
   cells_.walk(ray, best, [&](std::size_t cell) {
-    for (const std::uint32_t number : lists_[cell]) {
-      const Moving& m = bodies_[number];
-      if (number == ray.ignore_body || !m.in_reach(ray, best)) continue;
-      if (m.body.bottom <= ray.sensor_height && ray.sensor_height < m.body.top) m.cast(ray, best, surface);
-    }
+    for (const std::uint32_t number : lists_[cell]) test(number);
   });
 }
 

@@ -25,15 +25,21 @@ class Bodies {
   struct Moving {
     explicit Moving(Body b);
     void refresh();
-    [[nodiscard]] bool in_reach(const Ray& ray, double best) const;
     void cast(const Ray& ray, double& best, Surface& surface) const;
 
     Body body;
     bool present = true;
     std::vector<Segment> edges;
     Bounds bounds;
-    Circle around;
     Cells::Range listed{};
+  };
+
+  // What tells of most bodies that a ray passes them by; small, since rays look at many.
+  struct Outer {
+    explicit Outer(const Moving& moving);
+    [[nodiscard]] bool in_reach(const Ray& ray, double best) const;
+    Circle around;
+    double bottom, top;
   };
 
   void place(std::size_t number);
@@ -42,6 +48,7 @@ class Bodies {
   void choose_cells();
 
   std::vector<Moving> bodies_;
+  std::vector<Outer> outer_;  // Of each body.
   Cells cells_;
   std::vector<std::vector<std::uint32_t>> lists_;  // Of the bodies' numbers, per cell.
 };

@@ -55,9 +55,9 @@ double Hit::incidence() const {
 Hit Caster::cast(const Ray& ray) const {
   Hit hit;
   hit.range = ray.max_range;
+  impl_->bodies.cast(ray, hit.range, hit.surface);
   impl_->grid.cast(ray, hit.range, hit.surface);
   impl_->meshes.cast(ray, hit.range, hit.surface);
-  impl_->bodies.cast(ray, hit.range, hit.surface);
   hit.point = ray.origin + hit.range * ray.direction;
   hit.direction = ray.direction;
   return hit;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kSoundSpeed = 343.0;  // [m/s] In air of 20 degrees Celsius.
 // Older sound is too weak to be heard, or beyond the range of any ring.
-constexpr Duration kFadesAfter = std::chrono::milliseconds{40};
+constexpr double kFadesAfter = 0.040;  // [s]
 // [m] A transducer sits in its robot's body, whose boundary is what a ray meets.
 constexpr double kInBody = 0.1;
 
@@ -19,107 +19,163 @@ Vec2 mirrored(Vec2 p, const Segment& mirror) {
   return 2.0 * foot - p;
 }
 
+// Off what the sound of others may come to a listener.
+class Ear {
+ public:
+  // Scatters sound to all sides.
+  struct Point {
+    Vec2 at;
+    double length;    // [m] To the listener.
+    double strength;  // Of what it sends there.
+    enum class Sight { unknown, free, blocked } sight = Sight::unknown;
+  };
+
+  Ear(const Caster& caster, std::uint64_t own, const Beam& beam, const Echo& echo)
+      : caster_(caster), cone(own, beam, echo.reach) {
+    for (const Surface& surface : echo.surfaces) {
+      if (const auto* circle = std::get_if<Circle>(&surface)) posts.push_back(*circle);
+      if (const auto* edge = std::get_if<Segment>(&surface)) {
+        walls.push_back(*edge);
+        add(edge->a);
+        add(edge->b);
+      }
+    }
+  }
+
+  // Asked once: it takes a cast.
+  bool sees(Point& point) const {
+    if (point.sight == Point::Sight::unknown)
+      point.sight = sees(cone.beam, point.at, point.length) ? Point::Sight::free : Point::Sight::blocked;
+    return point.sight == Point::Sight::free;
+  }
+  [[nodiscard]] bool sees(const Beam& beam, Vec2 point, double length) const {
+    if (length > beam.max_range) return false;
+    const Vec2 towards = (1.0 / length) * (point - beam.sensor.position());
+    return caster_.cast(beam.ray(towards)).range >= length - kSeen;
+  }
+  // True if nothing but the robot that carries the other transducer is on the way there.
+  [[nodiscard]] bool sees_transducer(Vec2 way, double length) const {
+    return caster_.cast(cone.beam.ray((1.0 / length) * way)).range >=
+           std::fmin(length - kInBody, cone.beam.max_range);
+  }
+
+ private:
+  // Walls that meet have their ends in common.
+  void add(Vec2 end) {
+    const Vec2 to = end - cone.beam.sensor.position();
+    const auto is_end = [end](const Point& known) { return known.at == end; };
+    if (!cone.holds(to) || std::ranges::any_of(points, is_end)) return;
+    const double strength = kEdgeStrength * cone.strength(to);
+    if (strength >= kThreshold) points.push_back({end, norm(to), strength});
+  }
+
+  const Caster& caster_;
+
+ public:
+  SonarAir::Cone cone;
+  std::vector<Segment> walls;
+  std::vector<Circle> posts;
+  std::vector<Point> points;
+};
+
 // Follows the ways from one transducer to another and keeps the shortest that arrives in the window.
 class Ways {
  public:
-  Ways(const Caster& caster, const SonarAir::Cone& from, const SonarAir::Cone& to, double head_start,
-       std::optional<double> nearest)
-      : caster_(caster), from_(from), to_(to), head_start_(head_start), nearest_(nearest) {}
+  Ways(Ear& ear, const SonarAir::Cone& from, double head_start, std::optional<double> nearest)
+      : ear_(ear), from_(from), head_start_(head_start), nearest_(nearest) {}
 
-  // False if all ways are too long or too short: longer than the straight one, shorter than both cones.
+  // False if even the straight way is longer than what is heard already.
   [[nodiscard]] bool may_be_heard() const {
-    const double shortest = norm(from_.beam.sensor.position() - to_.beam.sensor.position());
-    const double longest = from_.reach + to_.reach + 2.0 * kInBody;
-    return taken_for(longest) >= to_.beam.min_range && (!nearest_ || taken_for(shortest) < *nearest_);
+    return !nearest_ || taken_for(norm(sender() - listener())) < *nearest_;
   }
 
-  void straight() {
-    const Vec2 way = from_.beam.sensor.position() - to_.beam.sensor.position();
-    const double length = norm(way);
-    if (length <= kInBody) return;
-    if (!to_.holds(way) || !from_.holds(-1.0 * way) || !in_window(length)) return;
-    if (to_.strength(way) * from_.strength(-1.0 * way) < kThreshold) return;
-    if (caster_.cast(to_.beam.ray((1.0 / length) * way)).range >=
-        std::fmin(length - kInBody, to_.beam.max_range))
-      keep(length);
-  }
-
-  void off(const Surface& surface) {
-    if (const auto* circle = std::get_if<Circle>(&surface)) off_circle(*circle);
-    if (const auto* edge = std::get_if<Segment>(&surface)) {
-      off_mirror(*edge);
-      off_point(edge->a, kEdgeStrength);
-      off_point(edge->b, kEdgeStrength);
-    }
+  void follow() {
+    straight();
+    for (const Segment& wall : ear_.walls) off_mirror(wall);
+    for (const Circle& post : ear_.posts) off_circle(post);
+    for (Ear::Point& point : ear_.points) off_point(point);
   }
 
   [[nodiscard]] std::optional<double> nearest() const { return nearest_; }
 
  private:
+  void straight() {
+    const Vec2 way = sender() - listener();
+    const double length = norm(way);
+    if (length <= kInBody || !ear_.cone.holds(way) || !from_.holds(-1.0 * way) || !in_window(length)) return;
+    if (ear_.cone.strength(way) * from_.strength(-1.0 * way) < kThreshold) return;
+    if (ear_.sees_transducer(way, length)) keep(length);
+  }
+
   // Sound comes off a wall as from the sender's image behind it.
   void off_mirror(const Segment& wall) {
-    const Vec2 from = from_.beam.sensor.position();
-    const Vec2 to = to_.beam.sensor.position();
     const Vec2 along = wall.b - wall.a;
-    const double side = cross(along, from - wall.a);
-    const double other = cross(along, to - wall.a);
+    const double side = cross(along, sender() - wall.a);
+    const double other = cross(along, listener() - wall.a);
     if (side * other <= 0.0) return;
-    const Vec2 hit = to + other / (side + other) * (mirrored(from, wall) - to);
+    const Vec2 hit = listener() + other / (side + other) * (mirrored(sender(), wall) - listener());
     const double share = dot(hit - wall.a, along) / dot(along, along);
-    if (share > 0.0 && share < 1.0) off_point(hit, 1.0);
+    if (share > 0.0 && share < 1.0) off_spot(hit);
   }
   // Near enough where the two directions to its centre meet halfway.
   void off_circle(const Circle& circle) {
-    const Vec2 one = from_.beam.sensor.position() - circle.center;
-    const Vec2 other = to_.beam.sensor.position() - circle.center;
+    if (!from_.may_hold(circle)) return;
+    const Vec2 one = sender() - circle.center;
+    const Vec2 other = listener() - circle.center;
     const Vec2 half = (1.0 / norm(one)) * one + (1.0 / norm(other)) * other;
-    if (norm(half) > 0.0) off_point(circle.center + (circle.radius / norm(half)) * half, 1.0);
+    if (norm(half) > 0.0) off_spot(circle.center + (circle.radius / norm(half)) * half);
   }
-  void off_point(Vec2 point, double strength) {
-    const Vec2 from = point - from_.beam.sensor.position();
-    const Vec2 to = point - to_.beam.sensor.position();
-    if (!to_.holds(to) || !from_.holds(from)) return;
-    const double length = norm(from) + norm(to);
-    if (!in_window(length) || strength * to_.strength(to) * from_.strength(from) < kThreshold) return;
-    if (sees(from_.beam, from) && sees(to_.beam, to)) keep(length);
-  }
-  [[nodiscard]] bool sees(const Beam& beam, Vec2 way) const {
+  void off_point(Ear::Point& point) {
+    const Vec2 way = point.at - sender();
+    if (!from_.holds(way)) return;
     const double length = norm(way);
-    return length <= beam.max_range && caster_.cast(beam.ray((1.0 / length) * way)).range >= length - kSeen;
+    if (!in_window(length + point.length) || point.strength * from_.strength(way) < kThreshold) return;
+    if (ear_.sees(from_.beam, point.at, length) && ear_.sees(point)) keep(length + point.length);
   }
+
+  // A point of a surface that turns there from the one to the other.
+  void off_spot(Vec2 spot) {
+    const Vec2 to = spot - listener();
+    if (!ear_.cone.holds(to) || !from_.holds(spot - sender())) return;
+    Ear::Point point{spot, norm(to), ear_.cone.strength(to)};
+    off_point(point);
+  }
+  [[nodiscard]] const Beam& beam() const { return ear_.cone.beam; }
+  [[nodiscard]] Vec2 listener() const { return beam().sensor.position(); }
+  [[nodiscard]] Vec2 sender() const { return from_.beam.sensor.position(); }
   [[nodiscard]] double taken_for(double length) const { return 0.5 * (length - head_start_); }
   [[nodiscard]] bool in_window(double length) const {
     const double range = taken_for(length);
-    return 0.5 * length <= to_.beam.max_range && range >= to_.beam.min_range &&
-           (!nearest_ || range < *nearest_);
+    return 0.5 * length <= beam().max_range && range >= beam().min_range && (!nearest_ || range < *nearest_);
   }
   void keep(double length) { nearest_ = taken_for(length); }
 
-  const Caster& caster_;
+  Ear& ear_;
   const SonarAir::Cone& from_;
-  const SonarAir::Cone& to_;
   double head_start_;  // [m] How far the sound had gone already when the listener sent its own.
   std::optional<double> nearest_;
 };
 
-bool may_meet(const Circle& one, const Circle& other) {
-  const Vec2 apart = one.center - other.center;
-  const double reach = one.radius + other.radius;
-  return dot(apart, apart) <= reach * reach;
+// The smallest circle around the sector, if that is narrow.
+Circle circle_around(Vec2 tip, Vec2 axis, double half_angle, double reach) {
+  if (half_angle > 0.25 * std::numbers::pi) return {tip, reach + kInBody};
+  const double radius = 0.5 * reach / std::cos(half_angle);
+  return {tip + radius * axis, radius + kInBody};
 }
 
-// The smallest circle around the sector, if that is narrow.
-Circle around(const SonarAir::Cone& cone) {
-  const Vec2 tip = cone.beam.sensor.position();
-  if (cone.beam.half_lobe > 0.25 * std::numbers::pi) return {tip, cone.reach + kInBody};
-  const double radius = 0.5 * cone.reach / std::cos(cone.beam.half_lobe);
-  return {tip + radius * cone.axis, radius + kInBody};
-}
+double seconds_of(TimePoint time) { return to_seconds(time.time_since_epoch()); }
 
 }  // namespace
 
-SonarAir::Cone::Cone(const Beam& from, double goes)
-    : beam(from), reach(goes), axis(direction(from.sensor.yaw)), tan_lobe(std::tan(from.half_lobe)) {}
+SonarAir::Cone::Cone(std::uint64_t chirp, const Beam& from, double goes)
+    : number(chirp),
+      beam(from),
+      reach(goes),
+      axis(direction(from.sensor.yaw)),
+      left(rotated(axis, from.half_lobe)),
+      right(rotated(axis, -from.half_lobe)),
+      tan_lobe(std::tan(from.half_lobe)),
+      around(circle_around(from.sensor.position(), axis, from.half_lobe, reach)) {}
 
 double SonarAir::Cone::strength(Vec2 towards) const {
   const double share = std::atan2(std::fabs(cross(axis, towards)), dot(axis, towards)) / beam.half_lobe;
@@ -127,32 +183,52 @@ double SonarAir::Cone::strength(Vec2 towards) const {
 }
 
 std::uint64_t SonarAir::send(TimePoint time, const Beam& beam, double reach) {
-  cones_.emplace_back(beam, reach);
-  chirps_.push_back({time, around(cones_.back())});
-  return first_ + chirps_.size() - 1;
+  const Cone& cone = cones_.emplace_back(sent_, beam, reach);
+  const double fades = std::fmin(kFadesAfter, (reach + 2.0 * kInBody) / kSoundSpeed);
+  chirps_.push_back({seconds_of(time), seconds_of(time) + fades, cone.around});
+  farthest_ = std::fmax(farthest_, beam.max_range);
+  return sent_++;
 }
 
 void SonarAir::settle(TimePoint now) {
-  const auto is_heard = [&](const Chirp& chirp) { return chirp.time >= now - kFadesAfter; };
-  const auto gone = std::ranges::find_if(chirps_, is_heard) - chirps_.begin();
-  chirps_.erase(chirps_.begin(), chirps_.begin() + gone);
-  cones_.erase(cones_.begin(), cones_.begin() + gone);
-  first_ += static_cast<std::uint64_t>(gone);
+  const double heard_from = seconds_of(now) - farthest_ / kSoundSpeed;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < chirps_.size(); ++i) {
+    if (chirps_[i].silent < heard_from) continue;
+    chirps_[kept] = chirps_[i];
+    cones_[kept++] = cones_[i];
+  }
+  chirps_.resize(kept);
+  cones_.erase(cones_.begin() + static_cast<std::ptrdiff_t>(kept), cones_.end());
+}
+
+// Without branches, since nobody can foresee how they go.
+void SonarAir::find_near(const Circle& circle, double silent_from, double sent_until) const {
+  near_.resize(cones_.size());
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    const Chirp& chirp = chirps_[i];
+    const Vec2 apart = chirp.around.center - circle.center;
+    const double reach = chirp.around.radius + circle.radius;
+    near_[found] = static_cast<std::uint32_t>(i);
+    found += static_cast<std::size_t>((dot(apart, apart) <= reach * reach) & (chirp.silent >= silent_from) &
+                                      (chirp.sent <= sent_until));
+  }
+  near_.resize(found);
 }
 
 std::optional<double> SonarAir::first_heard(const Caster& caster, const Beam& listener, std::uint64_t own,
                                             TimePoint since, const Echo& echo) const {
-  const Cone ear(listener, echo.reach);
-  const Circle near = around(ear);
+  Ear ear(caster, own, listener, echo);
   std::optional<double> nearest = echo.range;
-  for (std::size_t i = 0; i < chirps_.size(); ++i) {
-    const Duration age = since - chirps_[i].time;
-    if (age < Duration{} || age > kFadesAfter || first_ + i == own || !may_meet(chirps_[i].around, near))
-      continue;
-    Ways ways(caster, cones_[i], ear, kSoundSpeed * to_seconds(age), nearest);
-    if (!ways.may_be_heard()) continue;
-    ways.straight();
-    for (const Surface& surface : echo.surfaces) ways.off(surface);
+  const double now = seconds_of(since);
+  // A way is no longer than both cones.
+  find_near(ear.cone.around, now - (ear.cone.reach - 2.0 * listener.min_range) / kSoundSpeed, now);
+  for (const std::uint32_t i : near_) {
+    const bool may_meet = ear.cone.may_hold(chirps_[i].around) && cones_[i].may_hold(ear.cone.around);
+    if (!may_meet || cones_[i].number == ear.cone.number || now - chirps_[i].sent > kFadesAfter) continue;
+    Ways ways(ear, cones_[i], kSoundSpeed * (now - chirps_[i].sent), nearest);
+    if (ways.may_be_heard()) ways.follow();
     nearest = ways.nearest();
   }
   return nearest;

@@ -131,7 +131,7 @@ TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments
   Scene scene = drive(10.0);
   CHECK(reasons(scene) == std::vector<std::string>{"start", "", "", "", "", "end"});
   scene.arrivals = {{"kitchen", {4.0, 0.0}, TimePoint(4s)}};
-  scene.contacts = {{"Dewey", {7.0, 0.1}, TimePoint(7s)}, {"Huey", {0.0, 5.0}, TimePoint(7s)}};
+  scene.contacts = {{"Dewey", {9.0, 0.1}, TimePoint(9s)}, {"Huey", {0.0, 5.0}, TimePoint(9s)}};
   CHECK(reasons(scene) == std::vector<std::string>{"start", "", "at kitchen", "", "contact of Dewey", "end"});
   scene.arrivals.push_back({"hall", {10.0, 0.0}, TimePoint(10s)});
   CHECK(reasons(scene).back() == "at hall, end");
