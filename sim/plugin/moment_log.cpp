@@ -55,7 +55,7 @@ void MomentLog::keep() {
   if (count_++ % step_ != 0) return;
   kept_.push_back(now_);
   if (kept_.size() < kMost) return;
-  for (std::size_t i = 0; 2 * i < kept_.size(); ++i) kept_[i] = std::move(kept_[2 * i]);
+  for (std::size_t i = 1; 2 * i < kept_.size(); ++i) kept_[i] = std::move(kept_[2 * i]);
   kept_.resize((kMost + 1) / 2);
   step_ *= 2;
 }

@@ -28,14 +28,18 @@ void take(const std::optional<Reading>& reading, std::size_t device, Duration by
 
 }  // namespace
 
-std::shared_ptr<SharedWorld> SharedWorld::join(const std::string& key, TimePoint now,
-                                               const std::function<World()>& make) {
+Result<std::shared_ptr<SharedWorld>> SharedWorld::join(const std::string& key, const std::string& settings,
+                                                       TimePoint now, const std::function<World()>& make) {
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<SharedWorld>> worlds;
   const std::lock_guard lock(mutex);
   std::shared_ptr<SharedWorld> world = worlds[key].lock();
+  if (world != nullptr && world->settings_ != settings)
+    return fail(Code::failed_precondition, "another robot has this world with " + world->settings_ +
+                                               ", and this one wants " + settings +
+                                               "; robots that share a world need the same");
   if (world == nullptr) {
-    world = std::make_shared<SharedWorld>(make(), now);
+    world = std::make_shared<SharedWorld>(make(), settings, now);
     worlds[key] = world;
   }
   return world;

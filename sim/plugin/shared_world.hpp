@@ -45,10 +45,14 @@ class SharedWorld {
 
   /// The world of that key, made by `make` if nobody holds it yet. The key names the run and the world's
   /// file.
-  static std::shared_ptr<SharedWorld> join(const std::string& key, TimePoint now,
-                                           const std::function<World()>& make);
+  ///
+  /// @param settings  what else makes the world, for people, e.g. "realism harsh".
+  /// @errors  failed_precondition if it was made with other settings.
+  static Result<std::shared_ptr<SharedWorld>> join(const std::string& key, const std::string& settings,
+                                                   TimePoint now, const std::function<World()>& make);
 
-  SharedWorld(World world, TimePoint now) : world_(std::move(world)), epoch_(now - TimePoint{}) {}
+  SharedWorld(World world, std::string settings, TimePoint now)
+      : world_(std::move(world)), settings_(std::move(settings)), epoch_(now - TimePoint{}) {}
 
   /// @param truth_period  time between two entries of Inbox::truth.
   /// @errors  as World::add_robot().
@@ -87,6 +91,7 @@ class SharedWorld {
 
   mutable std::mutex mutex_;
   World world_;
+  const std::string settings_;
   Duration epoch_;  // run's clock when the world's clock was zero
   std::vector<Member> members_;
 };

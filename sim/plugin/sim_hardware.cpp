@@ -113,21 +113,30 @@ class SimHardware final : public orca::hw::HardwareContainer {
   [[nodiscard]] orca::idl::Robot description() const override { return describe(*robot_, *name_); }
 
   void draw(orca::Scene& scene) override {
-    if (shared_ != nullptr) orca::sim::draw(shared_->scene(), *name_, *robot_, moments_->moments(), scene);
+    if (moments_) orca::sim::draw(shared_->scene(), *name_, *robot_, moments_->moments(), scene);
   }
 
   Status open() override {
     // One world per run: two systems in one process do not meet.
     const std::string key =
         std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
-    shared_ = SharedWorld::join(key, host().now(), [this] {
+    auto joined = SharedWorld::join(key, settings(), host().now(), [this] {
       return World(*world_, {host().run_seed(), realism_from(*realism_).value_or(Realism::nominal)});
     });
+    if (!joined) return joined.error();
+    shared_ = std::move(*joined);
     const orca::Result<RobotId> added = shared_->add_robot(*name_, *robot_, start_, kTruthPeriod);
     if (!added) return added.error();
     id_ = *added;
     moments_.emplace(*robot_);
     return orca::ok();
+  }
+
+  [[nodiscard]] std::string settings() const {
+    std::string text = "realism " + *realism_;
+    if (*map_width_ > 0.0) text += ", map_width " + orca::xml::number_text(*map_width_) + " m";
+    if (*map_resolution_ > 0.0) text += ", map_resolution " + orca::xml::number_text(*map_resolution_) + " m";
+    return text;
   }
 
   Status drive(const orca::hw::DriveSetpoint& setpoint) override {

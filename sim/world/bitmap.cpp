@@ -50,8 +50,10 @@ void merge_runs(std::int64_t length, const At& at, const Emit& emit) {
   }
 }
 
+constexpr std::size_t kMostEdges = 2'000'000;
+
 void add_edge(Outline& out, Vec2 from, Vec2 to, bool forward) {
-  out.edges.push_back(forward ? Segment{from, to} : Segment{to, from});
+  if (out.edges.size() <= kMostEdges) out.edges.push_back(forward ? Segment{from, to} : Segment{to, from});
 }
 
 void horizontal_edges(const Plan& plan, double pixel, Outline& out) {
@@ -100,12 +102,15 @@ Result<double> pixel_size(const BitmapScale& scale, const GreyImage& image) {
 
 }  // namespace
 
-Outline outline_of(const GreyImage& image, double pixel) {
+Result<Outline> outline_of(const GreyImage& image, double pixel) {
   const Plan plan(image);
   Outline outline;
   horizontal_edges(plan, pixel, outline);
-  vertical_edges(plan, pixel, outline);
-  return outline;
+  if (outline.edges.size() <= kMostEdges) vertical_edges(plan, pixel, outline);
+  if (outline.edges.size() <= kMostEdges) return outline;
+  return fail(Code::invalid_argument,
+              "the picture has more than 2000000 edges between dark and light, the most that a map may have; "
+              "smooth it, or make it black and white without dithering");
 }
 
 Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale, double height) {
@@ -113,9 +118,11 @@ Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale&
   if (!image) return image.error();
   const Result<double> pixel = pixel_size(scale, *image);
   if (!pixel) return fail(pixel.error().code, pixel.error().message, path);
+  Result<Outline> outline = outline_of(*image, *pixel);
+  if (!outline) return fail(outline.error().code, outline.error().message, path);
   WorldModel world;
   world.name = std::filesystem::path(path).stem().string();
-  world.obstacles.push_back({"map", outline_of(*image, *pixel), height});
+  world.obstacles.push_back({"map", std::move(*outline), height});
   return world;
 }
 

@@ -11,7 +11,7 @@ namespace orca::sim::detail {
 
 // Tells when a touch begins, once. It ends only when the two are well apart, because a robot that pushes
 // against a wall hovers about distance zero; and Bullet knows no distance there, but only who is in contact.
-// So it ends as soon as the robot has gone or turned away from where it was last in contact.
+// So it ends as soon as one of them has gone or turned away from where they were last in contact.
 class ContactLog {
  public:
   // The pairs that began to touch in this tick.
@@ -19,14 +19,14 @@ class ContactLog {
     const std::map<Pair, double> near = physics.near_pairs();
     std::erase_if(touching_, [&](const auto& touch) {
       const auto now = near.find(touch.first);
-      return now == near.end() ? apart(touch.second, physics.relative(touch.first)) : now->second > kApart;
+      return now == near.end() ? apart(touch.second, physics.standing(touch.first)) : now->second > kApart;
     });
     std::vector<Pair> begun;
     for (const auto& [pair, distance] : near) {
       const bool known = touching_.contains(pair);
       if (!known && distance > kTouching) continue;
       if (!known) begun.push_back(pair);
-      touching_[pair] = physics.relative(pair);
+      touching_[pair] = physics.standing(pair);
     }
     return begun;
   }
@@ -40,12 +40,13 @@ class ContactLog {
   static constexpr double kApart = 0.01;       // [m]
   static constexpr double kTurned = 0.05;      // [rad]
 
-  static bool apart(const Pose2& before, const Pose2& now) {
-    return norm(now.position() - before.position()) > kApart ||
-           std::fabs(wrapped(now.yaw - before.yaw)) > kTurned;
+  static bool apart(const Standing& before, const Standing& now) {
+    return norm(now.apart - before.apart) > kApart ||
+           std::fabs(wrapped(now.robot_yaw - before.robot_yaw)) > kTurned ||
+           std::fabs(wrapped(now.other_yaw - before.other_yaw)) > kTurned;
   }
 
-  std::map<Pair, Pose2> touching_;  // And how the two stood to each other when they were last in contact.
+  std::map<Pair, Standing> touching_;  // And how the two stood when they were last in contact.
 };
 
 }  // namespace orca::sim::detail

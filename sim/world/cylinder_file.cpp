@@ -37,7 +37,10 @@ class CylinderFile {
 
   std::optional<WorldModel> read(std::string_view text) {
     int line = 0;
-    for (const std::string_view content : split(text, "\n")) {
+    for (std::size_t start = 0; start <= text.size();) {
+      const std::size_t end = std::min(text.find('\n', start), text.size());
+      const std::string_view content = xml::trimmed(text.substr(start, end - start));
+      start = end + 1;
       if (++line == 1) {
         if (content != kHeader)
           return error(1, 1,

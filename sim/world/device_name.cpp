@@ -13,6 +13,7 @@ bool holds(const std::vector<Device>& devices, const std::string& name) {
 
 // What kind of device has this name; null: none.
 const char* owner_of(const std::string& name, const RobotModel& model) {
+  if (name == "odometry") return "device";  // Its errors are drawn by that name.
   if (holds(model.sonars, name)) return "sonar ring";
   if (holds(model.lasers, name)) return "laser";
   if (holds(model.infrareds, name)) return "infrared ring";
@@ -23,6 +24,7 @@ const char* owner_of(const std::string& name, const RobotModel& model) {
 }  // namespace
 
 bool name_is_free(const Attributes& e, const std::string& name, const RobotModel& model) {
+  if (name.empty()) return true;  // That is told already.
   const char* const owner = owner_of(name, model);
   if (owner == nullptr) return true;
   e.error_at("name", 10,

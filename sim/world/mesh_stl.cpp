@@ -54,7 +54,12 @@ class Text {
     Mesh mesh;
     for (std::size_t faces = 0;; ++faces) {
       const std::string_view word = words_.next();
-      if (word == "endsolid") return mesh;
+      if (word == "endsolid") {
+        const Result<bool> another = next_solid();
+        if (!another) return another.error();
+        if (!*another) return mesh;
+        continue;
+      }
       if (word != "facet") return wrong_at(words_.line(), "facet or endsolid", word, path_);
       if (faces == kMaxFaces) return too_many_faces(path_);
       if (const Status s = facet(mesh); !s) return s.error();
@@ -62,6 +67,16 @@ class Text {
   }
 
  private:
+  // A file may have several; their names are of no interest.
+  Result<bool> next_solid() {
+    words_.skip_line();
+    const std::string_view word = words_.next();
+    if (word.empty()) return false;
+    if (word != "solid") return wrong_at(words_.line(), "solid", word, path_);
+    words_.skip_line();
+    return true;
+  }
+
   Status facet(Mesh& mesh) {
     Vec3 normal;
     if (const Status s = vector("normal", normal); !s) return s;

@@ -42,6 +42,18 @@ void mount_turret(Turret& turret, const UrdfBody& body, const Attributes& e) {
                         "and spheres on it: the simulator does not turn it");
 }
 
+// R022 for what looks up, down or upside down.
+void check_upright(const UrdfBody& body, const Attributes& e) {
+  const xml::Attribute* a = e.element().attribute("link");
+  const auto link = a != nullptr ? body.links.find(a->value) : body.links.end();
+  if (link == body.links.end()) return;
+  const Pose3& X = link->second;
+  if (1.0 - 2.0 * (X.qx * X.qx + X.qy * X.qy) < kUpright)
+    e.error_at("link", 22,
+               "the link \"" + a->value +
+                   "\" is tilted: sensors of the simulator look horizontally, their z axis points up");
+}
+
 // @tparam Sensor  has link, center, height and on_turret.
 template <class Sensor>
 void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* turret) {
@@ -64,7 +76,8 @@ void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& 
   const xml::Element* turret = only_child(orca, "turret");
   if (turret != nullptr && model.turret) mount_turret(*model.turret, body, {*turret, 'R', diagnostics});
   for (const xml::Element& e : orca.children())
-    static_cast<void>(names_one_of(body.links, {e, 'R', diagnostics}, "link"));
+    if (const Attributes device(e, 'R', diagnostics); names_one_of(body.links, device, "link"))
+      check_upright(body, device);
   const auto joint = model.turret ? body.joints.find(model.turret->joint) : body.joints.end();
   const UrdfJoint* turns = joint != body.joints.end() ? &joint->second : nullptr;
   mount(model.sonars, body, turns);

@@ -150,14 +150,15 @@ Pose2 Physics::pose(std::size_t robot) const {
   return {p.x(), p.y(), r.yaw};
 }
 
-Pose2 Physics::relative(const Pair& pair) const {
+Standing Physics::standing(const Pair& pair) const {
   const Pose2 robot = pose(pair.robot);
-  btVector3 other(0, 0, 0);  // What stands for ever is where it is.
-  if (pair.kind == Kind::robot) other = impl_->robots[pair.other].body->getWorldTransform().getOrigin();
-  const btRigidBody* const mover =
-      pair.kind == Kind::mover ? impl_->movers[pair.other].body.body.get() : nullptr;
-  if (mover != nullptr) other = mover->getWorldTransform().getOrigin();
-  return {robot.x - other.x(), robot.y - other.y(), robot.yaw};
+  Pose2 other;  // What stands for ever is where it is.
+  if (pair.kind == Kind::robot) other = pose(pair.other);
+  if (pair.kind == Kind::mover && impl_->movers[pair.other].body.body != nullptr) {
+    const btTransform& X = impl_->movers[pair.other].body.body->getWorldTransform();
+    other = {X.getOrigin().x(), X.getOrigin().y(), std::atan2(X.getBasis()[1].x(), X.getBasis()[0].x())};
+  }
+  return {robot.position() - other.position(), robot.yaw, other.yaw};
 }
 
 std::vector<Touch> Physics::touches(std::size_t robot) const {

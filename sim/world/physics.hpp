@@ -24,6 +24,12 @@ struct Pair {
   friend auto operator<=>(const Pair&, const Pair&) = default;
 };
 
+// How two things stand to each other.
+struct Standing {
+  Vec2 apart;                               // Of the robot from the other; axes as the world's.
+  double robot_yaw = 0.0, other_yaw = 0.0;  // [rad]
+};
+
 // Bullet's rigid bodies, kept in the plane. Robots are driven by setting their velocity before each step;
 // what they run into takes part of it away. A fresh object for each run: Bullet's caches survive a reset in
 // place.
@@ -52,8 +58,7 @@ class Physics {
   // The distance of all near pairs [m], negative when they overlap; ordered, whatever order Bullet keeps.
   [[nodiscard]] std::map<Pair, double> near_pairs() const;
 
-  // Where the robot is, from where the other is, and which way it looks; axes as the world's.
-  [[nodiscard]] Pose2 relative(const Pair& pair) const;
+  [[nodiscard]] Standing standing(const Pair& pair) const;
 
   // Where the robot touches or nearly touches something, in its own frame.
   [[nodiscard]] std::vector<Touch> touches(std::size_t robot) const;

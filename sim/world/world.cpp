@@ -22,6 +22,14 @@ bool is_near(const Pose2& pose) {
   return std::fabs(pose.x) <= kFarthest && std::fabs(pose.y) <= kFarthest && std::isfinite(pose.yaw);
 }
 
+// True if it lies within the world that can be simulated.
+bool is_near(const Shape& shape) {
+  const auto near = [](Vec2 p) { return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest; };
+  if (const auto* circle = std::get_if<Circle>(&shape))
+    return near(circle->center) && std::fabs(circle->radius) <= kFarthest;
+  return std::ranges::all_of(edges_of(shape), [&](const Segment& s) { return near(s.a) && near(s.b); });
+}
+
 // True for a plan that something solid can have.
 bool has_area(const Shape& shape) {
   if (const auto* circle = std::get_if<Circle>(&shape)) return circle->radius > 0.0;
@@ -97,7 +105,8 @@ Status World::Impl::check_birth(const std::string& name, const RobotModel& robot
 
 Status World::Impl::check_room(const std::string& name, const Body& body, const Pose2& X_WO) const {
   const std::string who = "obstacle '" + name + "'";
-  if (!is_near(X_WO)) return fail(Code::invalid_argument, who + ": its pose is not finite or beyond 100 km");
+  if (!is_near(X_WO) || !is_near(body.shape))
+    return fail(Code::invalid_argument, who + ": its pose or shape is not finite or beyond 100 km");
   for (const detail::Robot& robot : robots)
     if (body.top > robot.model.bottom && overlap(body.shape, placed(robot.model.footprint, robot.body)))
       return fail(Code::failed_precondition, who + " cannot stand at " + text(X_WO) + ": robot '" +

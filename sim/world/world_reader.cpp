@@ -56,6 +56,7 @@ std::optional<BitmapScale> scale_of(const Attributes& bitmap) {
 constexpr std::size_t kMaxObstacles = 100'000;
 constexpr std::size_t kMaxPlaces = 1000;
 constexpr std::size_t kMaxWalkers = 200;
+constexpr double kPoint = 1e-3;  // [m] As large as a place is.
 
 const std::vector<std::string> kElements{"wall",   "room", "box",   "cylinder", "polygon",
                                          "bitmap", "mesh", "place", "generate", "walker"};
@@ -251,6 +252,11 @@ void WorldReader::mesh(const Attributes& element) {
   const auto path = std::filesystem::path(file_name_).parent_path() / *file;
   auto read = read_mesh(path.lexically_normal().string());
   if (!read) return element.error_at("file", 21, read.error().text());
+  faces_ += read->triangles.size();
+  if (faces_ > kMaxFaces)
+    return element.error_at("file", 14,
+                            "with this mesh the world has more than 1000000 faces, the most that is read; "
+                            "simplify its meshes");
   Mesh mesh = placed(std::move(*read), {*scale, *scale, *scale}, {*x, *y, *yaw}, *z);
   if (const Status sound = check_mesh(mesh, path.lexically_normal().string()); !sound)
     return element.error_at("scale", 21, sound.error().text());
@@ -313,13 +319,13 @@ void WorldReader::check_seed(const Attributes& world) const {
 
 void WorldReader::check_places() const {
   for (const Obstacle& o : world_.obstacles) {
-    if (o.mesh != nullptr) continue;  // Its plan holds its rooms, too; whoever starts inside is told then.
+    if (o.bottom > 0.0) continue;  // A robot may fit under it.
     const Bounds b = bounds_of(o.shape);
     for (std::size_t i = 0; i < world_.places.size(); ++i) {
       const Place& place = world_.places[i];
       const Vec2 p = place.pose.position();
-      if (p.x < b.low.x || p.x > b.high.x || p.y < b.low.y || p.y > b.high.y || !contains(o.shape, p))
-        continue;
+      if (p.x < b.low.x || p.x > b.high.x || p.y < b.low.y || p.y > b.high.y) continue;
+      if (!overlap(o, Circle{p, kPoint}, 0.0, kPoint)) continue;
       diagnostics_.error(
           "W012", place_positions_[i],
           "place \"" + place.name + "\" lies inside obstacle \"" + o.name + "\"; no robot can get there");

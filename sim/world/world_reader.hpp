@@ -57,6 +57,7 @@ class WorldReader {
   std::map<std::string, xml::Position> taken_;  // By kind and name.
   std::vector<xml::Position> place_positions_;
   std::vector<xml::Position> walker_positions_;
+  std::size_t faces_ = 0;                   // Of all meshes.
   std::optional<xml::Position> generated_;  // Where <generate> stands.
 };
 

@@ -235,3 +235,21 @@ TEST_CASE("a start inside a wall is refused before anything starts", "[system][b
   CHECK(run.says("inside"));
   CHECK(run.says(graph + ":"));
 }
+
+TEST_CASE("two robots of one name are refused, and a picture that was wanted does no harm", "[system][bad]") {
+  const TempFolder folder;
+  const Run run =
+      start(system_graph("two_deweys.xml"), {"--picture", folder.file("run.svg"), "--until", "1 s"});
+  INFO(run.err);
+  CHECK(run.ended);
+  CHECK(run.exit_code() == 3);
+  CHECK(run.says("there is a robot 'Dewey' already"));
+}
+
+TEST_CASE("two robots cannot share a world at two levels of realism", "[system][bad]") {
+  const Run run = start(system_graph("two_realisms.xml"), {"--until", "1 s"});
+  INFO(run.err);
+  CHECK(run.ended);
+  CHECK(run.exit_code() == 3);
+  CHECK(run.says("another robot has this world with realism"));
+}

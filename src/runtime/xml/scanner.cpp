@@ -211,10 +211,10 @@ void Scanner::end_tag() {
   cursor_.advance(2);
   const std::string_view tag = name();
   skip_blanks();
-  if (cursor_.at_end()) return;  // check_complete() names what is open
+  if (cursor_.at_end() && !open_.empty()) return;  // check_complete() names what is open
   if (cursor_.peek() == '>') {
     cursor_.advance();
-  } else {
+  } else if (!cursor_.at_end()) {
     broken(codes::kTag, cursor_.mark(), "the end tag </" + std::string(tag) + "> is not closed with \">\"");
     skip_rest_of_tag();
   }

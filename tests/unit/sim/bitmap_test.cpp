@@ -60,7 +60,7 @@ TEST_CASE("grey 127 is occupied and 128 is free", "[sim][bitmap]") {
 TEST_CASE("runs of equal pixels become one edge with the solid to its left", "[sim][bitmap]") {
   GreyImage image{5, 4, std::vector<std::uint8_t>(20, 255)};
   for (const std::size_t i : {6U, 7U, 8U, 11U, 12U, 13U}) image.grey[i] = 0;  // A block of 3 x 2 pixels.
-  const Outline outline = outline_of(image, 0.5);
+  const Outline outline = outline_of(image, 0.5).value();
   REQUIRE(outline.edges.size() == 4);
   const Vec2 middle{1.25, 1.0};
   for (const Segment& e : outline.edges) CHECK(cross(e.b - e.a, middle - e.a) > 0.0);
@@ -68,7 +68,15 @@ TEST_CASE("runs of equal pixels become one edge with the solid to its left", "[s
 
 TEST_CASE("pixels that touch at a corner only stay two closed solids", "[sim][bitmap]") {
   const GreyImage image{2, 2, {0, 255, 255, 0}};
-  CHECK(outline_of(image, 1.0).edges.size() == 8);
+  CHECK(outline_of(image, 1.0)->edges.size() == 8);
+}
+
+TEST_CASE("a dithered picture, which has more edges than any plan, is refused", "[sim][bitmap]") {
+  GreyImage image{1500, 1500, std::vector<std::uint8_t>(1500 * 1500)};
+  for (std::size_t i = 0; i < image.grey.size(); ++i) image.grey[i] = (i / 1500 + i) % 2 == 0 ? 0 : 255;
+  const auto outline = outline_of(image, 0.01);
+  REQUIRE_FALSE(outline);
+  CHECK_THAT(outline.error().message, Catch::Contains("2000000 edges"));
 }
 
 TEST_CASE("a picture that cannot serve as a map is refused with its reason", "[sim][bitmap]") {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <fstream>
 
 #include "meshes.hpp"
 #include "orca/sim/robot_file.hpp"
@@ -182,6 +183,37 @@ TEST_CASE("a table top is seen at its own height only, box or mesh", "[sim][mesh
   CHECK(range_at(0.7) == Approx(1.4));
   CHECK(range_at(0.74) == Approx(1.4));
   CHECK(range_at(0.75) == 10.0);
+}
+
+TEST_CASE("all solids of a text STL are read", "[sim][mesh]") {
+  const TempFolder folder;
+  const std::string one = as_text_stl(box_mesh(1.0, 1.0, 1.0));
+  const auto faces = [&](const std::string& text) {
+    std::ofstream(folder.file("shelf.stl")) << text;
+    const auto mesh = read_mesh(folder.file("shelf.stl"));
+    return mesh ? mesh->triangles.size() : 0;
+  };
+  CHECK(faces(one) == 12);
+  CHECK(faces(one + one + "\n\n") == 24);
+  CHECK(faces(one + "facet\n") == 0);
+}
+
+TEST_CASE("a place under a table is one that a robot can get to, one in a solid mesh is not", "[sim][mesh]") {
+  const auto errors = [](const std::string& elements) {
+    orca::xml::Diagnostics diagnostics;
+    static_cast<void>(read_world_text(
+        "<world name=\"w\" version=\"1\">" + elements + "<place name=\"p\" x=\"0 m\" y=\"0 m\"/></world>",
+        ORCA_SOURCE_DIR "/tests/data/worlds/w.xml", diagnostics));
+    return diagnostics.text();
+  };
+  const std::string box = "<box x=\"0 m\" y=\"0 m\" length=\"1 m\" width=\"1 m\"";
+  CHECK(errors(box + " bottom=\"0.7 m\"/>").empty());
+  CHECK_THAT(errors(box + "/>"), Catch::Contains("error W012"));
+  const TempFolder folder;
+  std::ofstream(folder.file("cube.stl")) << as_text_stl(box_mesh(1.0, 1.0, 1.0));
+  const std::string mesh = "<mesh file=\"" + folder.file("cube.stl") + "\" y=\"0 m\" x=\"";
+  CHECK_THAT(errors(mesh + "0 m\"/>"), Catch::Contains("error W012"));
+  CHECK(errors(mesh + "0.6 m\"/>").empty());
 }
 
 TEST_CASE("a robot passes under a table that is higher than itself, box or mesh", "[sim][mesh][world]") {

@@ -43,6 +43,18 @@ TEST_CASE("of a long run a bounded number of moments is kept, in even steps, wit
   }
 }
 
+TEST_CASE("the first moment of a long run keeps what was sensed then", "[sim][picture]") {
+  RobotModel robot;
+  robot.sonars.resize(1);
+  MomentLog log(robot);
+  SharedWorld::Inbox first = truth_at(0);
+  first.sonar.push_back({0, {{{0, TimePoint{}, {0.2, 0.1, 0.5}, 1.5, true}}}});
+  log.add(first);
+  for (int i = 1; i < 600; ++i) log.add(truth_at(i));
+  REQUIRE(log.moments().front().sonar.size() == 1);
+  CHECK(log.moments().front().sonar[0].range_m == 1.5);
+}
+
 TEST_CASE("a moment shows what was sensed last, in the robot's frame", "[sim][picture]") {
   RobotModel robot;
   robot.sonars.resize(1);

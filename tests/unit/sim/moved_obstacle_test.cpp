@@ -98,6 +98,12 @@ TEST_CASE("obstacles that cannot be are refused with the reason", "[sim][obstacl
   CHECK_THAT(error("a", Box{{}, {0.1, 0.0}}, 1.0, {}), Catch::Contains("no area"));
   CHECK_THAT(error("a", Outline{}, 1.0, {}), Catch::Contains("no area"));
   CHECK_THAT(error("a", kCrate, 1.0, {std::nan(""), 0, 0}), Catch::Contains("not finite"));
+  const double endless = std::numeric_limits<double>::infinity();
+  CHECK_THAT(error("a", Circle{{1e20, 0}, 1.0}, 1.0, {}), Catch::Contains("beyond 100 km"));
+  CHECK_THAT(error("a", Circle{{}, endless}, 1.0, {}), Catch::Contains("not finite"));
+  CHECK_THAT(error("a", Box{{}, {1.0, endless}}, 1.0, {}), Catch::Contains("not finite"));
+  CHECK_THAT(error("a", Outline{{{{0, 0}, {1, 0}}, {{1, 0}, {std::nan(""), 1}}}}, 1.0, {}),
+             Catch::Contains("not finite"));
   CHECK(error("a", kCrate, 1.0, {}).empty());
   CHECK_THAT(error("a", kCrate, 1.0, {2, 2, 0}), Catch::Contains("already"));
 }

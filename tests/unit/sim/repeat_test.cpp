@@ -68,20 +68,26 @@ class Crowd {
     touches_ += world_.contacts().size();
     seen_.add_u64(world_.state_hash());
     for (const ContactEvent& contact : world_.contacts()) seen_.add_text(contact.robot + " " + contact.other);
-    for (const RobotId id : robots_) {
-      if (const auto& scan = sonar(id))
-        for (const SonarReading& reading : scan->readings) add(reading.range);
-      if (const auto& scan = laser(id))
-        for (const double range : scan->ranges) add(range);
-    }
+    for (const RobotId id : robots_) see(id);
   }
-  [[nodiscard]] std::optional<SonarScan> sonar(RobotId id) const {
-    return world_.robot_model(id).sonars.empty() ? std::nullopt : world_.sonar(id);
+  void see(RobotId id) {
+    const RobotModel& model = world_.robot_model(id);
+    if (!model.sonars.empty() && world_.sonar(id))
+      for (const SonarReading& r : world_.sonar(id)->readings) add(r.stamp, {r.range, r.echo ? 1.0 : 0.0});
+    if (!model.lasers.empty() && world_.laser(id)) add(world_.laser(id)->stamp, world_.laser(id)->ranges);
+    if (!model.infrareds.empty() && world_.infrared(id))
+      add(world_.infrared(id)->stamp, world_.infrared(id)->ranges);
+    if (!model.bumpers.empty() && world_.bumper(id))
+      for (const bool pressed : world_.bumper(id)->pressed)
+        add(world_.bumper(id)->stamp, {pressed ? 1.0 : 0.0});
+    if (const auto& turret = world_.turret(id)) add(world_.time(), {turret->angle, turret->turn_rate});
+    if (const auto& odometry = world_.odometry(id))
+      add(odometry->stamp, {odometry->pose.x, odometry->velocity.forward, odometry->velocity.turn});
   }
-  [[nodiscard]] std::optional<LaserScan> laser(RobotId id) const {
-    return world_.robot_model(id).lasers.empty() ? std::nullopt : world_.laser(id);
+  void add(orca::TimePoint stamp, const std::vector<double>& values) {
+    seen_.add_u64(static_cast<std::uint64_t>(stamp.time_since_epoch().count()));
+    for (const double value : values) seen_.add_u64(std::bit_cast<std::uint64_t>(value));
   }
-  void add(double value) { seen_.add_u64(std::bit_cast<std::uint64_t>(value)); }
 
   World world_;
   std::vector<RobotId> robots_;

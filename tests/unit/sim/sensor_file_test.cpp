@@ -107,4 +107,5 @@ TEST_CASE("devices of all kinds have names of their own", "[sim][robot_file]") {
   CHECK_THAT(errors_in(kLaser + replaced(kInfrared, "\"ir\"", "\"laser\"")),
              Catch::Contains("error R010: there is a laser \"laser\" already; choose another name"));
   CHECK_THAT(errors_in(kBumper + kBumper), Catch::Contains("error R010: there is a bumper ring \"bumper\""));
+  CHECK_THAT(errors_in(replaced(kLaser, "\"laser\"", "\"odometry\"")), Catch::Contains("error R010"));
 }

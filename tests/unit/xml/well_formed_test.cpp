@@ -84,6 +84,8 @@ TEST_CASE("each slip gives its one error at its place", "[xml][reading]") {
        "3:2: error G111: the end tag </a> does not fit: <b> from line 2, column 2 is open"},
       {"<a>\n <b>\n </bb></a>", "3:2: error G111: the end tag </bb> does not fit"},
       {"<a></a></b>", "1:8: error G111: the end tag </b> closes nothing"},
+      {"<a/></b", "1:5: error G111: the end tag </b> closes nothing"},
+      {"<a/></", "1:5: error G111: the end tag </> closes nothing"},
       {"<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>", "1:1: error G112"},
       {"<a>1 < 2</a>", "1:6: error G113: no name follows \"<\""},
       {"<a ,b='1'/>", "1:4: error G113: \",\" does not belong in the tag <a>"},

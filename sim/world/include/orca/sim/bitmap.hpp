@@ -35,7 +35,8 @@ struct BitmapScale {
 ///
 /// Grey below 128 is occupied. The lower left corner of the picture is the origin, so the first row of the
 /// image lies at the largest y. @param pixel [m] side of one pixel.
-[[nodiscard]] Outline outline_of(const GreyImage& image, double pixel);
+/// @errors  invalid_argument if there are more than 2,000,000 edges: that is noise, no plan.
+[[nodiscard]] Result<Outline> outline_of(const GreyImage& image, double pixel);
 
 /// An occupancy bitmap as a world with one obstacle, "map", of the given height, and no places.
 ///
