@@ -33,12 +33,25 @@ struct ExceptionGlobals {
   }
 };
 
+StackBounds bounds_of(const bc::stack_context& stack) {
+  return {static_cast<char*>(stack.sp) - stack.size, stack.size};
+}
+
+// The fiber keeps a copy and frees its stack with it, when it has left it for good.
+struct StackAllocator : bc::protected_fixedsize_stack {
+  StackAllocator() : protected_fixedsize_stack(kStackBytes) {}
+  void deallocate(bc::stack_context& stack) {
+    forget_stack(bounds_of(stack));
+    protected_fixedsize_stack::deallocate(stack);
+  }
+};
+
 class FiberContext final : public Context {
  public:
   explicit FiberContext(std::function<void()> body) : body_(std::move(body)) {
-    bc::protected_fixedsize_stack allocator(kStackBytes);
+    StackAllocator allocator;
     bc::stack_context stack = allocator.allocate();
-    fiber_stack_ = StackBounds{static_cast<char*>(stack.sp) - stack.size, stack.size};
+    fiber_stack_ = bounds_of(stack);
     inside_ = bc::fiber(std::allocator_arg, bc::preallocated(stack.sp, stack.size, stack), allocator,
                         [this](bc::fiber&& caller) { return run(std::move(caller)); });
   }

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/common_interface_defs.h>
+#include <sanitizer/asan_interface.h>
 #endif
 
 namespace orca::detail {
@@ -26,6 +26,14 @@ inline void finish_switch([[maybe_unused]] void* fake_stack, [[maybe_unused]] St
   StackBounds unused;
   StackBounds& bounds = from != nullptr ? *from : unused;
   __sanitizer_finish_switch_fiber(fake_stack, &bounds.bottom, &bounds.size);
+#endif
+}
+
+/// Tells it that the stack is gone: what the loader maps there next, a plugin for example, has no red zones of
+/// frames that once were.
+inline void forget_stack([[maybe_unused]] const StackBounds& stack) {
+#if defined(__SANITIZE_ADDRESS__)
+  __asan_unpoison_memory_region(stack.bottom, stack.size);
 #endif
 }
 
