@@ -38,11 +38,12 @@ StackBounds bounds_of(const bc::stack_context& stack) {
 }
 
 // The fiber keeps a copy and frees its stack with it, when it has left it for good.
-struct StackAllocator : bc::protected_fixedsize_stack {
-  StackAllocator() : protected_fixedsize_stack(kStackBytes) {}
+struct StackAllocator {
+  bc::protected_fixedsize_stack pages{kStackBytes};
+  bc::stack_context allocate() { return pages.allocate(); }
   void deallocate(bc::stack_context& stack) {
     forget_stack(bounds_of(stack));
-    protected_fixedsize_stack::deallocate(stack);
+    pages.deallocate(stack);
   }
 };
 
