@@ -29,8 +29,8 @@ inline void finish_switch([[maybe_unused]] void* fake_stack, [[maybe_unused]] St
 #endif
 }
 
-/// Tells it that the stack is gone: what the loader maps there next, a plugin for example, has no red zones of
-/// frames that once were.
+/// Tells it that the stack is gone: what the loader maps there next, a plugin for example, has no red zones
+/// of frames that once were.
 inline void forget_stack([[maybe_unused]] const StackBounds& stack) {
 #if defined(__SANITIZE_ADDRESS__)
   __asan_unpoison_memory_region(stack.bottom, stack.size);
