@@ -30,7 +30,8 @@ endif()
 
 find_program(ORCA_CCACHE ccache)
 if(ORCA_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${ORCA_CCACHE})
+  # It can only keep what uses a precompiled header (the tests) if it may disregard macros and times that are in there.
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${ORCA_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${ORCA_CCACHE})
 endif()
 find_program(ORCA_MOLD mold)

@@ -2,6 +2,7 @@
 // Propagated covariances against the spread of many drawn samples. The errors are small enough that what
 // first order leaves out (about sigma^2 = 1e-4 of the covariance per radian squared) is far below what chance
 // makes of the sample.
+#include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 
 #include "orca/geometry/odometry.hpp"
