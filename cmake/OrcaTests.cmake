@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 
-# Tests are compiled once and run for a second: little optimisation is enough in the release build. The other option lets
-# ccache see through the precompiled header.
-set(ORCA_TEST_OPTIONS $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+# Tests are compiled once and run for a second: the compiler saves itself the optimisation in the release build, too. The
+# second option lets ccache see through the precompiled header.
+set(ORCA_TEST_OPTIONS $<$<CONFIG:Release>:-O0> $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 
-# orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds])
+# orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [OPTIMISED])
 #
-# A Catch2 binary, one ctest entry. TIMEOUT is a bound on hangs, for
-# the release build; the default is 60 s.
+# A Catch2 binary, one ctest entry. TIMEOUT is a bound on hangs, for the release build; the default is 60 s. OPTIMISED is
+# for tests that compute much themselves.
 function(orca_add_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "OPTIMISED" "TIMEOUT" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 60)
   endif()
@@ -21,8 +21,10 @@ function(orca_add_test name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LINK} orca_test_headers Catch2::Catch2WithMain orca_options)
-  target_compile_options(${name} PRIVATE ${ORCA_TEST_OPTIONS})
-  target_precompile_headers(${name} REUSE_FROM orca_test_headers)
+  if(NOT arg_OPTIMISED)
+    target_compile_options(${name} PRIVATE ${ORCA_TEST_OPTIONS})
+    target_precompile_headers(${name} REUSE_FROM orca_test_headers)
+  endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(arg_DEPENDS)
     add_dependencies(${name} ${arg_DEPENDS})

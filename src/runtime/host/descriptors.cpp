@@ -5,15 +5,30 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 namespace orca {
 
-int count_descriptors() {
+Descriptors open_descriptors() {
+  const char* const folder = "/proc/self/fd";
   std::error_code unused;
-  const std::filesystem::directory_iterator open("/proc/self/fd", unused);
-  return static_cast<int>(std::distance(begin(open), end(open))) -
-         1;  // without the one that reads the folder
+  std::vector<std::filesystem::path> entries;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unused)) entries.push_back(entry);
+  Descriptors open;
+  for (const auto& entry : entries) {
+    std::error_code closed;  // the one that read the folder
+    const std::filesystem::path target = std::filesystem::read_symlink(entry, closed);
+    if (!closed) open.emplace(std::atoi(entry.filename().c_str()), target.native());
+  }
+  return open;
+}
+
+std::string names_of(const Descriptors& descriptors) {
+  std::string names;
+  for (const auto& [fd, target] : descriptors)
+    names += (names.empty() ? "" : ", ") + std::to_string(fd) + " (" + target + ")";
+  return names;
 }
 
 void OwnDescriptors::remember() {

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace orca {
 
-/// How many descriptors this process has open.
-[[nodiscard]] int count_descriptors();
+/// Descriptors and what is open there, in the system's words: "/dev/ttyS0", "socket:[4711]".
+using Descriptors = std::set<std::pair<int, std::string>>;
+
+/// What this process has open.
+[[nodiscard]] Descriptors open_descriptors();
+
+/// For people: "7 (/dev/ttyS0), 8 (socket:[4711])".
+[[nodiscard]] std::string names_of(const Descriptors& descriptors);
 
 /// Descriptors that the process itself needs, to be seen to when a plugin closes what is not its own.
 ///

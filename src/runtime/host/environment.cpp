@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 
 #include "floating_point.hpp"
@@ -248,7 +249,7 @@ void Environment::look_at_memory(bool rare) {
 
 void Environment::begin_balance(Guest& guest) {
   Balance& balance = guest.balance;
-  balance.at_begin = count_descriptors();
+  balance.at_begin = open_descriptors();
   balance.turn = ++rare_turns_;
   balance.sound = balance.sound && rare_running_ == 0;
   ++rare_running_;
@@ -258,10 +259,12 @@ void Environment::end_balance(Guest& guest) {
   Balance& balance = guest.balance;
   --rare_running_;
   balance.sound = balance.sound && balance.turn == rare_turns_;
-  balance.sum += count_descriptors() - balance.at_begin;
-  if (guest.hook == "stop" && balance.sound && balance.sum > 0)
+  const Descriptors open = open_descriptors();
+  std::erase_if(balance.opened, [&](const auto& descriptor) { return !open.contains(descriptor); });
+  std::ranges::set_difference(open, balance.at_begin, std::inserter(balance.opened, balance.opened.end()));
+  if (guest.hook == "stop" && balance.sound && !balance.opened.empty())
     alarm(guest, "DESCRIPTORS",
-          "left " + std::to_string(balance.sum) + " descriptor(s) open that start() or itself has opened");
+          "left open what start() or itself has opened: descriptor " + names_of(balance.opened));
 }
 
 void Environment::alarm(const Guest& guest, const char* kind, const std::string& deed) {

@@ -59,8 +59,8 @@ class Environment {
   };
   // Descriptors around start() and stop().
   struct Balance {
-    int at_begin = 0;
-    int sum = 0;
+    Descriptors at_begin;  // of the hook
+    Descriptors opened;    // in the hooks so far, and not closed since
     std::uint64_t turn = 0;
     bool sound = true;  // no other rare hook ran meanwhile
   };
