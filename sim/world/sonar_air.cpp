@@ -30,8 +30,8 @@ class Ear {
     enum class Sight { unknown, free, blocked } sight = Sight::unknown;
   };
 
-  Ear(const Caster& caster, std::uint64_t own, const Beam& beam, const Echo& echo)
-      : caster_(caster), cone(own, beam, echo.reach) {
+  Ear(const Caster& caster, std::uint64_t own, const Beam& beam, const Echo& echo, double now)
+      : caster_(caster), cone(own, beam, echo.reach, now) {
     for (const Surface& surface : echo.surfaces) {
       if (const auto* circle = std::get_if<Circle>(&surface)) posts.push_back(*circle);
       if (const auto* edge = std::get_if<Segment>(&surface)) {
@@ -130,7 +130,7 @@ class Ways {
     if (!from_.holds(way)) return;
     const double length = norm(way);
     if (!in_window(length + point.length) || point.strength * from_.strength(way) < kThreshold) return;
-    if (ear_.sees(from_.beam, point.at, length) && ear_.sees(point)) keep(length + point.length);
+    if (ear_.sees(point) && ear_.sees(from_.beam, point.at, length)) keep(length + point.length);
   }
 
   // A point of a surface that turns there from the one to the other.
@@ -163,19 +163,28 @@ Circle circle_around(Vec2 tip, Vec2 axis, double half_angle, double reach) {
   return {tip + radius * axis, radius + kInBody};
 }
 
+bool overlap(const Circle& one, const Circle& other) {
+  const Vec2 apart = one.center - other.center;
+  const double reach = one.radius + other.radius;
+  return dot(apart, apart) <= reach * reach;
+}
+
 double seconds_of(TimePoint time) { return to_seconds(time.time_since_epoch()); }
 
 }  // namespace
 
-SonarAir::Cone::Cone(std::uint64_t chirp, const Beam& from, double goes)
+SonarAir::Cone::Cone(std::uint64_t chirp, const Beam& from, double goes, double sent_at)
     : number(chirp),
       beam(from),
       reach(goes),
       axis(direction(from.sensor.yaw)),
-      left(rotated(axis, from.half_lobe)),
-      right(rotated(axis, -from.half_lobe)),
       tan_lobe(std::tan(from.half_lobe)),
-      around(circle_around(from.sensor.position(), axis, from.half_lobe, reach)) {}
+      sector{from.sensor.position(),
+             rotated(axis, from.half_lobe),
+             rotated(axis, -from.half_lobe),
+             circle_around(from.sensor.position(), axis, from.half_lobe, goes),
+             sent_at,
+             sent_at + std::fmin(kFadesAfter, (goes + 2.0 * kInBody) / kSoundSpeed)} {}
 
 double SonarAir::Cone::strength(Vec2 towards) const {
   const double share = std::atan2(std::fabs(cross(axis, towards)), dot(axis, towards)) / beam.half_lobe;
@@ -183,51 +192,31 @@ double SonarAir::Cone::strength(Vec2 towards) const {
 }
 
 std::uint64_t SonarAir::send(TimePoint time, const Beam& beam, double reach) {
-  const Cone& cone = cones_.emplace_back(sent_, beam, reach);
-  const double fades = std::fmin(kFadesAfter, (reach + 2.0 * kInBody) / kSoundSpeed);
-  chirps_.push_back({seconds_of(time), seconds_of(time) + fades, cone.around});
+  sectors_.add(cones_.emplace_back(sent_, beam, reach, seconds_of(time)).sector);
   farthest_ = std::fmax(farthest_, beam.max_range);
   return sent_++;
 }
 
 void SonarAir::settle(TimePoint now) {
   const double heard_from = seconds_of(now) - farthest_ / kSoundSpeed;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < chirps_.size(); ++i) {
-    if (chirps_[i].silent < heard_from) continue;
-    chirps_[kept] = chirps_[i];
-    cones_[kept++] = cones_[i];
-  }
-  chirps_.resize(kept);
-  cones_.erase(cones_.begin() + static_cast<std::ptrdiff_t>(kept), cones_.end());
-}
-
-// Without branches, since nobody can foresee how they go.
-void SonarAir::find_near(const Circle& circle, double silent_from, double sent_until) const {
-  near_.resize(cones_.size());
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < near_.size(); ++i) {
-    const Chirp& chirp = chirps_[i];
-    const Vec2 apart = chirp.around.center - circle.center;
-    const double reach = chirp.around.radius + circle.radius;
-    near_[found] = static_cast<std::uint32_t>(i);
-    found += static_cast<std::size_t>((dot(apart, apart) <= reach * reach) & (chirp.silent >= silent_from) &
-                                      (chirp.sent <= sent_until));
-  }
-  near_.resize(found);
+  std::erase_if(cones_, [heard_from](const Cone& cone) { return cone.sector.silent < heard_from; });
+  sectors_.clear(seconds_of(now));
+  for (const Cone& cone : cones_) sectors_.add(cone.sector);
 }
 
 std::optional<double> SonarAir::first_heard(const Caster& caster, const Beam& listener, std::uint64_t own,
                                             TimePoint since, const Echo& echo) const {
-  Ear ear(caster, own, listener, echo);
-  std::optional<double> nearest = echo.range;
   const double now = seconds_of(since);
+  Ear ear(caster, own, listener, echo, now);
+  std::optional<double> nearest = echo.range;
   // A way is no longer than both cones.
-  find_near(ear.cone.around, now - (ear.cone.reach - 2.0 * listener.min_range) / kSoundSpeed, now);
-  for (const std::uint32_t i : near_) {
-    const bool may_meet = ear.cone.may_hold(chirps_[i].around) && cones_[i].may_hold(ear.cone.around);
-    if (!may_meet || cones_[i].number == ear.cone.number || now - chirps_[i].sent > kFadesAfter) continue;
-    Ways ways(ear, cones_[i], kSoundSpeed * (now - chirps_[i].sent), nearest);
+  const double silent_from = now - (ear.cone.reach - 2.0 * listener.min_range) / kSoundSpeed;
+  for (const std::uint32_t i : sectors_.near(ear.cone.sector, silent_from, now)) {
+    const Cone& cone = cones_[i];
+    const double head_start = now - cone.sector.sent;
+    const bool in_time = head_start >= 0.0 && head_start <= kFadesAfter && cone.sector.silent >= silent_from;
+    if (cone.number == own || !in_time || !overlap(cone.sector.around, ear.cone.sector.around)) continue;
+    Ways ways(ear, cone, kSoundSpeed * head_start, nearest);
     if (ways.may_be_heard()) ways.follow();
     nearest = ways.nearest();
   }
