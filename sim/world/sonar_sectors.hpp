@@ -13,17 +13,18 @@ namespace orca::sim::detail {
 // A cone in the air as far as it matters whether another can have to do with it.
 struct Sector {
   Vec2 tip;
-  Vec2 left, right;     // Of length 1, along both rims; less than half a turn apart.
+  Vec2 left, right;     // Of length 1, along both rims; at most half a turn apart.
   Circle around;        // Holds it all.
   double sent = 0.0;    // [s]
   double silent = 0.0;  // [s] Its sound has left it then.
 };
 
 // Many sectors, of which all are asked for each listener: column by column and in single precision, so that
-// the compiler looks at four at once. It errs on the side of finding too many.
+// the compiler looks at four at once. It errs on the side of finding too many. One thread at a time.
 class Sectors {
  public:
-  // From now on times are kept relative to `base` [s]; nothing is held any more.
+  // From now on times are kept relative to `base` [s], from which they must not be farther than some seconds;
+  // nothing is held any more.
   void clear(double base);
   void add(const Sector& sector);
 

@@ -128,6 +128,13 @@ TEST_CASE("a bad name can still be referred to", "[graph][one cause]") {
         Codes{"G009"});
 }
 
+TEST_CASE("a profile that is not there may hold anything", "[graph][one cause]") {
+  CHECK(codes("<graph name='g' default_profile='hall'>" + kAvoid +
+              "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>" + kEdge +
+              "<profile name='hal'><hardware name='robot' type='orca.hw.Sim'/></profile></graph>") ==
+        Codes{"G015"});
+}
+
 TEST_CASE("a broken plugin is told once, however many components want it", "[graph][one cause]") {
   CHECK(codes(graph("<component name='a' type='orca.Broken'/><component name='b' type='orca.Broken'/>")) ==
         Codes{"G028"});

@@ -106,6 +106,18 @@ TEST_CASE("a behaviour that is not required may fall silent", "[system][fuser]")
   CHECK(told_at(run, "speed 0.00") >= 4.0);  // when all is being stopped
 }
 
+TEST_CASE(
+    "a required behaviour that is not connected is refused at the start: the robot would stand for good",
+    "[system][fuser]") {
+  const Run run = run_deployer(
+      Words{system_graph("voices.xml"), "--set", "then=silence", "--set", "required=gard", "--until", "4 s"} +
+      with_test_plugins() + virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 3);
+  CHECK(run.says("no behaviour \"gard\" is connected to fuser.motion; connected are:"));
+  CHECK(run.out.find("trace-hash") == std::string::npos);  // nothing ran
+}
+
 TEST_CASE("an unknown mode is refused with those that there are; priority without an order does not start",
           "[system][fuser]") {
   const Words graph = Words{system_graph("voices.xml"), "--set", "then=silence"} + with_test_plugins();

@@ -79,7 +79,8 @@ std::string event(std::int16_t value, unsigned char type, unsigned char number) 
 bool comes_to_stop_after_driving(const Subprocess& program) {
   const auto stops = [&] {
     const std::string err = program.err();
-    return err.rfind("TOLD_TO_STOP") > err.rfind("FUSED by teleop");
+    const std::size_t driven = err.rfind("FUSED by teleop");
+    return driven != std::string::npos && err.find("TOLD_TO_STOP", driven) != std::string::npos;
   };
   for (int i = 0; i < 500 && !stops(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return stops();

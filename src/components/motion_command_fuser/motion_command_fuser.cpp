@@ -53,6 +53,9 @@ class MotionCommandFuser final : public orca::Component {
       return orca::fail(orca::Code::invalid_argument, "mode priority needs the parameter order");
     if (Status read = read_nodes(*suppress_, rules.wiring.suppress); !read.ok()) return read;
     if (Status read = read_nodes(*inhibit_, rules.wiring.inhibit); !read.ok()) return read;
+    // One that is not there would keep the robot standing for good.
+    for (const std::string& name : rules.required)
+      if (edge_of(name) == nullptr) return not_connected(name);
     rules_ = std::move(rules);
     return orca::ok();
   }
@@ -86,10 +89,7 @@ class MotionCommandFuser final : public orca::Component {
     std::vector<Listened> chosen;
     for (const std::string& name : names) {
       PushEdge* edge = edge_of(name);
-      if (edge == nullptr)
-        return orca::fail(orca::Code::not_found, "no behaviour \"" + name + "\" is connected to " +
-                                                     motion_.endpoint().path() +
-                                                     "; connected are: " + connected_names());
+      if (edge == nullptr) return not_connected(name);
       const auto same = [&](const Listened& behaviour) { return behaviour.edge == edge; };
       if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back({edge, name, {}, {}});
     }
@@ -250,6 +250,12 @@ class MotionCommandFuser final : public orca::Component {
     for (const auto& edge : motion_.edges())
       if (is_called(*edge, name)) return edge.get();
     return nullptr;
+  }
+
+  [[nodiscard]] Status not_connected(const std::string& name) const {
+    return orca::fail(orca::Code::not_found, "no behaviour \"" + name + "\" is connected to " +
+                                                 motion_.endpoint().path() +
+                                                 "; connected are: " + connected_names());
   }
 
   [[nodiscard]] std::string connected_names() const {

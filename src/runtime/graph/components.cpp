@@ -86,7 +86,7 @@ class ComponentReader {
   void report_no_hardware(const Text& name) {
     const std::vector<std::string>& names = model_.hardware_names;
     const std::string hint = report_.hint_in_contexts(name.value, names);
-    if (model_.files_missing && hint.empty()) return;
+    if (model_.parts_missing && hint.empty()) return;
     report_.error(codes::kUnknownHardware, name.position,
                   node_.title() + ": there is no hardware " + in_quotes(name.value) +
                       "; the graph has: " + xml::listed(names) + hint);

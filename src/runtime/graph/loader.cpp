@@ -62,7 +62,7 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   Model model;
   model.excused = assembly.excused;
   model.names_incomplete = assembly.names_incomplete;
-  model.files_missing = assembly.files_missing;
+  model.parts_missing = parts.some_missing;
   check_hardware(parts.hardware, types, model, report);
   check_components(parts.components, types, model, report);
   check_start_order(model, report);

@@ -50,7 +50,7 @@ struct Model {
   std::vector<std::string> component_names;
   std::set<std::string> excused;  // see Structure
   bool names_incomplete = false;  // see Structure
-  bool files_missing = false;     // see Assembly
+  bool parts_missing = false;     // see Parts
 
   void add(CheckedHardware node, bool by_name) {
     if (by_name && hardware_by_name.emplace(node.value.name, hardware.size()).second) {

@@ -138,13 +138,16 @@ class Choice {
     collect_names(assembly.graph);
     const std::vector<const Node*> profiles = profiles_of(assembly.graph, report_);
     for (const auto& [name, position] : wanted_) {
-      if (!names_.contains(name))
+      if (!names_.contains(name)) {
         report_unknown(name, position, {names_.begin(), names_.end()}, assembly.files_missing, report_);
+        some_unknown_ = true;
+      }
       for (const Node* profile : profiles)
         if (profile->value("name") == name) add(*profile);
     }
   }
 
+  [[nodiscard]] bool some_unknown() const { return some_unknown_; }
   std::vector<const Node*> profiles() && { return std::move(result_); }
 
  private:
@@ -169,6 +172,7 @@ class Choice {
   Report& report_;
   std::set<std::string> names_;
   std::vector<const Node*> result_;
+  bool some_unknown_ = false;
 };
 
 }  // namespace
@@ -178,7 +182,9 @@ Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& c
   Merger hardware(parts.hardware, report);
   Merger components(parts.components, report);
   Merger connections(parts.connections, report);
-  std::vector<const Node*> sections = Choice(assembly, chosen, report).profiles();
+  Choice choice(assembly, chosen, report);
+  parts.some_missing = assembly.files_missing || choice.some_unknown();
+  std::vector<const Node*> sections = std::move(choice).profiles();
   sections.insert(sections.begin(), &assembly.graph);
   for (const Node* section : sections) {
     for (Merger* merger : {&hardware, &components, &connections}) merger->start_section();

@@ -15,6 +15,7 @@ struct Parts {
   std::vector<Node> hardware;
   std::vector<Node> components;
   std::vector<Node> connections;
+  bool some_missing = false;  // because a file or a profile is: parts of any kind may be in it
 };
 
 // The graph's own parts with the chosen profiles merged over them in order.

@@ -50,7 +50,7 @@ class Wiring {
   }
 
   void check_required() {
-    if (model_.files_missing) return;  // the connections may be in them
+    if (model_.parts_missing) return;  // the connections may be in them
     index_offers();
     for (const CheckedComponent& component : model_.components) {
       const bool judged = component.contract && component.ports_known;

@@ -265,7 +265,8 @@ bool ComponentInstance::handle_sent(SendServerEndpoint& endpoint) {
   if (fault && !fault->interrupted) fail_with(endpoint.contract().name.c_str(), fault->text);
   if (!outcome.ok())
     write_log(log::Level::warning,
-              endpoint.contract().name + ": refused an object: " + outcome.error().text());
+              endpoint.contract().name +
+                  ": could not handle an object that it had accepted: " + outcome.error().text());
   return handled || fault;
 }
 

@@ -2,6 +2,7 @@
 #include "descriptors.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,25 +10,37 @@
 #include <filesystem>
 
 namespace orca {
+namespace {
 
-Descriptors open_descriptors() {
-  const char* const folder = "/proc/self/fd";
-  std::error_code unused;
+constexpr std::size_t kNamed = 8;
+
+}  // namespace
+
+std::optional<Descriptors> open_descriptors() {
+  std::error_code cannot_look;
   std::vector<std::filesystem::path> entries;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, unused)) entries.push_back(entry);
+  for (std::filesystem::directory_iterator entry("/proc/self/fd", cannot_look), end;
+       !cannot_look && entry != end; entry.increment(cannot_look))
+    entries.push_back(entry->path());
+  if (cannot_look) return std::nullopt;
   Descriptors open;
   for (const auto& entry : entries) {
-    std::error_code closed;  // the one that read the folder
-    const std::filesystem::path target = std::filesystem::read_symlink(entry, closed);
-    if (!closed) open.emplace(std::atoi(entry.filename().c_str()), target.native());
+    const int fd = std::atoi(entry.filename().c_str());
+    struct stat file {};
+    if (fstat(fd, &file) != 0) continue;  // the one that read the folder
+    std::error_code unused;
+    open[fd] = {file.st_dev, file.st_ino, std::filesystem::read_symlink(entry, unused).native()};
   }
   return open;
 }
 
 std::string names_of(const Descriptors& descriptors) {
   std::string names;
-  for (const auto& [fd, target] : descriptors)
-    names += (names.empty() ? "" : ", ") + std::to_string(fd) + " (" + target + ")";
+  std::size_t named = 0;
+  for (const auto& [fd, file] : descriptors) {
+    if (named == kNamed) return names + " and " + std::to_string(descriptors.size() - named) + " more";
+    names += (named++ == 0 ? "" : ", ") + std::to_string(fd) + " (" + file.name + ")";
+  }
   return names;
 }
 

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <iterator>
 #include <string_view>
 
 #include "floating_point.hpp"
@@ -87,6 +86,7 @@ void Environment::keep() {
   memory_.start(count_memory_pages());
   memory_watched_ = false;
   guests_.clear();
+  turns_ = 0;
   said_.clear();
   watchful_turns_ = 0;
   kept_ = true;
@@ -137,6 +137,7 @@ void Environment::left(const Activity& turn) {
 
 bool Environment::is_due(Guest& guest) {
   ++guest.turns;
+  ++turns_;
   if (watchful_turns_ > 0) return --watchful_turns_, true;
   return guest.turns <= 2 || guest.turns % kTurnsPerLook == 0 || open_.total() >= kManyDescriptors;
 }
@@ -249,20 +250,29 @@ void Environment::look_at_memory(bool rare) {
 
 void Environment::begin_balance(Guest& guest) {
   Balance& balance = guest.balance;
-  balance.at_begin = open_descriptors();
+  const std::optional<Descriptors> open = open_descriptors();
+  balance.at_begin = open.value_or(Descriptors{});
   balance.turn = ++rare_turns_;
-  balance.sound = balance.sound && rare_running_ == 0;
+  balance.others_turns = turns_ - guest.turns;
+  balance.sound = balance.sound && open && rare_running_ == 0;
   ++rare_running_;
 }
 
 void Environment::end_balance(Guest& guest) {
   Balance& balance = guest.balance;
   --rare_running_;
-  balance.sound = balance.sound && balance.turn == rare_turns_;
-  const Descriptors open = open_descriptors();
-  std::erase_if(balance.opened, [&](const auto& descriptor) { return !open.contains(descriptor); });
-  std::ranges::set_difference(open, balance.at_begin, std::inserter(balance.opened, balance.opened.end()));
-  if (guest.hook == "stop" && balance.sound && !balance.opened.empty())
+  const std::optional<Descriptors> open = open_descriptors();
+  const bool alone = balance.turn == rare_turns_ && balance.others_turns == turns_ - guest.turns;
+  balance.sound = balance.sound && open && alone;
+  if (!balance.sound) return;
+  const auto is_among = [](const Descriptors& all, const Descriptors::value_type& descriptor) {
+    const auto found = all.find(descriptor.first);
+    return found != all.end() && found->second == descriptor.second;
+  };
+  std::erase_if(balance.opened, [&](const auto& descriptor) { return !is_among(*open, descriptor); });
+  for (const auto& descriptor : *open)
+    if (!is_among(balance.at_begin, descriptor)) balance.opened.insert(descriptor);
+  if (guest.hook == "stop" && !balance.opened.empty())
     alarm(guest, "DESCRIPTORS",
           "left open what start() or itself has opened: descriptor " + names_of(balance.opened));
 }

@@ -62,12 +62,13 @@ class Environment {
     Descriptors at_begin;  // of the hook
     Descriptors opened;    // in the hooks so far, and not closed since
     std::uint64_t turn = 0;
-    bool sound = true;  // no other rare hook ran meanwhile
+    std::uint64_t others_turns = 0;  // that were over when the hook began
+    bool sound = true;               // nobody else had a turn meanwhile, as far as can be told
   };
   struct Guest {
     std::string name;
     std::string hook;  // the last one
-    unsigned turns = 0;
+    std::uint64_t turns = 0;
     bool suspect = false;  // had a turn since all was last looked at
     Balance balance;
   };
@@ -106,6 +107,7 @@ class Environment {
   bool memory_watched_ = false;
   bool exhausted_ = false;  // there are no descriptors left
   std::vector<Guest> guests_;
+  std::uint64_t turns_ = 0;  // of all guests
   std::uint64_t rare_turns_ = 0;
   int rare_running_ = 0;
   int watchful_turns_ = 0;  // left to be looked at one by one

@@ -105,7 +105,8 @@ class Run {
 
   void finish_output() {
     if (!options_.picture.file.empty()) draw();
-    if (executive_.is_virtual()) announcer_.print_trace_hash(trace_.hash());
+    const bool ran = code_ != ExitCode::could_not_start;  // what never ran is equal to nothing
+    if (ran && executive_.is_virtual()) announcer_.print_trace_hash(trace_.hash());
   }
 
   void draw() {

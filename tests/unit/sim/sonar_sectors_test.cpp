@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The coarse question of which chirps a sonar may hear, against the exact one.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
 #include <catch2/catch.hpp>
 
 #include "orca/base/random.hpp"
