@@ -36,6 +36,8 @@ struct PortDeclaration {
 };
 
 /// Whoever has ports: a component.
+///
+/// Thread contract: the thread that constructs it.
 class PortOwner {
  public:
   /// May throw, because an author's may: the runtime contains it.

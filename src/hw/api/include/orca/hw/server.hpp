@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ namespace orca::hw {
 ///
 /// The hardware is active while somebody subscribes, for a moment after a motion command, and while a query
 /// waits.
+///
+/// Thread contract: as every component, its own strand.
 class HardwareServer : public Component {
  public:
   /// @param source  which of the container's sensors to offer.

@@ -14,6 +14,8 @@ namespace orca {
 
 /// A hardware container that was constructed and prepared, but opens nothing: for contracts that depend on
 /// it.
+///
+/// Thread contract: one thread at a time, as for the functions below.
 class DescribedHardware {
  public:
   virtual ~DescribedHardware() = default;
