@@ -25,11 +25,12 @@ std::optional<Descriptors> open_descriptors() {
   if (cannot_look) return std::nullopt;
   Descriptors open;
   for (const auto& entry : entries) {
-    const int fd = std::atoi(entry.filename().c_str());
     struct stat file {};
-    if (fstat(fd, &file) != 0) continue;  // the one that read the folder
+    // By path: other threads may close what is theirs meanwhile.
+    if (stat(entry.c_str(), &file) != 0) continue;  // as the one that read the folder
     std::error_code unused;
-    open[fd] = {file.st_dev, file.st_ino, std::filesystem::read_symlink(entry, unused).native()};
+    open[std::atoi(entry.filename().c_str())] = {file.st_dev, file.st_ino,
+                                                 std::filesystem::read_symlink(entry, unused).native()};
   }
   return open;
 }
