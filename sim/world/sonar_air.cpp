@@ -209,7 +209,7 @@ std::optional<double> SonarAir::first_heard(const Caster& caster, const Beam& li
   const double now = seconds_of(since);
   Ear ear(caster, own, listener, echo, now);
   std::optional<double> nearest = echo.range;
-  // A way is no longer than both cones.
+  // A way is no longer than both cones. Single precision only rules out: what it leaves is judged exactly.
   const double silent_from = now - (ear.cone.reach - 2.0 * listener.min_range) / kSoundSpeed;
   for (const std::uint32_t i : sectors_.near(ear.cone.sector, silent_from, now)) {
     const Cone& cone = cones_[i];

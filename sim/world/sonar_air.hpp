@@ -36,6 +36,7 @@ class SonarAir {
     Sector sector;
   };
 
+  // @pre  settle() with a time near `time`, unless that is near zero.
   // @param reach  [m] of the beam's own echo.
   // @return  the chirp's number.
   std::uint64_t send(TimePoint time, const Beam& beam, double reach);

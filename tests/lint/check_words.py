@@ -34,6 +34,6 @@ BAD = [
     ({"dev": "cd /ro" + "ot/x\n"}, "path of one machine"),
 ]
 GOOD = [
-    {"src/a.cpp": "// todos los robots; /proc/self/maps; build/work/x; ${X}/root/x; </root>\n"},
+    {"src/a.cpp": "// todos los robots; /proc/self/maps; build/wo" + "rk/x; ${X}/ro" + "ot/x; </root>\n"},
     {"docs/a.md": "the socket is in /tmp/orca-<uid>/\n", "LICENSES/a.txt": "TO" + "DO\n"},
 ]

@@ -17,6 +17,30 @@ using detail::Sectors;
 
 namespace {
 
+// A sector with what it was made of.
+struct Fan {
+  double yaw, half_angle, reach;
+  Sector sector;
+
+  [[nodiscard]] bool holds(Vec2 point) const {
+    const Vec2 to = point - sector.tip;
+    return norm(to) <= reach && std::fabs(wrapped(std::atan2(to.y, to.x) - yaw)) <= half_angle;
+  }
+};
+
+// As the air makes them: the circle around a narrow sector is smaller than that around its tip.
+Fan random_fan(RandomStream& random, double widest) {
+  const double yaw = random.uniform(-3.14, 3.14);
+  const double half_angle = random.uniform(0.05, widest);
+  const double reach = random.uniform(0.2, 6.0);
+  const Vec2 tip{random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0)};
+  const double radius = 0.5 * reach / std::cos(half_angle);
+  const bool narrow = half_angle < 0.78;
+  const Circle around = narrow ? Circle{tip + radius * direction(yaw), radius} : Circle{tip, reach};
+  const Sector sector{tip, direction(yaw + half_angle), direction(yaw - half_angle), around, 0.0, 1.0};
+  return {yaw, half_angle, reach, sector};
+}
+
 Sector random_sector(RandomStream& random, Vec2 middle, double base) {
   const double yaw = random.uniform(-3.14, 3.14);
   const double half_angle = random.uniform(0.05, 0.7);
@@ -71,6 +95,30 @@ TEST_CASE("no chirp that may be heard is left out, near the origin and far from 
   CAPTURE(near, found_in_all);
   CHECK(near > 1000);                      // there was something to find,
   CHECK(found_in_all < near + near / 10);  // and little else was
+}
+
+TEST_CASE("sectors that have a point in common find each other, however wide they are", "[sim][sonar]") {
+  RandomStream random(7, "test", "fans");
+  int shared = 0;
+  for (int round = 0; round < 300; ++round) {
+    Sectors sectors;
+    sectors.clear(0.0);
+    std::vector<Fan> all;
+    for (int i = 0; i < 50; ++i) sectors.add(all.emplace_back(random_fan(random, 1.57)).sector);
+    const Fan one = random_fan(random, 1.57);
+    const auto found = sectors.near(one.sector, 0.0, 1.0);
+    for (int k = 0; k < 20; ++k) {
+      const double angle = one.yaw + one.half_angle * random.uniform(-1.0, 1.0);
+      const Vec2 point = one.sector.tip + one.reach * random.uniform(0.0, 1.0) * direction(angle);
+      for (std::uint32_t i = 0; i < all.size(); ++i) {
+        if (!all[i].holds(point)) continue;
+        ++shared;
+        CAPTURE(round, i);
+        REQUIRE(std::ranges::binary_search(found, i));
+      }
+    }
+  }
+  CHECK(shared > 1000);
 }
 
 TEST_CASE("without any sector none is near", "[sim][sonar]") {
