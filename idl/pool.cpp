@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 namespace orca {
 namespace detail {
@@ -28,7 +29,7 @@ std::size_t Pool::stride() const { return round_up(object_offset(type_) + type_.
 void Pool::grow() {
   // The first slab has one place more, for the blank object.
   const bool first = slabs_ == nullptr;
-  const std::size_t places = std::clamp(count_.capacity, kFirstSlab, kLargestSlab);
+  const std::size_t places = std::clamp(capacity_, kFirstSlab, kLargestSlab);
   const std::size_t head = round_up(sizeof(Slab), slot_align(type_));
   const std::size_t bytes = head + (places + (first ? 1 : 0)) * stride();
   auto* memory = static_cast<std::byte*>(::operator new (bytes, std::align_val_t{slot_align(type_)}));
@@ -40,9 +41,10 @@ void Pool::grow() {
       blank_ = object;
       continue;
     }
-    free_ = new (place) Slot{.type = &type_, .object = object, .next_free = free_};
+    free_ = new (place)
+        Slot{.type = &type_, .object = object, .header = &type_.header(object), .next_free = free_};
   }
-  count_.capacity += places;
+  capacity_ += places;
 }
 
 Slot* Pool::acquire() noexcept {
@@ -50,27 +52,40 @@ Slot* Pool::acquire() noexcept {
   const void* blank = nullptr;
   {
     const std::lock_guard lock(mutex_);
+    take_back();
     if (free_ == nullptr) grow();
     slot = free_;
     free_ = slot->next_free;
     blank = blank_;
-    ++count_.live;
   }
   type_.assign(slot->object, blank);
   slot->references.store(1, std::memory_order_relaxed);
   return slot;
 }
 
+// What was given back last comes first: it may still be in the caches.
+void Pool::take_back() {
+  if (returned_.load(std::memory_order_relaxed) == nullptr) return;
+  Slot* slot = returned_.exchange(nullptr, std::memory_order_acquire);
+  while (slot != nullptr) slot = std::exchange(slot->next_free, std::exchange(free_, slot));
+}
+
+// Without the lock: whoever drops the last view of an object never waits. Only take_back() takes slots off
+// the list, and all at once, so that a slot cannot come back to it while somebody else still puts his in
+// front.
 void Pool::recycle(Slot* slot) noexcept {
-  const std::lock_guard lock(mutex_);
-  slot->next_free = free_;
-  free_ = slot;
-  --count_.live;
+  slot->next_free = returned_.load(std::memory_order_relaxed);
+  while (!returned_.compare_exchange_weak(slot->next_free, slot, std::memory_order_release,
+                                          std::memory_order_relaxed)) {
+  }
 }
 
 PoolStatistics Pool::statistics() {
   const std::lock_guard lock(mutex_);
-  return count_;
+  take_back();
+  std::size_t live = capacity_;
+  for (const Slot* slot = free_; slot != nullptr; slot = slot->next_free) --live;
+  return {live, capacity_};
 }
 
 Slot* acquire_slot(const ObjectType& type) noexcept { return type.pool.acquire(); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <mutex>
 #include <type_traits>
@@ -30,15 +31,17 @@ class Pool {
   };
 
   void grow();
+  void take_back();
   [[nodiscard]] std::size_t stride() const;
 
   const ObjectType& type_;
+  std::atomic<Slot*> returned_{nullptr};  // recycled and not yet among the free ones
   std::mutex mutex_;
   // Below: guarded by mutex_.
   Slot* free_ = nullptr;
   Slab* slabs_ = nullptr;        // Keeps the memory reachable, for leak checkers.
   const void* blank_ = nullptr;  // A default object; constant once made.
-  PoolStatistics count_;
+  std::size_t capacity_ = 0;
 };
 
 // Views may be dropped while the program's static objects are destroyed, so a pool must outlast them all.

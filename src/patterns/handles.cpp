@@ -42,7 +42,8 @@ PushServerHandle::PushServerHandle(PortOwner& owner, std::string name, TypeId ty
 }
 
 void PushServerHandle::push_loan(ObjectLoan loan) {
-  endpoint().push(std::move(loan), &endpoint().home().provenance);
+  PushServerEndpoint& server = endpoint();
+  server.publish(server.seal(std::move(loan), &server.home().provenance));
 }
 
 PushProxyHandle::PushProxyHandle(PortOwner& owner, std::string name, TypeId type,

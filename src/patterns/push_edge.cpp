@@ -59,7 +59,8 @@ void PushEdge::granted(const UpdateGrant& grant) {
   grant_ = grant;
 }
 
-std::optional<Duration> PushEdge::deliver(const ObjectRef& object) {
+std::optional<Duration> PushEdge::deliver(ObjectRef&& object) {
+  const ObjectRef seen = client_.observed() ? object : ObjectRef{};
   {
     const std::lock_guard lock(mutex_);
     std::uint32_t count = count_.load(std::memory_order_relaxed);
@@ -67,9 +68,9 @@ std::optional<Duration> PushEdge::deliver(const ObjectRef& object) {
       if (!make_room()) return publisher_waits_ ? std::optional(policy_.block_limit) : std::nullopt;
       --count;
     }
-    put(object, count);
+    put(std::move(object), count);
   }
-  client_.observe(object);
+  if (seen) client_.observe(seen);
   client_.home().strand.wake();
   return std::nullopt;
 }
@@ -93,10 +94,10 @@ bool PushEdge::make_room() {
 }
 
 // Into the queue, which holds `count` objects.
-void PushEdge::put(const ObjectRef& object, std::uint32_t count) {
+void PushEdge::put(ObjectRef&& object, std::uint32_t count) {
   std::uint32_t last = first_ + count;
   if (last >= policy_.depth) last -= policy_.depth;
-  ring_[last] = object;
+  ring_[last] = std::move(object);
   if (newest_) newest_ = ObjectRef{};
   publisher_waits_ = false;
   count_.store(count + 1, std::memory_order_release);

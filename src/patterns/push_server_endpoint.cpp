@@ -16,21 +16,26 @@ void PushServerEndpoint::announce(Duration base_period) {
   for (Subscription& subscription : subscriptions_) subscription.regrant(base_period);
 }
 
-ObjectRef PushServerEndpoint::push(ObjectLoan loan, const Provenance* provenance) {
+ObjectRef PushServerEndpoint::seal(ObjectLoan loan, const Provenance* provenance) {
   stamp(loan, provenance);
-  ++pushed_;
-  ObjectRef object = std::move(loan).seal();
-  if (subscriber_count() > 0 && !hand_out(object)) wait_for_room(object);
-  return object;
+  return std::move(loan).seal();
 }
 
-// False if the publisher must wait for room somewhere.
-bool PushServerEndpoint::hand_out(const ObjectRef& object) {
+void PushServerEndpoint::publish(ObjectRef object) {
+  ++pushed_;
+  if (subscriber_count() > 0 && !hand_out(object)) wait_for_room(object);
+}
+
+// False if the publisher must wait for room somewhere; otherwise the last subscriber may have got the
+// publisher's own view.
+bool PushServerEndpoint::hand_out(ObjectRef& object) {
   bool done = true;
   const std::lock_guard lock(mutex_);
   for (Subscription& subscription : subscriptions_) {
     if (!subscription.is_due(object)) continue;
-    const std::optional<Duration> wait = subscription.sink->deliver(object);
+    const bool mine = done && &subscription == &subscriptions_.back();
+    const std::optional<Duration> wait =
+        mine ? subscription.sink->deliver(std::move(object)) : subscription.sink->deliver(ObjectRef(object));
     if (!wait) continue;
     subscription.owed_until = saturating_add(home().strand.executive().now(), *wait);
     done = false;
@@ -53,7 +58,7 @@ bool PushServerEndpoint::settle(const ObjectRef& object) {
   const std::lock_guard lock(mutex_);
   for (Subscription& subscription : subscriptions_) {
     if (!subscription.owed_until) continue;
-    if (subscription.sink->deliver(object)) {
+    if (subscription.sink->deliver(ObjectRef(object))) {
       if (home().strand.executive().now() < *subscription.owed_until) {
         settled = false;
         continue;

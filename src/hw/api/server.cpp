@@ -55,7 +55,11 @@ class HardwareServer::SensorPorts {
         : PushServerHandle(owner, std::move(name), type_id(sensor.type()),
                            {.period = sensor.period(), .from_device = true}) {}
     // From the container's strand, so without the provenance of what the component handles at the moment.
-    ObjectRef push(ObjectLoan reading) { return endpoint().push(std::move(reading), nullptr); }
+    ObjectRef push(ObjectLoan reading) {
+      ObjectRef object = endpoint().seal(std::move(reading), nullptr);
+      endpoint().publish(object);
+      return object;
+    }
   };
 
   // The latest reading; of idle hardware, the first after starting it.

@@ -5,7 +5,7 @@
 
 namespace orca {
 
-static thread_local const Activity* t_current = nullptr;
+[[gnu::tls_model("initial-exec")]] static thread_local const Activity* t_current = nullptr;
 
 Activity::Activity(const char* who, const char* what, const void* code) noexcept
     : who_(who), what_(what), code_(code), outer_(std::exchange(t_current, this)) {}
@@ -14,6 +14,8 @@ Activity::~Activity() { t_current = outer_; }
 
 const Activity* Activity::current() noexcept { return t_current; }
 
-void ActivityKeeper::exchange() noexcept { std::swap(kept_, t_current); }
+void ActivityKeeper::keep() noexcept { kept_ = t_current; }
+
+void ActivityKeeper::restore() const noexcept { t_current = kept_; }
 
 }  // namespace orca

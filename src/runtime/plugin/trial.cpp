@@ -113,11 +113,12 @@ Status survives_trial(const Attempt& attempt, Duration limit) {
   int fds[2];
   if (pipe2(fds, O_CLOEXEC) != 0)
     return fail(Code::unavailable, std::string("cannot try it out: ") + std::strerror(errno));
-  ActivityKeeper aside;  // it is not a plugin that calls fork()
-  aside.exchange();
+  ActivityKeeper here;
+  here.keep();
+  ActivityKeeper().restore();  // it is not a plugin that calls fork()
   const pid_t copy = fork();
   if (copy == 0) run_copy(fds[1], attempt);
-  aside.exchange();
+  here.restore();
   close(fds[1]);
   std::string text;
   const bool ended = copy > 0 && read_all(fds[0], limit, text);

@@ -18,6 +18,7 @@ namespace detail {
 struct Slot {
   const ObjectType* type;
   void* object;
+  idl::OrcaObject* header;  // of the object
   std::atomic<std::uint32_t> references{0};
   Slot* next_free = nullptr;
 };
@@ -62,7 +63,7 @@ class ObjectRef {
   /// @pre  *this, for all four.
   [[nodiscard]] const ObjectType& type() const { return *slot_->type; }
   [[nodiscard]] const void* get() const { return slot_->object; }
-  [[nodiscard]] const idl::OrcaObject& header() const { return slot_->type->header(slot_->object); }
+  [[nodiscard]] const idl::OrcaObject& header() const { return *slot_->header; }
   [[nodiscard]] std::string dump() const { return slot_->type->dump(slot_->object); }
 
  private:
@@ -119,7 +120,7 @@ class ObjectLoan {
   [[nodiscard]] const ObjectType& type() const { return *slot_->type; }
   [[nodiscard]] void* get() { return slot_->object; }
   [[nodiscard]] const void* get() const { return slot_->object; }
-  [[nodiscard]] idl::OrcaObject& header() { return slot_->type->header(slot_->object); }
+  [[nodiscard]] idl::OrcaObject& header() { return *slot_->header; }
   explicit operator bool() const { return slot_ != nullptr; }
 
   [[nodiscard]] ObjectRef seal() && { return ObjectRef(slot_.release()); }

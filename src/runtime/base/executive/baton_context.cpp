@@ -8,37 +8,55 @@
 namespace orca::detail {
 namespace {
 
-// A thread that runs only between resume() and suspend(): the baton is the right to run.
+// The right to run, as one thread waits for it.
+class Baton {
+ public:
+  void pass() { passed_.notify(); }
+  void await() { passed_.wait_until(kForever); }
+
+ private:
+  FutexEvent passed_{Duration{0}};
+};
+
+// A thread that runs only while it holds the baton.
 class BatonContext final : public Context {
  public:
-  explicit BatonContext(std::function<void()> body)
-      : thread_([this, run = std::move(body)] {
-          inside_.wait_until(kForever);
+  BatonContext(Baton& scheduler, std::function<void()> body)
+      : scheduler_(scheduler), thread_([this, run = std::move(body)] {
+          mine_.await();
           run();
-          outside_.notify();
+          scheduler_.pass();
         }) {}
   ~BatonContext() override { thread_.join(); }
 
-  void resume() override {
-    inside_.notify();
-    outside_.wait_until(kForever);
+  void enter() override {
+    mine_.pass();
+    scheduler_.await();
   }
 
-  void suspend() override {
-    outside_.notify();
-    inside_.wait_until(kForever);
+  void hand_over(Context& next) override {
+    static_cast<BatonContext&>(next).mine_.pass();
+    mine_.await();
   }
 
  private:
-  FutexEvent inside_{Duration{0}};   // the baton for the thread
-  FutexEvent outside_{Duration{0}};  // the baton for whoever resumed it
+  Baton& scheduler_;
+  Baton mine_;
   std::thread thread_;
+};
+
+class BatonContexts final : public ContextMaker {
+ public:
+  std::unique_ptr<Context> make(std::function<void()> body) override {
+    return std::make_unique<BatonContext>(scheduler_, std::move(body));
+  }
+
+ private:
+  Baton scheduler_;
 };
 
 }  // namespace
 
-std::unique_ptr<Context> make_baton_context(std::function<void()> body) {
-  return std::make_unique<BatonContext>(std::move(body));
-}
+std::unique_ptr<ContextMaker> make_baton_contexts() { return std::make_unique<BatonContexts>(); }
 
 }  // namespace orca::detail

@@ -9,7 +9,7 @@ namespace orca::detail {
 /// A function that can be left and entered again: a fiber or a thread that runs only while it holds the
 /// baton.
 ///
-/// Thread contract: resume() from the scheduler, suspend() from inside; never both at once.
+/// Thread contract: enter() from the scheduler, hand_over() from inside; never both at once.
 class Context {
  public:
   virtual ~Context() = default;
@@ -17,17 +17,25 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Runs the function until it suspends itself or ends.
-  virtual void resume() = 0;
+  /// Runs this function, and those that it hands over to, until one of them ends.
+  virtual void enter() = 0;
 
-  /// Leaves the function; returns when it is resumed.
-  virtual void suspend() = 0;
+  /// Leaves this function for `next`, without a detour through the scheduler; returns when it is entered
+  /// again.
+  /// @pre  next is of the same maker, has not ended, and is not this.
+  virtual void hand_over(Context& next) = 0;
 };
 
-/// Makes contexts of one kind. `body` must not throw.
-using ContextFactory = std::unique_ptr<Context> (*)(std::function<void()> body);
+/// Makes contexts of one kind, which can hand over to each other. It must outlive them.
+class ContextMaker {
+ public:
+  virtual ~ContextMaker() = default;
 
-std::unique_ptr<Context> make_fiber_context(std::function<void()> body);
-std::unique_ptr<Context> make_baton_context(std::function<void()> body);
+  /// @param body  must not throw.
+  [[nodiscard]] virtual std::unique_ptr<Context> make(std::function<void()> body) = 0;
+};
+
+std::unique_ptr<ContextMaker> make_fiber_contexts();
+std::unique_ptr<ContextMaker> make_baton_contexts();
 
 }  // namespace orca::detail

@@ -119,9 +119,10 @@ CooperativeExecutive::Fiber& CooperativeExecutive::ReadyQueue::pop() {
   return fiber;
 }
 
-CooperativeExecutive::CooperativeExecutive(ClockKind clock, ContextFactory make_context, Duration spin)
+CooperativeExecutive::CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts,
+                                           Duration spin)
     : clock_(clock),
-      make_context_(make_context),
+      contexts_(std::move(contexts)),
       ready_(clock == ClockKind::virtual_time),
       inbox_changed_(spin) {}
 
@@ -141,7 +142,7 @@ std::unique_ptr<CooperativeExecutive::Fiber> CooperativeExecutive::make_fiber(Ta
   fiber->name = std::move(options.name);
   fiber->priority = options.priority;
   fiber->ended_event = make_event();
-  fiber->context = make_context_([this, self = fiber.get(), run = std::move(body)] {
+  fiber->context = contexts_->make([this, self = fiber.get(), run = std::move(body)] {
     t_inside = this;
     self->thread_id = gettid();
     self->thread = pthread_self();
@@ -170,29 +171,35 @@ void CooperativeExecutive::run(std::function<void()> main) {
   main_ = fiber.get();
   make_ready(*fiber);
   while (!fiber->ended) {
-    take_notifications();
-    if (!is_virtual()) fire_timers();
-    if (!ready_.empty()) {
-      run_one();
-    } else if (is_virtual()) {
-      advance_virtual_time();
-    } else {
-      wait_for_work();
-    }
+    Fiber& next = next_to_run();
+    begin(next);
+    next.context->enter();
   }
+  running_.store(nullptr, std::memory_order_release);
+  current_ = nullptr;
   main_ = nullptr;
   destroy(std::move(fiber));
   t_inside = outer;
 }
 
-void CooperativeExecutive::run_one() {
-  Fiber& fiber = ready_.pop();
+// Waits, or lets virtual time pass, until a task is ready.
+CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
+  for (;;) {
+    take_notifications();
+    if (!is_virtual()) fire_timers();
+    if (!ready_.empty()) return ready_.pop();
+    if (is_virtual()) {
+      advance_virtual_time();
+    } else {
+      wait_for_work();
+    }
+  }
+}
+
+void CooperativeExecutive::begin(Fiber& fiber) {
   current_ = &fiber;
   running_.store(&fiber, std::memory_order_release);
   switches_.store(switches_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
-  fiber.context->resume();
-  running_.store(nullptr, std::memory_order_release);
-  current_ = nullptr;
 }
 
 void CooperativeExecutive::set_timer(Fiber& fiber, TimePoint deadline) {
@@ -218,8 +225,11 @@ void CooperativeExecutive::make_ready(Fiber& fiber) {
 }
 
 void CooperativeExecutive::block_until(TimePoint deadline) {
-  if (deadline != kForever) set_timer(*current_, deadline);
-  current_->context->suspend();
+  Fiber& leaving = *current_;
+  if (deadline != kForever) set_timer(leaving, deadline);
+  Fiber& next = next_to_run();
+  begin(next);
+  if (&next != &leaving) leaving.context->hand_over(*next.context);
 }
 
 void CooperativeExecutive::fire_timers() {
@@ -241,6 +251,7 @@ void CooperativeExecutive::advance_virtual_time() {
 }
 
 void CooperativeExecutive::wait_for_work() {
+  running_.store(nullptr, std::memory_order_release);  // whoever waits here is not stuck
   inbox_changed_.wait_until(timers_.empty() ? kForever : std::get<TimePoint>(*timers_.begin()));
 }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <tuple>
@@ -20,7 +21,7 @@ class CooperativeEvent;
 /// same for both, so their order is the same.
 class CooperativeExecutive final : public Executive {
  public:
-  CooperativeExecutive(ClockKind clock, ContextFactory make_context, Duration spin);
+  CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts, Duration spin);
   ~CooperativeExecutive() override;
 
   [[nodiscard]] TimePoint now() const override;
@@ -67,7 +68,8 @@ class CooperativeExecutive final : public Executive {
 
   [[nodiscard]] bool sleeps_too_long(const Fiber& fiber, Duration limit);
   std::unique_ptr<Fiber> make_fiber(TaskOptions options, std::function<void()> body);
-  void run_one();
+  Fiber& next_to_run();
+  void begin(Fiber& fiber);
   void set_timer(Fiber& fiber, TimePoint deadline);
   void cancel_timer(Fiber& fiber);
   void take_notifications();
@@ -76,7 +78,7 @@ class CooperativeExecutive final : public Executive {
   void advance_virtual_time();
 
   const ClockKind clock_;
-  const ContextFactory make_context_;
+  const std::unique_ptr<ContextMaker> contexts_;
   std::atomic<std::int64_t> virtual_now_ns_{0};
 
   // Touched only by the thread that schedules or holds the baton.

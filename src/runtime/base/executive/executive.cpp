@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/base/executive.hpp"
 
+#include <utility>
+
 #include "cooperative.hpp"
 #include "futex_event.hpp"
 #include "thread_executive.hpp"
@@ -22,10 +24,10 @@ Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& option
     return std::unique_ptr<Executive>(
         std::make_unique<detail::ThreadExecutive>(detail::useful_spin(options.spin)));
   }
-  const auto factory =
-      options.backend == Backend::fiber ? detail::make_fiber_context : detail::make_baton_context;
+  auto contexts =
+      options.backend == Backend::fiber ? detail::make_fiber_contexts() : detail::make_baton_contexts();
   return std::unique_ptr<Executive>(std::make_unique<detail::CooperativeExecutive>(
-      options.clock, factory, detail::useful_spin(options.spin)));
+      options.clock, std::move(contexts), detail::useful_spin(options.spin)));
 }
 
 }  // namespace orca

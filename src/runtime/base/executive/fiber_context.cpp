@@ -21,17 +21,14 @@ constexpr std::size_t kStackBytes = 8 * 1024 * 1024;  // its red zones make fram
 constexpr std::size_t kStackBytes = 1024 * 1024;
 #endif
 
-// The C++ runtime keeps the exceptions being handled per thread, not per fiber. Without swapping these two
+// The C++ runtime keeps the exceptions being handled per thread, not per fiber. Without exchanging these two
 // words at every switch a rethrow after a switch inside a handler throws another fiber's exception.
 struct ExceptionGlobals {
   void* caught = nullptr;
   unsigned int uncaught = 0;
-
-  void exchange() {
-    auto& live = *reinterpret_cast<ExceptionGlobals*>(abi::__cxa_get_globals());
-    std::swap(live, *this);
-  }
 };
+
+ExceptionGlobals& live_exceptions() { return *reinterpret_cast<ExceptionGlobals*>(abi::__cxa_get_globals()); }
 
 StackBounds bounds_of(const bc::stack_context& stack) {
   return {static_cast<char*>(stack.sp) - stack.size, stack.size};
@@ -47,56 +44,97 @@ struct StackAllocator {
   }
 };
 
-class FiberContext final : public Context {
+// One flow of control, while another runs on the thread: the rest of it, its stack, and what the thread keeps
+// for whoever runs.
+struct Flow {
+  bc::fiber rest;
+  StackBounds stack;
+  void* fake_stack = nullptr;
+  ExceptionGlobals exceptions;
+  ActivityKeeper activity;
+};
+
+// The scheduler and its fibers, of which one runs at a time.
+class FlowSwitch {
  public:
-  explicit FiberContext(std::function<void()> body) : body_(std::move(body)) {
-    StackAllocator allocator;
-    bc::stack_context stack = allocator.allocate();
-    fiber_stack_ = bounds_of(stack);
-    inside_ = bc::fiber(std::allocator_arg, bc::preallocated(stack.sp, stack.size, stack), allocator,
-                        [this](bc::fiber&& caller) { return run(std::move(caller)); });
+  Flow scheduler;
+
+  // To be said before the scheduler leaves: the thread may be another one than last time.
+  void begin() { live_exceptions_ = &live_exceptions(); }
+
+  void go(Flow& from, Flow& to) {
+    exchange(from, to);
+    start_switch(&from.fake_stack, to.stack);
+    arrive(std::move(to.rest).resume(), from.fake_stack);
   }
 
-  void resume() override {
-    exceptions_.exchange();
-    activity_.exchange();
-    start_switch(&caller_fake_stack_, fiber_stack_);
-    inside_ = std::move(inside_).resume();
-    finish_switch(caller_fake_stack_, nullptr);
-    activity_.exchange();
-    exceptions_.exchange();
+  // In whatever a switch leads to, with what is left of the flow that was left. `fake_stack` is null in a new
+  // flow.
+  void arrive(bc::fiber rest, void* fake_stack) {
+    left_->rest = std::move(rest);
+    finish_switch(fake_stack, &left_->stack);
   }
 
-  void suspend() override {
-    start_switch(&fiber_fake_stack_, caller_stack_);
-    outside_ = std::move(outside_).resume();
-    finish_switch(fiber_fake_stack_, &caller_stack_);
+  // Leaves a flow for good: what this returns is to be resumed as the very last thing.
+  bc::fiber end(Flow& ended) {
+    exchange(ended, scheduler);
+    start_switch(nullptr, scheduler.stack);
+    return std::move(scheduler.rest);
   }
 
  private:
-  bc::fiber run(bc::fiber&& caller) {
-    finish_switch(nullptr, &caller_stack_);
-    outside_ = std::move(caller);
-    body_();
-    start_switch(nullptr, caller_stack_);  // null: this stack is left for good
-    return std::move(outside_);
+  void exchange(Flow& from, Flow& to) {
+    from.exceptions = std::exchange(*live_exceptions_, to.exceptions);
+    from.activity.keep();
+    to.activity.restore();
+    left_ = &from;
   }
 
+  Flow* left_ = nullptr;  // by the last switch
+  ExceptionGlobals* live_exceptions_ = nullptr;
+};
+
+class FiberContext final : public Context {
+ public:
+  FiberContext(FlowSwitch& flows, std::function<void()> body) : flows_(flows), body_(std::move(body)) {
+    StackAllocator allocator;
+    bc::stack_context stack = allocator.allocate();
+    flow_.stack = bounds_of(stack);
+    flow_.rest = bc::fiber(std::allocator_arg, bc::preallocated(stack.sp, stack.size, stack), allocator,
+                           [this](bc::fiber&& caller) { return run(std::move(caller)); });
+  }
+
+  void enter() override {
+    flows_.begin();
+    flows_.go(flows_.scheduler, flow_);
+  }
+
+  void hand_over(Context& next) override { flows_.go(flow_, static_cast<FiberContext&>(next).flow_); }
+
+ private:
+  bc::fiber run(bc::fiber&& caller) {
+    flows_.arrive(std::move(caller), nullptr);
+    body_();
+    return flows_.end(flow_);
+  }
+
+  FlowSwitch& flows_;
   std::function<void()> body_;
-  StackBounds fiber_stack_;
-  StackBounds caller_stack_;
-  void* caller_fake_stack_ = nullptr;
-  void* fiber_fake_stack_ = nullptr;
-  ExceptionGlobals exceptions_;
-  ActivityKeeper activity_;
-  bc::fiber inside_;
-  bc::fiber outside_;
+  Flow flow_;
+};
+
+class FiberContexts final : public ContextMaker {
+ public:
+  std::unique_ptr<Context> make(std::function<void()> body) override {
+    return std::make_unique<FiberContext>(flows_, std::move(body));
+  }
+
+ private:
+  FlowSwitch flows_;
 };
 
 }  // namespace
 
-std::unique_ptr<Context> make_fiber_context(std::function<void()> body) {
-  return std::make_unique<FiberContext>(std::move(body));
-}
+std::unique_ptr<ContextMaker> make_fiber_contexts() { return std::make_unique<FiberContexts>(); }
 
 }  // namespace orca::detail

@@ -78,6 +78,8 @@ class Endpoint {
   [[nodiscard]] std::string path() const { return home_.component + "." + contract_.name; }
   [[nodiscard]] PortHome& home() const { return home_; }
 
+  /// Whether there is an observer.
+  [[nodiscard]] bool observed() const { return home_.observer != nullptr; }
   /// Tells the observer, if there is one, that an object has come to this port.
   void observe(const ObjectRef& object) const {
     if (home_.observer != nullptr) home_.observer->delivered(home_.component, contract_.name, object);

@@ -25,9 +25,9 @@ class PushSink {
 
   /// Takes the object, or drops and counts it; never blocks.
   /// @return nothing when that is done; otherwise the queue is full and its policy asks the publisher to wait
-  /// for room and to try again, at most so long.
+  /// for room and to try again, at most so long: then `object` is as it was.
   /// @thread  the server's strand.
-  virtual std::optional<Duration> deliver(const ObjectRef& object) = 0;
+  virtual std::optional<Duration> deliver(ObjectRef&& object) = 0;
 
   /// The publisher has waited long enough for this object: it is dropped and counted.
   virtual void give_up(const ObjectRef& object) = 0;
@@ -58,8 +58,8 @@ class PushSource {
 
 /// Server side of Push: hands every object to all subscribers, each with a queue of its own.
 ///
-/// Thread contract: push() from one task at a time; announce() and the source from any task; the rest from
-/// any thread.
+/// Thread contract: seal() and publish() from one task at a time; announce() and the source from any task;
+/// the rest from any thread.
 class PushServerEndpoint final : public Endpoint {
  public:
   PushServerEndpoint(PortHome& home, PortContract contract);
@@ -68,13 +68,16 @@ class PushServerEndpoint final : public Endpoint {
   void announce(Duration base_period);
   [[nodiscard]] Duration base_period() const { return Duration(base_period_); }
 
-  /// Stamps the object and hands it on. Only edges whose policy is `block` can make it wait, after all others
-  /// have the object; that wait ends early when the component must leave its lap, and the object is dropped
-  /// there.
+  /// Stamps an object that is to be published: from now on nobody can change it.
   /// @param provenance  what the object answers; null: nothing.
-  /// @return the object as all subscribers see it.
   /// @thread  the component's strand; any other only if the contract says from_device.
-  ObjectRef push(ObjectLoan loan, const Provenance* provenance);
+  [[nodiscard]] ObjectRef seal(ObjectLoan loan, const Provenance* provenance);
+
+  /// Hands a sealed object to all subscribers. Only edges whose policy is `block` can make it wait, after all
+  /// others have the object; that wait ends early when the component must leave its lap, and the object is
+  /// dropped there.
+  /// @thread  as seal(), which it follows.
+  void publish(ObjectRef object);
 
   [[nodiscard]] std::size_t subscriber_count() const { return subscribers_.load(std::memory_order_acquire); }
   /// Objects pushed so far, with or without subscribers.
@@ -111,7 +114,7 @@ class PushServerEndpoint final : public Endpoint {
   };
 
   Subscription* find(PushSink& sink);
-  bool hand_out(const ObjectRef& object);
+  bool hand_out(ObjectRef& object);
   void wait_for_room(const ObjectRef& object);
   bool settle(const ObjectRef& object);
   void give_up(const ObjectRef& object);
@@ -144,7 +147,7 @@ class PushEdge final : public PushSink {
   /// What the server agreed to in this subscription; of an unsubscribed edge, what it agreed to last.
   [[nodiscard]] UpdateGrant grant() const;
 
-  std::optional<Duration> deliver(const ObjectRef& object) override;
+  std::optional<Duration> deliver(ObjectRef&& object) override;
   void give_up(const ObjectRef& object) override;
   void granted(const UpdateGrant& grant) override;
 
@@ -177,7 +180,7 @@ class PushEdge final : public PushSink {
   };
 
   bool make_room();
-  void put(const ObjectRef& object, std::uint32_t count);
+  void put(ObjectRef&& object, std::uint32_t count);
   void arrive(TimePoint time);
   [[nodiscard]] UpdateRate rate() const;
   [[nodiscard]] TimePoint now() const { return client_.home().strand.executive().now(); }

@@ -37,8 +37,10 @@ class Activity {
 /// Where the current activity stays while its task does not run: for whoever switches tasks on one thread.
 class ActivityKeeper {
  public:
-  /// Exchanges what is kept for what is current.
-  void exchange() noexcept;
+  /// Keeps what is current, of the task that is left.
+  void keep() noexcept;
+  /// Makes current what was kept, of the task that is entered; at first: nothing.
+  void restore() const noexcept;
 
  private:
   const Activity* kept_ = nullptr;
