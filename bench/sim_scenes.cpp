@@ -87,6 +87,10 @@ RobotModel scout() {
   return m;
 }
 
+// Beams that look about one way.
+constexpr std::size_t kTogether = 19;
+static_assert(Fan::kBeams % kTogether == 0);
+
 Fan::Fan() {
   for (std::size_t k = 0; k < kBeams; ++k)
     directions_[k] = direction((0.5 * static_cast<double>(k) - 90.0) * kDegree);
@@ -99,10 +103,14 @@ Ray Fan::ray(std::size_t beam, const Pose2& X_WS) const {
 const std::array<double, Fan::kBeams>& Fan::cast(const Caster& caster, const Pose2& X_WS,
                                                  std::size_t own_body) {
   const Vec2 ahead = direction(X_WS.yaw);
-  for (std::size_t k = 0; k < kBeams; ++k) {
+  const auto ray = [&](std::size_t k) {
     const Vec2 d = directions_[k];
     const Vec2 u{ahead.x * d.x - ahead.y * d.y, ahead.y * d.x + ahead.x * d.y};
-    ranges_[k] = caster.cast({X_WS.position(), u, kRange, kHeight, own_body}).range;
+    return Ray{X_WS.position(), u, kRange, kHeight, own_body};
+  };
+  for (std::size_t first = 0; first < kBeams; first += kTogether) {
+    const Caster::View view(caster, ray(first + kTogether / 2), 0.25 * kTogether * kDegree);
+    for (std::size_t k = first; k < first + kTogether; ++k) ranges_[k] = view.cast(ray(k)).range;
   }
   return ranges_;
 }

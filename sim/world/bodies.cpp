@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "bodies.hpp"
 
+#include <numbers>
 #include <utility>
 
 #include "intersect.hpp"
@@ -12,6 +13,9 @@ constexpr double kCell = 1.0;   // [m] A few robots' size.
 constexpr double kRoom = 10.0;  // [m] Around all bodies, so that they rarely leave the cells.
 constexpr double kMaxCells = 1e5;
 constexpr std::size_t kFew = 6;  // So many are looked at sooner than cells.
+// So many are looked at for a view; of more, each ray finds its own by the cells.
+constexpr std::size_t kMany = 300;
+constexpr double kWide = 0.25 * std::numbers::pi;  // [rad] A view is narrower.
 
 template <class Visit>
 void for_cells_of(const Cells& cells, const Cells::Range& range, const Visit& visit) {
@@ -32,12 +36,12 @@ Bodies::Outer::Outer(const Moving& moving)
     : around{0.5 * (moving.bounds.low + moving.bounds.high),
              0.5 * norm(moving.bounds.high - moving.bounds.low) + kTouch},
       bottom(moving.body.bottom),
-      top(moving.body.top) {
+      top(moving.present ? moving.body.top : moving.body.bottom) {
   if (const auto* circle = std::get_if<Circle>(&moving.body.shape)) around.radius = circle->radius + kTouch;
 }
 
 bool Bodies::Outer::in_reach(const Ray& ray, double best) const {
-  if (!(bottom <= ray.sensor_height && ray.sensor_height < top)) return false;
+  if (!at(ray.sensor_height)) return false;
   const Vec2 w = around.center - ray.origin;
   const double along = dot(ray.direction, w);
   return std::fabs(cross(ray.direction, w)) <= around.radius && along + around.radius >= 0.0 &&
@@ -51,17 +55,25 @@ void Bodies::Moving::cast(const Ray& ray, double& best, Surface& surface) const 
     if (meet(ray.origin, ray.direction, e, best)) surface = e;
 }
 
+// After each change of the body.
+void Bodies::surround(std::size_t number) {
+  outer_[number] = Outer(bodies_[number]);
+  discs_.set(number, outer_[number].around);
+}
+
 std::size_t Bodies::add(Body body) {
+  const std::size_t number = bodies_.size();
   outer_.emplace_back(bodies_.emplace_back(std::move(body)));
-  place(bodies_.size() - 1);
-  return bodies_.size() - 1;
+  surround(number);
+  place(number);
+  return number;
 }
 
 void Bodies::move(std::size_t number, Shape shape) {
   Moving& moving = bodies_.at(number);
   moving.body.shape = std::move(shape);
   moving.refresh();
-  outer_[number] = Outer(moving);
+  surround(number);
   if (!moving.present) return;
   if (cells_.hold(moving.bounds) && cells_.range(moving.bounds) == moving.listed) return;
   unlist(number);
@@ -69,8 +81,10 @@ void Bodies::move(std::size_t number, Shape shape) {
 }
 
 void Bodies::remove(std::size_t number) {
-  if (bodies_.at(number).present) unlist(number);
-  bodies_[number].present = false;
+  Moving& moving = bodies_.at(number);
+  if (moving.present) unlist(number);
+  moving.present = false;
+  surround(number);
 }
 
 void Bodies::place(std::size_t number) {
@@ -114,13 +128,29 @@ void Bodies::cast(const Ray& ray, double& best, Surface& surface) const {
       bodies_[number].cast(ray, best, surface);
   };
   if (bodies_.size() <= kFew) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-      if (bodies_[i].present) test(i);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) test(i);
     return;
   }
   cells_.walk(ray, best, [&](std::size_t cell) {
     for (const std::uint32_t number : lists_[cell]) test(number);
   });
+}
+
+void Bodies::cast(const Ray& ray, std::span<const std::uint32_t> numbers, double& best,
+                  Surface& surface) const {
+  for (const std::uint32_t number : numbers)
+    if (outer_[number].in_reach(ray, best)) bodies_[number].cast(ray, best, surface);
+}
+
+std::optional<std::vector<std::uint32_t>> Bodies::in_view(const Ray& axis, double half_angle,
+                                                          double slack) const {
+  if (half_angle > kWide || bodies_.size() <= kFew || bodies_.size() > kMany) return std::nullopt;
+  std::vector<std::uint32_t> found =
+      discs_.near({axis.origin, axis.direction, half_angle, axis.max_range}, slack);
+  std::erase_if(found, [&](std::uint32_t number) {
+    return number == axis.ignore_body || !outer_[number].at(axis.sensor_height);
+  });
+  return found;
 }
 
 }  // namespace orca::sim::detail

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "cells.hpp"
+#include "discs.hpp"
 
 namespace orca::sim::detail {
 
@@ -19,6 +22,13 @@ class Bodies {
   // The nearest body on the ray closer than `best`, which becomes its distance; nothing leaves `surface`
   // alone.
   void cast(const Ray& ray, double& best, Surface& surface) const;
+  // The same of the bodies with these numbers only.
+  void cast(const Ray& ray, std::span<const std::uint32_t> numbers, double& best, Surface& surface) const;
+
+  // All bodies that a ray may meet which starts within `slack` [m] of the axis' origin, goes at most
+  // `half_angle` [rad] aside of it and is as the axis otherwise; nothing if that is not worth the search.
+  [[nodiscard]] std::optional<std::vector<std::uint32_t>> in_view(const Ray& axis, double half_angle,
+                                                                  double slack) const;
 
  private:
   // A body, with its edges and its surroundings worked out once per move.
@@ -38,8 +48,9 @@ class Bodies {
   struct Outer {
     explicit Outer(const Moving& moving);
     [[nodiscard]] bool in_reach(const Ray& ray, double best) const;
+    [[nodiscard]] bool at(double height) const { return bottom <= height && height < top; }
     Circle around;
-    double bottom, top;
+    double bottom, top;  // The same for what is not there.
   };
 
   void place(std::size_t number);
@@ -47,8 +58,11 @@ class Bodies {
   void unlist(std::size_t number);
   void choose_cells();
 
+  void surround(std::size_t number);
+
   std::vector<Moving> bodies_;
   std::vector<Outer> outer_;  // Of each body.
+  Discs discs_;               // What lies around each.
   Cells cells_;
   std::vector<std::vector<std::uint32_t>> lists_;  // Of the bodies' numbers, per cell.
 };

@@ -31,6 +31,14 @@ struct Caster::Impl {
   detail::Grid grid;
   detail::MeshSections meshes;
   detail::Bodies bodies;
+
+  // After the bodies.
+  void finish(const Ray& ray, Hit& hit) const {
+    grid.cast(ray, hit.range, hit.surface);
+    meshes.cast(ray, hit.range, hit.surface);
+    hit.point = ray.origin + hit.range * ray.direction;
+    hit.direction = ray.direction;
+  }
 };
 
 Caster::Caster(const WorldModel& world) : impl_(std::make_unique<Impl>(world)) {}
@@ -42,24 +50,45 @@ std::size_t Caster::add_body(Body body) { return impl_->bodies.add(std::move(bod
 void Caster::move_body(std::size_t number, Shape shape) { impl_->bodies.move(number, std::move(shape)); }
 void Caster::remove_body(std::size_t number) { impl_->bodies.remove(number); }
 
-double Hit::incidence() const {
-  Vec2 along{1.0, 0.0};
-  if (const auto* edge = std::get_if<Segment>(&surface)) along = edge->b - edge->a;
+Vec2 Hit::along() const {
+  if (const auto* edge = std::get_if<Segment>(&surface)) return edge->b - edge->a;
   if (const auto* circle = std::get_if<Circle>(&surface)) {
     const Vec2 normal = point - circle->center;
-    along = {-normal.y, normal.x};
+    return {-normal.y, normal.x};
   }
-  return std::atan2(std::fabs(dot(direction, along)), std::fabs(cross(direction, along)));
+  return {1.0, 0.0};
+}
+
+double Hit::incidence() const {
+  const Vec2 surface_along = along();
+  return std::atan2(std::fabs(dot(direction, surface_along)), std::fabs(cross(direction, surface_along)));
+}
+
+bool Hit::steeper_than(double tangent) const {
+  const Vec2 surface_along = along();
+  return std::fabs(dot(direction, surface_along)) <= tangent * std::fabs(cross(direction, surface_along));
 }
 
 Hit Caster::cast(const Ray& ray) const {
   Hit hit;
   hit.range = ray.max_range;
   impl_->bodies.cast(ray, hit.range, hit.surface);
-  impl_->grid.cast(ray, hit.range, hit.surface);
-  impl_->meshes.cast(ray, hit.range, hit.surface);
-  hit.point = ray.origin + hit.range * ray.direction;
-  hit.direction = ray.direction;
+  impl_->finish(ray, hit);
+  return hit;
+}
+
+Caster::View::View(const Caster& caster, const Ray& axis, double half_angle, double slack)
+    : impl_(caster.impl_.get()), bodies_(impl_->bodies.in_view(axis, half_angle, slack)) {}
+
+Hit Caster::View::cast(const Ray& ray) const {
+  Hit hit;
+  hit.range = ray.max_range;
+  if (bodies_) {
+    impl_->bodies.cast(ray, *bodies_, hit.range, hit.surface);
+  } else {
+    impl_->bodies.cast(ray, hit.range, hit.surface);
+  }
+  impl_->finish(ray, hit);
   return hit;
 }
 

@@ -11,6 +11,8 @@ namespace {
 constexpr double kDepthEdge = 0.01;
 // Of the search for the edge within a spot: 2^-12 of its half width.
 constexpr int kHalvings = 12;
+// So many beams in turn look at the same bodies.
+constexpr std::size_t kTogether = 16;
 
 Ray turned(Ray ray, double angle) {
   ray.direction = rotated(ray.direction, angle);
@@ -23,6 +25,7 @@ LaserModel::LaserModel(LaserScanner scanner, const ErrorLevels& errors, RandomSt
     : scanner_(std::move(scanner)),
       errors_(errors),
       random_(random),
+      drop_tangent_(std::tan(errors.laser_drop_angle)),
       bias_(random_.uniform(-errors.laser_bias, errors.laser_bias)),
       scan_end_(start + scanner_.period) {}
 
@@ -32,23 +35,35 @@ TimePoint LaserModel::due(std::size_t beam) const {
   return scan_end_ - Duration{scanner_.sweep.count() * left / static_cast<std::int64_t>(scanner_.count - 1)};
 }
 
-Ray LaserModel::ray(const Pose2& X_WB, std::size_t own_body) const {
+Ray LaserModel::ray(const Pose2& X_WB, double beam, std::size_t own_body) const {
   const Pose2 X_WL = X_WB * scanner_.center;
-  const double angle = scanner_.first_angle + static_cast<double>(ranges_.size()) * scanner_.pitch;
+  const double angle = scanner_.first_angle + beam * scanner_.pitch;
   return {X_WL.position(), direction(X_WL.yaw + angle), scanner_.max_range, scanner_.height, own_body};
 }
 
 void LaserModel::run(const Caster& caster, std::size_t own_body, const TickSpan& span) {
   completed_.reset();
+  std::optional<Caster::View> view;
   for (TimePoint next = due(ranges_.size()); next <= span.to; next = due(ranges_.size())) {
     if (ranges_.empty()) X_RB_ = span.in_robot(next);
-    shoot(caster, ray(span.at(next), own_body));
+    if (!view || ranges_.size() % kTogether == 0) view.emplace(view_of(caster, own_body, span));
+    const Ray ray = this->ray(span.at(next), static_cast<double>(ranges_.size()), own_body);
+    shoot(caster, {ray, view->cast(ray)});
     if (ranges_.size() == scanner_.count) complete();
   }
 }
 
-void LaserModel::shoot(const Caster& caster, const Ray& ray) {
-  const Beam beam{ray, caster.cast(ray)};
+// Of the beams to come up to the next multiple of kTogether, wherever the robot is meanwhile.
+Caster::View LaserModel::view_of(const Caster& caster, std::size_t own_body, const TickSpan& span) const {
+  const std::size_t left = kTogether - ranges_.size() % kTogether;
+  const double turn = std::fabs(wrapped(span.X_to.yaw - span.X_from.yaw));
+  const double way = norm(span.X_to.position() - span.X_from.position());
+  const double half = 0.5 * static_cast<double>(left);
+  return {caster, ray(span.X_to, static_cast<double>(ranges_.size()) + half, own_body),
+          half * std::fabs(scanner_.pitch) + turn, way + turn * norm(scanner_.center.position())};
+}
+
+void LaserModel::shoot(const Caster& caster, const Beam& beam) {
   ranges_.push_back(returns(beam.hit) ? beam.hit.range : scanner_.max_range);
   const std::size_t k = ranges_.size() - 1;
   // Only where two neighbours meet different surfaces there may be an edge in the spot of either.
@@ -60,9 +75,7 @@ void LaserModel::shoot(const Caster& caster, const Ray& ray) {
   previous_ = beam;
 }
 
-bool LaserModel::returns(const Hit& hit) const {
-  return hit.found() && hit.incidence() <= errors_.laser_drop_angle;
-}
+bool LaserModel::returns(const Hit& hit) const { return hit.found() && hit.steeper_than(drop_tangent_); }
 
 // A spot that lies on two surfaces reads as their mean, weighted by their shares of its width. `rim` [rad] is
 // where the spot ends on the side to look at; what returns nothing has no share.

@@ -32,8 +32,9 @@ class LaserModel {
   };
 
   [[nodiscard]] TimePoint due(std::size_t beam) const;
-  [[nodiscard]] Ray ray(const Pose2& X_WB, std::size_t own_body) const;
-  void shoot(const Caster& caster, const Ray& ray);
+  [[nodiscard]] Ray ray(const Pose2& X_WB, double beam, std::size_t own_body) const;
+  [[nodiscard]] Caster::View view_of(const Caster& caster, std::size_t own_body, const TickSpan& span) const;
+  void shoot(const Caster& caster, const Beam& beam);
   [[nodiscard]] bool returns(const Hit& hit) const;
   void mix(const Caster& caster, const Beam& beam, double rim, double& range) const;
   void complete();
@@ -42,6 +43,7 @@ class LaserModel {
   LaserScanner scanner_;
   ErrorLevels errors_;
   RandomStream random_;
+  double drop_tangent_;
   double bias_;  // [m] Of this device in this run.
   TimePoint scan_end_;
   Beam previous_;

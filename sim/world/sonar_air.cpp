@@ -13,29 +13,32 @@ constexpr double kFadesAfter = 0.040;  // [s]
 // [m] A transducer sits in its robot's body, whose boundary is what a ray meets.
 constexpr double kInBody = 0.1;
 
-Vec2 mirrored(Vec2 p, const Segment& mirror) {
-  const Vec2 along = mirror.b - mirror.a;
-  const Vec2 foot = mirror.a + dot(p - mirror.a, along) / dot(along, along) * along;
-  return 2.0 * foot - p;
-}
-
 // Off what the sound of others may come to a listener.
 class Ear {
  public:
   // Scatters sound to all sides.
   struct Point {
     Vec2 at;
-    double length;    // [m] To the listener.
-    double strength;  // Of what it sends there.
+    double length;  // [m] To the listener.
+    double loss;    // [Np] Of what it sends there.
     enum class Sight { unknown, free, blocked } sight = Sight::unknown;
   };
 
+  // A surface that mirrors, with what does not depend on where the sound comes from.
+  struct Wall {
+    Vec2 begin;
+    Vec2 along;     // To its end.
+    double square;  // [m^2] Of its length.
+    double side;    // Of the listener: positive on the left of it [m^2];
+    double at;      // and how far along the wall it is [m^2].
+  };
+
   Ear(const Caster& caster, std::uint64_t own, const Beam& beam, const Echo& echo, double now)
-      : caster_(caster), cone(own, beam, echo.reach, now) {
+      : caster_(caster), view_(echo.view), cone(own, beam, echo.reach, now) {
     for (const Surface& surface : echo.surfaces) {
       if (const auto* circle = std::get_if<Circle>(&surface)) posts.push_back(*circle);
       if (const auto* edge = std::get_if<Segment>(&surface)) {
-        walls.push_back(*edge);
+        add(*edge);
         add(edge->a);
         add(edge->b);
       }
@@ -45,35 +48,47 @@ class Ear {
   // Asked once: it takes a cast.
   bool sees(Point& point) const {
     if (point.sight == Point::Sight::unknown)
-      point.sight = sees(cone.beam, point.at, point.length) ? Point::Sight::free : Point::Sight::blocked;
+      point.sight =
+          sees(view_, cone.beam, point.at, point.length) ? Point::Sight::free : Point::Sight::blocked;
     return point.sight == Point::Sight::free;
   }
-  [[nodiscard]] bool sees(const Beam& beam, Vec2 point, double length) const {
-    if (length > beam.max_range) return false;
-    const Vec2 towards = (1.0 / length) * (point - beam.sensor.position());
-    return caster_.cast(beam.ray(towards)).range >= length - kSeen;
+  // The same of another's beam.
+  [[nodiscard]] bool is_seen(const Beam& beam, Vec2 point, double length) const {
+    return sees(caster_, beam, point, length);
   }
   // True if nothing but the robot that carries the other transducer is on the way there.
   [[nodiscard]] bool sees_transducer(Vec2 way, double length) const {
-    return caster_.cast(cone.beam.ray((1.0 / length) * way)).range >=
+    return view_.cast(cone.beam.ray((1.0 / length) * way)).range >=
            std::fmin(length - kInBody, cone.beam.max_range);
   }
 
  private:
+  template <class Eye>
+  static bool sees(const Eye& eye, const Beam& beam, Vec2 point, double length) {
+    if (length > beam.max_range) return false;
+    const Vec2 towards = (1.0 / length) * (point - beam.sensor.position());
+    return eye.cast(beam.ray(towards)).range >= length - kSeen;
+  }
+  void add(const Segment& edge) {
+    const Vec2 along = edge.b - edge.a;
+    const Vec2 to = cone.beam.sensor.position() - edge.a;
+    walls.push_back({edge.a, along, dot(along, along), cross(along, to), dot(along, to)});
+  }
   // Walls that meet have their ends in common.
   void add(Vec2 end) {
     const Vec2 to = end - cone.beam.sensor.position();
     const auto is_end = [end](const Point& known) { return known.at == end; };
     if (!cone.holds(to) || std::ranges::any_of(points, is_end)) return;
-    const double strength = kEdgeStrength * cone.strength(to);
-    if (strength >= kThreshold) points.push_back({end, norm(to), strength});
+    const double loss = kEdgeLoss + cone.loss(to);
+    if (loss <= kMostLoss) points.push_back({end, norm(to), loss});
   }
 
   const Caster& caster_;
+  const Caster::View& view_;
 
  public:
   SonarAir::Cone cone;
-  std::vector<Segment> walls;
+  std::vector<Wall> walls;
   std::vector<Circle> posts;
   std::vector<Point> points;
 };
@@ -86,12 +101,15 @@ class Ways {
 
   // False if even the straight way is longer than what is heard already.
   [[nodiscard]] bool may_be_heard() const {
-    return !nearest_ || taken_for(norm(sender() - listener())) < *nearest_;
+    if (!nearest_) return true;
+    const Vec2 way = sender() - listener();
+    const double longest = 2.0 * *nearest_ + head_start_;
+    return dot(way, way) < longest * longest;
   }
 
   void follow() {
     straight();
-    for (const Segment& wall : ear_.walls) off_mirror(wall);
+    for (const Ear::Wall& wall : ear_.walls) off_mirror(wall);
     for (const Circle& post : ear_.posts) off_circle(post);
     for (Ear::Point& point : ear_.points) off_point(point);
   }
@@ -103,19 +121,20 @@ class Ways {
     const Vec2 way = sender() - listener();
     const double length = norm(way);
     if (length <= kInBody || !ear_.cone.holds(way) || !from_.holds(-1.0 * way) || !in_window(length)) return;
-    if (ear_.cone.strength(way) * from_.strength(-1.0 * way) < kThreshold) return;
+    if (ear_.cone.loss(way) + from_.loss(-1.0 * way) > kMostLoss) return;
     if (ear_.sees_transducer(way, length)) keep(length);
   }
 
-  // Sound comes off a wall as from the sender's image behind it.
-  void off_mirror(const Segment& wall) {
-    const Vec2 along = wall.b - wall.a;
-    const double side = cross(along, sender() - wall.a);
-    const double other = cross(along, listener() - wall.a);
-    if (side * other <= 0.0) return;
-    const Vec2 hit = listener() + other / (side + other) * (mirrored(sender(), wall) - listener());
-    const double share = dot(hit - wall.a, along) / dot(along, along);
-    if (share > 0.0 && share < 1.0) off_spot(hit);
+  // Sound comes off a wall where it makes equal angles with it: there the distances of the two from the wall
+  // divide what lies between them along it.
+  void off_mirror(const Ear::Wall& wall) {
+    const Vec2 to = sender() - wall.begin;
+    const double side = cross(wall.along, to);
+    if (side * wall.side <= 0.0) return;
+    const double weight = std::fabs(side) + std::fabs(wall.side);
+    const double place = std::fabs(side) * wall.at + std::fabs(wall.side) * dot(wall.along, to);
+    if (place > 0.0 && place < weight * wall.square)
+      off_spot(wall.begin + place / (weight * wall.square) * wall.along);
   }
   // Near enough where the two directions to its centre meet halfway.
   void off_circle(const Circle& circle) {
@@ -129,15 +148,15 @@ class Ways {
     const Vec2 way = point.at - sender();
     if (!from_.holds(way)) return;
     const double length = norm(way);
-    if (!in_window(length + point.length) || point.strength * from_.strength(way) < kThreshold) return;
-    if (ear_.sees(point) && ear_.sees(from_.beam, point.at, length)) keep(length + point.length);
+    if (!in_window(length + point.length) || point.loss + from_.loss(way) > kMostLoss) return;
+    if (ear_.sees(point) && ear_.is_seen(from_.beam, point.at, length)) keep(length + point.length);
   }
 
   // A point of a surface that turns there from the one to the other.
   void off_spot(Vec2 spot) {
     const Vec2 to = spot - listener();
     if (!ear_.cone.holds(to) || !from_.holds(spot - sender())) return;
-    Ear::Point point{spot, norm(to), ear_.cone.strength(to)};
+    Ear::Point point{spot, norm(to), ear_.cone.loss(to)};
     off_point(point);
   }
   [[nodiscard]] const Beam& beam() const { return ear_.cone.beam; }
@@ -186,9 +205,8 @@ SonarAir::Cone::Cone(std::uint64_t chirp, const Beam& from, double goes, double 
              sent_at,
              sent_at + std::fmin(kFadesAfter, (goes + 2.0 * kInBody) / kSoundSpeed)} {}
 
-double SonarAir::Cone::strength(Vec2 towards) const {
-  const double share = std::atan2(std::fabs(cross(axis, towards)), dot(axis, towards)) / beam.half_lobe;
-  return std::exp(-share * share);
+double SonarAir::Cone::loss(Vec2 towards) const {
+  return lobe_loss(std::atan2(cross(axis, towards), dot(axis, towards)), beam.half_lobe);
 }
 
 std::uint64_t SonarAir::send(TimePoint time, const Beam& beam, double reach) {

@@ -24,9 +24,8 @@ class SonarAir {
       const Vec2 to = circle.center - sector.tip;
       return cross(sector.left, to) <= circle.radius && cross(sector.right, to) >= -circle.radius;
     }
-    // Strength of the transducer in a direction that it holds, on one way: squared, it is what its own echo
-    // has from there (sonar_echo.cpp).
-    [[nodiscard]] double strength(Vec2 towards) const;
+    // Of the transducer in a direction that it holds, on one way.
+    [[nodiscard]] double loss(Vec2 towards) const;
 
     std::uint64_t number;  // Of the chirp.
     Beam beam;

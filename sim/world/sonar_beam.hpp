@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -23,10 +24,17 @@ struct Beam {
   }
 };
 
-// Of the sound on the axis. A smooth wall is just heard at the rim of the lobe, exp(-2) = 0.135.
-constexpr double kThreshold = 0.1;
-// An edge scatters a part of the sound only, so it is heard in the middle of the beam only.
-constexpr double kEdgeStrength = 0.3;
+// How much weaker than on the axis sound is, as the logarithm of the ratio [Np]: losses add up.
+// What is lost in a direction off the axis, on one way: exp(-2) = 0.135 at the rim of the lobe, there and
+// back.
+inline double lobe_loss(double off_axis, double half_lobe) {
+  const double share = off_axis / half_lobe;
+  return share * share;
+}
+// A tenth is still heard: a smooth wall at the rim of the lobe just so.
+inline const double kMostLoss = std::log(10.0);
+// An edge scatters three tenths of the sound only, so it is heard in the middle of the beam only.
+inline const double kEdgeLoss = -std::log(0.3);
 // [m] A point of a surface is seen if the ray to it ends this close to it.
 constexpr double kSeen = 1e-6;
 
@@ -35,6 +43,7 @@ struct Echo {
   std::optional<double> range;    // [m] From where the first comes back that is strong enough.
   std::vector<Surface> surfaces;  // All that the beam meets.
   double reach = 0.0;             // [m] It meets nothing farther.
+  Caster::View view;              // Of the cone, until something moves.
 };
 
 // The first echo, without noise. Surfaces met at more than `critical_angle` [rad] mirror the sound away; if

@@ -28,21 +28,20 @@ std::optional<Vec2> crossing(const Segment& one, const Segment& other) {
 class Listener {
  public:
   Listener(const Caster& caster, const Beam& beam, double critical_angle)
-      : caster_(caster), beam_(beam), critical_angle_(critical_angle) {}
+      : caster_(caster),
+        beam_(beam),
+        axis_(direction(beam.sensor.yaw)),
+        view_(caster, beam.ray(axis_), beam.half_lobe),
+        critical_tangent_(std::tan(critical_angle)) {}
 
-  // A ray of the fan: a surface met steeply enough answers; its nearest and end points are looked at
-  // afterwards.
-  void probe(double off_axis) {
-    const Ray ray = beam_.ray(direction(beam_.sensor.yaw + off_axis));
-    const Hit hit = caster_.cast(ray);
-    reach_ = std::max(reach_, hit.range);
-    if (!hit.found()) return;
-    if (hit.incidence() <= critical_angle_) {
-      offer(hit.range, off_axis, 1.0);
-    } else {
-      mirrored_.push_back({ray, hit, off_axis});
+  void probe_fan() {
+    const double pitch = 2.0 * beam_.half_lobe / (kRays - 1);
+    const Vec2 turn = direction(pitch);
+    Vec2 towards = rotated(axis_, -beam_.half_lobe);
+    for (int i = 0; i < kRays; ++i) {
+      probe(i * pitch - beam_.half_lobe, towards);
+      towards = {turn.x * towards.x - turn.y * towards.y, turn.y * towards.x + turn.x * towards.y};
     }
-    if (std::ranges::find(surfaces_, hit.surface) == surfaces_.end()) surfaces_.push_back(hit.surface);
   }
 
   // What is met behind a mirror, if it sends the sound back the way it came. Only flat walls mirror.
@@ -57,7 +56,7 @@ class Listener {
       second.direction = away;
       second.max_range = beam_.max_range - m.hit.range;
       const Hit hit = caster_.cast(second);
-      if (hit.found() && hit.incidence() <= critical_angle_) offer(m.hit.range + hit.range, m.off_axis, 1.0);
+      if (hit.found() && hit.steeper_than(critical_tangent_)) offer(m.hit.range + hit.range, m.off_axis);
     }
   }
 
@@ -66,11 +65,11 @@ class Listener {
     for (const Surface& s : surfaces_) {
       if (const auto* circle = std::get_if<Circle>(&s)) {
         const Vec2 to_center = circle->center - from;
-        probe_point(from + (1.0 - circle->radius / norm(to_center)) * to_center, 1.0);
+        probe_point(from + (1.0 - circle->radius / norm(to_center)) * to_center, 0.0);
       } else if (const auto* edge = std::get_if<Segment>(&s)) {
         probe_foot(*edge, from);
-        probe_point(edge->a, kEdgeStrength);
-        probe_point(edge->b, kEdgeStrength);
+        probe_point(edge->a, kEdgeLoss);
+        probe_point(edge->b, kEdgeLoss);
       }
     }
   }
@@ -82,14 +81,29 @@ class Listener {
         const auto* one = std::get_if<Segment>(&surfaces_[i]);
         const auto* other = std::get_if<Segment>(&surfaces_[k]);
         if (one == nullptr || other == nullptr) continue;
-        if (const auto corner = crossing(*one, *other)) probe_point(*corner, kEdgeStrength);
+        if (const auto corner = crossing(*one, *other)) probe_point(*corner, kEdgeLoss);
       }
   }
 
   [[nodiscard]] bool heard() const { return nearest_.has_value(); }
-  [[nodiscard]] Echo result() && { return {nearest_, std::move(surfaces_), reach_}; }
+  [[nodiscard]] Echo result() && { return {nearest_, std::move(surfaces_), reach_, std::move(view_)}; }
 
  private:
+  // A ray of the fan: a surface met steeply enough answers; its nearest and end points are looked at
+  // afterwards.
+  void probe(double off_axis, Vec2 towards) {
+    const Ray ray = beam_.ray(towards);
+    const Hit hit = view_.cast(ray);
+    reach_ = std::max(reach_, hit.range);
+    if (!hit.found()) return;
+    if (hit.steeper_than(critical_tangent_)) {
+      offer(hit.range, off_axis);
+    } else {
+      mirrored_.push_back({ray, hit, off_axis});
+    }
+    if (std::ranges::find(surfaces_, hit.surface) == surfaces_.end()) surfaces_.push_back(hit.surface);
+  }
+
   struct Mirrored {
     Ray ray;
     Hit hit;
@@ -99,30 +113,29 @@ class Listener {
   // Where the surface faces the sensor, if that point is not an end: sound comes straight back from there.
   void probe_foot(const Segment& edge, Vec2 from) {
     const Vec2 foot = nearest_point(edge, from);
-    if (!(foot == edge.a) && !(foot == edge.b)) probe_point(foot, 1.0);
+    if (!(foot == edge.a) && !(foot == edge.b)) probe_point(foot, 0.0);
   }
-  void probe_point(Vec2 point, double strength) {
+  void probe_point(Vec2 point, double loss) {
     const Vec2 w = point - beam_.sensor.position();
     const double range = norm(w);
     if (range > beam_.max_range || !nearer(range)) return;
-    const double angle = std::atan2(w.y, w.x);
-    const double off_axis = wrapped(angle - beam_.sensor.yaw);
-    if (std::fabs(off_axis) > beam_.half_lobe || !is_strong(off_axis, strength)) return;
-    if (caster_.cast(beam_.ray(direction(angle))).range >= range - kSeen) nearest_ = range;
+    const double off_axis = std::atan2(cross(axis_, w), dot(axis_, w));
+    if (std::fabs(off_axis) > beam_.half_lobe || !is_heard(off_axis, loss)) return;
+    if (view_.cast(beam_.ray((1.0 / range) * w)).range >= range - kSeen) nearest_ = range;
   }
-  void offer(double range, double off_axis, double strength) {
-    if (nearer(range) && is_strong(off_axis, strength)) nearest_ = range;
+  void offer(double range, double off_axis) {
+    if (nearer(range) && is_heard(off_axis, 0.0)) nearest_ = range;
   }
   [[nodiscard]] bool nearer(double range) const { return !nearest_ || range < *nearest_; }
-  // A Gaussian beam whose deviation is half the half lobe.
-  [[nodiscard]] bool is_strong(double off_axis, double strength) const {
-    const double deviations = 2.0 * off_axis / beam_.half_lobe;
-    return strength * std::exp(-0.5 * deviations * deviations) >= kThreshold;
+  [[nodiscard]] bool is_heard(double off_axis, double loss) const {
+    return 2.0 * lobe_loss(off_axis, beam_.half_lobe) + loss <= kMostLoss;
   }
 
   const Caster& caster_;
   const Beam& beam_;
-  double critical_angle_;
+  Vec2 axis_;
+  Caster::View view_;  // Of all that lies in the cone.
+  double critical_tangent_;
   std::vector<Surface> surfaces_;
   std::vector<Mirrored> mirrored_;
   std::optional<double> nearest_;
@@ -133,7 +146,7 @@ class Listener {
 
 Echo echo_of(const Caster& caster, const Beam& beam, double critical_angle) {
   Listener listener(caster, beam, critical_angle);
-  for (int i = 0; i < kRays; ++i) listener.probe(beam.half_lobe * (2.0 * i / (kRays - 1) - 1.0));
+  listener.probe_fan();
   listener.probe_surfaces();
   listener.probe_corners();
   if (!listener.heard()) listener.probe_mirrors();

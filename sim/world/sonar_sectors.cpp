@@ -5,16 +5,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "single_precision.hpp"
+
 namespace orca::sim::detail {
 namespace {
 
-// What single precision may lose: of times, which are small, and of places, by their size.
+// What single precision may lose of times, which are small.
 constexpr float kTimeMargin = 1e-5F;  // [s]
-float margin_at(Vec2 place) {
-  return static_cast<float>(1e-3 + 1e-6 * (std::fabs(place.x) + std::fabs(place.y)));
-}
-
-float single(double value) { return static_cast<float>(value); }
+float margin_at(Vec2 place) { return single(single_margin(place)); }
 
 // So many marks are looked at together.
 constexpr std::size_t kGroup = 8;

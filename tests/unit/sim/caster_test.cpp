@@ -126,6 +126,8 @@ TEST_CASE("a ray along the shared line of two pixels' corners does not slip betw
 TEST_CASE("incidence is the angle between ray and surface normal", "[sim][caster]") {
   const Caster caster(room());
   CHECK(caster.cast({{1, 1}, direction(0.3), 10.0, 0.0}).incidence() == Approx(0.3));
+  CHECK(caster.cast({{1, 1}, direction(0.3), 10.0, 0.0}).steeper_than(std::tan(0.301)));
+  CHECK_FALSE(caster.cast({{1, 1}, direction(0.3), 10.0, 0.0}).steeper_than(std::tan(0.299)));
   const Caster post(WorldModel{"post", {{"post", Circle{{2, 0}, 0.5}, 1.0}}, {}});
   CHECK(post.cast({{0, 0}, direction(0.0), 10.0, 0.0}).incidence() == Approx(0.0).margin(1e-9));
   CHECK(post.cast({{0, 0.25}, direction(0.0), 10.0, 0.0}).incidence() == Approx(std::asin(0.5)));

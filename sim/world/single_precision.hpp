@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+
+#include "orca/sim/geometry.hpp"
+
+namespace orca::sim::detail {
+
+inline float single(double value) { return static_cast<float>(value); }
+
+// What single precision may lose near a place, and generously more [m]: a search in it that allows for this
+// finds too many rather than too few.
+inline double single_margin(Vec2 place) { return 1e-3 + 1e-6 * (std::fabs(place.x) + std::fabs(place.y)); }
+
+}  // namespace orca::sim::detail
