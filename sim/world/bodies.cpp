@@ -15,6 +15,7 @@ constexpr double kMaxCells = 1e5;
 constexpr std::size_t kFew = 6;  // So many are looked at sooner than cells.
 // So many are looked at for a view; of more, each ray finds its own by the cells.
 constexpr std::size_t kMany = 300;
+constexpr std::uint64_t kMostEdges = 1U << 20U;    // Of a body, for numbers.
 constexpr double kWide = 0.25 * std::numbers::pi;  // [rad] A view is narrower.
 
 template <class Visit>
@@ -48,11 +49,17 @@ bool Bodies::Outer::in_reach(const Ray& ray, double best) const {
          along - around.radius <= best;
 }
 
-void Bodies::Moving::cast(const Ray& ray, double& best, Surface& surface) const {
-  if (const auto* circle = std::get_if<Circle>(&body.shape))
-    if (meet(ray.origin, ray.direction, *circle, best)) surface = *circle;
-  for (const Segment& e : edges)
-    if (meet(ray.origin, ray.direction, e, best)) surface = e;
+bool Bodies::Moving::cast(const Ray& ray, Hit& hit) const {
+  bool met = false;
+  const auto test = [&](const auto& boundary, std::uint64_t number) {
+    if (!meet(ray.origin, ray.direction, boundary, hit.range)) return;
+    hit.surface = boundary;
+    hit.element = number;
+    met = true;
+  };
+  if (const auto* circle = std::get_if<Circle>(&body.shape)) test(*circle, 0);
+  for (std::size_t i = 0; i < edges.size(); ++i) test(edges[i], i);
+  return met;
 }
 
 // After each change of the body.
@@ -122,24 +129,26 @@ void Bodies::unlist(std::size_t number) {
                [&](std::size_t c) { std::erase(lists_[c], static_cast<std::uint32_t>(number)); });
 }
 
-void Bodies::cast(const Ray& ray, double& best, Surface& surface) const {
+void Bodies::cast_at(std::size_t number, const Ray& ray, Hit& hit) const {
+  if (outer_[number].in_reach(ray, hit.range) && bodies_[number].cast(ray, hit))
+    hit.element += number * kMostEdges;
+}
+
+void Bodies::cast(const Ray& ray, Hit& hit) const {
   const auto test = [&](std::size_t number) {
-    if (number != ray.ignore_body && outer_[number].in_reach(ray, best))
-      bodies_[number].cast(ray, best, surface);
+    if (number != ray.ignore_body) cast_at(number, ray, hit);
   };
   if (bodies_.size() <= kFew) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) test(i);
     return;
   }
-  cells_.walk(ray, best, [&](std::size_t cell) {
+  cells_.walk(ray, hit.range, [&](std::size_t cell) {
     for (const std::uint32_t number : lists_[cell]) test(number);
   });
 }
 
-void Bodies::cast(const Ray& ray, std::span<const std::uint32_t> numbers, double& best,
-                  Surface& surface) const {
-  for (const std::uint32_t number : numbers)
-    if (outer_[number].in_reach(ray, best)) bodies_[number].cast(ray, best, surface);
+void Bodies::cast(const Ray& ray, std::span<const std::uint32_t> numbers, Hit& hit) const {
+  for (const std::uint32_t number : numbers) cast_at(number, ray, hit);
 }
 
 std::optional<std::vector<std::uint32_t>> Bodies::in_view(const Ray& axis, double half_angle,

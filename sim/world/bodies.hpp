@@ -19,11 +19,11 @@ class Bodies {
   void move(std::size_t number, Shape shape);
   void remove(std::size_t number);
 
-  // The nearest body on the ray closer than `best`, which becomes its distance; nothing leaves `surface`
-  // alone.
-  void cast(const Ray& ray, double& best, Surface& surface) const;
+  // The nearest body on the ray closer than the hit, which it then becomes, with a number of its own for each
+  // edge of each body.
+  void cast(const Ray& ray, Hit& hit) const;
   // The same of the bodies with these numbers only.
-  void cast(const Ray& ray, std::span<const std::uint32_t> numbers, double& best, Surface& surface) const;
+  void cast(const Ray& ray, std::span<const std::uint32_t> numbers, Hit& hit) const;
 
   // All bodies that a ray may meet which starts within `slack` [m] of the axis' origin, goes at most
   // `half_angle` [rad] aside of it and is as the axis otherwise; nothing if that is not worth the search.
@@ -35,7 +35,8 @@ class Bodies {
   struct Moving {
     explicit Moving(Body b);
     void refresh();
-    void cast(const Ray& ray, double& best, Surface& surface) const;
+    // True if it is closer than the hit, which then has the edge's number within the body.
+    bool cast(const Ray& ray, Hit& hit) const;
 
     Body body;
     bool present = true;
@@ -53,6 +54,7 @@ class Bodies {
     double bottom, top;  // The same for what is not there.
   };
 
+  void cast_at(std::size_t number, const Ray& ray, Hit& hit) const;
   void place(std::size_t number);
   void list(std::size_t number);
   void unlist(std::size_t number);

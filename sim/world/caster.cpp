@@ -10,6 +10,11 @@
 namespace orca::sim {
 namespace {
 
+// What the numbers of elements begin with.
+constexpr std::uint64_t kMesh = 1;
+constexpr std::uint64_t kStanding = std::uint64_t{1} << 62U;
+constexpr std::uint64_t kBodies = std::uint64_t{2} << 62U;
+
 detail::Grid::Elements elements_of(const WorldModel& world) {
   detail::Grid::Elements elements;
   for (const Obstacle& o : world.obstacles)
@@ -34,8 +39,13 @@ struct Caster::Impl {
 
   // After the bodies.
   void finish(const Ray& ray, Hit& hit) const {
-    grid.cast(ray, hit.range, hit.surface);
-    meshes.cast(ray, hit.range, hit.surface);
+    const double bodies_at = hit.range;
+    if (hit.found()) hit.element += kBodies;
+    grid.cast(ray, hit);
+    const double grid_at = hit.range;
+    if (grid_at < bodies_at) hit.element += kStanding;
+    meshes.cast(ray, hit);
+    if (hit.range < grid_at) hit.element = kMesh;  // its sections at several heights have other edges
     hit.point = ray.origin + hit.range * ray.direction;
     hit.direction = ray.direction;
   }
@@ -72,7 +82,7 @@ bool Hit::steeper_than(double tangent) const {
 Hit Caster::cast(const Ray& ray) const {
   Hit hit;
   hit.range = ray.max_range;
-  impl_->bodies.cast(ray, hit.range, hit.surface);
+  impl_->bodies.cast(ray, hit);
   impl_->finish(ray, hit);
   return hit;
 }
@@ -84,9 +94,9 @@ Hit Caster::View::cast(const Ray& ray) const {
   Hit hit;
   hit.range = ray.max_range;
   if (bodies_) {
-    impl_->bodies.cast(ray, *bodies_, hit.range, hit.surface);
+    impl_->bodies.cast(ray, *bodies_, hit);
   } else {
-    impl_->bodies.cast(ray, hit.range, hit.surface);
+    impl_->bodies.cast(ray, hit);
   }
   impl_->finish(ray, hit);
   return hit;

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "discs.hpp"
 
+#include "marks.hpp"
 #include "single_precision.hpp"
 
 namespace orca::sim::detail {
+namespace {
+
+// So many circles are asked about at a time.
+constexpr std::size_t kBlock = 64;
+static_assert(kBlock % kMarkGroup == 0);
+
+}  // namespace
 
 void Discs::set(std::size_t number, const Circle& circle) {
   if (number >= x_.size())
@@ -14,39 +22,46 @@ void Discs::set(std::size_t number, const Circle& circle) {
 }
 
 std::vector<std::uint32_t> Discs::near(const Cone& cone, double slack) const {
-  std::vector<std::int32_t> marks(x_.size());
-  mark(cone, slack, marks.data());
+  const Question asked(cone, slack);
+  std::array<std::int32_t, kBlock> marks;
   std::vector<std::uint32_t> found;
-  for (std::size_t i = 0; i < marks.size(); ++i)
-    if (marks[i] != 0) found.push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t first = 0; first < x_.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, x_.size() - first);
+    mark(asked, first, count, marks.data());
+    for_all_marked(marks.data(), count,
+                   [&](std::size_t i) { found.push_back(static_cast<std::uint32_t>(first + i)); });
+  }
   return found;
 }
 
-void Discs::mark(const Cone& cone, double slack, std::int32_t* marks) const {
+Discs::Question::Question(const Cone& cone, double slack) {
   const Vec2 left = rotated(cone.axis, cone.half_angle);
   const Vec2 right = rotated(cone.axis, -cone.half_angle);
-  const float tx = single(cone.tip.x);
-  const float ty = single(cone.tip.y);
-  const float lx = single(left.x);
-  const float ly = single(left.y);
-  const float rx = single(right.x);
-  const float ry = single(right.y);
-  const float ax = single(cone.axis.x);
-  const float ay = single(cone.axis.y);
-  const float reach = single(cone.reach);
-  const float wider = single(slack + single_margin(cone.tip));
-  const float* const X = x_.data();
-  const float* const Y = y_.data();
-  const float* const R = radius_.data();
-  const std::size_t count = x_.size();
+  tip_x = single(cone.tip.x);
+  tip_y = single(cone.tip.y);
+  left_x = single(left.x);
+  left_y = single(left.y);
+  right_x = single(right.x);
+  right_y = single(right.y);
+  axis_x = single(cone.axis.x);
+  axis_y = single(cone.axis.y);
+  reach = single(cone.reach);
+  wider = single(slack + single_margin(cone.tip));
+}
+
+void Discs::mark(const Question& asked, std::size_t first, std::size_t count, std::int32_t* marks) const {
+  const Question one = asked;
+  const float* const X = x_.data() + first;
+  const float* const Y = y_.data() + first;
+  const float* const R = radius_.data() + first;
   for (std::size_t i = 0; i < count; ++i) {
-    const float x = X[i] - tx;
-    const float y = Y[i] - ty;
-    const float radius = R[i] + wider;
-    const float along = ax * x + ay * y;
+    const float x = X[i] - one.tip_x;
+    const float y = Y[i] - one.tip_y;
+    const float radius = R[i] + one.wider;
+    const float along = one.axis_x * x + one.axis_y * y;
     // It lies beside no rim, and neither behind the tip nor beyond the end.
-    marks[i] = (lx * y - ly * x <= radius) & (rx * y - ry * x >= -radius) & (along >= -radius) &
-               (along <= reach + radius);
+    marks[i] = (one.left_x * y - one.left_y * x <= radius) & (one.right_x * y - one.right_y * x >= -radius) &
+               (along >= -radius) & (along <= one.reach + radius);
   }
 }
 

@@ -27,7 +27,14 @@ class Discs {
   [[nodiscard]] std::vector<std::uint32_t> near(const Cone& cone, double slack) const;
 
  private:
-  void mark(const Cone& cone, double slack, std::int32_t* marks) const;
+  // The cone, as the columns have it.
+  struct Question {
+    Question(const Cone& cone, double slack);
+    float tip_x, tip_y, left_x, left_y, right_x, right_y, axis_x, axis_y, reach, wider;
+  };
+
+  // Of the circles from `first` on.
+  void mark(const Question& asked, std::size_t first, std::size_t count, std::int32_t* marks) const;
 
   std::vector<float> x_, y_, radius_;
 };

@@ -98,16 +98,16 @@ void Grid::sort_in() {
   for_all_entries([&](std::size_t c, std::uint32_t element) { entries_[next[c]++] = element; });
 }
 
-void Grid::cast(const Ray& ray, double& best, Surface& surface) const {
+void Grid::cast(const Ray& ray, Hit& hit) const {
   const auto edges = static_cast<std::uint32_t>(elements_.edges.size());
   std::uint32_t nearest = kNone;
   const auto test = [&](const auto& boundary, Heights heights, std::uint32_t element) {
-    double range = best;
+    double range = hit.range;
     if (!meet(ray.origin, ray.direction, boundary, range) || !heights.hold(ray.sensor_height)) return;
-    best = range;
+    hit.range = range;
     nearest = element;
   };
-  cells_.walk(ray, best, [&](std::size_t cell) {
+  cells_.walk(ray, hit.range, [&](std::size_t cell) {
     for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
       const std::uint32_t element = entries_[i];
       if (element < edges) {
@@ -120,10 +120,11 @@ void Grid::cast(const Ray& ray, double& best, Surface& surface) const {
     }
   });
   if (nearest == kNone) return;
+  hit.element = nearest;
   if (nearest < edges) {
-    surface = elements_.edges[nearest].segment;
+    hit.surface = elements_.edges[nearest].segment;
   } else {
-    surface = elements_.rounds[nearest - edges].circle;
+    hit.surface = elements_.rounds[nearest - edges].circle;
   }
 }
 

@@ -35,9 +35,8 @@ class Grid {
 
   explicit Grid(Elements elements);
 
-  // The nearest element on the ray closer than `best`, which becomes its distance; nothing leaves `surface`
-  // alone.
-  void cast(const Ray& ray, double& best, Surface& surface) const;
+  // The nearest element on the ray closer than the hit, which it then becomes, with its number.
+  void cast(const Ray& ray, Hit& hit) const;
 
  private:
   void sort_in();

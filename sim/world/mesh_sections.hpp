@@ -18,8 +18,8 @@ class MeshSections {
   explicit MeshSections(std::vector<std::shared_ptr<const Mesh>> meshes) : meshes_(std::move(meshes)) {}
 
   // As Grid::cast(). From many threads.
-  void cast(const Ray& ray, double& best, Surface& surface) const {
-    if (!meshes_.empty()) at(ray.sensor_height)->cast(ray, best, surface);
+  void cast(const Ray& ray, Hit& hit) const {
+    if (!meshes_.empty()) at(ray.sensor_height)->cast(ray, hit);
   }
 
  private:

@@ -2,7 +2,7 @@
 #include "sonar_air.hpp"
 
 #include <algorithm>
-#include <numbers>
+#include <array>
 
 namespace orca::sim::detail {
 namespace {
@@ -13,8 +13,12 @@ constexpr double kFadesAfter = 0.040;  // [s]
 // [m] A transducer sits in its robot's body, whose boundary is what a ray meets.
 constexpr double kInBody = 0.1;
 
+double seconds_of(TimePoint time) { return to_seconds(time.time_since_epoch()); }
+
+}  // namespace
+
 // Off what the sound of others may come to a listener.
-class Ear {
+class SonarAir::Ear {
  public:
   // Scatters sound to all sides.
   struct Point {
@@ -23,25 +27,26 @@ class Ear {
     double loss;    // [Np] Of what it sends there.
     enum class Sight { unknown, free, blocked } sight = Sight::unknown;
   };
-
   // A surface that mirrors, with what does not depend on where the sound comes from.
   struct Wall {
+    std::uint64_t element;
     Vec2 begin;
-    Vec2 along;     // To its end.
-    double square;  // [m^2] Of its length.
-    double side;    // Of the listener: positive on the left of it [m^2];
-    double at;      // and how far along the wall it is [m^2].
+    Vec2 along;                                // To its end.
+    double square;                             // [m^2] Of its length.
+    double side;                               // Of the listener: positive on the left of it [m^2];
+    double at;                                 // and how far along the wall it is [m^2].
+    std::array<std::optional<Point>, 2> ends;  // That are heard.
+  };
+  struct Post {
+    std::uint64_t element;
+    Circle circle;
   };
 
   Ear(const Caster& caster, std::uint64_t own, const Beam& beam, const Echo& echo, double now)
       : caster_(caster), view_(echo.view), cone(own, beam, echo.reach, now) {
-    for (const Surface& surface : echo.surfaces) {
-      if (const auto* circle = std::get_if<Circle>(&surface)) posts.push_back(*circle);
-      if (const auto* edge = std::get_if<Segment>(&surface)) {
-        add(*edge);
-        add(edge->a);
-        add(edge->b);
-      }
+    for (const Echo::Met& met : echo.met) {
+      if (const auto* circle = std::get_if<Circle>(&met.surface)) posts.push_back({met.element, *circle});
+      if (const auto* edge = std::get_if<Segment>(&met.surface)) add(*edge, met.element);
     }
   }
 
@@ -69,35 +74,43 @@ class Ear {
     const Vec2 towards = (1.0 / length) * (point - beam.sensor.position());
     return eye.cast(beam.ray(towards)).range >= length - kSeen;
   }
-  void add(const Segment& edge) {
+  void add(const Segment& edge, std::uint64_t element) {
     const Vec2 along = edge.b - edge.a;
     const Vec2 to = cone.beam.sensor.position() - edge.a;
-    walls.push_back({edge.a, along, dot(along, along), cross(along, to), dot(along, to)});
+    walls.push_back({element,
+                     edge.a,
+                     along,
+                     dot(along, along),
+                     cross(along, to),
+                     dot(along, to),
+                     {scattering(edge.a), scattering(edge.b)}});
   }
-  // Walls that meet have their ends in common.
-  void add(Vec2 end) {
+  [[nodiscard]] std::optional<Point> scattering(Vec2 end) const {
     const Vec2 to = end - cone.beam.sensor.position();
-    const auto is_end = [end](const Point& known) { return known.at == end; };
-    if (!cone.holds(to) || std::ranges::any_of(points, is_end)) return;
+    if (!cone.holds(to)) return std::nullopt;
     const double loss = kEdgeLoss + cone.loss(to);
-    if (loss <= kMostLoss) points.push_back({end, norm(to), loss});
+    if (loss > kMostLoss) return std::nullopt;
+    return Point{end, norm(to), loss};
   }
 
   const Caster& caster_;
   const Caster::View& view_;
 
  public:
-  SonarAir::Cone cone;
+  Cone cone;
   std::vector<Wall> walls;
-  std::vector<Circle> posts;
-  std::vector<Point> points;
+  std::vector<Post> posts;
 };
 
 // Follows the ways from one transducer to another and keeps the shortest that arrives in the window.
-class Ways {
+class SonarAir::Ways {
  public:
-  Ways(Ear& ear, const SonarAir::Cone& from, double head_start, std::optional<double> nearest)
-      : ear_(ear), from_(from), head_start_(head_start), nearest_(nearest) {}
+  // @param nearest  what is heard already; it is changed.
+  Ways(const Ear& ear, const Cone& from, std::optional<double>& nearest)
+      : ear_(ear),
+        from_(from),
+        head_start_(kSoundSpeed * (ear.cone.sector.sent - from.sector.sent)),
+        nearest_(nearest) {}
 
   // False if even the straight way is longer than what is heard already.
   [[nodiscard]] bool may_be_heard() const {
@@ -107,16 +120,6 @@ class Ways {
     return dot(way, way) < longest * longest;
   }
 
-  void follow() {
-    straight();
-    for (const Ear::Wall& wall : ear_.walls) off_mirror(wall);
-    for (const Circle& post : ear_.posts) off_circle(post);
-    for (Ear::Point& point : ear_.points) off_point(point);
-  }
-
-  [[nodiscard]] std::optional<double> nearest() const { return nearest_; }
-
- private:
   void straight() {
     const Vec2 way = sender() - listener();
     const double length = norm(way);
@@ -138,7 +141,6 @@ class Ways {
   }
   // Near enough where the two directions to its centre meet halfway.
   void off_circle(const Circle& circle) {
-    if (!from_.may_hold(circle)) return;
     const Vec2 one = sender() - circle.center;
     const Vec2 other = listener() - circle.center;
     const Vec2 half = (1.0 / norm(one)) * one + (1.0 / norm(other)) * other;
@@ -152,6 +154,7 @@ class Ways {
     if (ear_.sees(point) && ear_.is_seen(from_.beam, point.at, length)) keep(length + point.length);
   }
 
+ private:
   // A point of a surface that turns there from the one to the other.
   void off_spot(Vec2 spot) {
     const Vec2 to = spot - listener();
@@ -169,28 +172,11 @@ class Ways {
   }
   void keep(double length) { nearest_ = taken_for(length); }
 
-  Ear& ear_;
-  const SonarAir::Cone& from_;
+  const Ear& ear_;
+  const Cone& from_;
   double head_start_;  // [m] How far the sound had gone already when the listener sent its own.
-  std::optional<double> nearest_;
+  std::optional<double>& nearest_;
 };
-
-// The smallest circle around the sector, if that is narrow.
-Circle circle_around(Vec2 tip, Vec2 axis, double half_angle, double reach) {
-  if (half_angle > 0.25 * std::numbers::pi) return {tip, reach + kInBody};
-  const double radius = 0.5 * reach / std::cos(half_angle);
-  return {tip + radius * axis, radius + kInBody};
-}
-
-bool overlap(const Circle& one, const Circle& other) {
-  const Vec2 apart = one.center - other.center;
-  const double reach = one.radius + other.radius;
-  return dot(apart, apart) <= reach * reach;
-}
-
-double seconds_of(TimePoint time) { return to_seconds(time.time_since_epoch()); }
-
-}  // namespace
 
 SonarAir::Cone::Cone(std::uint64_t chirp, const Beam& from, double goes, double sent_at)
     : number(chirp),
@@ -198,28 +184,50 @@ SonarAir::Cone::Cone(std::uint64_t chirp, const Beam& from, double goes, double 
       reach(goes),
       axis(direction(from.sensor.yaw)),
       tan_lobe(std::tan(from.half_lobe)),
-      sector{from.sensor.position(),
-             rotated(axis, from.half_lobe),
-             rotated(axis, -from.half_lobe),
-             circle_around(from.sensor.position(), axis, from.half_lobe, goes),
-             sent_at,
-             sent_at + std::fmin(kFadesAfter, (goes + 2.0 * kInBody) / kSoundSpeed)} {}
+      sector(from.sensor, from.half_lobe, sent_at,
+             sent_at + std::fmin(kFadesAfter, (goes + 2.0 * kInBody) / kSoundSpeed)) {}
 
 double SonarAir::Cone::loss(Vec2 towards) const {
   return lobe_loss(std::atan2(cross(axis, towards), dot(axis, towards)), beam.half_lobe);
 }
 
-std::uint64_t SonarAir::send(TimePoint time, const Beam& beam, double reach) {
-  sectors_.add(cones_.emplace_back(sent_, beam, reach, seconds_of(time)).sector);
+std::uint64_t SonarAir::send(TimePoint time, const Beam& beam, const Echo& echo) {
+  sectors_.add(cones_.emplace_back(sent_, beam, echo.reach, seconds_of(time)).sector, sent_);
   farthest_ = std::fmax(farthest_, beam.max_range);
+  for (const Echo::Met& met : echo.met) {
+    std::vector<std::uint64_t>& numbers = met_[met.element];
+    numbers.erase(numbers.begin(), std::ranges::lower_bound(numbers, cones_.front().number));
+    if (numbers.empty() || numbers.back() != sent_) numbers.push_back(sent_);
+  }
   return sent_++;
 }
 
 void SonarAir::settle(TimePoint now) {
   const double heard_from = seconds_of(now) - farthest_ / kSoundSpeed;
-  std::erase_if(cones_, [heard_from](const Cone& cone) { return cone.sector.silent < heard_from; });
+  while (!cones_.empty() && cones_.front().sector.silent < heard_from) cones_.pop_front();
+  if (cones_.empty()) met_.clear();
   sectors_.clear(seconds_of(now));
-  for (const Cone& cone : cones_) sectors_.add(cone.sector);
+  for (const Cone& cone : cones_)
+    if (cone.sector.silent >= heard_from) sectors_.add(cone.sector, cone.number);
+}
+
+bool SonarAir::is_in(const Window& window, const Cone& cone) const {
+  const double age = window.now - cone.sector.sent;
+  return cone.number != window.own && age >= 0.0 && age <= kFadesAfter &&
+         cone.sector.silent >= window.silent_from;
+}
+
+// Calls visit(cone) for all that meet the element and can be heard.
+template <class Visit>
+void SonarAir::for_all_off(std::uint64_t element, const Window& window, const Visit& visit) const {
+  const auto found = met_.find(element);
+  if (found == met_.end()) return;
+  const std::uint64_t oldest = cones_.front().number;
+  for (const std::uint64_t number : found->second) {
+    if (number < oldest) continue;
+    const Cone& cone = cones_[number - oldest];
+    if (is_in(window, cone)) visit(cone);
+  }
 }
 
 std::optional<double> SonarAir::first_heard(const Caster& caster, const Beam& listener, std::uint64_t own,
@@ -227,17 +235,25 @@ std::optional<double> SonarAir::first_heard(const Caster& caster, const Beam& li
   const double now = seconds_of(since);
   Ear ear(caster, own, listener, echo, now);
   std::optional<double> nearest = echo.range;
-  // A way is no longer than both cones. Single precision only rules out: what it leaves is judged exactly.
-  const double silent_from = now - (ear.cone.reach - 2.0 * listener.min_range) / kSoundSpeed;
-  for (const std::uint32_t i : sectors_.near(ear.cone.sector, silent_from, now)) {
-    const Cone& cone = cones_[i];
-    const double head_start = now - cone.sector.sent;
-    const bool in_time = head_start >= 0.0 && head_start <= kFadesAfter && cone.sector.silent >= silent_from;
-    if (cone.number == own || !in_time || !overlap(cone.sector.around, ear.cone.sector.around)) continue;
-    Ways ways(ear, cone, kSoundSpeed * head_start, nearest);
-    if (ways.may_be_heard()) ways.follow();
-    nearest = ways.nearest();
+  // A way is no longer than both cones.
+  const Window window{own, now, now - (ear.cone.reach - 2.0 * listener.min_range) / kSoundSpeed};
+  for (const std::uint64_t number : sectors_.facing(ear.cone.sector, window.silent_from, now)) {
+    const Cone& cone = cones_[number - cones_.front().number];
+    if (is_in(window, cone)) Ways(ear, cone, nearest).straight();
   }
+  for (Ear::Wall& wall : ear.walls)
+    for_all_off(wall.element, window, [&](const Cone& cone) {
+      Ways ways(ear, cone, nearest);
+      if (!ways.may_be_heard()) return;
+      ways.off_mirror(wall);
+      for (auto& end : wall.ends)
+        if (end) ways.off_point(*end);
+    });
+  for (const Ear::Post& post : ear.posts)
+    for_all_off(post.element, window, [&](const Cone& cone) {
+      Ways ways(ear, cone, nearest);
+      if (ways.may_be_heard()) ways.off_circle(post.circle);
+    });
   return nearest;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "sonar_beam.hpp"
@@ -10,7 +12,8 @@
 
 namespace orca::sim::detail {
 
-// All sonars of a world share the air: what one sends, another may hear.
+// All sonars of a world share the air: what one sends, another may hear, straight or off a surface that both
+// beams meet.
 class SonarAir {
  public:
   // A beam as far as it goes.
@@ -18,11 +21,6 @@ class SonarAir {
     Cone(std::uint64_t chirp, const Beam& from, double reach, double sent_at);
     [[nodiscard]] bool holds(Vec2 towards) const {
       return std::fabs(cross(axis, towards)) <= dot(axis, towards) * tan_lobe;
-    }
-    // False if the circle lies beside the cone, on either side; true also for some that do.
-    [[nodiscard]] bool may_hold(const Circle& circle) const {
-      const Vec2 to = circle.center - sector.tip;
-      return cross(sector.left, to) <= circle.radius && cross(sector.right, to) >= -circle.radius;
     }
     // Of the transducer in a direction that it holds, on one way.
     [[nodiscard]] double loss(Vec2 towards) const;
@@ -36,9 +34,8 @@ class SonarAir {
   };
 
   // @pre  settle() with a time near `time`, unless that is near zero.
-  // @param reach  [m] of the beam's own echo.
   // @return  the chirp's number.
-  std::uint64_t send(TimePoint time, const Beam& beam, double reach);
+  std::uint64_t send(TimePoint time, const Beam& beam, const Echo& echo);
 
   // Forgets what can no longer be heard at `now`.
   void settle(TimePoint now);
@@ -49,8 +46,24 @@ class SonarAir {
                                                   std::uint64_t own, TimePoint since, const Echo& echo) const;
 
  private:
-  std::vector<Cone> cones_;  // In the air, tick by tick;
-  Sectors sectors_;          // and what tells of most of them that they cannot be heard.
+  class Ear;
+  class Ways;
+  // What a listener can hear.
+  struct Window {
+    std::uint64_t own;   // The chirp that is its own.
+    double now;          // [s] When it has sent that.
+    double silent_from;  // [s] What is silent before that cannot come to it any more.
+  };
+
+  [[nodiscard]] bool is_in(const Window& window, const Cone& cone) const;
+  template <class Visit>
+  void for_all_off(std::uint64_t element, const Window& window, const Visit& visit) const;
+
+  std::deque<Cone> cones_;  // In the air, numbered without a gap.
+  // By the elements that they meet: numbers of cones in the air and of some that no longer are, the oldest
+  // first. Nothing depends on the order of the elements.
+  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> met_;
+  Sectors sectors_;  // Of those that can be heard.
   std::uint64_t sent_ = 0;
   double farthest_ = 0.0;  // [m] That any sonar hears.
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -40,10 +41,16 @@ constexpr double kSeen = 1e-6;
 
 // What there is to hear of a transducer's own sound.
 struct Echo {
-  std::optional<double> range;    // [m] From where the first comes back that is strong enough.
-  std::vector<Surface> surfaces;  // All that the beam meets.
-  double reach = 0.0;             // [m] It meets nothing farther.
-  Caster::View view;              // Of the cone, until something moves.
+  // A surface that the beam meets, with its number.
+  struct Met {
+    Surface surface;
+    std::uint64_t element;
+  };
+
+  std::optional<double> range;  // [m] From where the first comes back that is strong enough.
+  std::vector<Met> met;         // All that the beam meets.
+  double reach = 0.0;           // [m] It meets nothing farther.
+  Caster::View view;            // Of the cone, until something moves.
 };
 
 // The first echo, without noise. Surfaces met at more than `critical_angle` [rad] mirror the sound away; if

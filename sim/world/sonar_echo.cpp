@@ -62,11 +62,11 @@ class Listener {
 
   void probe_surfaces() {
     const Vec2 from = beam_.sensor.position();
-    for (const Surface& s : surfaces_) {
-      if (const auto* circle = std::get_if<Circle>(&s)) {
+    for (const Echo::Met& met : met_) {
+      if (const auto* circle = std::get_if<Circle>(&met.surface)) {
         const Vec2 to_center = circle->center - from;
         probe_point(from + (1.0 - circle->radius / norm(to_center)) * to_center, 0.0);
-      } else if (const auto* edge = std::get_if<Segment>(&s)) {
+      } else if (const auto* edge = std::get_if<Segment>(&met.surface)) {
         probe_foot(*edge, from);
         probe_point(edge->a, kEdgeLoss);
         probe_point(edge->b, kEdgeLoss);
@@ -76,17 +76,17 @@ class Listener {
 
   // Where two walls meet in a corner neither needs to end: they run into each other.
   void probe_corners() {
-    for (std::size_t i = 0; i < surfaces_.size(); ++i)
-      for (std::size_t k = i + 1; k < surfaces_.size(); ++k) {
-        const auto* one = std::get_if<Segment>(&surfaces_[i]);
-        const auto* other = std::get_if<Segment>(&surfaces_[k]);
+    for (std::size_t i = 0; i < met_.size(); ++i)
+      for (std::size_t k = i + 1; k < met_.size(); ++k) {
+        const auto* one = std::get_if<Segment>(&met_[i].surface);
+        const auto* other = std::get_if<Segment>(&met_[k].surface);
         if (one == nullptr || other == nullptr) continue;
         if (const auto corner = crossing(*one, *other)) probe_point(*corner, kEdgeLoss);
       }
   }
 
   [[nodiscard]] bool heard() const { return nearest_.has_value(); }
-  [[nodiscard]] Echo result() && { return {nearest_, std::move(surfaces_), reach_, std::move(view_)}; }
+  [[nodiscard]] Echo result() && { return {nearest_, std::move(met_), reach_, std::move(view_)}; }
 
  private:
   // A ray of the fan: a surface met steeply enough answers; its nearest and end points are looked at
@@ -101,7 +101,8 @@ class Listener {
     } else {
       mirrored_.push_back({ray, hit, off_axis});
     }
-    if (std::ranges::find(surfaces_, hit.surface) == surfaces_.end()) surfaces_.push_back(hit.surface);
+    if (std::ranges::find(met_, hit.surface, &Echo::Met::surface) == met_.end())
+      met_.push_back({hit.surface, hit.element});
   }
 
   struct Mirrored {
@@ -136,7 +137,7 @@ class Listener {
   Vec2 axis_;
   Caster::View view_;  // Of all that lies in the cone.
   double critical_tangent_;
-  std::vector<Surface> surfaces_;
+  std::vector<Echo::Met> met_;
   std::vector<Mirrored> mirrored_;
   std::optional<double> nearest_;
   double reach_ = 0.0;

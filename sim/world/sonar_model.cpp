@@ -29,7 +29,7 @@ void SonarModel::fire(const Caster& caster, std::size_t own_body, const TickSpan
                     ring_.height_of(k),
                     own_body};
     Echo echo = echo_of(caster, beam, errors_.critical_angle);
-    const std::uint64_t chirp = air.send(due, beam, echo.reach);
+    const std::uint64_t chirp = air.send(due, beam, echo);
     shots_.push_back({k, due, beam, span.in_robot(due) * ring_.transducer(k), std::move(echo), chirp});
     if (fired_ < ring_.count) continue;
     fired_ = 0;

@@ -10,37 +10,60 @@
 
 namespace orca::sim::detail {
 
-// A cone in the air as far as it matters whether another can have to do with it.
+// A cone in the air as far as it matters whether it faces another.
 struct Sector {
+  Sector(const Pose2& sensor, double half_lobe, double sent_at, double silent_at)
+      : tip(sensor.position()),
+        left(direction(sensor.yaw + half_lobe)),
+        right(direction(sensor.yaw - half_lobe)),
+        yaw(wrapped(sensor.yaw)),
+        half_angle(half_lobe),
+        sent(sent_at),
+        silent(silent_at) {}
+
   Vec2 tip;
-  Vec2 left, right;     // Of length 1, along both rims; at most half a turn apart.
-  Circle around;        // Holds it all.
-  double sent = 0.0;    // [s]
-  double silent = 0.0;  // [s] Its sound has left it then.
+  Vec2 left, right;   // Of length 1, along both rims.
+  double yaw;         // [rad] Of the axis, in (-pi, pi].
+  double half_angle;  // [rad] At most a right angle.
+  double sent;        // [s]
+  double silent;      // [s] Its sound has left it then.
 };
 
-// Many sectors, of which all are asked for each listener: column by column and in single precision, so that
-// the compiler looks at four at once. It errs on the side of finding too many. One thread at a time.
+// Many sectors, which are asked for by each listener: sorted by where they look, column by column and in
+// single precision, so that the compiler looks at four at once. It errs on the side of finding too many. One
+// thread at a time.
 class Sectors {
  public:
   // From now on times are kept relative to `base` [s], from which they must not be farther than some seconds;
   // nothing is held any more.
   void clear(double base);
-  void add(const Sector& sector);
+  void add(const Sector& sector, std::uint64_t number);
 
-  // The numbers, in the order in which they were added, of all sectors that may have a point in common with
-  // `one`, were sent by `sent_until` and are not silent before `silent_from` [s]. Valid until the next call.
-  std::span<const std::uint32_t> near(const Sector& one, double silent_from, double sent_until) const;
+  // The numbers, in no order, of all sectors that hold the tip of `one` and whose tip it holds, that were
+  // sent by `sent_until` and are not silent before `silent_from` [s]. Valid until the next call.
+  std::span<const std::uint64_t> facing(const Sector& one, double silent_from, double sent_until) const;
 
  private:
-  enum Column { tip_x, tip_y, left_x, left_y, right_x, right_y, x, y, radius, sent, silent, kColumns };
+  enum Column { tip_x, tip_y, left_x, left_y, right_x, right_y, margin, sent, silent, kColumns };
+  // Those that look about one way.
+  struct Bin {
+    std::array<std::vector<float>, kColumns> columns;
+    std::vector<std::uint64_t> numbers;
+  };
+  static constexpr int kBins = 16;
 
-  void mark(const Sector& one, double silent_from, double sent_until) const;
+  // What is asked for, as the columns have it.
+  struct Question {
+    float x, y, left_x, left_y, right_x, right_y, margin, silent_from, sent_until;
+  };
+
+  static void mark(const Bin& bin, const Question& asked, std::int32_t* marks);
 
   double base_ = 0.0;
-  std::array<std::vector<float>, kColumns> columns_;
-  mutable std::vector<std::int32_t> marks_;  // Of near(), kept for their memory.
-  mutable std::vector<std::uint32_t> found_;
+  double widest_ = 0.0;  // [rad] Half angle.
+  std::array<Bin, kBins> bins_;
+  mutable std::vector<std::int32_t> marks_;  // Of facing(), kept for their memory.
+  mutable std::vector<std::uint64_t> found_;
 };
 
 }  // namespace orca::sim::detail

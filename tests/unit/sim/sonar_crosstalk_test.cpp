@@ -18,17 +18,28 @@ constexpr auto kNobody = static_cast<std::size_t>(-1);
 
 detail::Beam beam_at(const Pose2& sensor) { return {sensor, 12.5 * kDegree, 0.15, 6.5, 0.3, kNobody}; }
 
-// What the listener takes another's sound for, which was sent `earlier` than its own.
+detail::Echo echo_at(const Caster& caster, const Pose2& sensor) {
+  return detail::echo_of(caster, beam_at(sensor), 25.0 * kDegree);
+}
+
+// What the listener takes another's sound for, which was sent `earlier` than its own; nearer echoes of its
+// own would hide it and are left out.
+std::optional<double> heard_by(const Caster& caster, detail::SonarAir& air, const Pose2& listener,
+                               orca::TimePoint now) {
+  detail::Echo echo = echo_at(caster, listener);
+  const std::uint64_t own = air.send(now, beam_at(listener), echo);
+  echo.range.reset();
+  return air.first_heard(caster, beam_at(listener), own, now, echo);
+}
+
+constexpr orca::TimePoint kNow = orca::TimePoint{} + 1s;
+
 std::optional<double> stray(const WorldModel& world, const Pose2& sender, const Pose2& listener,
                             orca::Duration earlier = 0ms) {
   const Caster caster(world);
-  const orca::TimePoint now = orca::TimePoint{} + 1s;
   detail::SonarAir air;
-  air.send(now - earlier, beam_at(sender), 6.5);
-  const std::uint64_t own = air.send(now, beam_at(listener), 6.5);
-  detail::Echo echo = detail::echo_of(caster, beam_at(listener), 25.0 * kDegree);
-  echo.range.reset();  // Nearer echoes of its own would hide the other's.
-  return air.first_heard(caster, beam_at(listener), own, now, echo);
+  air.send(kNow - earlier, beam_at(sender), echo_at(caster, sender));
+  return heard_by(caster, air, listener, kNow);
 }
 
 WorldModel wall_at(double distance) {
@@ -76,6 +87,37 @@ TEST_CASE("a post sends a neighbour's sound on", "[sim][sonar][crosstalk]") {
   CHECK(stray(post, {0, 0.2, 0}, {0, -0.2, 0}).value() == Approx(one_way).margin(1e-9));
 }
 
+TEST_CASE("sound comes off a body that has moved on since, and not off one that came later",
+          "[sim][sonar][crosstalk]") {
+  Caster caster(WorldModel{});
+  const Pose2 neighbour{0, 0.4, 0};
+  const auto crate = [](double distance) { return Box{{distance + 0.1, 0, 0}, {0.1, 1.0}}; };
+  const std::size_t first = caster.add_body({crate(3.0), 0.0, 1.0});
+  detail::SonarAir air;
+  air.send(kNow - 10ms, beam_at(neighbour), echo_at(caster, neighbour));
+  caster.move_body(first, crate(3.02));
+  const double way = std::hypot(2.0 * 3.02, 0.4);
+  CHECK(heard_by(caster, air, kAhead, kNow).value() ==
+        Approx(0.5 * (way - kSoundSpeed * 0.010)).margin(1e-9));
+  caster.remove_body(first);
+  caster.add_body({crate(3.02), 0.0, 1.0});
+  CHECK_FALSE(heard_by(caster, air, kAhead, kNow));
+}
+
+TEST_CASE("a sonar that fires on and on hears its own last sound, and nothing older",
+          "[sim][sonar][crosstalk]") {
+  const Caster caster(wall_at(3.0));
+  detail::SonarAir air;
+  for (int tick = 0; tick < 20; ++tick) {
+    const orca::TimePoint now = kNow + tick * 10ms;
+    air.settle(now - 10ms);
+    const std::optional<double> heard = heard_by(caster, air, kAhead, now);
+    CAPTURE(tick);
+    if (tick == 0) CHECK_FALSE(heard);
+    if (tick > 0) CHECK(heard.value() == Approx(3.0 - 0.5 * kSoundSpeed * 0.010).margin(1e-9));
+  }
+}
+
 TEST_CASE("nobody hears what was sent more than forty milliseconds ago, or by itself just now",
           "[sim][sonar][crosstalk]") {
   CHECK(stray(wall_at(6.4), {0, 0.1, 0}, kAhead, 30ms).has_value());
@@ -84,15 +126,14 @@ TEST_CASE("nobody hears what was sent more than forty milliseconds ago, or by it
 
 TEST_CASE("what arrives first counts: the own echo or another's sound", "[sim][sonar][crosstalk]") {
   const Caster caster(wall_at(3.0));
-  const detail::Echo echo = detail::echo_of(caster, beam_at(kAhead), 25.0 * kDegree);
+  const detail::Echo echo = echo_at(caster, kAhead);
   REQUIRE(echo.range.value() == Approx(3.0));
-  const orca::TimePoint now = orca::TimePoint{} + 1s;
   for (const bool earlier : {false, true}) {
     detail::SonarAir air;
-    air.send(earlier ? now - 10ms : now, beam_at({0, 0.4, 0}), 3.1);
-    const std::uint64_t own = air.send(now, beam_at(kAhead), echo.reach);
+    air.send(earlier ? kNow - 10ms : kNow, beam_at({0, 0.4, 0}), echo_at(caster, {0, 0.4, 0}));
+    const std::uint64_t own = air.send(kNow, beam_at(kAhead), echo);
     const double stray = 0.5 * (std::hypot(6.0, 0.4) - kSoundSpeed * 0.010);
-    CHECK(air.first_heard(caster, beam_at(kAhead), own, now, echo).value() ==
+    CHECK(air.first_heard(caster, beam_at(kAhead), own, kNow, echo).value() ==
           Approx(earlier ? stray : 3.0).margin(1e-9));
   }
 }

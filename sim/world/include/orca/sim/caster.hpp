@@ -29,6 +29,9 @@ using Surface = std::variant<std::monostate, Segment, Circle>;
 struct Hit {
   double range = 0.0;  ///< [m] Distance along the ray; max_range if nothing was met.
   Surface surface;
+  /// Of the surface: the same whenever it is met, also after it has moved, and another one than of others but
+  /// for meshes, which have one in common.
+  std::uint64_t element = 0;
   Vec2 point;      ///< Where the ray ends.
   Vec2 direction;  ///< Of the ray.
   [[nodiscard]] bool found() const { return surface.index() != 0; }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace orca::sim::detail {
+
+// So many marks are looked at together.
+inline constexpr std::size_t kMarkGroup = 8;
+
+// Calls visit(number) for all of `count` things that are marked with 1 and not with 0, in their order. There
+// is room for a full last group, whose rest is written.
+template <class Visit>
+void for_all_marked(std::int32_t* marks, std::size_t count, const Visit& visit) {
+  const std::size_t end = (count + kMarkGroup - 1) / kMarkGroup * kMarkGroup;
+  std::fill(marks + count, marks + end, 0);
+  for (std::size_t group = 0; group < end; group += kMarkGroup) {
+    std::array<std::uint64_t, kMarkGroup / 2> pairs{};
+    std::memcpy(pairs.data(), marks + group, sizeof pairs);
+    if ((pairs[0] | pairs[1] | pairs[2] | pairs[3]) == 0) continue;
+    for (std::size_t i = group; i < group + kMarkGroup; ++i)
+      if (marks[i] != 0) visit(i);
+  }
+}
+
+}  // namespace orca::sim::detail
