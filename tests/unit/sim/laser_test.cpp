@@ -93,6 +93,33 @@ TEST_CASE("each beam of a turning robot looks from where it was at that beam's i
   CHECK(skew > 0.1);  // What a scan taken at one instant would differ by.
 }
 
+TEST_CASE("a scan among a few things is the same when many others stand out of sight", "[sim][laser]") {
+  LaserScanner laser = lms200();
+  laser.sweep = std::chrono::milliseconds{GENERATE(0, 7, 80)};
+  laser.center = {0.1, 0.05, 0.0};
+  const auto scans = [&](int out_of_sight) {
+    World world({}, {.seed = 1, .realism = Realism::nominal});
+    const RobotId id = *world.add_robot("dewey", scout_with(laser), {});
+    for (int i = 0; i < 4; ++i) {
+      const double angle = 1.5 * i;
+      REQUIRE(world.add_obstacle("near" + std::to_string(i), Box{{}, {0.2, 0.1}}, 1.0,
+                                 {2.0 * std::cos(angle), 2.0 * std::sin(angle), angle + 0.4}));
+    }
+    for (int i = 0; i < out_of_sight; ++i)
+      REQUIRE(world.add_obstacle("far" + std::to_string(i), Circle{{}, 0.3}, 1.0, {40.0 + i, 0, 0}));
+    REQUIRE(world.set_velocity_command(id, 0.3, 1.5));
+    std::vector<double> ranges;
+    for (int round = 0; round < 30; ++round) {
+      const LaserScan scan = next_scan(world, id);
+      ranges.insert(ranges.end(), scan.ranges.begin(), scan.ranges.end());
+    }
+    return ranges;
+  };
+  const std::vector<double> few = scans(0);
+  CHECK(std::ranges::count_if(few, [](double range) { return range < 4.0; }) > 300);
+  CHECK(scans(20) == few);
+}
+
 TEST_CASE("the same seed gives the same scans, another seed others", "[sim][laser]") {
   const auto ranges = [](std::uint64_t seed) {
     World world(wall_ahead(2.0), {.seed = seed, .realism = Realism::nominal});
