@@ -71,8 +71,7 @@ void Pool::take_back() {
 }
 
 // Without the lock: whoever drops the last view of an object never waits. Only take_back() takes slots off
-// the list, and all at once, so that a slot cannot come back to it while somebody else still puts his in
-// front.
+// the list, and all at once, so it does not matter whether the first slot has been away since it was read.
 void Pool::recycle(Slot* slot) noexcept {
   slot->next_free = returned_.load(std::memory_order_relaxed);
   while (!returned_.compare_exchange_weak(slot->next_free, slot, std::memory_order_release,
