@@ -59,7 +59,6 @@ class Bodies {
   void list(std::size_t number);
   void unlist(std::size_t number);
   void choose_cells();
-
   void surround(std::size_t number);
 
   std::vector<Moving> bodies_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "discs.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "marks.hpp"
 #include "single_precision.hpp"
 

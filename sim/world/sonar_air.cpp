@@ -12,6 +12,8 @@ constexpr double kSoundSpeed = 343.0;  // [m/s] In air of 20 degrees Celsius.
 constexpr double kFadesAfter = 0.040;  // [s]
 // [m] A transducer sits in its robot's body, whose boundary is what a ray meets.
 constexpr double kInBody = 0.1;
+// Elements that nothing in the air meets are kept up to about so many.
+constexpr std::size_t kMostForgotten = 1000;
 
 double seconds_of(TimePoint time) { return to_seconds(time.time_since_epoch()); }
 
@@ -205,10 +207,18 @@ std::uint64_t SonarAir::send(TimePoint time, const Beam& beam, const Echo& echo)
 void SonarAir::settle(TimePoint now) {
   const double heard_from = seconds_of(now) - farthest_ / kSoundSpeed;
   while (!cones_.empty() && cones_.front().sector.silent < heard_from) cones_.pop_front();
-  if (cones_.empty()) met_.clear();
+  forget_elements();
   sectors_.clear(seconds_of(now));
   for (const Cone& cone : cones_)
     if (cone.sector.silent >= heard_from) sectors_.add(cone.sector, cone.number);
+}
+
+// Elements come and go with the bodies that have them.
+void SonarAir::forget_elements() {
+  if (met_.size() < forget_at_) return;
+  const std::uint64_t oldest = cones_.empty() ? sent_ : cones_.front().number;
+  std::erase_if(met_, [oldest](const auto& element) { return element.second.back() < oldest; });
+  forget_at_ = kMostForgotten + 2 * met_.size();
 }
 
 bool SonarAir::is_in(const Window& window, const Cone& cone) const {

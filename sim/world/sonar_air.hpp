@@ -56,6 +56,7 @@ class SonarAir {
   };
 
   [[nodiscard]] bool is_in(const Window& window, const Cone& cone) const;
+  void forget_elements();
   template <class Visit>
   void for_all_off(std::uint64_t element, const Window& window, const Visit& visit) const;
 
@@ -63,7 +64,8 @@ class SonarAir {
   // By the elements that they meet: numbers of cones in the air and of some that no longer are, the oldest
   // first. Nothing depends on the order of the elements.
   std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> met_;
-  Sectors sectors_;  // Of those that can be heard.
+  std::size_t forget_at_ = 0;  // So many elements are too many.
+  Sectors sectors_;            // Of those that can be heard.
   std::uint64_t sent_ = 0;
   double farthest_ = 0.0;  // [m] That any sonar hears.
 };

@@ -26,8 +26,8 @@ struct Beam {
 };
 
 // How much weaker than on the axis sound is, as the logarithm of the ratio [Np]: losses add up.
-// What is lost in a direction off the axis, on one way: exp(-2) = 0.135 at the rim of the lobe, there and
-// back.
+// What is lost in a direction off the axis, on one way. There and back that is a Gaussian over the angle
+// whose deviation is half the half lobe: exp(-2) = 0.135 at the rim.
 inline double lobe_loss(double off_axis, double half_lobe) {
   const double share = off_axis / half_lobe;
   return share * share;

@@ -104,6 +104,36 @@ TEST_CASE("sound comes off a body that has moved on since, and not off one that 
   CHECK_FALSE(heard_by(caster, air, kAhead, kNow));
 }
 
+TEST_CASE("sound comes off what the rays of both beams meet, and not off what slips between those of one",
+          "[sim][sonar][crosstalk]") {
+  const WorldModel thin{"thin", {{"post", Circle{{3.0, 0.0}, 0.02}, 2.5}}, {}};
+  const double pitch =
+      3.0 * std::tan(12.5 * kDegree / 4.0);  // [m] Between two of the nine rays, at the post.
+  CHECK(stray(thin, {0, pitch, 0}, kAhead).has_value());
+  CHECK_FALSE(stray(thin, {0, 0.5 * pitch, 0}, kAhead));
+}
+
+TEST_CASE("thousands of bodies that come and go leave the sound off those that are there",
+          "[sim][sonar][crosstalk]") {
+  Caster caster(WorldModel{});
+  const Pose2 neighbour{0, 0.4, 0};
+  caster.add_body({Box{{3.1, 0, 0}, {0.1, 1.0}}, 0.0, 1.0});
+  const double expected = 0.5 * (std::hypot(2.0 * 3.0, 0.4) - kSoundSpeed * 0.005);
+  detail::SonarAir air;
+  for (int i = 0; i < 3000; ++i) {
+    const orca::TimePoint now = kNow + i * 100ms;
+    air.settle(now - 10ms);
+    air.send(now - 5ms, beam_at(neighbour), echo_at(caster, neighbour));
+    const std::size_t passing = caster.add_body({Circle{{2.9, -3.0}, 0.05}, 0.0, 1.0});
+    const Pose2 aside{0, -3.0, 0};
+    air.send(now - 4ms, beam_at(aside), echo_at(caster, aside));
+    caster.remove_body(passing);
+    air.settle(now - 4ms);
+    CAPTURE(i);
+    REQUIRE(heard_by(caster, air, kAhead, now).value() == Approx(expected).margin(1e-9));
+  }
+}
+
 TEST_CASE("a sonar that fires on and on hears its own last sound, and nothing older",
           "[sim][sonar][crosstalk]") {
   const Caster caster(wall_at(3.0));

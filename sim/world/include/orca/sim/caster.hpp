@@ -29,8 +29,8 @@ using Surface = std::variant<std::monostate, Segment, Circle>;
 struct Hit {
   double range = 0.0;  ///< [m] Distance along the ray; max_range if nothing was met.
   Surface surface;
-  /// Of the surface: the same whenever it is met, also after it has moved, and another one than of others but
-  /// for meshes, which have one in common.
+  /// Which boundary element of the world that is, wherever it has moved meanwhile; all meshes count as one.
+  /// 0: nothing was met.
   std::uint64_t element = 0;
   Vec2 point;      ///< Where the ray ends.
   Vec2 direction;  ///< Of the ray.
