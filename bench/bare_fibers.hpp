@@ -19,8 +19,8 @@ struct ExceptionWords {
   void exchange() { std::swap(reinterpret_cast<ExceptionWords&>(*abi::__cxa_get_globals()), *this); }
 };
 
-/// The barest fibers that can hand over to each other by the rules of DESIGN 4: they run in the order of the
-/// time at which they became ready, and each keeps its exception words. No events, no timers, no other
+/// Bare fibers that hand over to each other by way of a scheduler, by the rules of DESIGN 4: in the order of
+/// the time at which they became ready, and each keeps its exception words. No events, no timers, no other
 /// threads.
 class BareFibers {
  public:

@@ -34,10 +34,12 @@ double seconds_for(const std::string& text, std::size_t& errors) {
   return seconds;
 }
 
-// The bound is for what people run. Sanitizers, counters for coverage and no optimisation cost ten times and
-// more; there it is one on hangs only.
+// The bound is for what people run. Sanitizers cost ten times and more, no optimisation with counters for
+// coverage as much again; there it is one on hangs only.
 #if defined(ORCA_RELEASE)
 constexpr double kBound = 1.0;
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kBound = 20.0;
 #else
 constexpr double kBound = 60.0;
 #endif
