@@ -33,7 +33,7 @@ struct Views {
   std::size_t turn = 0;
 };
 
-Nanoseconds orca_rays(Views& views, Fan& fan, const sim::Caster& caster) {
+Nanoseconds orca_rays(Views& views, const Fan& fan, const sim::Caster& caster) {
   return time_per_operation(kFans * static_cast<int>(Fan::kBeams), [&] {
     for (int i = 0; i < kFans; ++i) benchmark::DoNotOptimize(fan.cast(caster, views.next()));
   });
@@ -51,7 +51,7 @@ Nanoseconds bullet_rays(Views& views, const Fan& fan, const BulletMesh& bullet) 
 void add_in_boxes(const char* name, const Row::Target& target) {
   add_row({name, "Bullet's own mesh rays", target}, 200, [](auto& state, Row& row) {
     Views views;
-    Fan fan;
+    const Fan fan;
     const sim::Caster caster(views.model);
     const BulletMesh bullet(views.model);
     alternate(
@@ -64,7 +64,7 @@ void add_in_boxes(const char* name, const Row::Target& target) {
 void add_among_robots() {
   add_row({"ray among 200 boxes and 100 robots", "without the robots"}, 200, [](auto& state, Row& row) {
     Views views;
-    Fan fan;
+    const Fan fan;
     const sim::Caster alone(views.model);
     sim::Caster crowded(views.model);
     for (int i = 0; i < 100; ++i) crowded.add_body({sim::Circle{views.next().position(), 0.205}, 0.05, 0.35});

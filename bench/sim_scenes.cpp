@@ -100,8 +100,9 @@ Ray Fan::ray(std::size_t beam, const Pose2& X_WS) const {
   return {X_WS.position(), rotated(directions_[beam], X_WS.yaw), kRange, kHeight};
 }
 
-const std::array<double, Fan::kBeams>& Fan::cast(const Caster& caster, const Pose2& X_WS,
-                                                 std::size_t own_body) {
+std::array<double, Fan::kBeams> Fan::cast(const Caster& caster, const Pose2& X_WS,
+                                          std::size_t own_body) const {
+  std::array<double, kBeams> ranges;
   const Vec2 ahead = direction(X_WS.yaw);
   const auto ray = [&](std::size_t k) {
     const Vec2 d = directions_[k];
@@ -110,9 +111,9 @@ const std::array<double, Fan::kBeams>& Fan::cast(const Caster& caster, const Pos
   };
   for (std::size_t first = 0; first < kBeams; first += kTogether) {
     const Caster::View view(caster, ray(first + kTogether / 2), 0.25 * kTogether * kDegree);
-    for (std::size_t k = first; k < first + kTogether; ++k) ranges_[k] = view.cast(ray(k)).range;
+    for (std::size_t k = first; k < first + kTogether; ++k) ranges[k] = view.cast(ray(k)).range;
   }
-  return ranges_;
+  return ranges;
 }
 
 }  // namespace orca::bench

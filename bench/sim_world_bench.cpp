@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a second of simulated time costs: physics at 100 Hz, 16 sonars and 361 laser beams at 10 Hz for each
 // robot. A second divided by that is how many times faster than real time it runs.
+#include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -8,7 +10,9 @@
 #include "benchmarks.hpp"
 #include "comparison.hpp"
 #include "orca/base/random.hpp"
+#include "orca/base/team.hpp"
 #include "orca/sim/world.hpp"
+#include "processors.hpp"
 #include "sim_scenes.hpp"
 
 namespace orca::bench {
@@ -17,17 +21,25 @@ namespace {
 constexpr int kTicksPerScan = 10;
 constexpr int kTicksPerSecond = 100;
 
+struct Setting {
+  std::size_t robots = 1;
+  sim::Realism realism = sim::Realism::nominal;
+  unsigned threads = 1;  // That sense.
+};
+
 /// Robots that wander about a world: ahead while there is room, else turning on the spot. Without sensors
 /// they stand still.
 class Wanderers {
  public:
-  Wanderers(const sim::WorldModel& model, std::size_t count, bool sensing, sim::Realism realism)
-      : world_(model, {.seed = 1, .realism = realism}), sensing_(sensing) {
+  Wanderers(const sim::WorldModel& model, const Setting& setting, bool sensing)
+      : world_(model, {.seed = 1, .realism = setting.realism, .threads = setting.threads}),
+        team_(setting.threads),
+        sensing_(sensing) {
     sim::RobotModel robot = scout();
     if (!sensing) robot.sonars.clear();
     RandomStream random(3, "bench", "starts");
     const sim::Bounds bounds = model.bounds();
-    for (int tries = 0; robots_.size() < count; ++tries) {
+    for (int tries = 0; robots_.size() < setting.robots; ++tries) {
       if (tries > 100'000) throw std::runtime_error("no room for the robots of the benchmark");
       const sim::Pose2 X_WB{random.uniform(bounds.low.x, bounds.high.x),
                             random.uniform(bounds.low.y, bounds.high.y),
@@ -35,30 +47,35 @@ class Wanderers {
       const auto id = world_.add_robot("robot" + std::to_string(tries), robot, X_WB);
       if (id) robots_.push_back(*id);
     }
+    free_.resize(robots_.size());
   }
 
   void run_a_second() {
     for (int tick = 0; tick < kTicksPerSecond; ++tick) {
       world_.step();
       if (!sensing_ || tick % kTicksPerScan != 0) continue;
-      for (const sim::RobotId id : robots_) steer(id);
+      team_.for_all(robots_.size(), [this](std::size_t i) { free_[i] = is_free(robots_[i]); });
+      for (std::size_t i = 0; i < robots_.size(); ++i) steer(robots_[i], free_[i] != 0);
     }
   }
 
  private:
-  void steer(sim::RobotId id) {
-    bool free = true;
-    const auto& ranges = fan_.cast(world_.caster(), world_.pose(id), static_cast<std::size_t>(id));
-    for (std::size_t k = 120; k <= 240; ++k) free = free && ranges[k] > 0.6;
+  [[nodiscard]] bool is_free(sim::RobotId id) const {
+    const auto ranges = fan_.cast(world_.caster(), world_.pose(id), static_cast<std::size_t>(id));
+    return std::all_of(ranges.begin() + 120, ranges.begin() + 241, [](double range) { return range > 0.6; });
+  }
+  void steer(sim::RobotId id, bool free) {
     const sim::Velocity wanted = free ? sim::Velocity{0.4, 0.1} : sim::Velocity{0.0, 0.8};
     if (!world_.set_velocity_command(id, wanted.forward, wanted.turn))
       throw std::runtime_error("a command of the benchmark is wrong");
   }
 
   sim::World world_;
+  Team team_;
   bool sensing_;
   Fan fan_;
   std::vector<sim::RobotId> robots_;
+  std::vector<char> free_;  // Of each robot: there is room ahead.
 };
 
 Nanoseconds seconds_of(Wanderers& wanderers, int seconds) {
@@ -67,15 +84,17 @@ Nanoseconds seconds_of(Wanderers& wanderers, int seconds) {
   });
 }
 
-void add(const std::string& name, const sim::WorldModel& model, std::size_t robots, double times_real_time,
-         sim::Realism realism = sim::Realism::nominal) {
-  const int seconds = robots > 1 ? 1 : 20;
-  const int samples = robots > 1 ? 20 : 50;
+void add(const std::string& name, const sim::WorldModel& model, const Setting& setting,
+         double times_real_time) {
+  const int seconds = setting.robots > 1 ? 1 : 20;
+  const int samples = setting.robots > 1 ? 20 : 50;
   add_row(
       {"a simulated second, " + name, "at rest and without sensors", median_at_most(1e9 / times_real_time)},
       samples, [=](auto& state, Row& row) {
-        Wanderers seeing(model, robots, true, realism);
-        Wanderers resting(model, robots, false, realism);
+        std::optional<AllProcessors> all;
+        if (setting.threads > 1) all.emplace();
+        Wanderers seeing(model, setting, true);
+        Wanderers resting(model, setting, false);
         alternate(
             state, row, seconds, [&](int n) { return seconds_of(seeing, n); },
             [&](int n) { return seconds_of(resting, n); });
@@ -85,12 +104,16 @@ void add(const std::string& name, const sim::WorldModel& model, std::size_t robo
 }  // namespace
 
 void register_sim_world() {
-  add("one Scout among 200 boxes", two_hundred_boxes(), 1, 400.0);
+  add("one Scout among 200 boxes", two_hundred_boxes(), {}, 400.0);
   const std::optional<sim::WorldModel> map = cave();
   if (!map) return;
-  add("one Scout in the cave", *map, 1, 400.0);
-  add("100 Scouts in the cave", *map, 100, 5.0);
-  add("100 Scouts that do not hear each other", *map, 100, 5.0, sim::Realism::ideal);
+  add("one Scout in the cave", *map, {}, 400.0);
+  add("100 Scouts in the cave", *map, {.robots = 100}, 5.0);
+  add("100 Scouts that do not hear each other", *map, {.robots = 100, .realism = sim::Realism::ideal}, 5.0);
+  const auto threads = static_cast<unsigned>(at_start().count());
+  if (threads > 1)
+    add("100 Scouts in the cave on " + std::to_string(threads) + " threads", *map,
+        {.robots = 100, .threads = threads}, 5.0);
 }
 
 }  // namespace orca::bench

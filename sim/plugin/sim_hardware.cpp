@@ -121,7 +121,9 @@ class SimHardware final : public orca::hw::HardwareContainer {
     const std::string key =
         std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
     auto joined = SharedWorld::join(key, settings(), host().now(), [this] {
-      return World(*world_, {host().run_seed(), realism_from(*realism_).value_or(Realism::nominal)});
+      return World(*world_, {.seed = host().run_seed(),
+                             .realism = realism_from(*realism_).value_or(Realism::nominal),
+                             .threads = static_cast<unsigned>(*threads_)});
     });
     if (!joined) return joined.error();
     shared_ = std::move(*joined);
@@ -136,6 +138,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
     std::string text = "realism " + *realism_;
     if (*map_width_ > 0.0) text += ", map_width " + orca::xml::number_text(*map_width_) + " m";
     if (*map_resolution_ > 0.0) text += ", map_resolution " + orca::xml::number_text(*map_resolution_) + " m";
+    if (*threads_ != 1) text += ", threads " + std::to_string(*threads_);
     return text;
   }
 
@@ -197,6 +200,14 @@ class SimHardware final : public orca::hw::HardwareContainer {
       "realism",
       "nominal",
       {.choices = {"ideal", "nominal", "harsh"}, .text = "How unkind sensors, motors and odometry are."}};
+  orca::Param<std::int64_t> threads_{
+      *this,
+      "threads",
+      1,
+      {.min = 0.0,
+       .max = 64.0,
+       .text =
+           "That the robots of a world sense on; 0: as many as the processor has. It changes no result."}};
 
   std::optional<WorldModel> world_;
   std::optional<RobotModel> robot_;

@@ -92,9 +92,13 @@ std::optional<TurretReading> Robot::turret() const {
                        turret_->rate() - steering};
 }
 
-void Robot::chirp(const Caster& caster, SonarAir& air, std::size_t own_body) {
+void Robot::fire(const Caster& caster, std::size_t own_body) {
   for (std::size_t k = 0; k < sonars.size(); ++k)
-    sonars[k].fire(caster, own_body, span(model.sonars[k].on_turret), air);
+    sonars[k].fire(caster, own_body, span(model.sonars[k].on_turret));
+}
+
+void Robot::send(SonarAir& air) {
+  for (SonarModel& s : sonars) s.send(air);
 }
 
 void Robot::sense(const Caster& caster, const SonarAir& air, std::size_t own_body) {

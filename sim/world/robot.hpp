@@ -38,8 +38,10 @@ class Robot {
   // The body has moved to `X_WB` in the tick that ended at `now`; `blocked`: something was in its way.
   void moved(const Pose2& X_WB, TimePoint now, bool blocked);
   // Lets the sonars fire. @pre  moved() was called for all robots.
-  void chirp(const Caster& caster, SonarAir& air, std::size_t own_body);
-  // Lets the sensors measure, in the world as it is now. @pre  chirp() was called for all robots.
+  void fire(const Caster& caster, std::size_t own_body);
+  // What they have sent is in the air from now on.
+  void send(SonarAir& air);
+  // Lets the sensors measure, in the world as it is now. @pre  send() was called for all robots.
   void sense(const Caster& caster, const SonarAir& air, std::size_t own_body);
   // Lets the bumpers feel what touches the robot now.
   void feel(std::span<const Touch> touches);

@@ -241,13 +241,14 @@ void SonarAir::for_all_off(std::uint64_t element, const Window& window, const Vi
 }
 
 std::optional<double> SonarAir::first_heard(const Caster& caster, const Beam& listener, std::uint64_t own,
-                                            TimePoint since, const Echo& echo) const {
+                                            TimePoint since, const Echo& echo,
+                                            Sectors::Search& search) const {
   const double now = seconds_of(since);
   Ear ear(caster, own, listener, echo, now);
   std::optional<double> nearest = echo.range;
   // A way is no longer than both cones.
   const Window window{own, now, now - (ear.cone.reach - 2.0 * listener.min_range) / kSoundSpeed};
-  for (const std::uint64_t number : sectors_.facing(ear.cone.sector, window.silent_from, now)) {
+  for (const std::uint64_t number : sectors_.facing(ear.cone.sector, window.silent_from, now, search)) {
     const Cone& cone = cones_[number - cones_.front().number];
     if (is_in(window, cone)) Ways(ear, cone, nearest).straight();
   }

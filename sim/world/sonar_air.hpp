@@ -41,9 +41,10 @@ class SonarAir {
   void settle(TimePoint now);
 
   // What `listener` reads [m], if it hears anything: it has sent chirp number `own` at `since` and takes
-  // whatever comes first for its echo, be it that echo or another's sound.
+  // whatever comes first for its echo, be it that echo or another's sound. Many listeners at once.
   [[nodiscard]] std::optional<double> first_heard(const Caster& caster, const Beam& listener,
-                                                  std::uint64_t own, TimePoint since, const Echo& echo) const;
+                                                  std::uint64_t own, TimePoint since, const Echo& echo,
+                                                  Sectors::Search& search) const;
 
  private:
   class Ear;

@@ -18,7 +18,7 @@ TimePoint SonarModel::next_due() const {
   return round_start_ + Duration{ring_.period.count() * slot / slots};
 }
 
-void SonarModel::fire(const Caster& caster, std::size_t own_body, const TickSpan& span, SonarAir& air) {
+void SonarModel::fire(const Caster& caster, std::size_t own_body, const TickSpan& span) {
   shots_.clear();
   for (TimePoint due = next_due(); due <= span.to; due = next_due()) {
     const std::size_t k = ring_.order[fired_++];
@@ -28,22 +28,25 @@ void SonarModel::fire(const Caster& caster, std::size_t own_body, const TickSpan
                     ring_.max_range,
                     ring_.height_of(k),
                     own_body};
-    Echo echo = echo_of(caster, beam, errors_.critical_angle);
-    const std::uint64_t chirp = air.send(due, beam, echo);
-    shots_.push_back({k, due, beam, span.in_robot(due) * ring_.transducer(k), std::move(echo), chirp});
+    shots_.push_back({k, due, beam, span.in_robot(due) * ring_.transducer(k),
+                      echo_of(caster, beam, errors_.critical_angle)});
     if (fired_ < ring_.count) continue;
     fired_ = 0;
     round_start_ += ring_.period;
   }
 }
 
+void SonarModel::send(SonarAir& air) {
+  for (Shot& shot : shots_) shot.chirp = air.send(shot.time, shot.beam, shot.echo);
+}
+
 void SonarModel::listen(const Caster& caster, const SonarAir& air) {
   completed_.reset();
   for (const Shot& shot : shots_) {
     const bool deaf_to_others = !errors_.sonar_crosstalk;
-    SonarReading reading =
-        measured(deaf_to_others ? shot.echo.range
-                                : air.first_heard(caster, shot.beam, shot.chirp, shot.time, shot.echo));
+    SonarReading reading = measured(
+        deaf_to_others ? shot.echo.range
+                       : air.first_heard(caster, shot.beam, shot.chirp, shot.time, shot.echo, search_));
     reading.transducer = shot.transducer;
     reading.stamp = shot.time;
     reading.sensor = shot.X_RS;

@@ -15,14 +15,16 @@
 namespace orca::sim::detail {
 
 // A ring whose transducers fire one after the other, or some at once, evenly over its period. All rings of a
-// world fire before any of them listens, so that each hears the others.
+// world have sent before any of them listens, so that each hears the others.
 class SonarModel {
  public:
   SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start);
 
-  // Sends everything due in the span.
-  void fire(const Caster& caster, std::size_t own_body, const TickSpan& span, SonarAir& air);
-  // Takes what comes back, also of others.
+  // Fires all that is due in the span, into a silent world;
+  void fire(const Caster& caster, std::size_t own_body, const TickSpan& span);
+  // lets others hear it,
+  void send(SonarAir& air);
+  // and takes what comes back, also of others.
   void listen(const Caster& caster, const SonarAir& air);
 
   // The round that was completed in the last listen(), if one was.
@@ -33,9 +35,9 @@ class SonarModel {
     std::size_t transducer;
     TimePoint time;
     Beam beam;
-    Pose2 X_RS;  // Of the transducer in the robot's frame.
-    Echo echo;   // Its own.
-    std::uint64_t chirp;
+    Pose2 X_RS;               // Of the transducer in the robot's frame.
+    Echo echo;                // Its own.
+    std::uint64_t chirp = 0;  // Once it is sent.
   };
 
   [[nodiscard]] TimePoint next_due() const;
@@ -48,6 +50,7 @@ class SonarModel {
   std::size_t fired_ = 0;     // In the present round.
   std::size_t listened_ = 0;  // Likewise.
   std::vector<Shot> shots_;   // Of this tick.
+  Sectors::Search search_;
   SonarScan scan_;
   std::optional<SonarScan> completed_;
 };

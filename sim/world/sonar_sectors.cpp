@@ -62,8 +62,8 @@ void Sectors::mark(const Bin& bin, const Question& asked, std::int32_t* marks) {
   }
 }
 
-std::span<const std::uint64_t> Sectors::facing(const Sector& one, double silent_from,
-                                               double sent_until) const {
+std::span<const std::uint64_t> Sectors::facing(const Sector& one, double silent_from, double sent_until,
+                                               Search& search) const {
   const Question asked{single(one.tip.x),
                        single(one.tip.y),
                        single(one.left.x),
@@ -73,7 +73,7 @@ std::span<const std::uint64_t> Sectors::facing(const Sector& one, double silent_
                        single(single_margin(one.tip)),
                        single(silent_from - base_) - kTimeMargin,
                        single(sent_until - base_) + kTimeMargin};
-  found_.clear();
+  search.found.clear();
   // Who faces the other looks the other way, but for both their half angles.
   const double bin = wrapped(one.yaw + 0.5 * kTurn) / kTurn * kBins + kBins;
   const double aside = (one.half_angle + widest_) / kTurn * kBins + kRounding;
@@ -82,11 +82,12 @@ std::span<const std::uint64_t> Sectors::facing(const Sector& one, double silent_
   for (int b = first; b <= last; ++b) {
     const Bin& some = bins_[static_cast<std::size_t>((b + kBins) % kBins)];
     const std::size_t count = some.numbers.size();
-    if (marks_.size() < count + kMarkGroup) marks_.resize(count + kMarkGroup);
-    mark(some, asked, marks_.data());
-    for_all_marked(marks_.data(), count, [&](std::size_t i) { found_.push_back(some.numbers[i]); });
+    if (search.marks.size() < count + kMarkGroup) search.marks.resize(count + kMarkGroup);
+    mark(some, asked, search.marks.data());
+    for_all_marked(search.marks.data(), count,
+                   [&](std::size_t i) { search.found.push_back(some.numbers[i]); });
   }
-  return found_;
+  return search.found;
 }
 
 }  // namespace orca::sim::detail

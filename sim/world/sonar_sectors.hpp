@@ -30,8 +30,7 @@ struct Sector {
 };
 
 // Many sectors, which are asked for by each listener: sorted by where they look, column by column and in
-// single precision, so that the compiler looks at four at once. It errs on the side of finding too many. One
-// thread at a time.
+// single precision, so that the compiler looks at four at once. It errs on the side of finding too many.
 class Sectors {
  public:
   // From now on times are kept relative to `base` [s], from which they must not be farther than some seconds;
@@ -39,9 +38,15 @@ class Sectors {
   void clear(double base);
   void add(const Sector& sector, std::uint64_t number);
 
+  // What a search needs; kept by who asks often, for its memory.
+  struct Search {
+    std::vector<std::int32_t> marks;
+    std::vector<std::uint64_t> found;
+  };
   // The numbers, in no order, of all sectors that hold the tip of `one` and whose tip it holds, that were
-  // sent by `sent_until` and are not silent before `silent_from` [s]. Valid until the next call.
-  std::span<const std::uint64_t> facing(const Sector& one, double silent_from, double sent_until) const;
+  // sent by `sent_until` and are not silent before `silent_from` [s]. Valid until the next search.
+  std::span<const std::uint64_t> facing(const Sector& one, double silent_from, double sent_until,
+                                        Search& search) const;
 
  private:
   enum Column { tip_x, tip_y, left_x, left_y, right_x, right_y, margin, sent, silent, kColumns };
@@ -62,8 +67,6 @@ class Sectors {
   double base_ = 0.0;
   double widest_ = 0.0;  // [rad] Half angle.
   std::array<Bin, kBins> bins_;
-  mutable std::vector<std::int32_t> marks_;  // Of facing(), kept for their memory.
-  mutable std::vector<std::uint64_t> found_;
 };
 
 }  // namespace orca::sim::detail

@@ -8,6 +8,7 @@
 #include "arc.hpp"
 #include "contact_log.hpp"
 #include "movers.hpp"
+#include "orca/base/team.hpp"
 #include "physics.hpp"
 #include "robot.hpp"
 
@@ -55,7 +56,8 @@ struct World::Impl {
         errors(error_levels(o.realism)),
         caster(model),
         physics(model),
-        movers(model, o.seed, caster, physics) {}
+        movers(model, o.seed, caster, physics),
+        team(o.threads) {}
 
   WorldModel model;
   Options options;
@@ -67,6 +69,7 @@ struct World::Impl {
   std::deque<detail::Robot> robots;  // Robots do not move in memory. Same numbers as in physics.
   std::vector<std::size_t> bodies;   // Of the robots, in the caster.
   detail::SonarAir air;
+  Team team;  // Each robot senses for itself.
   std::vector<ContactEvent> contacts;
   TimePoint now{};
 
@@ -150,11 +153,12 @@ void World::Impl::move() {
 
 void World::Impl::sense() {
   air.settle(now - kTick);
-  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].chirp(caster, air, bodies[i]);
-  for (std::size_t i = 0; i < robots.size(); ++i) {
+  team.for_all(robots.size(), [this](std::size_t i) { robots[i].fire(caster, bodies[i]); });
+  for (detail::Robot& robot : robots) robot.send(air);
+  team.for_all(robots.size(), [this](std::size_t i) {
     robots[i].sense(caster, air, bodies[i]);
     if (!robots[i].bumpers.empty()) robots[i].feel(physics.touches(i));
-  }
+  });
 }
 
 World::World(WorldModel model, Options options) : impl_(std::make_unique<Impl>(std::move(model), options)) {}

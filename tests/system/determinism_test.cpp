@@ -90,3 +90,21 @@ TEST_CASE("where the run starts and whether it is traced does not change its has
   REQUIRE(plain.trace_hash());
   CHECK(plain.trace_hash() == other.trace_hash());
 }
+
+TEST_CASE("on how many threads two robots sense changes nothing, and no thread is left behind",
+          "[system][determinism]") {
+  std::map<std::string, int> hashes;
+  for (const char* threads : {"1", "2", "3"}) {
+    const Run run =
+        run_deployer(Words{system_graph("two_walkers.xml"), "--clock", "virtual", "--executor",
+                           executors().back(), "--until", "20 s", "--set", std::string("threads=") + threads},
+                     Seconds(60));
+    CAPTURE(threads, run.err);
+    REQUIRE(run.exit_code() == 0);
+    REQUIRE(run.trace_hash());
+    CHECK(run.err.empty());
+    ++hashes[*run.trace_hash()];
+  }
+  CAPTURE(hashes);
+  CHECK(hashes.size() == 1);
+}

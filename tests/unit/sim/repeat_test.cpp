@@ -24,8 +24,8 @@ constexpr int kTicksPerMinute = 6000;
 // A crowd of robots that drive at random among people, into them and into each other.
 class Crowd {
  public:
-  explicit Crowd(std::uint64_t seed)
-      : world_(shipped_world("crowd"), {.seed = seed, .realism = Realism::nominal}) {
+  explicit Crowd(std::uint64_t seed, unsigned threads = 1)
+      : world_(shipped_world("crowd"), {.seed = seed, .realism = Realism::nominal, .threads = threads}) {
     for (std::size_t i = 0; i < kTypes.size(); ++i) {
       const auto id = world_.add_robot(kTypes[i], shipped(kTypes[i]), kStarts[i]);
       REQUIRE(id);
@@ -97,7 +97,7 @@ class Crowd {
   std::size_t touches_ = 0;
 };
 
-// Whether so many fresh worlds go through the same simulated minutes.
+// Whether so many fresh worlds go through the same simulated minutes, each with another number of threads.
 void check_repeats(int worlds, int minutes) {
   Crowd first(1);
   const std::uint64_t expected = first.run(minutes);
@@ -106,7 +106,7 @@ void check_repeats(int worlds, int minutes) {
     CAPTURE(world);
     // Other addresses than before.
     const std::vector<char> gap(static_cast<std::size_t>(1000 * world));
-    Crowd again(1);
+    Crowd again(1, static_cast<unsigned>(world % 4));
     CHECK(again.run(minutes) == expected);
   }
 }

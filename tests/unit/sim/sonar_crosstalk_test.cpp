@@ -29,7 +29,8 @@ std::optional<double> heard_by(const Caster& caster, detail::SonarAir& air, cons
   detail::Echo echo = echo_at(caster, listener);
   const std::uint64_t own = air.send(now, beam_at(listener), echo);
   echo.range.reset();
-  return air.first_heard(caster, beam_at(listener), own, now, echo);
+  detail::Sectors::Search search;
+  return air.first_heard(caster, beam_at(listener), own, now, echo, search);
 }
 
 constexpr orca::TimePoint kNow = orca::TimePoint{} + 1s;
@@ -163,7 +164,8 @@ TEST_CASE("what arrives first counts: the own echo or another's sound", "[sim][s
     air.send(earlier ? kNow - 10ms : kNow, beam_at({0, 0.4, 0}), echo_at(caster, {0, 0.4, 0}));
     const std::uint64_t own = air.send(kNow, beam_at(kAhead), echo);
     const double stray = 0.5 * (std::hypot(6.0, 0.4) - kSoundSpeed * 0.010);
-    CHECK(air.first_heard(caster, beam_at(kAhead), own, kNow, echo).value() ==
+    detail::Sectors::Search search;
+    CHECK(air.first_heard(caster, beam_at(kAhead), own, kNow, echo, search).value() ==
           Approx(earlier ? stray : 3.0).margin(1e-9));
   }
 }

@@ -51,7 +51,8 @@ void ask(RandomStream& random, Vec2 middle, double base, double widest, Count& c
   for (std::uint64_t i = 0; i < 203; ++i)
     sectors.add(all.emplace_back(random_sector(random, middle, base, widest)), 1000 + i);
   const Sector one = random_sector(random, middle, base, widest);
-  const auto found = sectors.facing(one, one.sent - 0.01, one.sent);
+  Sectors::Search search;
+  const auto found = sectors.facing(one, one.sent - 0.01, one.sent, search);
   count.found += found.size();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto times = std::ranges::count(found, 1000 + i);
@@ -86,7 +87,8 @@ TEST_CASE("sectors as wide as a half plane find each other once, whichever way t
     sectors.clear(0.0);
     sectors.add({{there.x, there.y, wrapped(yaw + kPi)}, 0.5 * kPi, 0.0, 1.0}, 7);
     const Sector one({0, 0, yaw}, 0.5 * kPi, 0.0, 1.0);
-    const auto found = sectors.facing(one, 0.0, 1.0);
+    Sectors::Search search;
+    const auto found = sectors.facing(one, 0.0, 1.0, search);
     CAPTURE(degrees);
     REQUIRE(std::vector<std::uint64_t>(found.begin(), found.end()) == std::vector<std::uint64_t>{7});
   }
@@ -96,5 +98,6 @@ TEST_CASE("without any sector none faces anybody", "[sim][sonar]") {
   RandomStream random(6, "test", "sectors");
   Sectors sectors;
   sectors.clear(0.0);
-  CHECK(sectors.facing(random_sector(random, {}, 0.0, 0.7), -1.0, 1.0).empty());
+  Sectors::Search search;
+  CHECK(sectors.facing(random_sector(random, {}, 0.0, 0.7), -1.0, 1.0, search).empty());
 }

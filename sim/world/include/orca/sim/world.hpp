@@ -36,6 +36,7 @@ class World {
   struct Options {
     std::uint64_t seed = 1;
     Realism realism = Realism::nominal;
+    unsigned threads = 1;  ///< That robots sense on; 0: as many as the processor has. It changes no result.
   };
   static constexpr Duration kTick = std::chrono::milliseconds{10};
 

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/base/team.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <system_error>
+#include <thread>
+
+#include "executive/futex_event.hpp"
+#include "orca/base/activity.hpp"
+
+namespace orca {
+namespace {
+
+using detail::useful_spin;
+
+// Loops often come one soon after the other, and a thread that sleeps is woken late.
+constexpr Duration kSpin = std::chrono::microseconds{300};
+
+}  // namespace
+
+// On the caller's stack, which outlives it: the caller waits for all who have joined.
+class Team::Loop {
+ public:
+  Loop(std::size_t count, const std::function<void(std::size_t)>& work) : count_(count), work_(work) {
+    caller_.keep();
+  }
+
+  [[nodiscard]] bool has_work() const { return next_.load(std::memory_order_relaxed) < count_; }
+
+  void share() {
+    caller_.restore();
+    for (;;) {
+      const std::size_t i = next_.fetch_add(1, std::memory_order_relaxed);
+      if (i >= count_) return;
+      try {
+        work_(i);
+      } catch (...) {
+        fail(i);
+      }
+    }
+  }
+
+  void finish() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  int helpers = 0;  // Who have joined and not left; guarded by the team.
+
+ private:
+  void fail(std::size_t i) {
+    const std::lock_guard lock(mutex_);
+    if (failure_ && failed_ < i) return;
+    failure_ = std::current_exception();
+    failed_ = i;
+  }
+
+  std::size_t count_;
+  const std::function<void(std::size_t)>& work_;
+  ActivityKeeper caller_;  // What a helper does it does for the caller.
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;
+  std::exception_ptr failure_;  // Guarded, as the next.
+  std::size_t failed_ = 0;
+};
+
+struct Team::Helper {
+  detail::FutexEvent loop_begins{useful_spin(kSpin)};
+  std::thread thread;
+};
+
+Team::Team(unsigned threads) : helpers_left_(std::make_unique<detail::FutexEvent>(useful_spin(kSpin))) {
+  const unsigned wanted = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+  try {
+    while (helpers_.size() + 1 < wanted) {
+      auto helper = std::make_unique<Helper>();
+      helper->thread = std::thread([this, &self = *helper] { help(self); });
+      helpers_.push_back(std::move(helper));
+    }
+  } catch (const std::system_error&) {
+    // There are as many as the system allows.
+  }
+}
+
+Team::~Team() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  wake_helpers();
+  for (const auto& helper : helpers_) helper->thread.join();
+}
+
+void Team::for_all(std::size_t count, const std::function<void(std::size_t)>& work) {
+  Loop loop(count, work);
+  if (count > 1 && !helpers_.empty()) {
+    {
+      const std::lock_guard lock(mutex_);
+      loop_ = &loop;
+    }
+    wake_helpers();
+  }
+  loop.share();
+  wait_for_helpers(loop);
+  loop.finish();
+}
+
+void Team::wake_helpers() {
+  for (const auto& helper : helpers_) helper->loop_begins.notify();
+}
+
+void Team::wait_for_helpers(const Loop& loop) {
+  for (;;) {
+    {
+      const std::lock_guard lock(mutex_);
+      loop_ = nullptr;  // Who comes late need not join.
+      if (loop.helpers == 0) return;
+    }
+    helpers_left_->wait_until(kForever);
+  }
+}
+
+void Team::help(Helper& self) {
+  for (;;) {
+    self.loop_begins.wait_until(kForever);
+    std::unique_lock lock(mutex_);
+    if (ended_) return;
+    if (loop_ == nullptr) continue;
+    Loop& loop = *loop_;
+    ++loop.helpers;
+    lock.unlock();
+    loop.share();
+    ActivityKeeper{}.restore();
+    lock.lock();
+    if (--loop.helpers == 0) helpers_left_->notify();
+  }
+}
+
+}  // namespace orca

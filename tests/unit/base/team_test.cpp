@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orca/base/team.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "orca/base/activity.hpp"
+
+using namespace orca;
+
+namespace {
+
+// How often work(i) was called, for each i.
+std::vector<int> calls_of(Team& team, std::size_t count) {
+  std::vector<int> calls(count);
+  team.for_all(count, [&](std::size_t i) { ++calls[i]; });
+  return calls;
+}
+
+// Two that are at work at once: each waits, for long enough, until the other has begun.
+bool meet_at_work(Team& team) {
+  std::atomic<int> begun{0};
+  std::atomic<int> met{0};
+  team.for_all(2, [&](std::size_t) {
+    ++begun;
+    for (int tries = 0; tries < 10'000 && begun < 2; ++tries)
+      std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    if (begun == 2) ++met;
+  });
+  return met == 2;
+}
+
+}  // namespace
+
+TEST_CASE("a team does each part of a loop once, however many it are and however many parts there are",
+          "[base][team]") {
+  Team team(GENERATE(1U, 2U, 5U, 0U));
+  for (const std::size_t count : {0U, 1U, 2U, 3U, 100U})
+    for (int again = 0; again < 200; ++again) REQUIRE(calls_of(team, count) == std::vector<int>(count, 1));
+}
+
+TEST_CASE("a team of two works on two parts at once", "[base][team]") {
+  Team team(2);
+  REQUIRE(team.threads() == 2);
+  CHECK(meet_at_work(team));
+}
+
+TEST_CASE("a team of nobody else needs no thread", "[base][team]") {
+  Team team(1);
+  CHECK(team.threads() == 1);
+  const std::thread::id caller = std::this_thread::get_id();
+  team.for_all(10, [&](std::size_t) { CHECK(std::this_thread::get_id() == caller); });
+}
+
+TEST_CASE("a team without a number has as many threads as the processor", "[base][team]") {
+  CHECK(Team(0).threads() == std::max(1U, std::thread::hardware_concurrency()));
+}
+
+TEST_CASE("of what parts of a loop throw the first arrives, when all others are done", "[base][team]") {
+  Team team(GENERATE(1U, 3U));
+  for (int again = 0; again < 100; ++again) {
+    std::vector<int> calls(50);
+    const auto work = [&](std::size_t i) {
+      ++calls[i];
+      if (i % 20 == 7) throw std::runtime_error("part " + std::to_string(i));
+    };
+    REQUIRE_THROWS_WITH(team.for_all(50, work), "part 7");
+    REQUIRE(calls == std::vector<int>(50, 1));
+  }
+  CHECK(calls_of(team, 50) == std::vector<int>(50, 1));
+}
+
+TEST_CASE("what a helper does it does for who called", "[base][team]") {
+  Team team(3);
+  std::atomic<int> for_sim{0};
+  {
+    const Activity activity("sim", "poll()", nullptr);
+    team.for_all(1000, [&](std::size_t) {
+      if (Activity::current() != nullptr && Activity::current()->who() == std::string("sim")) ++for_sim;
+    });
+    CHECK(Activity::current() == &activity);
+  }
+  CHECK(for_sim == 1000);
+  CHECK(Activity::current() == nullptr);
+  team.for_all(1000, [&](std::size_t) {
+    if (Activity::current() != nullptr) --for_sim;
+  });
+  CHECK(for_sim == 1000);
+}
