@@ -142,24 +142,26 @@ void Bodies::cast(const Ray& ray, Hit& hit) const {
     for (std::size_t i = 0; i < bodies_.size(); ++i) test(i);
     return;
   }
-  cells_.walk(ray, hit.range, [&](std::size_t cell) {
-    for (const std::uint32_t number : lists_[cell]) test(number);
-  });
+  cells_.walk(
+      ray, hit.range,
+      [&](std::size_t cell) {
+        for (const std::uint32_t number : lists_[cell]) test(number);
+      },
+      0.0);
 }
 
 void Bodies::cast(const Ray& ray, std::span<const std::uint32_t> numbers, Hit& hit) const {
   for (const std::uint32_t number : numbers) cast_at(number, ray, hit);
 }
 
-std::optional<std::vector<std::uint32_t>> Bodies::in_view(const Ray& axis, double half_angle,
-                                                          double slack) const {
-  if (half_angle > kWide || bodies_.size() <= kFew || bodies_.size() > kMany) return std::nullopt;
-  std::vector<std::uint32_t> found =
-      discs_.near({axis.origin, axis.direction, half_angle, axis.max_range}, slack);
+bool Bodies::choose(const Ray& axis, const Cone& cone, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  if (cone.half_angle > kWide || bodies_.size() <= kFew || bodies_.size() > kMany) return false;
+  discs_.find_near(cone, found);
   std::erase_if(found, [&](std::uint32_t number) {
     return number == axis.ignore_body || !outer_[number].at(axis.sensor_height);
   });
-  return found;
+  return true;
 }
 
 }  // namespace orca::sim::detail

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,10 +24,9 @@ class Bodies {
   // The same of the bodies with these numbers only.
   void cast(const Ray& ray, std::span<const std::uint32_t> numbers, Hit& hit) const;
 
-  // All bodies that a ray may meet which starts within `slack` [m] of the axis' origin, goes at most
-  // `half_angle` [rad] aside of it and is as the axis otherwise; nothing if that is not worth the search.
-  [[nodiscard]] std::optional<std::vector<std::uint32_t>> in_view(const Ray& axis, double half_angle,
-                                                                  double slack) const;
+  // Finds all bodies that a ray of the cone may meet which is as the axis otherwise; false if that is not
+  // worth the search.
+  bool choose(const Ray& axis, const Cone& cone, std::vector<std::uint32_t>& found) const;
 
  private:
   // A body, with its edges and its surroundings worked out once per move.

@@ -37,11 +37,11 @@ struct Caster::Impl {
   detail::MeshSections meshes;
   detail::Bodies bodies;
 
-  // After the bodies.
-  void finish(const Ray& ray, Hit& hit) const {
+  // After the bodies, where nothing else is met before `from` [m].
+  void finish(const Ray& ray, Hit& hit, double from) const {
     const double bodies_at = hit.range;
     if (hit.found()) hit.element += kBodies;
-    grid.cast(ray, hit);
+    grid.cast(ray, hit, from);
     const double grid_at = hit.range;
     if (grid_at < bodies_at) hit.element += kStanding;
     meshes.cast(ray, hit);
@@ -83,22 +83,30 @@ Hit Caster::cast(const Ray& ray) const {
   Hit hit;
   hit.range = ray.max_range;
   impl_->bodies.cast(ray, hit);
-  impl_->finish(ray, hit);
+  impl_->finish(ray, hit, 0.0);
   return hit;
 }
 
-Caster::View::View(const Caster& caster, const Ray& axis, double half_angle, double slack)
-    : impl_(caster.impl_.get()), bodies_(impl_->bodies.in_view(axis, half_angle, slack)) {}
+Caster::View::View(const Caster& caster, const Ray& axis, double half_angle, double slack) {
+  look(caster, axis, half_angle, slack);
+}
+
+void Caster::View::look(const Caster& caster, const Ray& axis, double half_angle, double slack) {
+  impl_ = caster.impl_.get();
+  const detail::Cone cone(axis.origin, axis.direction, half_angle, slack, axis.max_range);
+  empty_to_ = impl_->grid.empty_depth(cone);
+  chosen_ = impl_->bodies.choose(axis, cone, bodies_);
+}
 
 Hit Caster::View::cast(const Ray& ray) const {
   Hit hit;
   hit.range = ray.max_range;
-  if (bodies_) {
-    impl_->bodies.cast(ray, *bodies_, hit);
+  if (chosen_) {
+    impl_->bodies.cast(ray, bodies_, hit);
   } else {
     impl_->bodies.cast(ray, hit);
   }
-  impl_->finish(ray, hit);
+  impl_->finish(ray, hit, empty_to_);
   return hit;
 }
 

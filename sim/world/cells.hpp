@@ -31,6 +31,8 @@ class Cells {
   [[nodiscard]] std::size_t count() const {
     return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
   }
+  [[nodiscard]] int columns() const { return columns_; }
+  [[nodiscard]] int rows() const { return rows_; }
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] Vec2 low(int column, int row) const {
     return origin_ + size_ * Vec2{1.0 * column, 1.0 * row};
@@ -52,10 +54,10 @@ class Cells {
            b.high.y + kMargin < end.y;
   }
 
-  // Calls visit(cell) for the cells on the ray, the nearest first, as long as they begin before `best`, which
-  // `visit` may lower.
+  // Calls visit(cell) for the cells on the ray from the distance `from` [m] on, the nearest first, as long as
+  // they begin before `best`, which `visit` may lower.
   template <class Visit>
-  void walk(const Ray& ray, const double& best, const Visit& visit) const;
+  void walk(const Ray& ray, const double& best, const Visit& visit, double from) const;
 
  private:
   // One direction of a ray.
@@ -91,11 +93,10 @@ class Cells {
     return static_cast<int>(std::min(std::max(0.0, cells), count - 1.0));
   }
 
-  // False if the ray passes by within `best`; else `t` is where it enters.
+  // False if the ray passes by within `best`; else `t`, from where it counts, is where it enters.
   [[nodiscard]] bool enter(const Slope& x, const Slope& y, double best, double& t) const {
     const Vec2 end = low(columns_, rows_);
     double leave = best;
-    t = 0.0;
     const auto clip = [&](const Slope& ray, double from, double to) {
       if (ray.along == 0.0) return ray.start >= from && ray.start <= to;
       const double t1 = (from - ray.start) * ray.inverse;
@@ -114,10 +115,10 @@ class Cells {
 };
 
 template <class Visit>
-void Cells::walk(const Ray& ray, const double& best, const Visit& visit) const {
+void Cells::walk(const Ray& ray, const double& best, const Visit& visit, double from) const {
   const Slope along_x{ray.origin.x, ray.direction.x, 1.0 / ray.direction.x};
   const Slope along_y{ray.origin.y, ray.direction.y, 1.0 / ray.direction.y};
-  double t = 0.0;
+  double t = from;
   if (count() == 0 || !enter(along_x, along_y, best, t)) return;
   const Vec2 p = ray.origin + t * ray.direction;
   const int c = column(p.x);

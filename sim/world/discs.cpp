@@ -24,32 +24,28 @@ void Discs::set(std::size_t number, const Circle& circle) {
   radius_[number] = single(circle.radius + single_margin(circle.center));
 }
 
-std::vector<std::uint32_t> Discs::near(const Cone& cone, double slack) const {
-  const Question asked(cone, slack);
+void Discs::find_near(const Cone& cone, std::vector<std::uint32_t>& found) const {
+  const Question asked(cone);
   std::array<std::int32_t, kBlock> marks;
-  std::vector<std::uint32_t> found;
   for (std::size_t first = 0; first < x_.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, x_.size() - first);
     mark(asked, first, count, marks.data());
     for_all_marked(marks.data(), count,
                    [&](std::size_t i) { found.push_back(static_cast<std::uint32_t>(first + i)); });
   }
-  return found;
 }
 
-Discs::Question::Question(const Cone& cone, double slack) {
-  const Vec2 left = rotated(cone.axis, cone.half_angle);
-  const Vec2 right = rotated(cone.axis, -cone.half_angle);
+Discs::Question::Question(const Cone& cone) {
   tip_x = single(cone.tip.x);
   tip_y = single(cone.tip.y);
-  left_x = single(left.x);
-  left_y = single(left.y);
-  right_x = single(right.x);
-  right_y = single(right.y);
+  left_x = single(cone.left.x);
+  left_y = single(cone.left.y);
+  right_x = single(cone.right.x);
+  right_y = single(cone.right.y);
   axis_x = single(cone.axis.x);
   axis_y = single(cone.axis.y);
   reach = single(cone.reach);
-  wider = single(slack + single_margin(cone.tip));
+  wider = single(cone.slack + single_margin(cone.tip));
 }
 
 void Discs::mark(const Question& asked, std::size_t first, std::size_t count, std::int32_t* marks) const {

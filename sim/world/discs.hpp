@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "orca/sim/geometry.hpp"
+#include "cone.hpp"
 
 namespace orca::sim::detail {
 
@@ -12,24 +12,16 @@ namespace orca::sim::detail {
 // compiler looks at four at once. It errs on the side of finding too many.
 class Discs {
  public:
-  // Up to a right angle wide.
-  struct Cone {
-    Vec2 tip;
-    Vec2 axis;          // Of length 1.
-    double half_angle;  // [rad]
-    double reach;       // [m]
-  };
-
   // @param number  the next one, or one that is there already.
   void set(std::size_t number, const Circle& circle);
 
-  // The numbers of all that may come nearer than `slack` [m] to the cone, in their order.
-  [[nodiscard]] std::vector<std::uint32_t> near(const Cone& cone, double slack) const;
+  // Adds the numbers of all that rays of the cone may meet, in their order.
+  void find_near(const Cone& cone, std::vector<std::uint32_t>& found) const;
 
  private:
   // The cone, as the columns have it.
   struct Question {
-    Question(const Cone& cone, double slack);
+    explicit Question(const Cone& cone);
     float tip_x, tip_y, left_x, left_y, right_x, right_y, axis_x, axis_y, reach, wider;
   };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "intersect.hpp"
+#include "strips.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -98,7 +99,7 @@ void Grid::sort_in() {
   for_all_entries([&](std::size_t c, std::uint32_t element) { entries_[next[c]++] = element; });
 }
 
-void Grid::cast(const Ray& ray, Hit& hit) const {
+void Grid::cast(const Ray& ray, Hit& hit, double from) const {
   const auto edges = static_cast<std::uint32_t>(elements_.edges.size());
   std::uint32_t nearest = kNone;
   const auto test = [&](const auto& boundary, Heights heights, std::uint32_t element) {
@@ -107,18 +108,21 @@ void Grid::cast(const Ray& ray, Hit& hit) const {
     hit.range = range;
     nearest = element;
   };
-  cells_.walk(ray, hit.range, [&](std::size_t cell) {
-    for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      const std::uint32_t element = entries_[i];
-      if (element < edges) {
-        const Elements::Edge& e = elements_.edges[element];
-        test(e.segment, e.heights, element);
-      } else {
-        const Elements::Round& r = elements_.rounds[element - edges];
-        test(r.circle, r.heights, element);
-      }
-    }
-  });
+  cells_.walk(
+      ray, hit.range,
+      [&](std::size_t cell) {
+        for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+          const std::uint32_t element = entries_[i];
+          if (element < edges) {
+            const Elements::Edge& e = elements_.edges[element];
+            test(e.segment, e.heights, element);
+          } else {
+            const Elements::Round& r = elements_.rounds[element - edges];
+            test(r.circle, r.heights, element);
+          }
+        }
+      },
+      from);
   if (nearest == kNone) return;
   hit.element = nearest;
   if (nearest < edges) {
@@ -126,6 +130,17 @@ void Grid::cast(const Ray& ray, Hit& hit) const {
   } else {
     hit.surface = elements_.rounds[nearest - edges].circle;
   }
+}
+
+double Grid::empty_depth(const Cone& cone) const {
+  if (cone.half_angle > Strips::kWide) return 0.0;
+  Strips strips(cells_, cone);
+  for (bool filled = false; !filled && strips.begin() < cone.reach;) {
+    const double depth = strips.begin();
+    strips.next([&](std::size_t c) { filled = filled || first_[c] != first_[c + 1]; });
+    if (filled) return depth;
+  }
+  return cone.reach;
 }
 
 }  // namespace orca::sim::detail

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cells.hpp"
+#include "cone.hpp"
 
 namespace orca::sim::detail {
 
@@ -36,7 +37,11 @@ class Grid {
   explicit Grid(Elements elements);
 
   // The nearest element on the ray closer than the hit, which it then becomes, with its number.
-  void cast(const Ray& ray, Hit& hit) const;
+  // @pre  it meets none before `from` [m].
+  void cast(const Ray& ray, Hit& hit, double from = 0.0) const;
+
+  // No ray of the cone meets anything nearer [m]; it may be empty farther.
+  [[nodiscard]] double empty_depth(const Cone& cone) const;
 
  private:
   void sort_in();

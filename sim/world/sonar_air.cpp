@@ -31,7 +31,6 @@ class SonarAir::Ear {
   };
   // A surface that mirrors, with what does not depend on where the sound comes from.
   struct Wall {
-    std::uint64_t element;
     Vec2 begin;
     Vec2 along;                                // To its end.
     double square;                             // [m^2] Of its length.
@@ -39,19 +38,15 @@ class SonarAir::Ear {
     double at;                                 // and how far along the wall it is [m^2].
     std::array<std::optional<Point>, 2> ends;  // That are heard.
   };
-  struct Post {
-    std::uint64_t element;
-    Circle circle;
-  };
+  Ear(const Caster& caster, const Cone& own, const Caster::View& view)
+      : cone(own), caster_(caster), view_(view) {}
 
-  Ear(const Caster& caster, std::uint64_t own, const Beam& beam, const Echo& echo, double now)
-      : caster_(caster), view_(echo.view), cone(own, beam, echo.reach, now) {
-    for (const Echo::Met& met : echo.met) {
-      if (const auto* circle = std::get_if<Circle>(&met.surface)) posts.push_back({met.element, *circle});
-      if (const auto* edge = std::get_if<Segment>(&met.surface)) add(*edge, met.element);
-    }
+  [[nodiscard]] Wall wall(const Segment& edge) const {
+    const Vec2 along = edge.b - edge.a;
+    const Vec2 to = cone.beam.sensor.position() - edge.a;
+    return {edge.a,           along,          dot(along, along),
+            cross(along, to), dot(along, to), {scattering(edge.a), scattering(edge.b)}};
   }
-
   // Asked once: it takes a cast.
   bool sees(Point& point) const {
     if (point.sight == Point::Sight::unknown)
@@ -59,6 +54,8 @@ class SonarAir::Ear {
           sees(view_, cone.beam, point.at, point.length) ? Point::Sight::free : Point::Sight::blocked;
     return point.sight == Point::Sight::free;
   }
+  const Cone& cone;
+
   // The same of another's beam.
   [[nodiscard]] bool is_seen(const Beam& beam, Vec2 point, double length) const {
     return sees(caster_, beam, point, length);
@@ -76,17 +73,6 @@ class SonarAir::Ear {
     const Vec2 towards = (1.0 / length) * (point - beam.sensor.position());
     return eye.cast(beam.ray(towards)).range >= length - kSeen;
   }
-  void add(const Segment& edge, std::uint64_t element) {
-    const Vec2 along = edge.b - edge.a;
-    const Vec2 to = cone.beam.sensor.position() - edge.a;
-    walls.push_back({element,
-                     edge.a,
-                     along,
-                     dot(along, along),
-                     cross(along, to),
-                     dot(along, to),
-                     {scattering(edge.a), scattering(edge.b)}});
-  }
   [[nodiscard]] std::optional<Point> scattering(Vec2 end) const {
     const Vec2 to = end - cone.beam.sensor.position();
     if (!cone.holds(to)) return std::nullopt;
@@ -97,11 +83,6 @@ class SonarAir::Ear {
 
   const Caster& caster_;
   const Caster::View& view_;
-
- public:
-  Cone cone;
-  std::vector<Wall> walls;
-  std::vector<Post> posts;
 };
 
 // Follows the ways from one transducer to another and keeps the shortest that arrives in the window.
@@ -130,6 +111,22 @@ class SonarAir::Ways {
     if (ear_.sees_transducer(way, length)) keep(length);
   }
 
+  // Off its flat side and its ends.
+  void off_wall(Ear::Wall& wall) {
+    off_mirror(wall);
+    for (auto& end : wall.ends)
+      if (end) off_point(*end);
+  }
+
+  // Near enough where the two directions to its centre meet halfway.
+  void off_circle(const Circle& circle) {
+    const Vec2 one = sender() - circle.center;
+    const Vec2 other = listener() - circle.center;
+    const Vec2 half = (1.0 / norm(one)) * one + (1.0 / norm(other)) * other;
+    if (norm(half) > 0.0) off_spot(circle.center + (circle.radius / norm(half)) * half);
+  }
+
+ private:
   // Sound comes off a wall where it makes equal angles with it: there the distances of the two from the wall
   // divide what lies between them along it.
   void off_mirror(const Ear::Wall& wall) {
@@ -141,13 +138,6 @@ class SonarAir::Ways {
     if (place > 0.0 && place < weight * wall.square)
       off_spot(wall.begin + place / (weight * wall.square) * wall.along);
   }
-  // Near enough where the two directions to its centre meet halfway.
-  void off_circle(const Circle& circle) {
-    const Vec2 one = sender() - circle.center;
-    const Vec2 other = listener() - circle.center;
-    const Vec2 half = (1.0 / norm(one)) * one + (1.0 / norm(other)) * other;
-    if (norm(half) > 0.0) off_spot(circle.center + (circle.radius / norm(half)) * half);
-  }
   void off_point(Ear::Point& point) {
     const Vec2 way = point.at - sender();
     if (!from_.holds(way)) return;
@@ -156,7 +146,6 @@ class SonarAir::Ways {
     if (ear_.sees(point) && ear_.is_seen(from_.beam, point.at, length)) keep(length + point.length);
   }
 
- private:
   // A point of a surface that turns there from the one to the other.
   void off_spot(Vec2 spot) {
     const Vec2 to = spot - listener();
@@ -184,14 +173,7 @@ SonarAir::Cone::Cone(std::uint64_t chirp, const Beam& from, double goes, double 
     : number(chirp),
       beam(from),
       reach(goes),
-      axis(direction(from.sensor.yaw)),
-      tan_lobe(std::tan(from.half_lobe)),
-      sector(from.sensor, from.half_lobe, sent_at,
-             sent_at + std::fmin(kFadesAfter, (goes + 2.0 * kInBody) / kSoundSpeed)) {}
-
-double SonarAir::Cone::loss(Vec2 towards) const {
-  return lobe_loss(std::atan2(cross(axis, towards), dot(axis, towards)), beam.half_lobe);
-}
+      sector(from, sent_at, sent_at + std::fmin(kFadesAfter, (goes + 2.0 * kInBody) / kSoundSpeed)) {}
 
 std::uint64_t SonarAir::send(TimePoint time, const Beam& beam, const Echo& echo) {
   sectors_.add(cones_.emplace_back(sent_, beam, echo.reach, seconds_of(time)).sector, sent_);
@@ -240,31 +222,29 @@ void SonarAir::for_all_off(std::uint64_t element, const Window& window, const Vi
   }
 }
 
-std::optional<double> SonarAir::first_heard(const Caster& caster, const Beam& listener, std::uint64_t own,
-                                            TimePoint since, const Echo& echo,
+std::optional<double> SonarAir::first_heard(const Caster& caster, std::uint64_t own, const Echo& echo,
                                             Sectors::Search& search) const {
-  const double now = seconds_of(since);
-  Ear ear(caster, own, listener, echo, now);
+  const Ear ear(caster, cone(own), echo.view);
+  const double now = ear.cone.sector.sent;
   std::optional<double> nearest = echo.range;
   // A way is no longer than both cones.
-  const Window window{own, now, now - (ear.cone.reach - 2.0 * listener.min_range) / kSoundSpeed};
-  for (const std::uint64_t number : sectors_.facing(ear.cone.sector, window.silent_from, now, search)) {
-    const Cone& cone = cones_[number - cones_.front().number];
-    if (is_in(window, cone)) Ways(ear, cone, nearest).straight();
+  const Window window{own, now, now - (ear.cone.reach - 2.0 * ear.cone.beam.min_range) / kSoundSpeed};
+  for (const std::uint64_t number : sectors_.facing(ear.cone.sector, window.silent_from, now, search))
+    if (is_in(window, cone(number))) Ways(ear, cone(number), nearest).straight();
+  for (const Echo::Met& met : echo.met) {
+    const auto hear = [&](const auto& follow) {
+      for_all_off(met.element, window, [&](const Cone& from) {
+        Ways ways(ear, from, nearest);
+        if (ways.may_be_heard()) follow(ways);
+      });
+    };
+    if (const auto* circle = std::get_if<Circle>(&met.surface))
+      hear([&](Ways& ways) { ways.off_circle(*circle); });
+    if (const auto* edge = std::get_if<Segment>(&met.surface)) {
+      Ear::Wall wall = ear.wall(*edge);
+      hear([&](Ways& ways) { ways.off_wall(wall); });
+    }
   }
-  for (Ear::Wall& wall : ear.walls)
-    for_all_off(wall.element, window, [&](const Cone& cone) {
-      Ways ways(ear, cone, nearest);
-      if (!ways.may_be_heard()) return;
-      ways.off_mirror(wall);
-      for (auto& end : wall.ends)
-        if (end) ways.off_point(*end);
-    });
-  for (const Ear::Post& post : ear.posts)
-    for_all_off(post.element, window, [&](const Cone& cone) {
-      Ways ways(ear, cone, nearest);
-      if (ways.may_be_heard()) ways.off_circle(post.circle);
-    });
   return nearest;
 }
 

@@ -19,17 +19,15 @@ class SonarAir {
   // A beam as far as it goes.
   struct Cone {
     Cone(std::uint64_t chirp, const Beam& from, double reach, double sent_at);
-    [[nodiscard]] bool holds(Vec2 towards) const {
-      return std::fabs(cross(axis, towards)) <= dot(axis, towards) * tan_lobe;
-    }
+    [[nodiscard]] bool holds(Vec2 towards) const { return beam.holds(towards); }
     // Of the transducer in a direction that it holds, on one way.
-    [[nodiscard]] double loss(Vec2 towards) const;
+    [[nodiscard]] double loss(Vec2 towards) const {
+      return lobe_loss(beam.off_axis(towards), beam.lobe.half_angle);
+    }
 
     std::uint64_t number;  // Of the chirp.
     Beam beam;
     double reach;  // [m]
-    Vec2 axis;     // Of length 1.
-    double tan_lobe;
     Sector sector;
   };
 
@@ -40,10 +38,10 @@ class SonarAir {
   // Forgets what can no longer be heard at `now`.
   void settle(TimePoint now);
 
-  // What `listener` reads [m], if it hears anything: it has sent chirp number `own` at `since` and takes
-  // whatever comes first for its echo, be it that echo or another's sound. Many listeners at once.
-  [[nodiscard]] std::optional<double> first_heard(const Caster& caster, const Beam& listener,
-                                                  std::uint64_t own, TimePoint since, const Echo& echo,
+  // What the sonar reads [m] that has sent chirp number `own`, if it hears anything: it takes whatever comes
+  // first for its echo, be it that echo or another's sound. Many may ask at once.
+  // @pre  that chirp is still in the air.
+  [[nodiscard]] std::optional<double> first_heard(const Caster& caster, std::uint64_t own, const Echo& echo,
                                                   Sectors::Search& search) const;
 
  private:
@@ -56,6 +54,7 @@ class SonarAir {
     double silent_from;  // [s] What is silent before that cannot come to it any more.
   };
 
+  [[nodiscard]] const Cone& cone(std::uint64_t chirp) const { return cones_[chirp - cones_.front().number]; }
   [[nodiscard]] bool is_in(const Window& window, const Cone& cone) const;
   void forget_elements();
   template <class Visit>

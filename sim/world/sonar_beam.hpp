@@ -11,15 +11,42 @@
 
 namespace orca::sim::detail {
 
+// How far a transducer's cone opens, with what is asked of that again and again.
+struct Lobe {
+  explicit Lobe(double half) : half_angle(half), rim(direction(half)), tangent(std::tan(half)) {}
+  double half_angle;  // [rad] At most a right angle.
+  Vec2 rim;           // On the left, of length 1, if the axis is x;
+  double tangent;     // and its slope.
+};
+
 // The cone of one transducer at the moment it fires.
 struct Beam {
-  Pose2 sensor;            // In the world.
-  double half_lobe = 0.0;  // [rad]
-  double min_range = 0.0;  // [m] It is deaf to what comes back sooner.
-  double max_range = 0.0;  // [m]
-  double height = 0.0;     // [m]
-  std::size_t own_body = 0;
+  Beam(const Pose2& X_WS, const Lobe& opening, double from, double to, double above_floor, std::size_t body)
+      : sensor(X_WS),
+        axis(direction(X_WS.yaw)),
+        lobe(opening),
+        min_range(from),
+        max_range(to),
+        height(above_floor),
+        own_body(body) {}
 
+  Pose2 sensor;  // In the world.
+  Vec2 axis;     // Of length 1.
+  Lobe lobe;
+  double min_range;  // [m] It is deaf to what comes back sooner.
+  double max_range;  // [m]
+  double height;     // [m]
+  std::size_t own_body;
+
+  [[nodiscard]] Vec2 left() const { return rotated(axis, lobe.rim); }
+  [[nodiscard]] Vec2 right() const { return rotated(axis, Vec2{lobe.rim.x, -lobe.rim.y}); }
+  [[nodiscard]] bool holds(Vec2 towards) const {
+    return std::fabs(cross(axis, towards)) <= dot(axis, towards) * lobe.tangent;
+  }
+  // [rad] To the left.
+  [[nodiscard]] double off_axis(Vec2 towards) const {
+    return std::atan2(cross(axis, towards), dot(axis, towards));
+  }
   [[nodiscard]] Ray ray(Vec2 towards) const {
     return {sensor.position(), towards, max_range, height, own_body};
   }
@@ -47,14 +74,23 @@ struct Echo {
     std::uint64_t element;
   };
 
-  std::optional<double> range;  // [m] From where the first comes back that is strong enough.
-  std::vector<Met> met;         // All that the beam meets.
-  double reach = 0.0;           // [m] It meets nothing farther.
-  Caster::View view;            // Of the cone, until something moves.
+  // A ray of the beam that a surface mirrors away.
+  struct Mirrored {
+    Ray ray;
+    Hit hit;
+    double off_axis;  // [rad]
+  };
+
+  std::optional<double> range;     // [m] From where the first comes back that is strong enough.
+  std::vector<Met> met;            // All that the beam meets.
+  std::vector<Mirrored> mirrored;  // Of the rays that tell what it meets.
+  double reach = 0.0;              // [m] It meets nothing farther.
+  Caster::View view;               // Of the cone, until something moves.
 };
 
-// The first echo, without noise. Surfaces met at more than `critical_angle` [rad] mirror the sound away; if
-// nothing else is heard, what it meets behind such a mirror counts, as far as the sound has gone.
-[[nodiscard]] Echo echo_of(const Caster& caster, const Beam& beam, double critical_angle);
+// Makes `echo` the first one, without noise; what it was before is used for its memory only. Surfaces met at
+// an angle of more than this tangent mirror the sound away; if nothing else is heard, what it meets behind
+// such a mirror counts, as far as the sound has gone.
+void listen_for(const Caster& caster, const Beam& beam, double critical_tangent, Echo& echo);
 
 }  // namespace orca::sim::detail

@@ -7,7 +7,13 @@
 namespace orca::sim::detail {
 
 SonarModel::SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start)
-    : ring_(std::move(ring)), errors_(errors), random_(random), round_start_(start) {
+    : ring_(std::move(ring)),
+      lobe_(ring_.half_lobe),
+      errors_(errors),
+      critical_tangent_(std::tan(errors.critical_angle)),
+      random_(random),
+      round_start_(start) {
+  for (std::size_t k = 0; k < ring_.count; ++k) transducers_.push_back(ring_.transducer(k));
   scan_.readings.resize(ring_.count);
 }
 
@@ -19,34 +25,37 @@ TimePoint SonarModel::next_due() const {
 }
 
 void SonarModel::fire(const Caster& caster, std::size_t own_body, const TickSpan& span) {
-  shots_.clear();
+  shot_count_ = 0;
   for (TimePoint due = next_due(); due <= span.to; due = next_due()) {
     const std::size_t k = ring_.order[fired_++];
-    const Beam beam{span.at(due) * ring_.transducer(k),
-                    ring_.half_lobe,
-                    ring_.min_range,
-                    ring_.max_range,
-                    ring_.height_of(k),
-                    own_body};
-    shots_.push_back({k, due, beam, span.in_robot(due) * ring_.transducer(k),
-                      echo_of(caster, beam, errors_.critical_angle)});
+    Shot& shot = next_shot();
+    shot.transducer = k;
+    shot.time = due;
+    shot.beam.emplace(span.at(due) * transducers_[k], lobe_, ring_.min_range, ring_.max_range,
+                      ring_.height_of(k), own_body);
+    shot.X_RS = span.in_robot(due) * transducers_[k];
+    listen_for(caster, *shot.beam, critical_tangent_, shot.echo);
     if (fired_ < ring_.count) continue;
     fired_ = 0;
     round_start_ += ring_.period;
   }
 }
 
+SonarModel::Shot& SonarModel::next_shot() {
+  if (shot_count_ == shots_.size()) shots_.emplace_back();
+  return shots_[shot_count_++];
+}
+
 void SonarModel::send(SonarAir& air) {
-  for (Shot& shot : shots_) shot.chirp = air.send(shot.time, shot.beam, shot.echo);
+  for (Shot& shot : shots()) shot.chirp = air.send(shot.time, *shot.beam, shot.echo);
 }
 
 void SonarModel::listen(const Caster& caster, const SonarAir& air) {
   completed_.reset();
-  for (const Shot& shot : shots_) {
+  for (const Shot& shot : shots()) {
     const bool deaf_to_others = !errors_.sonar_crosstalk;
-    SonarReading reading = measured(
-        deaf_to_others ? shot.echo.range
-                       : air.first_heard(caster, shot.beam, shot.chirp, shot.time, shot.echo, search_));
+    SonarReading reading =
+        measured(deaf_to_others ? shot.echo.range : air.first_heard(caster, shot.chirp, shot.echo, search_));
     reading.transducer = shot.transducer;
     reading.stamp = shot.time;
     reading.sensor = shot.X_RS;

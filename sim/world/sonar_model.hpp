@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "orca/base/random.hpp"
@@ -32,24 +33,30 @@ class SonarModel {
 
  private:
   struct Shot {
-    std::size_t transducer;
+    std::size_t transducer = 0;
     TimePoint time;
-    Beam beam;
+    std::optional<Beam> beam;
     Pose2 X_RS;               // Of the transducer in the robot's frame.
     Echo echo;                // Its own.
     std::uint64_t chirp = 0;  // Once it is sent.
   };
 
   [[nodiscard]] TimePoint next_due() const;
+  [[nodiscard]] Shot& next_shot();
+  [[nodiscard]] std::span<Shot> shots() { return {shots_.data(), shot_count_}; }
   [[nodiscard]] SonarReading measured(std::optional<double> echo);
 
   SonarRing ring_;
+  std::vector<Pose2> transducers_;  // On what carries the ring.
+  Lobe lobe_;
   ErrorLevels errors_;
+  double critical_tangent_;
   RandomStream random_;
   TimePoint round_start_;
   std::size_t fired_ = 0;     // In the present round.
   std::size_t listened_ = 0;  // Likewise.
-  std::vector<Shot> shots_;   // Of this tick.
+  std::vector<Shot> shots_;   // Of this tick, and others, kept for their memory.
+  std::size_t shot_count_ = 0;
   Sectors::Search search_;
   SonarScan scan_;
   std::optional<SonarScan> completed_;

@@ -6,18 +6,18 @@
 #include <span>
 #include <vector>
 
-#include "orca/sim/geometry.hpp"
+#include "sonar_beam.hpp"
 
 namespace orca::sim::detail {
 
 // A cone in the air as far as it matters whether it faces another.
 struct Sector {
-  Sector(const Pose2& sensor, double half_lobe, double sent_at, double silent_at)
-      : tip(sensor.position()),
-        left(direction(sensor.yaw + half_lobe)),
-        right(direction(sensor.yaw - half_lobe)),
-        yaw(wrapped(sensor.yaw)),
-        half_angle(half_lobe),
+  Sector(const Beam& beam, double sent_at, double silent_at)
+      : tip(beam.sensor.position()),
+        left(beam.left()),
+        right(beam.right()),
+        yaw(wrapped(beam.sensor.yaw)),
+        half_angle(beam.lobe.half_angle),
         sent(sent_at),
         silent(silent_at) {}
 

@@ -16,10 +16,14 @@ namespace {
 constexpr double kSoundSpeed = 343.0;
 constexpr auto kNobody = static_cast<std::size_t>(-1);
 
-detail::Beam beam_at(const Pose2& sensor) { return {sensor, 12.5 * kDegree, 0.15, 6.5, 0.3, kNobody}; }
+detail::Beam beam_at(const Pose2& sensor) {
+  return {sensor, detail::Lobe(12.5 * kDegree), 0.15, 6.5, 0.3, kNobody};
+}
 
 detail::Echo echo_at(const Caster& caster, const Pose2& sensor) {
-  return detail::echo_of(caster, beam_at(sensor), 25.0 * kDegree);
+  detail::Echo echo;
+  detail::listen_for(caster, beam_at(sensor), std::tan(25.0 * kDegree), echo);
+  return echo;
 }
 
 // What the listener takes another's sound for, which was sent `earlier` than its own; nearer echoes of its
@@ -30,7 +34,7 @@ std::optional<double> heard_by(const Caster& caster, detail::SonarAir& air, cons
   const std::uint64_t own = air.send(now, beam_at(listener), echo);
   echo.range.reset();
   detail::Sectors::Search search;
-  return air.first_heard(caster, beam_at(listener), own, now, echo, search);
+  return air.first_heard(caster, own, echo, search);
 }
 
 constexpr orca::TimePoint kNow = orca::TimePoint{} + 1s;
@@ -165,8 +169,7 @@ TEST_CASE("what arrives first counts: the own echo or another's sound", "[sim][s
     const std::uint64_t own = air.send(kNow, beam_at(kAhead), echo);
     const double stray = 0.5 * (std::hypot(6.0, 0.4) - kSoundSpeed * 0.010);
     detail::Sectors::Search search;
-    CHECK(air.first_heard(caster, beam_at(kAhead), own, kNow, echo, search).value() ==
-          Approx(earlier ? stray : 3.0).margin(1e-9));
+    CHECK(air.first_heard(caster, own, echo, search).value() == Approx(earlier ? stray : 3.0).margin(1e-9));
   }
 }
 

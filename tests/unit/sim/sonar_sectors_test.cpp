@@ -19,13 +19,18 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+Sector sector_at(const Pose2& sensor, double half_angle, double sent, double silent) {
+  return {detail::Beam(sensor, detail::Lobe(half_angle), 0.0, 1.0, 0.0, 0), sent, silent};
+}
+
 Sector random_sector(RandomStream& random, Vec2 middle, double base, double widest) {
   const Vec2 tip = middle + Vec2{random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0)};
   const double sent = base + random.uniform(-0.04, 0.01);
   // A quarter look along an axis, where the bins end.
   const double yaw =
       random.chance(0.25) ? 0.5 * kPi * std::floor(random.uniform(-1.0, 3.0)) : random.uniform(-kPi, kPi);
-  return {{tip.x, tip.y, yaw}, random.uniform(0.05, widest), sent, sent + random.uniform(0.001, 0.04)};
+  const double half_angle = random.uniform(0.05, widest);
+  return sector_at({tip.x, tip.y, yaw}, half_angle, sent, sent + random.uniform(0.001, 0.04));
 }
 
 bool holds(const Sector& one, Vec2 point) {
@@ -85,8 +90,8 @@ TEST_CASE("sectors as wide as a half plane find each other once, whichever way t
     const Vec2 there = 3.0 * direction(yaw);
     Sectors sectors;
     sectors.clear(0.0);
-    sectors.add({{there.x, there.y, wrapped(yaw + kPi)}, 0.5 * kPi, 0.0, 1.0}, 7);
-    const Sector one({0, 0, yaw}, 0.5 * kPi, 0.0, 1.0);
+    sectors.add(sector_at({there.x, there.y, wrapped(yaw + kPi)}, 0.5 * kPi, 0.0, 1.0), 7);
+    const Sector one = sector_at({0, 0, yaw}, 0.5 * kPi, 0.0, 1.0);
     Sectors::Search search;
     const auto found = sectors.facing(one, 0.0, 1.0, search);
     CAPTURE(degrees);

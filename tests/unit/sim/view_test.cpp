@@ -24,10 +24,21 @@ Body random_body(RandomStream& random, Vec2 middle) {
   return {random_shape(random, middle), bottom, bottom + random.uniform(0.1, 0.5)};
 }
 
-// Some bodies, and one wall of the world itself.
+// One long wall, and things that stand here and there.
+WorldModel world_of(RandomStream& random, Vec2 at, int things) {
+  WorldModel world{"things", {{"wall", Box{{at.x, at.y + 4.0, 0.3}, {5.0, 0.1}}, 2.0}}, {}};
+  for (int i = 0; i < things; ++i) {
+    const double bottom = random.uniform(0.0, 0.4);
+    world.obstacles.push_back({"thing", random_shape(random, at), bottom + random.uniform(0.1, 0.5)});
+    world.obstacles.back().bottom = bottom;
+  }
+  return world;
+}
+
+// Some bodies among them.
 struct Crowd {
-  Crowd(RandomStream& random, Vec2 at, std::size_t count)
-      : middle(at), caster({"wall", {{"wall", Box{{at.x, at.y + 4.0, 0.3}, {5.0, 0.1}}, 2.0}}, {}}) {
+  Crowd(RandomStream& random, Vec2 at, std::size_t count, int things = 0)
+      : middle(at), caster(world_of(random, at, things)) {
     for (std::size_t i = 0; i < count; ++i) caster.add_body(random_body(random, at));
   }
   Vec2 middle;
@@ -78,9 +89,10 @@ int compare(RandomStream& random, const Crowd& crowd, const Sight& sight) {
 
 TEST_CASE("a ray of a view meets what it meets by itself, also far from the origin", "[sim][caster]") {
   const std::size_t bodies = GENERATE(3U, 40U, 299U, 320U);
+  const int things = GENERATE(0, 7, 60);
   const Vec2 middle = GENERATE(Vec2{0.0, 0.0}, Vec2{-9000.0, 4000.0});
   RandomStream random(11, "test", "views");
-  Crowd crowd(random, middle, bodies);
+  Crowd crowd(random, middle, bodies, things);
   int met = 0;
   for (int i = 0; i < 200; ++i) met += compare(random, crowd, random_sight(random, crowd, bodies));
   CHECK(met > 400);

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <variant>
 #include <vector>
 
@@ -85,25 +84,31 @@ class Caster {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What many rays from about one place in about one direction may meet, chosen once: the same as casting each
-/// by itself, and faster among many bodies. It holds until a body is added, moved or removed, and not longer
-/// than the caster lives.
+/// What many rays from about one place in about one direction may meet, looked for once: the same as casting
+/// each by itself, and faster. It holds until a body is added, moved or removed, and not longer
+/// than the caster lives; then it may look again.
 ///
-/// Thread contract: as of Caster's cast().
+/// Thread contract: as of Caster's cast(); look() needs exclusive access to the view.
 class Caster::View {
  public:
+  View() = default;
+  /// One that looks at once.
+  View(const Caster& caster, const Ray& axis, double half_angle, double slack = 0.0);
+
   /// @param axis        where rays start, how far they go, at what height, and whose body they do not see.
   /// @param half_angle  [rad] Between the axis and any ray.
   /// @param slack       [m] Between the axis' origin and that of any ray.
-  View(const Caster& caster, const Ray& axis, double half_angle, double slack = 0.0);
+  void look(const Caster& caster, const Ray& axis, double half_angle, double slack = 0.0);
 
-  /// The first thing on the ray's way. @pre  the ray is as the axis, but for what was said of angle and
-  /// slack.
+  /// The first thing on the ray's way. @pre  it has looked, and the ray is as the axis, but for what was said
+  /// of angle and slack.
   [[nodiscard]] Hit cast(const Ray& ray) const;
 
  private:
-  const Impl* impl_;
-  std::optional<std::vector<std::uint32_t>> bodies_;  // Nothing: all.
+  const Impl* impl_ = nullptr;
+  double empty_to_ = 0.0;  // [m] Nothing that stands is nearer.
+  bool chosen_ = false;
+  std::vector<std::uint32_t> bodies_;  // If they are chosen; else it is all.
 };
 
 }  // namespace orca::sim

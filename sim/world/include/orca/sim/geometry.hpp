@@ -22,10 +22,11 @@ struct Vec2 {
 [[nodiscard]] inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 /// The unit vector at `angle` [rad], counter-clockwise from x.
 [[nodiscard]] inline Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-[[nodiscard]] inline Vec2 rotated(Vec2 a, double angle) {
-  const Vec2 d = direction(angle);
-  return {d.x * a.x - d.y * a.y, d.y * a.x + d.x * a.y};
+/// Turned as the x axis is to become the unit vector `x_axis`.
+[[nodiscard]] constexpr Vec2 rotated(Vec2 a, Vec2 x_axis) {
+  return {x_axis.x * a.x - x_axis.y * a.y, x_axis.y * a.x + x_axis.x * a.y};
 }
+[[nodiscard]] inline Vec2 rotated(Vec2 a, double angle) { return rotated(a, direction(angle)); }
 
 /// The same angle in (-pi, pi] [rad].
 [[nodiscard]] inline double wrapped(double angle) {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "cells.hpp"
+#include "cone.hpp"
+
+namespace orca::sim::detail {
+
+// The cells that rays of a cone may cross, strip by strip: by columns or by rows, whatever lies more across
+// the cone, the nearest first.
+class Strips {
+ public:
+  static constexpr double kWide = 0.2 * std::numbers::pi;  // [rad] The widest half angle.
+
+  // @pre  the cells outlive it.
+  Strips(const Cells& cells, const Cone& cone);
+
+  // No ray comes to this strip, or to one after it, any nearer [m]; infinite if none is left.
+  [[nodiscard]] double begin() const { return begin_; }
+
+  // Calls visit(cell) for the cells of this strip, then goes to the next. @pre  there is one.
+  template <class Visit>
+  void next(const Visit& visit) {
+    const double from = std::max(0.0, entry_);
+    const double to = std::max(0.0, entry_ + cells_->size());
+    const int first = across(tip_across_ + low_ * (low_ < 0.0 ? to : from) - aside_);
+    const int last = across(tip_across_ + high_ * (high_ < 0.0 ? from : to) + aside_);
+    for (int i = first; i <= last; ++i)
+      visit(by_columns_ ? cells_->cell(strip_, i) : cells_->cell(i, strip_));
+    advance();
+  }
+
+ private:
+  [[nodiscard]] double along(Vec2 v) const { return by_columns_ ? v.x : v.y; }
+  [[nodiscard]] double aside(Vec2 v) const { return by_columns_ ? v.y : v.x; }
+  [[nodiscard]] int across(double place) const {
+    return by_columns_ ? cells_->row(place) : cells_->column(place);
+  }
+  void advance();
+  void arrive();
+
+  const Cells* cells_ = nullptr;
+  bool by_columns_ = true;
+  int step_ = 1;             // To the next strip.
+  int strip_ = 0;            // The present one.
+  double tip_along_ = 0.0;   // [m]
+  double tip_across_ = 0.0;  // [m]
+  double low_ = 0.0;         // Slopes of the rims against the way across the strips.
+  double high_ = 0.0;
+  double aside_ = 0.0;    // [m] How far rays may start aside of the rims.
+  double slack_ = 0.0;    // [m]
+  double fastest_ = 1.0;  // How far across the strips a ray comes at most, per metre.
+  double entry_ = 0.0;    // [m] Where the present strip begins, from the tip across the strips.
+  double begin_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace orca::sim::detail
