@@ -16,11 +16,13 @@ inline constexpr double kTouch = 1e-9;
 inline bool meet(Vec2 o, Vec2 u, const Segment& edge, double& best) {
   const Vec2 a = edge.a - o;
   const Vec2 b = edge.b - o;
-  // How far to the left of the ray the ends lie. Most edges lie on one side: no division for those.
+  // How far to the left of the ray the ends lie. Most edges lie on one side: no division for those, and one
+  // branch, since nobody can foresee which side.
   const double left_a = cross(u, a);
   const double left_b = cross(u, b);
-  if (std::min(left_a, left_b) > kTouch || std::max(left_a, left_b) < -kTouch) return false;
-  if (left_a == left_b) return false;
+  const bool on_left = (left_a > kTouch) & (left_b > kTouch);
+  const bool on_right = (left_a < -kTouch) & (left_b < -kTouch);
+  if (on_left | on_right | (left_a == left_b)) return false;
   // Between the ends, however badly conditioned the crossing is at grazing incidence.
   const double share = std::min(std::max(left_a / (left_a - left_b), 0.0), 1.0);
   const double along_a = dot(u, a);

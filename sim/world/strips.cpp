@@ -14,24 +14,15 @@ Strips::Strips(const Cells& cells, const Cone& cone) : cells_(&cells) {
   aside_ = 2.0 * cone.slack * (1.0 + std::max(-low_, high_)) + 2.0 * Cells::kMargin;
   slack_ = cone.slack + 2.0 * Cells::kMargin;
   const bool straight = low_ < 0.0 && high_ > 0.0;
-  fastest_ = straight ? 1.0 : std::max(std::fabs(along(cone.left)), std::fabs(along(cone.right)));
+  slowness_ = straight ? 1.0 : 1.0 / std::max(std::fabs(along(cone.left)), std::fabs(along(cone.right)));
   tip_along_ = along(cone.tip);
   tip_across_ = aside(cone.tip);
   const double start = tip_along_ - step_ * slack_;
+  strips_ = by_columns_ ? cells.columns() : cells.rows();
   strip_ = by_columns_ ? cells.column(start) : cells.row(start);
-  arrive();
-}
-
-void Strips::advance() {
-  strip_ += step_;
-  if (strip_ >= 0 && strip_ < (by_columns_ ? cells_->columns() : cells_->rows())) return arrive();
-  begin_ = std::numeric_limits<double>::infinity();
-}
-
-void Strips::arrive() {
   const int nearer_side = step_ > 0 ? strip_ : strip_ + 1;
-  entry_ = step_ * (along(cells_->low(nearer_side, nearer_side)) - tip_along_);
-  begin_ = std::max(0.0, (entry_ - slack_) / fastest_);
+  entry_ = step_ * (along(cells.low(nearer_side, nearer_side)) - tip_along_);
+  arrive();
 }
 
 }  // namespace orca::sim::detail

@@ -36,21 +36,30 @@ class Strips {
   [[nodiscard]] int across(double place) const {
     return by_columns_ ? cells_->row(place) : cells_->column(place);
   }
-  void advance();
-  void arrive();
+  void advance() {
+    strip_ += step_;
+    entry_ += cells_->size();
+    arrive();
+  }
+  void arrive() {
+    const bool is_there = strip_ >= 0 && strip_ < strips_;
+    begin_ =
+        is_there ? std::max(0.0, (entry_ - slack_) * slowness_) : std::numeric_limits<double>::infinity();
+  }
 
   const Cells* cells_ = nullptr;
   bool by_columns_ = true;
+  int strips_ = 0;
   int step_ = 1;             // To the next strip.
   int strip_ = 0;            // The present one.
   double tip_along_ = 0.0;   // [m]
   double tip_across_ = 0.0;  // [m]
   double low_ = 0.0;         // Slopes of the rims against the way across the strips.
   double high_ = 0.0;
-  double aside_ = 0.0;    // [m] How far rays may start aside of the rims.
-  double slack_ = 0.0;    // [m]
-  double fastest_ = 1.0;  // How far across the strips a ray comes at most, per metre.
-  double entry_ = 0.0;    // [m] Where the present strip begins, from the tip across the strips.
+  double aside_ = 0.0;     // [m] How far rays may start aside of the rims.
+  double slack_ = 0.0;     // [m]
+  double slowness_ = 1.0;  // How far any ray goes at least, per metre across the strips.
+  double entry_ = 0.0;     // [m] Where the present strip begins, from the tip across the strips.
   double begin_ = std::numeric_limits<double>::infinity();
 };
 
