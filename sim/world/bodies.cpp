@@ -142,12 +142,9 @@ void Bodies::cast(const Ray& ray, Hit& hit) const {
     for (std::size_t i = 0; i < bodies_.size(); ++i) test(i);
     return;
   }
-  cells_.walk(
-      ray, hit.range,
-      [&](std::size_t cell) {
-        for (const std::uint32_t number : lists_[cell]) test(number);
-      },
-      0.0);
+  cells_.walk(ray, 0.0, hit.range, [&](std::size_t cell) {
+    for (const std::uint32_t number : lists_[cell]) test(number);
+  });
 }
 
 void Bodies::cast(const Ray& ray, std::span<const std::uint32_t> numbers, Hit& hit) const {

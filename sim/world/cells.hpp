@@ -57,7 +57,7 @@ class Cells {
   // Calls visit(cell) for the cells on the ray from the distance `from` [m] on, the nearest first, as long as
   // they begin before `best`, which `visit` may lower.
   template <class Visit>
-  void walk(const Ray& ray, const double& best, const Visit& visit, double from) const;
+  void walk(const Ray& ray, double from, const double& best, const Visit& visit) const;
 
  private:
   // One direction of a ray.
@@ -115,7 +115,7 @@ class Cells {
 };
 
 template <class Visit>
-void Cells::walk(const Ray& ray, const double& best, const Visit& visit, double from) const {
+void Cells::walk(const Ray& ray, double from, const double& best, const Visit& visit) const {
   const Slope along_x{ray.origin.x, ray.direction.x, 1.0 / ray.direction.x};
   const Slope along_y{ray.origin.y, ray.direction.y, 1.0 / ray.direction.y};
   double t = from;

@@ -108,21 +108,18 @@ void Grid::cast(const Ray& ray, Hit& hit, double from) const {
     hit.range = range;
     nearest = element;
   };
-  cells_.walk(
-      ray, hit.range,
-      [&](std::size_t cell) {
-        for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-          const std::uint32_t element = entries_[i];
-          if (element < edges) {
-            const Elements::Edge& e = elements_.edges[element];
-            test(e.segment, e.heights, element);
-          } else {
-            const Elements::Round& r = elements_.rounds[element - edges];
-            test(r.circle, r.heights, element);
-          }
-        }
-      },
-      from);
+  cells_.walk(ray, from, hit.range, [&](std::size_t cell) {
+    for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      const std::uint32_t element = entries_[i];
+      if (element < edges) {
+        const Elements::Edge& e = elements_.edges[element];
+        test(e.segment, e.heights, element);
+      } else {
+        const Elements::Round& r = elements_.rounds[element - edges];
+        test(r.circle, r.heights, element);
+      }
+    }
+  });
   if (nearest == kNone) return;
   hit.element = nearest;
   if (nearest < edges) {

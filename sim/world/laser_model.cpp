@@ -43,24 +43,25 @@ Ray LaserModel::ray(const Pose2& X_WB, double beam, std::size_t own_body) const 
 
 void LaserModel::run(const Caster& caster, std::size_t own_body, const TickSpan& span) {
   completed_.reset();
-  std::optional<Caster::View> view;
+  bool looking = false;
   for (TimePoint next = due(ranges_.size()); next <= span.to; next = due(ranges_.size())) {
     if (ranges_.empty()) X_RB_ = span.in_robot(next);
-    if (!view || ranges_.size() % kTogether == 0) view.emplace(view_of(caster, own_body, span));
+    if (!looking || ranges_.size() % kTogether == 0) look(caster, own_body, span);
+    looking = true;
     const Ray ray = this->ray(span.at(next), static_cast<double>(ranges_.size()), own_body);
-    shoot(caster, {ray, view->cast(ray)});
+    shoot(caster, {ray, view_.cast(ray)});
     if (ranges_.size() == scanner_.count) complete();
   }
 }
 
-// Of the beams to come up to the next multiple of kTogether, wherever the robot is meanwhile.
-Caster::View LaserModel::view_of(const Caster& caster, std::size_t own_body, const TickSpan& span) const {
+// To where the beams to come go, up to the next multiple of kTogether, wherever the robot is meanwhile.
+void LaserModel::look(const Caster& caster, std::size_t own_body, const TickSpan& span) {
   const std::size_t left = kTogether - ranges_.size() % kTogether;
   const double turn = std::fabs(wrapped(span.X_to.yaw - span.X_from.yaw));
   const double way = norm(span.X_to.position() - span.X_from.position());
   const double half = 0.5 * static_cast<double>(left);
-  return {caster, ray(span.X_to, static_cast<double>(ranges_.size()) + half, own_body),
-          half * std::fabs(scanner_.pitch) + turn, way + turn * norm(scanner_.center.position())};
+  view_.look(caster, ray(span.X_to, static_cast<double>(ranges_.size()) + half, own_body),
+             half * std::fabs(scanner_.pitch) + turn, way + turn * norm(scanner_.center.position()));
 }
 
 void LaserModel::shoot(const Caster& caster, const Beam& beam) {

@@ -33,7 +33,7 @@ class LaserModel {
 
   [[nodiscard]] TimePoint due(std::size_t beam) const;
   [[nodiscard]] Ray ray(const Pose2& X_WB, double beam, std::size_t own_body) const;
-  [[nodiscard]] Caster::View view_of(const Caster& caster, std::size_t own_body, const TickSpan& span) const;
+  void look(const Caster& caster, std::size_t own_body, const TickSpan& span);
   void shoot(const Caster& caster, const Beam& beam);
   [[nodiscard]] bool returns(const Hit& hit) const;
   void mix(const Caster& caster, const Beam& beam, double rim, double& range) const;
@@ -46,6 +46,7 @@ class LaserModel {
   double drop_tangent_;
   double bias_;  // [m] Of this device in this run.
   TimePoint scan_end_;
+  Caster::View view_;
   Beam previous_;
   std::vector<double> ranges_;  // Of the present scan, without noise; max_range: nothing came back.
   Pose2 X_RB_;                  // When the present scan began.

@@ -38,6 +38,7 @@ class SonarAir::Ear {
     double at;                                 // and how far along the wall it is [m^2].
     std::array<std::optional<Point>, 2> ends;  // That are heard.
   };
+
   Ear(const Caster& caster, const Cone& own, const Caster::View& view)
       : cone(own), caster_(caster), view_(view) {}
 
@@ -54,8 +55,6 @@ class SonarAir::Ear {
           sees(view_, cone.beam, point.at, point.length) ? Point::Sight::free : Point::Sight::blocked;
     return point.sight == Point::Sight::free;
   }
-  const Cone& cone;
-
   // The same of another's beam.
   [[nodiscard]] bool is_seen(const Beam& beam, Vec2 point, double length) const {
     return sees(caster_, beam, point, length);
@@ -65,6 +64,8 @@ class SonarAir::Ear {
     return view_.cast(cone.beam.ray((1.0 / length) * way)).range >=
            std::fmin(length - kInBody, cone.beam.max_range);
   }
+
+  const Cone& cone;
 
  private:
   template <class Eye>

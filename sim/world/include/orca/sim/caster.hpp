@@ -85,8 +85,8 @@ class Caster {
 };
 
 /// What many rays from about one place in about one direction may meet, looked for once: the same as casting
-/// each by itself, and faster. It holds until a body is added, moved or removed, and not longer
-/// than the caster lives; then it may look again.
+/// each by itself, and faster. It holds until a body is added, moved or removed, and not longer than the
+/// caster lives; then it may look again.
 ///
 /// Thread contract: as of Caster's cast(); look() needs exclusive access to the view.
 class Caster::View {
