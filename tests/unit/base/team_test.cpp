@@ -3,8 +3,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <sys/resource.h>
+
 #include <atomic>
-#include <numeric>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -34,6 +36,24 @@ bool meet_at_work(Team& team) {
   });
   return met == 2;
 }
+
+// As long as it lives, this process gets no more than so much memory beyond what it has.
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(rlim_t bytes) {
+    rlim_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    REQUIRE(getrlimit(RLIMIT_AS, &before_) == 0);
+    const rlimit limit{pages * 4096 + bytes, before_.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_AS, &limit) == 0);
+  }
+  ~MemoryLimit() { setrlimit(RLIMIT_AS, &before_); }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
 
 }  // namespace
 
@@ -91,4 +111,19 @@ TEST_CASE("what a helper does it does for who called", "[base][team]") {
     if (Activity::current() != nullptr) --for_sim;
   });
   CHECK(for_sim == 1000);
+}
+
+TEST_CASE("a team that gets fewer threads than it wants does all the work all the same", "[base][team]") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  WARN("not tried: a sanitizer needs more memory than this test leaves to the process");
+#else
+  std::unique_ptr<Team> team;
+  {
+    const MemoryLimit limit(40'000'000);  // Some five stacks.
+    team = std::make_unique<Team>(64);
+  }
+  CHECK(team->threads() >= 1);
+  CHECK(team->threads() < 64);
+  CHECK(calls_of(*team, 100) == std::vector<int>(100, 1));
+#endif
 }
