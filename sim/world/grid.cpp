@@ -12,6 +12,8 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffU;
 constexpr double kMinCell = 0.1;
 constexpr double kMaxCells = 4e6;
+// So many cells of a cone are looked at: far across small cells it would cost more than its rays.
+constexpr int kMostLooks = 128;
 
 Bounds bounds_of(const Grid::Elements& elements) {
   Bounds bounds;
@@ -132,12 +134,16 @@ void Grid::cast(const Ray& ray, Hit& hit, double from) const {
 double Grid::empty_depth(const Cone& cone) const {
   if (cone.half_angle > Strips::kWide) return 0.0;
   Strips strips(cells_, cone);
-  for (bool filled = false; !filled && strips.begin() < cone.reach;) {
+  for (int looks = 0; looks < kMostLooks && strips.begin() < cone.reach;) {
     const double depth = strips.begin();
-    strips.next([&](std::size_t c) { filled = filled || first_[c] != first_[c + 1]; });
+    bool filled = false;
+    strips.next([&](std::size_t c) {
+      filled = filled || first_[c] != first_[c + 1];
+      ++looks;
+    });
     if (filled) return depth;
   }
-  return cone.reach;
+  return std::min(strips.begin(), cone.reach);
 }
 
 }  // namespace orca::sim::detail

@@ -86,3 +86,18 @@ TEST_CASE("a cone that holds nothing is empty all the way, one that begins at so
 TEST_CASE("a cone too wide to look along is taken to be full", "[sim][caster]") {
   CHECK(Grid({}).empty_depth({{0, 0}, {1, 0}, 0.5 * kPi, 0.0, kReach}) == 0.0);
 }
+
+TEST_CASE("a look across many small cells ends early, and what it says holds", "[sim][caster]") {
+  RandomStream random(22, "test", "corners");
+  Grid::Elements elements;
+  for (const Vec2 corner : {Vec2{0, 0}, Vec2{60, 60}})
+    for (int i = 0; i < 2000; ++i)
+      elements.add(Circle{corner + Vec2{random.uniform(-5, 5), random.uniform(-5, 5)}, 0.01}, {0.0, 1.0});
+  const Grid grid(std::move(elements));
+  const Cone cone{{8.0, 8.0}, direction(0.25 * kPi), 0.1, 0.0, 90.0};
+  const double nearest = nearest_hit(random, grid, cone);
+  CHECK(nearest > 60.0);
+  const double depth = grid.empty_depth(cone);
+  CHECK(depth > 5.0);
+  CHECK(depth < 50.0);
+}
