@@ -105,9 +105,7 @@ std::array<double, Fan::kBeams> Fan::cast(const Caster& caster, const Pose2& X_W
   std::array<double, kBeams> ranges;
   const Vec2 ahead = direction(X_WS.yaw);
   const auto ray = [&](std::size_t k) {
-    const Vec2 d = directions_[k];
-    const Vec2 u{ahead.x * d.x - ahead.y * d.y, ahead.y * d.x + ahead.x * d.y};
-    return Ray{X_WS.position(), u, kRange, kHeight, own_body};
+    return Ray{X_WS.position(), rotated(directions_[k], ahead), kRange, kHeight, own_body};
   };
   for (std::size_t first = 0; first < kBeams; first += kTogether) {
     const Caster::View view(caster, ray(first + kTogether / 2), 0.25 * kTogether * kDegree);

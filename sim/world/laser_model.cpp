@@ -11,7 +11,7 @@ namespace {
 constexpr double kDepthEdge = 0.01;
 // Of the search for the edge within a spot: 2^-12 of its half width.
 constexpr int kHalvings = 12;
-// So many beams in turn look at the same bodies.
+// So many beams in turn share a view.
 constexpr std::size_t kTogether = 16;
 
 Ray turned(Ray ray, double angle) {

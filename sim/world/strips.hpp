@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <limits>
+#include <numbers>
+
 #include "cells.hpp"
 #include "cone.hpp"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -26,8 +27,6 @@ class Team::Loop {
   Loop(std::size_t count, const std::function<void(std::size_t)>& work) : count_(count), work_(work) {
     caller_.keep();
   }
-
-  [[nodiscard]] bool has_work() const { return next_.load(std::memory_order_relaxed) < count_; }
 
   void share() {
     caller_.restore();
@@ -72,6 +71,7 @@ struct Team::Helper {
 
 Team::Team(unsigned threads) : helpers_left_(std::make_unique<detail::FutexEvent>(useful_spin(kSpin))) {
   const unsigned wanted = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+  helpers_.reserve(wanted - 1);  // So that nothing can fail between a thread's start and its place here.
   try {
     while (helpers_.size() + 1 < wanted) {
       auto helper = std::make_unique<Helper>();
@@ -79,7 +79,9 @@ Team::Team(unsigned threads) : helpers_left_(std::make_unique<detail::FutexEvent
       helpers_.push_back(std::move(helper));
     }
   } catch (const std::system_error&) {
-    // There are as many as the system allows.
+    // There are as many as the system allows,
+  } catch (const std::bad_alloc&) {
+    // or as there is memory for.
   }
 }
 

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <fstream>
@@ -44,7 +45,7 @@ class MemoryLimit {
     rlim_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     REQUIRE(getrlimit(RLIMIT_AS, &before_) == 0);
-    const rlimit limit{pages * 4096 + bytes, before_.rlim_max};
+    const rlimit limit{pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + bytes, before_.rlim_max};
     REQUIRE(setrlimit(RLIMIT_AS, &limit) == 0);
   }
   ~MemoryLimit() { setrlimit(RLIMIT_AS, &before_); }
