@@ -21,7 +21,7 @@ function(orca_add_component name)
     target_link_options(${name} PRIVATE -Wl,-z,defs)
   endif()
   target_compile_definitions(${name} PRIVATE ORCA_BUILD_ID="${ORCA_BUILD_ID}")
-  target_link_libraries(${name} PRIVATE orca::component orca::hw_api ${arg_LINK} orca_options)
+  target_link_libraries(${name} PRIVATE orca::component_api orca::hw_api ${arg_LINK} orca_options)
   list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
   add_custom_command(TARGET ${name} POST_BUILD
     COMMAND ${CMAKE_COMMAND} -DOUT=${ORCA_PLUGIN_DIR}/${name}.types "-DSOURCES=${sources}"

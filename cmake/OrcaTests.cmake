@@ -35,6 +35,6 @@ function(orca_add_test name)
   endif()
   target_compile_definitions(${name} PRIVATE
     ORCA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ORCA_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  add_test(NAME ${name} COMMAND ${name} --use-colour no)
+  add_test(NAME ${name} COMMAND ${name} --use-colour no "~[.]~[data]")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
 endfunction()

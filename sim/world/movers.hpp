@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "motion/physics.hpp"
+#include "motion/walker_track.hpp"
 #include "orca/base/hash.hpp"
 #include "orca/sim/caster.hpp"
 #include "orca/sim/scene.hpp"
-#include "physics.hpp"
 #include "robot.hpp"
-#include "walker_track.hpp"
 
 namespace orca::sim::detail {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <utility>
 
-#include "arc.hpp"
+#include "motion/arc.hpp"
 
 namespace orca::sim::detail {
 namespace {

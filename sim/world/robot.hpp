@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "bumper_model.hpp"
-#include "drive_model.hpp"
-#include "infrared_model.hpp"
-#include "laser_model.hpp"
-#include "odometry_model.hpp"
+#include "motion/drive_model.hpp"
+#include "motion/odometry_model.hpp"
+#include "motion/turret_model.hpp"
 #include "orca/base/hash.hpp"
 #include "orca/sim/scene.hpp"
-#include "sonar_model.hpp"
-#include "turret_model.hpp"
+#include "sensors/bumper_model.hpp"
+#include "sensors/infrared_model.hpp"
+#include "sensors/laser_model.hpp"
+#include "sensors/sonar_model.hpp"
 
 namespace orca::sim::detail {
 

@@ -5,11 +5,11 @@
 #include <deque>
 #include <utility>
 
-#include "arc.hpp"
-#include "contact_log.hpp"
+#include "motion/arc.hpp"
+#include "motion/contact_log.hpp"
+#include "motion/physics.hpp"
 #include "movers.hpp"
 #include "orca/base/team.hpp"
-#include "physics.hpp"
 #include "robot.hpp"
 
 namespace orca::sim {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "mesh_file.hpp"
+#include "files/formats/mesh_file.hpp"
 
 namespace {
 

@@ -5,17 +5,17 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "plugin_file.hpp"
+#include "inspection/plugin_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<std::byte> bytes(size);
   if (size > 0) std::memcpy(bytes.data(), data, size);
-  const auto file = orca::PluginFile::parse(std::move(bytes));
+  const auto file = orca::plugin::PluginFile::parse(std::move(bytes));
   if (!file) {
     if (file.error().message.empty()) std::abort();
     return 0;
   }
-  (void)file->faults(orca::known_type);
+  (void)file->faults(orca::plugin::known_type);
   (void)file->virtual_time_faults();
   (void)file->may_start_threads();
   return 0;

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "image_file.hpp"
+#include "files/formats/image_file.hpp"
 #include "orca/sim/world_file.hpp"
 
 namespace {

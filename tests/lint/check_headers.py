@@ -22,7 +22,7 @@ def find(tree):
 BAD = [
     ({"a.hpp": "// why\nint a;\n"}, "must be #pragma once"),
     ({"a.hpp": "int a;\n#pragma once\n"}, "must be #pragma once"),
-    ({"src/runtime/base/include/base/a.hpp": "#pragma once\n"}, "lie in <module>/include/orca/"),
+    ({"src/base/include/base/a.hpp": "#pragma once\n"}, "lie in <module>/include/orca/"),
     ({"src/x/include/orca/x/a.hpp": "#pragma once\nusing namespace std;\n"}, "must not say using namespace"),
 ]
 GOOD = [{"a.hpp": "/* x */ #pragma once\n",

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Includes point down only (layers.py), and each third-party library shows in the layers that may know it."""
+import collections
 import posixpath
 import re
 
@@ -7,10 +8,15 @@ from layers import LAYERS, LIBRARY_HEADERS
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 SOURCES = (".cpp", ".hpp", ".h", ".c")
+MOST_FILES = 30
+# What opens and closes a namespace, and classes at the start of a line: Orca's sources do not indent namespaces.
+SCOPE = re.compile(
+    r"^namespace (?P<open>[\w:]+) \{$|^(?P<close>\}  // namespace [\w:]+)$"
+    r"|^(?:enum )?(?:class|struct) (?:alignas\(\w+\) )?(?P<name>\w+)(?: final)?[^;{\n]*(?P<end>[;{]?)", re.MULTILINE)
 
 
 def layer_of_file(path):
-    """The layer whose folder is the longest beginning of the path; src/runtime/base/log means log.cpp and log/ alike."""
+    """The layer whose folder is the longest beginning of the path; src/base/log means log.cpp and log/ alike."""
     def match(layer):
         return max((len(f) for f in layer.folders if re.match(re.escape(f) + r"[/.]", path)), default=0)
     best = max(LAYERS, key=match)
@@ -52,15 +58,28 @@ def fault_of_library(layer, path, header, library):
     return f'{place} of layer {layer.name} must not include <{header}> ({library}); allowed: {", ".join(allowed) or "none"}'
 
 
+def target_of_private_include(layer, path, header, tree):
+    """Beside the file that includes it, or in another room of its module."""
+    starts = [posixpath.dirname(path)] + ([layer.module] if layer.module else [])
+    candidates = [posixpath.normpath(posixpath.join(start, header)) for start in starts]
+    return next((c for c in candidates if tree.exists(c)), None)
+
+
+def may_include_private(layer, owner):
+    """Rooms of one module see each other's private headers, as far as the arrows point down."""
+    base_parts = {"base", "log", "executive"}
+    if owner is layer or {layer.name, owner.name} <= base_parts:
+        return True
+    return bool(layer.module) and owner.module == layer.module and owner.name in layer.may
+
+
 def fault_of_private_include(layer, path, header, tree):
-    """A private header lies beside its user or elsewhere in the same layer, never in another one."""
-    target = posixpath.normpath(posixpath.join(posixpath.dirname(path), header))
-    if not tree.exists(target):
+    """A private header lies in the same layer, or in a lower room of the same module."""
+    target = target_of_private_include(layer, path, header, tree)
+    if target is None:
         return None
     owner = layer_of_file(target)
-    base_parts = {"base", "log", "executive"}
-    same = owner is layer or {layer.name, owner.name if owner else ""} <= base_parts
-    if not same:
+    if owner is None or not may_include_private(layer, owner):
         return f'"{header}" is a private header of {owner.name if owner else target}; include a public one ("orca/...")'
     if not layer.siblings and unit_of(layer, target) != unit_of(layer, path):
         return f'"{header}" belongs to a sibling ({unit_of(layer, target)}); siblings of {layer.name} do not know each other'
@@ -76,8 +95,52 @@ def fault(layer, path, quote, header, tree):
     return fault_of_private_include(layer, path, header, tree) if quote == '"' else None
 
 
+def declared_names(text):
+    """(qualified name, offset, whether it is defined) of each class, struct and enum at namespace level."""
+    namespaces = []
+    for match in SCOPE.finditer(text):
+        if match["open"] is not None:
+            namespaces.append(match["open"])
+        elif match["close"] is not None:
+            namespaces = namespaces[:-1]
+        else:
+            yield "::".join((*namespaces, match["name"])), match.start(), match["end"] != ";"
+
+
+def owners_of_names(tree):
+    """Qualified name -> the layer that defines it, of all headers in the table."""
+    owners = {}
+    for path in tree.with_suffix(".hpp", ".h"):
+        layer = layer_of_file(path)
+        if layer is not None:
+            owners.update((name, layer) for name, _, defined in declared_names(tree.text(path)) if defined)
+    return owners
+
+
+def faults_of_declarations(layer, text, owners):
+    """(offset, fault) of each name of a layer above that the file declares: it depends on that layer like an include."""
+    for name, offset, defined in declared_names(text):
+        owner = owners.get(name)
+        if not defined and owner is not None and owner is not layer and owner.name not in layer.may:
+            yield offset, f'layer {layer.name} must not declare "{name}" of layer {owner.name}'
+
+
+def faults_of_file(layer, path, text, owners, tree):
+    for match in INCLUDE.finditer(text):
+        yield match.start(), fault(layer, path, match[1], match[2], tree)
+    yield from faults_of_declarations(layer, text, owners)
+
+
+def crowded_folders(tree):
+    """Folders that hold more source files than a reader can keep in mind."""
+    folders = collections.Counter(posixpath.dirname(path) for path in tree.with_suffix(*SOURCES) if layer_of_file(path))
+    return [f"{folder}:1: {count} source files, at most {MOST_FILES}; give its rooms folders of their own"
+            for folder, count in sorted(folders.items()) if count > MOST_FILES]
+
+
 def find(tree):
-    findings = []
+    findings = crowded_folders(tree)
+    owners = owners_of_names(tree)
     for path in tree.with_suffix(*SOURCES):
         layer = layer_of_file(path)
         if layer is None:
@@ -85,10 +148,8 @@ def find(tree):
                 findings.append(f"{path}:1: this folder belongs to no layer; name it in tests/lint/layers.py")
             continue
         text = tree.text(path)
-        for match in INCLUDE.finditer(text):
-            wrong = fault(layer, path, match[1], match[2], tree)
-            if wrong:
-                findings.append(f"{path}:{text.count(chr(10), 0, match.start()) + 1}: {wrong}")
+        findings += [f"{path}:{text.count(chr(10), 0, offset) + 1}: {wrong}"
+                     for offset, wrong in faults_of_file(layer, path, text, owners, tree) if wrong]
     return findings
 
 
@@ -96,31 +157,60 @@ def _one(path, line):
     return {path: f"#pragma once\n{line}\n"}
 
 
+def _declared(path, declaration, owner, definition):
+    return {path: f"#pragma once\n{declaration}\n", owner: f"#pragma once\n{definition}\n"}
+
+
 BAD = [
-    (_one("src/runtime/base/include/orca/base/x.hpp", '#include "orca/patterns/push.hpp"'), "x.hpp:2: layer base"),
+    (_one("src/base/include/orca/base/x.hpp", '#include "orca/patterns/push.hpp"'), "x.hpp:2: layer base"),
     (_one("src/components/avoid/avoid.cpp", '#include "orca/graph/graph.hpp"'), "layer components must not include"),
     (_one("src/components/avoid/avoid.cpp", '#include "orca/patterns/dds/link.hpp"'), "of layer patterns_dds"),
     (_one("src/runtime/graph/load.cpp", '#include "orca/plugin/plugin.hpp"'), "layer graph must not include"),
     (_one("src/runtime/graph/load.cpp", "#include <tinyxml2.h>"), "(tinyxml2); allowed: fmt"),
-    (_one("src/runtime/component/include/orca/component/x.hpp", "#include <Eigen/Core>"), "public headers of layer"),
-    (_one("src/runtime/component/include/orca/component.hpp", "#  include <spdlog/spdlog.h>"), "(spdlog)"),
-    (_one("src/runtime/base/result.cpp", "#include <spdlog/spdlog.h>"), "(spdlog)"),
+    (_one("src/component_api/include/orca/component/x.hpp", "#include <Eigen/Core>"), "public headers of layer"),
+    (_one("src/component_api/include/orca/component.hpp", "#  include <spdlog/spdlog.h>"), "(spdlog)"),
+    (_one("src/base/result.cpp", "#include <spdlog/spdlog.h>"), "(spdlog)"),
     (_one("src/patterns/push.cpp", "#include <fastdds/dds/topic/Topic.hpp>"), "(fastdds)"),
     (_one("src/hw/nomad/driver.cpp", '#include "btBulletDynamicsCommon.h"'), "(bullet)"),
-    (_one("sim/world/x.cpp", '#include "orca/host/host.hpp"'), "layer sim must not include"),
+    (_one("sim/world/x.cpp", '#include "orca/host/host.hpp"'), "layer sim_world must not include"),
+    (_one("sim/rays/x.cpp", '#include "orca/sim/world.hpp"'), "layer sim_rays must not include"),
+    (_one("sim/world/x.cpp", "#include <png.h>"), "(png)"),
     (_one("src/patterns/push.cpp", '#include "orca/unheard/of.hpp"'), "belongs to no layer"),
     (_one("src/newfolder/x.cpp", ""), "this folder belongs to no layer"),
     ({"src/components/a/a.cpp": '#include "../b/b.hpp"\n', "src/components/b/b.hpp": "\n"}, "belongs to a sibling"),
     ({"src/hw/a/a.cpp": '#include "../b/codec.hpp"\n', "src/hw/b/codec.hpp": "\n"}, "belongs to a sibling"),
-    ({"src/patterns/a.cpp": '#include "../runtime/base/b.hpp"\n', "src/runtime/base/b.hpp": "\n"}, "private header of base"),
+    ({"src/patterns/a.cpp": '#include "../base/b.hpp"\n', "src/base/b.hpp": "\n"}, "private header of base"),
+    # From room to room of one module.
+    ({"src/runtime/graph/reading/a.cpp": '#include "checking/b.hpp"\n', "src/runtime/graph/checking/b.hpp": "\n"},
+     "private header of graph_checking"),
+    ({"src/runtime/host/containment/a.cpp": '#include "run/b.hpp"\n', "src/runtime/host/run/b.hpp": "\n"},
+     "private header of host_run"),
+    ({"sim/model/a.hpp": '#include "rays/b.hpp"\n', "sim/rays/b.hpp": "\n"}, "private header of sim_rays"),
+    ({"src/runtime/plugin/inspection/a.cpp": '#include "../b.hpp"\n', "src/runtime/plugin/b.hpp": "\n"},
+     "private header of plugin"),
+    # A forward declaration names a layer above as an include does.
+    (_declared("src/component_api/include/orca/component/x.hpp", "namespace orca::hw {\nclass Container;\n}  // namespace orca::hw",
+               "src/hw/api/include/orca/hw/c.hpp", "namespace orca::hw {\n\nclass Container : public Base {"),
+     'must not declare "orca::hw::Container" of layer hw_api'),
+    (_declared("sim/model/x.hpp", "namespace orca::sim {\nstruct Ray;\n}  // namespace orca::sim",
+               "sim/rays/ray.hpp", "namespace orca::sim {\nstruct Ray {\n"), 'must not declare "orca::sim::Ray" of layer sim_rays'),
+    ({f"src/xml/f{i}.cpp": "\n" for i in range(31)}, "31 source files, at most 30"),
 ]
 GOOD = [
-    _one("src/runtime/base/log.cpp", "#include <spdlog/spdlog.h>"),
-    _one("src/runtime/base/executive/fiber.cpp", "#include <boost/context/fiber.hpp>"),
+    _one("src/base/log.cpp", "#include <spdlog/spdlog.h>"),
+    _one("src/base/executive/fiber.cpp", "#include <boost/context/fiber.hpp>"),
     _one("src/components/avoid/avoid.cpp", '#include "orca/component.hpp"\n#include <Eigen/Core>\n#include <vector>'),
     _one("src/hw/api/x.cpp", '#include "orca/hardware.hpp"\n#include "orca/hw/byte_link.hpp"\n#include "orca/idl/time.hpp"'),
     _one("src/patterns/dds/link.cpp", '#include <fastdds/dds/topic/Topic.hpp>\n#include "orca/patterns/push.hpp"'),
     _one("tests/unit/x_test.cpp", '#include <catch2/catch.hpp>\n#include "orca/graph/graph.hpp"'),
     {"src/components/a/a.cpp": '#include "algorithm.hpp"\n', "src/components/a/algorithm.hpp": "\n"},
-    {"src/runtime/base/executive/a.cpp": '#include "../b.hpp"\n', "src/runtime/base/b.hpp": "\n"},
+    {"src/base/executive/a.cpp": '#include "../b.hpp"\n', "src/base/b.hpp": "\n"},
+    {"src/runtime/graph/checking/a.cpp": '#include "reading/b.hpp"\n', "src/runtime/graph/reading/b.hpp": "\n"},
+    {"sim/world/a.cpp": '#include "rays/b.hpp"\n', "sim/rays/b.hpp": "\n"},
+    _declared("src/component_api/include/orca/component/x.hpp", "namespace orca {\nclass Strand;\n}  // namespace orca",
+              "src/base/include/orca/base/strand.hpp", "namespace orca {\n\nclass Strand final {"),
+    # Another class of that name.
+    _declared("sim/model/x.hpp", "namespace orca::sim {\nclass Layer;\n}  // namespace orca::sim",
+              "src/runtime/host/picture/l.hpp", "namespace orca::host {\nclass Layer {\n"),
+    {f"src/xml/f{i}.cpp": "\n" for i in range(30)},
 ]

@@ -63,8 +63,8 @@ def _head(licence, mark="//"):
 
 
 BAD = [
-    ({"src/runtime/base/x.cpp": "int x;\n"}, "no licence on top"),
-    ({"src/runtime/base/x.hpp": _head(GPL)}, "expected LGPL-3.0-or-later"),
+    ({"src/base/x.cpp": "int x;\n"}, "no licence on top"),
+    ({"src/base/x.hpp": _head(GPL)}, "expected LGPL-3.0-or-later"),
     ({"tests/unit/x_test.cpp": _head(LGPL)}, "expected GPL-3.0-or-later"),
     ({"src/apps/deployer/main.cpp": _head(LGPL)}, "expected GPL-3.0-or-later"),
     ({"src/apps/deployer/main.cpp": _head(GPL)}, "no notice of the plugin exception"),
@@ -74,7 +74,7 @@ BAD = [
     ({"src/x.cpp": "\n" * 10 + _head(LGPL)}, "no licence on top"),
 ]
 GOOD = [
-    {"src/runtime/base/x.cpp": _head(LGPL), "tests/unit/x_test.cpp": _head(GPL), "README.md": "# Orca\n"},
+    {"src/base/x.cpp": _head(LGPL), "tests/unit/x_test.cpp": _head(GPL), "README.md": "# Orca\n"},
     {"dev": "#!/bin/bash\n" + _head(GPL, "#"), "tests/CMakeLists.txt": _head(LGPL, "#"), "tests/data/bad.xml": "<"},
     {"src/apps/deployer/main.cpp": _head(GPL) + f"// Additional permission: {EXCEPTION}\n"},
     {"graphs/a.xml": f'<?xml version="1.0"?>\n<!-- {_head(LGPL, "").strip()} -->\n<graph/>\n'},

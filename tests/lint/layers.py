@@ -2,8 +2,10 @@
 """Which folder may include what. This table is the law; check_layers.py carries it out.
 
 A layer owns `folders` (the longest match decides) and the public headers under `headers`. It may include its own headers
-and those of the layers that `may` names. `libraries` are third-party libraries that its private files may use, and
-`public_libraries` those that its public headers may show. Folders outside the table (tests/, bench/) may include anything.
+and those of the layers that `may` names; a forward declaration of a name in another layer's `namespaces` or of one of its
+classes counts as an include. `libraries` are third-party libraries that its private files may use, and `public_libraries`
+those that its public headers may show. Layers of one `module` are rooms of one library: they may include each other's
+private headers, as "room/header.hpp", where `may` allows it. Folders outside the table (tests/, bench/) may include anything.
 """
 from dataclasses import dataclass
 
@@ -17,37 +19,64 @@ class Layer:
     libraries: tuple = ()
     public_libraries: tuple = ()
     siblings: bool = True  # may its subfolders see each other?
+    module: str = ""  # the folder that its rooms' includes start from
 
 
-COMPONENT = ("component", "patterns", "idl", "base")
+COMPONENT = ("component_api", "patterns", "idl", "base")
 DEVICE = ("hw_api", *COMPONENT)
+GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
+SIM_MODEL = ("xml", "base")
+SIM_RAYS = ("sim_model", *SIM_MODEL)
+SIM_SENSORS = ("sim_rays", *SIM_RAYS)
+SIM_MOTION = ("sim_sensors", *SIM_SENSORS)
+SIM_WORLD = ("sim_motion", *SIM_MOTION)
+SIM_FILES = ("sim_generators", "sim_world", *SIM_WORLD)
 
 LAYERS = (
-    Layer("base", ("src/runtime/base",), ("orca/base/",), libraries=("fmt",)),
-    Layer("log", ("src/runtime/base/log",), (), ("base",), ("spdlog", "fmt")),
-    Layer("executive", ("src/runtime/base/executive",), (), ("base",), ("boost",)),
+    Layer("base", ("src/base",), ("orca/base/",), libraries=("fmt",)),
+    Layer("log", ("src/base/log",), (), ("base",), ("spdlog", "fmt")),
+    Layer("executive", ("src/base/executive",), (), ("base",), ("boost",)),
     Layer("idl", ("idl",), ("orca/idl/",), ("base",), ("fastcdr",), ("fastcdr",)),
-    Layer("xml", ("src/runtime/xml",), ("orca/xml/",), ("base",), ("tinyxml2", "fmt")),
-    Layer("text", ("src/runtime/text",), ("orca/text/",), ("idl", "xml", "base")),
-    Layer("geometry", ("src/runtime/geometry",), ("orca/geometry/",), ("idl", "base"), ("eigen",)),
+    Layer("xml", ("src/xml",), ("orca/xml/",), ("base",), ("tinyxml2", "fmt")),
+    Layer("text", ("src/text",), ("orca/text/",), ("idl", "xml", "base")),
+    Layer("geometry", ("src/geometry",), ("orca/geometry/",), ("idl", "base"), ("eigen",)),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ("idl", "base"), ("fmt",)),
     Layer("patterns_local", ("src/patterns/local",), ("orca/patterns/local/",), ("patterns", "idl", "base"), ("fmt",)),
     Layer("patterns_dds", ("src/patterns/dds",), ("orca/patterns/dds/",), ("patterns", "idl", "base"),
           ("fastdds", "fastcdr", "fmt")),
-    Layer("component", ("src/runtime/component", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
+    Layer("component_api", ("src/component_api", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
           ("patterns", "idl", "base"), ("fmt",)),
     Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), COMPONENT, ("fmt",)),
-    Layer("graph", ("src/runtime/graph",), ("orca/graph/",), ("xml", "base"), ("fmt",)),
-    Layer("plugin", ("src/runtime/plugin",), ("orca/plugin/",), DEVICE, ("fmt",)),
+    Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
+    Layer("graph_reading", (f"{GRAPH}/reading",), (), ("graph", "xml", "base"), ("fmt",), module=GRAPH),
+    Layer("graph_checking", (f"{GRAPH}/checking",), (), ("graph_reading", "graph", "xml", "base"), ("fmt",), module=GRAPH),
+    Layer("graph_showing", (f"{GRAPH}/showing",), (), ("graph_checking", "graph_reading", "graph", "xml", "base"), ("fmt",),
+          module=GRAPH),
+    Layer("plugin_inspection", (f"{PLUGIN}/inspection",), (), DEVICE, ("fmt",), module=PLUGIN),
+    Layer("plugin", (PLUGIN,), ("orca/plugin/",), ("plugin_inspection", *DEVICE), ("fmt",), module=PLUGIN),
     Layer("device", ("src/hw",), (), ("geometry", *DEVICE), ("fmt",), siblings=False),
     Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",), COMPONENT),
     Layer("components", ("src/components",), (), ("avoidance", "geometry", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
-    Layer("sim", ("sim",), ("orca/sim/",), ("geometry", "xml", *DEVICE),
-          ("bullet", "urdfdom", "eigen", "png", "zlib", "fmt")),
-    Layer("host", ("src/runtime/host",), ("orca/host/",),
-          ("graph", "plugin", "text", "xml", "patterns_local", "patterns_dds", *DEVICE), ("cairo", "fmt")),
-    Layer("apps", ("src/apps",), (), ("host", "graph", "plugin", "text", "xml", *DEVICE), ("fmt",)),
+    Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
+        "geometry", "mesh", "readings", "realism", "robot_model", "scene", "sensors", "shape", "walker", "world_model")),
+          SIM_MODEL, ("eigen", "fmt"), module="sim"),
+    Layer("sim_rays", ("sim/rays",), ("orca/sim/caster.hpp",), SIM_RAYS, ("eigen", "fmt"), module="sim"),
+    Layer("sim_generators", ("sim/generators",), ("orca/sim/generate.hpp",), SIM_RAYS, ("fmt",), module="sim"),
+    Layer("sim_sensors", ("sim/sensors",), (), SIM_SENSORS, ("eigen", "fmt"), module="sim"),
+    Layer("sim_motion", ("sim/motion",), (), SIM_MOTION, ("bullet", "eigen", "fmt"), module="sim"),
+    Layer("sim_world", ("sim/world",), ("orca/sim/world.hpp",), SIM_WORLD, ("eigen", "fmt"), module="sim"),
+    Layer("sim_files", ("sim/files",), ("orca/sim/bitmap.hpp", "orca/sim/robot_file.hpp", "orca/sim/world_file.hpp"),
+          SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # of Bullet its transforms
+    Layer("sim_plugin", ("sim/plugin",), (), ("sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
+    Layer("host_containment", (f"{HOST}/containment",), ("orca/host/last_words.hpp", "orca/host/stop_signal.hpp"),
+          ("plugin", *DEVICE), ("fmt",), module=HOST),
+    Layer("host_picture", (f"{HOST}/picture",), ("orca/host/picture.hpp",), DEVICE, ("cairo", "fmt"), module=HOST),
+    Layer("host_run", (f"{HOST}/run", HOST), ("orca/host/",),
+          ("host_containment", "host_picture", "graph", "plugin", "text", "xml", "patterns_local", "patterns_dds", *DEVICE),
+          ("fmt",), module=HOST),
+    Layer("apps", ("src/apps",), (),
+          ("host_run", "host_containment", "host_picture", "graph", "plugin", "text", "xml", *DEVICE), ("fmt",)),
 )
 
 # Library -> how its headers begin. A header that no line names (the standard library, POSIX) is free for all.

@@ -2,27 +2,13 @@
 // The floor plan of a real hospital. The picture is not part of this repository.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <iostream>
 
 #include "deployer.hpp"
+#include "hospital_map.hpp"
 
 using namespace orca::test;
 
 namespace {
-
-// Where the map is: in the folder ORCA_DATA, else in shared/data beside the source tree; empty if it is not
-// there.
-std::string hospital_map() {
-  const char* const named = std::getenv("ORCA_DATA");
-  const std::filesystem::path folder = named != nullptr ? named : source_file("../shared/data");
-  const std::filesystem::path map = (folder / "stage_maps/hospital.png").lexically_normal();
-  if (std::filesystem::exists(map)) return map.string();
-  std::cout << "SKIPPED: there is no " << map.string()
-            << "; set ORCA_DATA to the folder that holds stage_maps/hospital.png\n";
-  return {};
-}
 
 Run drive(const std::string& map, const Words& more = {}) {
   return run_deployer(Words{source_file("graphs/scout_hospital.xml"), "--set", "map=" + map} +
@@ -31,7 +17,7 @@ Run drive(const std::string& map, const Words& more = {}) {
 
 }  // namespace
 
-TEST_CASE("in the hospital the Scout reaches its goals and touches nothing", "[system][hospital]") {
+TEST_CASE("in the hospital the Scout reaches its goals and touches nothing", "[system][data]") {
   const std::string map = hospital_map();
   if (map.empty()) return;
   const Run run = drive(map);
@@ -46,7 +32,7 @@ TEST_CASE("in the hospital the Scout reaches its goals and touches nothing", "[s
     CHECK(std::hypot(arrivals[i].x - arrivals[i - 1].x, arrivals[i].y - arrivals[i - 1].y) >= 15.0);
 }
 
-TEST_CASE("the hospital is 140 m wide unless map_width says otherwise", "[system][hospital]") {
+TEST_CASE("the hospital is 140 m wide unless map_width says otherwise", "[system][data]") {
   const std::string map = hospital_map();
   if (map.empty()) return;
   const std::optional<std::string> usual = drive(map, {"--until", "5s"}).trace_hash();
@@ -55,14 +41,14 @@ TEST_CASE("the hospital is 140 m wide unless map_width says otherwise", "[system
   CHECK(drive(map, {"--until", "5s", "--set", "map_width=139 m"}).trace_hash() != usual);
 }
 
-TEST_CASE("without a map the hospital graph says which argument to set", "[system][hospital]") {
+TEST_CASE("without a map the hospital graph says which argument to set", "[system]") {
   const Run run = run_deployer(Words{source_file("graphs/scout_hospital.xml")} + virtual_clock());
   CHECK(run.exit_code() == 2);
   CHECK(run.out.empty());
   CHECK(run.says("--set map="));
 }
 
-TEST_CASE("a map that is not there is named, and nothing starts", "[system][hospital]") {
+TEST_CASE("a map that is not there is named, and nothing starts", "[system]") {
   const Run run = drive("no_such_map.png");
   CHECK(run.exit_code() == 2);
   CHECK(run.out.empty());

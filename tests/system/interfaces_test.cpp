@@ -13,7 +13,7 @@ namespace {
 
 // What a component with hardware offers, asked as the graph checker asks.
 std::set<std::string> exported(const std::string& graph_file, const std::string& component) {
-  orca::PluginCatalogue catalogue{orca::PluginIndex({ORCA_BINARY_DIR "/plugins"})};
+  orca::host::PluginCatalogue catalogue{orca::plugin::PluginIndex({ORCA_BINARY_DIR "/plugins"})};
   orca::xml::Diagnostics diagnostics;
   const auto graph = orca::graph::load_file(source_file(graph_file), {}, catalogue, diagnostics);
   INFO(diagnostics.text());

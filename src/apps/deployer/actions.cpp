@@ -8,9 +8,12 @@
 
 #include "describe.hpp"
 #include "orca/graph/diff.hpp"
-#include "orca/graph/drawing.hpp"
+#include "orca/graph/dot.hpp"
+#include "orca/graph/json.hpp"
 #include "orca/graph/loader.hpp"
+#include "orca/graph/mermaid.hpp"
 #include "orca/graph/port_list.hpp"
+#include "orca/graph/print.hpp"
 #include "orca/graph/schema.hpp"
 
 namespace orca::deployer {
@@ -19,9 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using Action = Options::Action;
 
-ExitCode show(const std::string& text) {
+host::ExitCode show(const std::string& text) {
   std::fputs(text.c_str(), stdout);
-  return ExitCode::finished;
+  return host::ExitCode::finished;
 }
 
 // Plugins are found beside the program, then where the graph says; no environment variable.
@@ -32,10 +35,10 @@ std::string plugin_folder() {
 // A graph and what its plugins said about themselves.
 struct Loaded {
   explicit Loaded(const Options& options)
-      : catalogue(PluginIndex({plugin_folder()}), options.run.executive.clock) {}
+      : catalogue(plugin::PluginIndex({plugin_folder()}), options.run.executive.clock) {}
 
   xml::Diagnostics diagnostics;
-  PluginCatalogue catalogue;
+  host::PluginCatalogue catalogue;
   std::optional<graph::Graph> graph;
 };
 
@@ -46,35 +49,35 @@ void load(const std::string& file, const Options& options, Loaded& loaded) {
   if (!as_json) std::fputs(loaded.diagnostics.text().c_str(), stderr);
 }
 
-ExitCode describe(const Options& options) {
+host::ExitCode describe(const Options& options) {
   const Result<PluginDescription> plugin = describe_plugin(options.file);
   if (plugin) return show(options.json ? json(*plugin) : text(*plugin));
   std::fprintf(stderr, "error: %s\n", plugin.error().text().c_str());
-  return ExitCode::bad_input;
+  return host::ExitCode::bad_input;
 }
 
-ExitCode check(const Options& options) {
+host::ExitCode check(const Options& options) {
   Loaded loaded(options);
   load(options.file, options, loaded);
   if (options.json) show(loaded.diagnostics.json());
-  if (!loaded.graph) return ExitCode::bad_input;
+  if (!loaded.graph) return host::ExitCode::bad_input;
   if (!options.json) {
     std::fprintf(stderr, "%s: no errors; %zu components, %zu connections\n", options.file.c_str(),
                  loaded.graph->components.size(), loaded.graph->edges.size());
   }
-  return ExitCode::finished;
+  return host::ExitCode::finished;
 }
 
 // 0: both describe the same system, 1: they do not, 2: one of them describes none.
-ExitCode compare(const Options& options) {
+host::ExitCode compare(const Options& options) {
   Loaded before(options);
   Loaded after(options);
   load(options.file, options, before);
   load(options.other_file, options, after);
-  if (!before.graph || !after.graph) return ExitCode::bad_input;
+  if (!before.graph || !after.graph) return host::ExitCode::bad_input;
   const std::vector<graph::Change> changes = graph::diff(*before.graph, *after.graph);
   show(options.json ? graph::diff_json(changes) : graph::diff_text(changes));
-  return changes.empty() ? ExitCode::finished : ExitCode::failed_running;
+  return changes.empty() ? host::ExitCode::finished : host::ExitCode::failed_running;
 }
 
 std::string names_of_profiles(const Options& options, const graph::Graph& graph) {
@@ -83,10 +86,10 @@ std::string names_of_profiles(const Options& options, const graph::Graph& graph)
   return options.profiles.empty() ? graph.default_profile : names;
 }
 
-ExitCode show_graph(const Options& options) {
+host::ExitCode show_graph(const Options& options) {
   Loaded loaded(options);
   load(options.file, options, loaded);
-  if (!loaded.graph) return ExitCode::bad_input;
+  if (!loaded.graph) return host::ExitCode::bad_input;
   const graph::Graph& graph = *loaded.graph;
   if (options.action == Action::dot) return show(graph::dot(graph, names_of_profiles(options, graph)));
   if (options.action == Action::mermaid)
@@ -97,17 +100,17 @@ ExitCode show_graph(const Options& options) {
   return show(options.json ? graph::ports_json(ports) : graph::ports_text(ports));
 }
 
-ExitCode run(const Options& options) {
-  StopSignal stop;  // first of all, so that a signal at any moment ends the run as it should
+host::ExitCode run(const Options& options) {
+  host::StopSignal stop;  // first of all, so that a signal at any moment ends the run as it should
   Loaded loaded(options);
   load(options.file, options, loaded);
-  if (!loaded.graph) return ExitCode::bad_input;
-  return run_system(*loaded.graph, loaded.catalogue, options.run, stop);
+  if (!loaded.graph) return host::ExitCode::bad_input;
+  return host::run_system(*loaded.graph, loaded.catalogue, options.run, stop);
 }
 
 }  // namespace
 
-ExitCode act(const Options& options) {
+host::ExitCode act(const Options& options) {
   switch (options.action) {
     case Action::help: return show(help_text());
     case Action::version: return show("orca deployer " ORCA_VERSION "\n");

@@ -8,6 +8,6 @@ namespace orca::deployer {
 
 /// Does what the command line asks for.
 /// @return how the program ends.
-ExitCode act(const Options& options);
+host::ExitCode act(const Options& options);
 
 }  // namespace orca::deployer

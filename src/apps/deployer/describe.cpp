@@ -81,8 +81,8 @@ void write_contract(std::ostream& out, const Contract& contract) {
 }
 
 Result<Contract> contract_of(const TypeEntry& type, const std::string& path) {
-  if (type.kind == PluginKind::component) return describe_component(type, path, nullptr);
-  const auto hardware = describe_hardware(type, path, type.type);
+  if (type.kind == PluginKind::component) return plugin::describe_component(type, path, nullptr);
+  const auto hardware = plugin::describe_hardware(type, path, type.type);
   if (!hardware) return hardware.error();
   return (*hardware)->contract();
 }
@@ -91,8 +91,8 @@ Result<Contract> contract_of(const TypeEntry& type, const std::string& path) {
 
 Result<PluginDescription> describe_plugin(const std::string& path) {
   // With a folder in its name, so that the system's loader takes this file and does not search.
-  const Result<std::unique_ptr<PluginLibrary>> library =
-      PluginLibrary::load(std::filesystem::absolute(path).string());
+  const Result<std::unique_ptr<plugin::PluginLibrary>> library =
+      plugin::PluginLibrary::load(std::filesystem::absolute(path).string());
   if (!library) return library.error();
   const Manifest& manifest = (*library)->manifest();
   PluginDescription plugin{path, manifest.abi_version, manifest.build_id, {}};

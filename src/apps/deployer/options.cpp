@@ -82,8 +82,8 @@ Status set_picture(Options& options, const std::string& value) {
 }
 
 Status set_view(Options& options, const std::string& value) {
-  const std::optional<View> view = view_from(value);
-  if (!view) return expected("--view", xml::listed(view_names()), value);
+  const std::optional<host::View> view = host::view_from(value);
+  if (!view) return expected("--view", xml::listed(host::view_names()), value);
   options.run.picture.view = *view;
   return ok();
 }
@@ -91,9 +91,10 @@ Status set_view(Options& options, const std::string& value) {
 Status hide(Options& options, const std::string& value) {
   std::istringstream words(value);
   for (std::string word; std::getline(words, word, ',');) {
-    const std::optional<Layer> layer = layer_from(word);
+    const std::optional<host::Layer> layer = host::layer_from(word);
     if (!layer)
-      return expected("--hide", "some of " + xml::listed(layer_names()) + ", with commas between", word);
+      return expected("--hide", "some of " + xml::listed(host::layer_names()) + ", with commas between",
+                      word);
     options.run.picture.hidden.insert(*layer);
   }
   return ok();

@@ -7,7 +7,7 @@
 
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
-#include "orca/host/system.hpp"
+#include "orca/host/run_system.hpp"
 
 namespace orca::deployer {
 
@@ -21,7 +21,7 @@ struct Options {
   bool json = false;       ///< For programs.
   std::vector<std::string> profiles;
   std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
-  RunOptions run;
+  host::RunOptions run;
   log::Level log_level = log::Level::info;
 };
 

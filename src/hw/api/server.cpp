@@ -81,7 +81,7 @@ class HardwareServer::SensorPorts {
 };
 
 HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectType* only)
-    : Component(host), container_(host.hardware()) {
+    : Component(host), container_(static_cast<HardwareContainer*>(host.hardware())) {
   lap_every(kWatchPeriod);
   if (container_ == nullptr) return;
   for (SensorEndpoint* sensor : container_->sensors()) {

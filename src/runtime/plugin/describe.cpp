@@ -11,7 +11,7 @@
 #include "orca/component/component.hpp"
 #include "orca/hw/container.hpp"
 
-namespace orca {
+namespace orca::plugin {
 namespace {
 
 Error cannot_describe(const std::string& type, const std::string& what) {
@@ -73,7 +73,7 @@ class ComponentDescriber final : public Describer<ComponentHost> {
     contract_.ports.push_back(std::move(declaration.contract));
   }
   void set_default_trigger(const Trigger& trigger) override { contract_.default_trigger = trigger; }
-  [[nodiscard]] hw::HardwareContainer* hardware() override {
+  [[nodiscard]] Device* hardware() override {
     contract_.needs_hardware = true;
     return hardware_;
   }
@@ -88,8 +88,8 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
  public:
   HardwareDescriber(const TypeEntry& type, const std::string& library, const std::string& name)
       : Describer(PluginKind::hardware, type, library, name),
-        destroy_(type.destroy_hardware),
-        container_(type.create_hardware(*this)) {}
+        destroy_(type.destroy),
+        container_(static_cast<hw::HardwareContainer*>(type.create(*this))) {}
   ~HardwareDescriber() override {
     try {
       destroy_(container_);
@@ -115,7 +115,7 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   [[nodiscard]] bool wants_scene() const override { return false; }
 
  private:
-  void (*destroy_)(hw::HardwareContainer*);
+  void (*destroy_)(void*);
   hw::HardwareContainer* container_;
 };
 
@@ -133,9 +133,9 @@ Result<Contract> describe_component(const TypeEntry& type, const std::string& li
                                     hw::HardwareContainer* hardware) {
   return guarded(type.type, "its constructor", [&]() -> Result<Contract> {
     ComponentDescriber describer(type, library, hardware);
-    type.destroy_component(type.create_component(describer));
+    type.destroy(type.create(describer));
     return describer.contract_;
   });
 }
 
-}  // namespace orca
+}  // namespace orca::plugin

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace orca {
+namespace orca::plugin {
 
 namespace fs = std::filesystem;
 
@@ -44,4 +44,4 @@ std::vector<std::string> PluginIndex::types(PluginKind kind) const {
   return names;
 }
 
-}  // namespace orca
+}  // namespace orca::plugin

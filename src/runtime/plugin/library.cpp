@@ -12,15 +12,15 @@
 #include <utility>
 #include <vector>
 
-#include "load_error.hpp"
+#include "inspection/load_error.hpp"
+#include "inspection/plugin_file.hpp"
+#include "inspection/plugin_threads.hpp"
+#include "inspection/trial.hpp"
 #include "loaded_plugins.hpp"
 #include "orca/base/log.hpp"
 #include "orca/plugin/describe.hpp"
-#include "plugin_file.hpp"
-#include "plugin_threads.hpp"
-#include "trial.hpp"
 
-namespace orca {
+namespace orca::plugin {
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,4 +167,4 @@ bool is_mapped(const std::string& path) {
   return false;
 }
 
-}  // namespace orca
+}  // namespace orca::plugin

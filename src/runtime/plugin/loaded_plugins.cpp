@@ -8,7 +8,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace orca {
+namespace orca::plugin {
 namespace {
 
 // Fixed memory, because a signal handler reads it. `end` is written last and read first; 0: the place is
@@ -75,4 +75,4 @@ LoadedPlugin::~LoadedPlugin() {
   if (place_ >= 0) g_places[static_cast<std::size_t>(place_)].end.store(0, std::memory_order_release);
 }
 
-}  // namespace orca
+}  // namespace orca::plugin

@@ -6,7 +6,7 @@
 
 #include "orca/plugin/loaded_plugins.hpp"
 
-namespace orca {
+namespace orca::plugin {
 
 /// Makes the plugin that an address lies in known to plugin_at(), as long as this lives. Beyond 256 plugins
 /// the rest stays unknown.
@@ -29,4 +29,4 @@ class LoadedPlugin {
   int place_ = -1;
 };
 
-}  // namespace orca
+}  // namespace orca::plugin

@@ -14,7 +14,7 @@ namespace orca::test {
 class ComponentBench final : public ComponentHost {
  public:
   ~ComponentBench() noexcept override {}  // components' destructors may throw; those of these tests do not
-  ComponentBench(Executive& executive, std::string name, hw::HardwareContainer* hardware)
+  ComponentBench(Executive& executive, std::string name, Device* hardware)
       : peer_(executive, std::move(name)), hardware_(hardware) {}
 
   /// Configures the component and works until `stopped()`.
@@ -38,7 +38,7 @@ class ComponentBench final : public ComponentHost {
     diary_.note("log: " + std::string(text));
   }
   void announce(const Announcement& /*announcement*/) override {}
-  [[nodiscard]] hw::HardwareContainer* hardware() override { return hardware_; }
+  [[nodiscard]] Device* hardware() override { return hardware_; }
   void stay_active(bool active) override { stays_active_ = active; }
   [[nodiscard]] Strand& strand() override { return peer_.strand(); }
 
@@ -83,7 +83,7 @@ class ComponentBench final : public ComponentHost {
 
   mutable Diary diary_;
   mutable Peer peer_;
-  hw::HardwareContainer* hardware_;
+  Device* hardware_;
   Duration period_{0};
   TimePoint next_lap_{};
   bool stays_active_ = false;

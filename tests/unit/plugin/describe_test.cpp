@@ -6,6 +6,7 @@
 #include "places.hpp"
 
 using namespace orca;
+using namespace orca::plugin;
 using namespace orca::test;
 using Catch::Contains;
 

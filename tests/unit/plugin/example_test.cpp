@@ -6,6 +6,7 @@
 #include "places.hpp"
 
 using namespace orca;
+using namespace orca::plugin;
 using namespace orca::test;
 
 TEST_CASE("the example component has at most 25 lines of code", "[plugin][example]") {

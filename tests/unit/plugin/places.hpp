@@ -31,15 +31,15 @@ inline std::vector<std::string> plugins_in(const std::string& folder) {
 }
 
 /// A plugin that must load.
-inline std::unique_ptr<PluginLibrary> loaded(const std::string& path) {
-  auto library = PluginLibrary::load(path);
+inline std::unique_ptr<plugin::PluginLibrary> loaded(const std::string& path) {
+  auto library = plugin::PluginLibrary::load(path);
   if (!library) FAIL("cannot load: " << library.error().text());
   return std::move(library).value();
 }
 
 /// The reason why a plugin does not load.
 inline Error refusal(const std::string& path) {
-  auto library = PluginLibrary::load(path);
+  auto library = plugin::PluginLibrary::load(path);
   if (library) FAIL(path << " was loaded");
   return library.error();
 }

@@ -12,6 +12,7 @@
 #include "places.hpp"
 
 using namespace orca;
+using namespace orca::plugin;
 using namespace orca::test;
 
 namespace {

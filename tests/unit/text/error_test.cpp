@@ -141,11 +141,11 @@ TEST_CASE("errors that were reported before do not count", "[text][errors]") {
 }
 
 TEST_CASE("docs/errors.md explains every code of the text form, and no other", "[text][errors][docs]") {
-  CHECK(codes_in("docs/errors.md", "\n| T") == codes_in("src/runtime/text/codes.hpp", "\"T"));
+  CHECK(codes_in("docs/errors.md", "\n| T") == codes_in("src/text/codes.hpp", "\"T"));
 }
 
 TEST_CASE("every code of the text form is shown by a test", "[text][errors]") {
   std::set<std::string> shown = codes_in("tests/unit/text/error_test.cpp", "error T");
   shown.merge(codes_in("tests/unit/text/plain_test.cpp", "error T"));
-  CHECK(std::ranges::includes(shown, codes_in("src/runtime/text/codes.hpp", "\"T")));
+  CHECK(std::ranges::includes(shown, codes_in("src/text/codes.hpp", "\"T")));
 }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-namespace orca {
+namespace orca::host {
 namespace {
 
 constexpr std::size_t kLeast = 6;
@@ -95,4 +95,4 @@ std::vector<KeyMoment> key_moments(const Scene& scene) {
   return all;
 }
 
-}  // namespace orca
+}  // namespace orca::host

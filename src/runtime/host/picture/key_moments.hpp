@@ -6,7 +6,7 @@
 
 #include "orca/hw/scene.hpp"
 
-namespace orca {
+namespace orca::host {
 
 /// A moment of a robot's run that is worth a picture, and why.
 struct KeyMoment {
@@ -22,4 +22,4 @@ struct KeyMoment {
 /// @return pointers into `scene`.
 [[nodiscard]] std::vector<KeyMoment> key_moments(const Scene& scene);
 
-}  // namespace orca
+}  // namespace orca::host

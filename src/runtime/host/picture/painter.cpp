@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace orca {
+namespace orca::host {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -165,4 +165,4 @@ void Painter::frame() {
   cairo_restore(cairo_);
 }
 
-}  // namespace orca
+}  // namespace orca::host

@@ -9,7 +9,7 @@
 
 #include "orca/host/picture.hpp"
 
-namespace orca {
+namespace orca::host {
 
 /// A rectangle of the picture [pixels] and what it shows.
 struct Window {
@@ -58,4 +58,4 @@ class Painter {
   const double pixel_;  // [m]
 };
 
-}  // namespace orca
+}  // namespace orca::host

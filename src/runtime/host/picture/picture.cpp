@@ -10,7 +10,7 @@
 
 #include "views.hpp"
 
-namespace orca {
+namespace orca::host {
 namespace {
 
 using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
@@ -84,4 +84,4 @@ Status write_picture(const Scene& scene, const PictureOptions& options) {
   return draw(*drawing, options.file);
 }
 
-}  // namespace orca
+}  // namespace orca::host

@@ -8,7 +8,7 @@
 #include "painter.hpp"
 #include "views.hpp"
 
-namespace orca {
+namespace orca::host {
 namespace {
 
 constexpr double kShownMetres = 8.0;  // from side to side
@@ -88,4 +88,4 @@ Result<Drawing> film(const Scene& scene, const std::set<Layer>& hidden) {
                  }};
 }
 
-}  // namespace orca
+}  // namespace orca::host

@@ -8,7 +8,7 @@
 
 #include "orca/host/picture.hpp"
 
-namespace orca {
+namespace orca::host {
 
 /// A picture that can be drawn: how large it is, and how.
 struct Drawing {
@@ -23,4 +23,4 @@ struct Drawing {
 [[nodiscard]] Result<Drawing> robot_view(const Scene& scene, const std::set<Layer>& hidden);
 [[nodiscard]] Result<Drawing> film(const Scene& scene, const std::set<Layer>& hidden);
 
-}  // namespace orca
+}  // namespace orca::host

@@ -7,7 +7,7 @@
 #include "painter.hpp"
 #include "views.hpp"
 
-namespace orca {
+namespace orca::host {
 namespace {
 
 constexpr double kWidthPixels = 1200.0;
@@ -72,4 +72,4 @@ Result<Drawing> world_view(const Scene& scene, const std::set<Layer>& hidden) {
                  }};
 }
 
-}  // namespace orca
+}  // namespace orca::host

@@ -7,8 +7,8 @@
 #include "orca/hw/container.hpp"
 
 /// Makes a class of this source file known as a hardware type. Once per file, at its end.
-#define ORCA_HARDWARE(Class, type_name)                                                                  \
-  ORCA_DETAIL_TYPE_ENTRY(                                                                                \
-      {::orca::PluginKind::hardware, type_name, nullptr, nullptr,                                        \
-       [](::orca::hw::HardwareHost& host) -> ::orca::hw::HardwareContainer* { return new Class(host); }, \
-       [](::orca::hw::HardwareContainer* container) { delete container; }})
+#define ORCA_HARDWARE(Class, type_name)                                                        \
+  ORCA_DETAIL_TYPE_ENTRY(                                                                      \
+      {::orca::PluginKind::hardware, type_name,                                                \
+       ::orca::detail::create<Class, ::orca::hw::HardwareContainer, ::orca::hw::HardwareHost>, \
+       ::orca::detail::destroy<::orca::hw::HardwareContainer>})

@@ -53,12 +53,10 @@ class HardwareHost : public PluginHost {
 /// graph can be checked without the device.
 ///
 /// Thread contract: the public functions from any strand.
-class HardwareContainer {
+class HardwareContainer : public Device {
  public:
   explicit HardwareContainer(HardwareHost& host) : host_(host) {}
-  virtual ~HardwareContainer() noexcept(false) = default;
-  HardwareContainer(const HardwareContainer&) = delete;
-  HardwareContainer& operator=(const HardwareContainer&) = delete;
+  ~HardwareContainer() noexcept(false) override {}  // clang 14 takes no "= default" here
 
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 

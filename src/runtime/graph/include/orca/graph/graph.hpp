@@ -97,12 +97,4 @@ struct Graph {
   friend bool operator==(const Graph&, const Graph&) = default;
 };
 
-/// The graph as XML again, with profiles merged, arguments replaced, defaults filled in and values in SI.
-/// Loading that text gives an equal Graph.
-[[nodiscard]] std::string print(const Graph& graph);
-
-/// The same for programs: an object with hardware, components and connections; attributes as in XML,
-/// parameters as numbers, flags and texts, in SI.
-[[nodiscard]] std::string graph_json(const Graph& graph);
-
 }  // namespace orca::graph

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "orca/graph/catalogue.hpp"
 #include "orca/graph/graph.hpp"
-#include "orca/graph/loader.hpp"
 
 namespace orca::graph {
 

@@ -13,11 +13,11 @@
 #include "orca/plugin/index.hpp"
 #include "orca/plugin/library.hpp"
 
-namespace orca {
+namespace orca::host {
 
 /// A type, and the plugin that holds its code: it stays in memory for as long as somebody holds this.
 struct LoadedType {
-  std::shared_ptr<PluginLibrary> library;
+  std::shared_ptr<plugin::PluginLibrary> library;
   const TypeEntry* entry = nullptr;
 };
 
@@ -28,7 +28,7 @@ struct LoadedType {
 class PluginCatalogue final : public graph::Catalogue {
  public:
   /// @param clock  of the run that the plugins are for.
-  explicit PluginCatalogue(PluginIndex index, ClockKind clock = ClockKind::steady);
+  explicit PluginCatalogue(plugin::PluginIndex index, ClockKind clock = ClockKind::steady);
   ~PluginCatalogue() override;
 
   void add_folders(const std::vector<std::string>& folders) override { index_.add(folders); }
@@ -40,7 +40,7 @@ class PluginCatalogue final : public graph::Catalogue {
   [[nodiscard]] std::vector<std::string> type_names(PluginKind kind) const override;
 
   /// A type, its plugin loaded if nobody has done so before.
-  /// @errors  not_found with the places searched, and PluginLibrary::load()'s.
+  /// @errors  not_found with the places searched, and plugin::PluginLibrary::load()'s.
   Result<LoadedType> acquire(PluginKind kind, const std::string& type);
 
   /// Lets a type go, and unloads its plugin if nobody else holds it.
@@ -51,16 +51,16 @@ class PluginCatalogue final : public graph::Catalogue {
   void forget_answers();
 
  private:
-  Result<std::shared_ptr<PluginLibrary>> library_of(const std::string& type);
+  Result<std::shared_ptr<plugin::PluginLibrary>> library_of(const std::string& type);
   Result<LoadedType> find(PluginKind kind, const std::string& type);
-  Result<DescribedHardware*> described(const graph::HardwareUse& use);
+  Result<plugin::DescribedHardware*> described(const graph::HardwareUse& use);
 
-  PluginIndex index_;
+  plugin::PluginIndex index_;
   const ClockKind clock_;
   mutable std::mutex mutex_;
-  std::map<std::string, std::weak_ptr<PluginLibrary>> libraries_;       // by file
-  std::map<std::string, LoadedType> held_;                              // by type: what answers came from
-  std::map<std::string, std::unique_ptr<DescribedHardware>> hardware_;  // by name in the graph
+  std::map<std::string, std::weak_ptr<plugin::PluginLibrary>> libraries_;  // by file
+  std::map<std::string, LoadedType> held_;                                 // by type: what answers came from
+  std::map<std::string, std::unique_ptr<plugin::DescribedHardware>> hardware_;  // by name in the graph
 };
 
-}  // namespace orca
+}  // namespace orca::host

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace orca {
+namespace orca::host {
 
 /// Sees to it that a process that dies of a plugin says so on stderr first: which component, which hook,
 /// which plugin, what happened. It prevents nothing: a signal or an exception that nobody may catch still
@@ -28,4 +28,4 @@ class LastWords {
   [[noreturn]] static void say_and_end(const std::string& line);
 };
 
-}  // namespace orca
+}  // namespace orca::host

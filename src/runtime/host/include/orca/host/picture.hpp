@@ -10,7 +10,7 @@
 #include "orca/base/result.hpp"
 #include "orca/hw/scene.hpp"
 
-namespace orca {
+namespace orca::host {
 
 /// From where a run is shown.
 enum class View {
@@ -41,4 +41,4 @@ struct PictureOptions {
 /// @errors  invalid_argument for another ending or an empty scene; unavailable if the file cannot be written.
 Status write_picture(const Scene& scene, const PictureOptions& options);
 
-}  // namespace orca
+}  // namespace orca::host

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-namespace orca {
+namespace orca::host {
 
 /// Turns SIGINT and SIGTERM into a request to stop. A second signal ends the process after 0.4 s, whatever it
 /// is doing.
@@ -36,4 +36,4 @@ class StopSignal {
   std::thread watcher_;
 };
 
-}  // namespace orca
+}  // namespace orca::host

@@ -9,8 +9,9 @@
 #include "orca/base/contract.hpp"
 #include "orca/base/result.hpp"
 #include "orca/component/manifest.hpp"
+#include "orca/hw/container.hpp"
 
-namespace orca {
+namespace orca::plugin {
 
 /// A hardware container that was constructed and prepared, but opens nothing: for contracts that depend on
 /// it.
@@ -39,4 +40,4 @@ Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& ty
 Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
                                     hw::HardwareContainer* hardware);
 
-}  // namespace orca
+}  // namespace orca::plugin

@@ -8,7 +8,7 @@
 #include "orca/base/contract.hpp"
 #include "orca/base/result.hpp"
 
-namespace orca {
+namespace orca::plugin {
 
 /// Which plugin file holds which type, read from the NAME.types files that the build writes beside NAME.so:
 /// lines of "component TYPE" or "hardware TYPE".
@@ -41,4 +41,4 @@ class PluginIndex {
   std::map<std::string, Place> place_by_type_;
 };
 
-}  // namespace orca
+}  // namespace orca::plugin

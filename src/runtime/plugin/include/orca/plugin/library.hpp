@@ -9,7 +9,7 @@
 #include "orca/base/result.hpp"
 #include "orca/component/manifest.hpp"
 
-namespace orca {
+namespace orca::plugin {
 
 class LoadedPlugin;
 
@@ -60,4 +60,4 @@ class PluginLibrary {
 /// removed or exchanged meanwhile: the proof after unloading.
 [[nodiscard]] bool is_mapped(const std::string& path);
 
-}  // namespace orca
+}  // namespace orca::plugin

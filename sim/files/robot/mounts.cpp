@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "mounts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "files/formats/attributes.hpp"
+#include "footprint.hpp"
+#include "orca/xml/names.hpp"
+#include "urdf_parts.hpp"
+
+namespace orca::sim::detail {
+namespace {
+
+constexpr double kUpright = 1.0 - 1e-9;
+
+// R012 unless `map` has what the attribute of that name says, if there is one.
+template <class Map>
+bool names_one_of(const Map& map, const Attributes& e, const char* attribute) {
+  const xml::Attribute* a = e.element().attribute(attribute);
+  if (a == nullptr || !a->intact) return false;
+  if (map.contains(a->value)) return true;
+  std::vector<std::string> names;
+  for (const auto& entry : map) names.push_back(entry.first);
+  e.error_at(attribute, 12,
+             std::string("there is no ") + attribute + " \"" + a->value + "\"" +
+                 xml::did_you_mean(xml::nearest_name(a->value, names)));
+  return false;
+}
+
+void mount_turret(Turret& turret, const UrdfBody& body, const Attributes& e) {
+  if (!names_one_of(body.joints, e, "joint")) return;
+  const UrdfJoint& joint = body.joints.at(turret.joint);
+  if (!joint.continuous || joint.upright < kUpright)
+    return e.error_at("joint", 22,
+                      "a turret needs a joint of type continuous whose axis points up: it turns without end");
+  turret.axis = {joint.X_BJ.x, joint.X_BJ.y};
+  for (std::size_t i = joint.first_part; i < joint.end_part; ++i)
+    if (round_radius(body.parts[i], turret.axis) < 0.0)
+      return e.error_at("joint", 22,
+                        "the collision geometry of a turret must be round about its axis, upright cylinders "
+                        "and spheres on it: the simulator does not turn it");
+}
+
+// R022 for what looks up, down or upside down.
+void check_upright(const UrdfBody& body, const Attributes& e) {
+  const xml::Attribute* a = e.element().attribute("link");
+  const auto link = a != nullptr ? body.links.find(a->value) : body.links.end();
+  if (link == body.links.end()) return;
+  const Pose3& X = link->second;
+  if (1.0 - 2.0 * (X.qx * X.qx + X.qy * X.qy) < kUpright)
+    e.error_at("link", 22,
+               "the link \"" + a->value +
+                   "\" is tilted: sensors of the simulator look horizontally, their z axis points up");
+}
+
+// @tparam Sensor  has link, center, height and on_turret.
+template <class Sensor>
+void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* turret) {
+  for (Sensor& sensor : sensors) {
+    const auto link = body.links.find(sensor.link);
+    if (link == body.links.end()) continue;
+    const Pose3& X = link->second;
+    const double yaw = std::atan2(2.0 * (X.qw * X.qz + X.qx * X.qy), 1.0 - 2.0 * (X.qy * X.qy + X.qz * X.qz));
+    sensor.center = {X.x, X.y, yaw};
+    sensor.height = X.z;
+    sensor.on_turret =
+        turret != nullptr && std::ranges::find(turret->links, sensor.link) != turret->links.end();
+  }
+}
+
+}  // namespace
+
+void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& orca,
+                   xml::Diagnostics& diagnostics) {
+  const xml::Element* turret = only_child(orca, "turret");
+  if (turret != nullptr && model.turret) mount_turret(*model.turret, body, {*turret, 'R', diagnostics});
+  for (const xml::Element& e : orca.children())
+    if (const Attributes device(e, 'R', diagnostics); names_one_of(body.links, device, "link"))
+      check_upright(body, device);
+  const auto joint = model.turret ? body.joints.find(model.turret->joint) : body.joints.end();
+  const UrdfJoint* turns = joint != body.joints.end() ? &joint->second : nullptr;
+  mount(model.sonars, body, turns);
+  mount(model.lasers, body, turns);
+  mount(model.infrareds, body, turns);
+}
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "files/formats/attributes.hpp"
+#include "model/walls.hpp"
+#include "orca/sim/world_model.hpp"
+
+namespace orca::sim::detail {
+
+// Turns the elements of a <world> into a WorldModel, reporting all errors on the way.
+class WorldReader {
+ public:
+  // @param seed  of all that is generated, instead of the file's own.
+  WorldReader(const std::string& file_name, std::optional<std::uint64_t> seed, xml::Diagnostics& diagnostics)
+      : file_name_(file_name), seed_(seed), diagnostics_(diagnostics) {}
+
+  WorldModel read(const xml::Element& root);
+
+ private:
+  using Read = void (WorldReader::*)(const Attributes&);
+  [[nodiscard]] Attributes of(const xml::Element& element) const { return {element, 'W', diagnostics_}; }
+
+  void header(const Attributes& world);
+  bool within_limits(const Attributes& world) const;
+  void wall(const Attributes& element);
+  void room(const Attributes& element);
+  void box(const Attributes& element);
+  void cylinder(const Attributes& element);
+  void polygon(const Attributes& element);
+  void bitmap(const Attributes& element);
+  void mesh(const Attributes& element);
+  void place(const Attributes& element);
+  void generate(const Attributes& element);
+  void walker(const Attributes& element);
+
+  void add_wall(const Attributes& element, WallPlan plan);
+  void add(const Attributes& element, Shape shape, double height);
+  void add_place(const Attributes& element, Place place);
+  [[nodiscard]] std::optional<Opening> door(const Attributes& element, bool in_room) const;
+  [[nodiscard]] std::optional<double> height(const Attributes& element) const;
+  // The name the element gives itself, told if it is taken; its kind if it gives none.
+  std::string own_name(const Attributes& element);
+  void claim(const Attributes& element, const std::string& kind, const std::string& name);
+  void check_places() const;
+  void check_walkers() const;
+  void check_seed(const Attributes& world) const;
+
+  std::string file_name_;
+  std::optional<std::uint64_t> seed_;
+  xml::Diagnostics& diagnostics_;
+  WorldModel world_;
+  std::map<std::string, xml::Position> taken_;  // By kind and name.
+  std::vector<xml::Position> place_positions_;
+  std::vector<xml::Position> walker_positions_;
+  std::size_t faces_ = 0;                   // Of all meshes.
+  std::optional<xml::Position> generated_;  // Where <generate> stands.
+};
+
+}  // namespace orca::sim::detail

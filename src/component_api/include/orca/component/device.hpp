@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+namespace orca {
+
+/// A hardware container as a component's host hands it on: it knows nothing more of it.
+/// orca::hw::HardwareContainer is the only kind there is.
+///
+/// Thread contract: that of orca::hw::HardwareContainer.
+class Device {
+ public:
+  Device() = default;
+  /// May throw, because an author's may: the runtime contains it.
+  virtual ~Device() noexcept(false) = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+};
+
+}  // namespace orca

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "orca/base/contract.hpp"
+#include "orca/base/log.hpp"
+#include "orca/base/random.hpp"
+#include "orca/component/device.hpp"
+#include "orca/patterns/port_owner.hpp"
+
+namespace orca {
+
+/// A parameter as declared by a member of a component or a hardware container.
+struct ParamDeclaration {
+  ParamContract contract;
+  /// Stores a value that has been checked against the contract.
+  std::function<void(const ParamValue&)> set;
+};
+
+/// Something that happened and that the user of the whole system wants to know: a line on stdout.
+struct Announcement {
+  std::string kind;  ///< "arrived" or "contact".
+  std::string name;  ///< Goal or robot.
+  double x = 0.0;    ///< [m], world frame; "arrived" only.
+  double y = 0.0;    ///< [m]
+  TimePoint time;
+};
+
+/// What a process offers to what it hosts, be it a component or a hardware container.
+///
+/// Thread contract: declarations from the constructor of the hosted object, the rest from its strand.
+class PluginHost {
+ public:
+  virtual ~PluginHost() = default;
+
+  virtual void declare_param(ParamDeclaration declaration) = 0;
+
+  [[nodiscard]] virtual const std::string& name() const = 0;
+  [[nodiscard]] virtual TimePoint now() const = 0;
+  /// A stream that depends on the run's seed, this instance's name and `stream` alone.
+  [[nodiscard]] virtual RandomStream random(std::string_view stream) const = 0;
+  virtual void write_log(log::Level level, std::string_view text) const = 0;
+  virtual void announce(const Announcement& announcement) = 0;
+};
+
+/// What a process offers to a component. Implemented by the runtime; a component author never sees it.
+class ComponentHost : public PluginHost {
+ public:
+  virtual void declare_port(PortDeclaration declaration) = 0;
+  virtual void set_default_trigger(const Trigger& trigger) = 0;
+
+  /// The hardware that the graph binds to this component, or null. Naming it here makes it part of the
+  /// contract.
+  [[nodiscard]] virtual Device* hardware() = 0;
+
+  virtual void stay_active(bool active) = 0;
+  [[nodiscard]] virtual Strand& strand() = 0;
+};
+
+}  // namespace orca

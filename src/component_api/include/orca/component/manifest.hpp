@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "orca/base/contract.hpp"
+
+namespace orca {
+
+class PluginHost;
+
+/// Counts up whenever the layout or meaning of anything that crosses the plugin boundary changes.
+inline constexpr std::uint32_t kAbiVersion = 1;
+
+/// One type that a plugin holds.
+struct TypeEntry {
+  PluginKind kind;
+  const char* type;  ///< e.g. "orca.SonarAvoid".
+  /// Constructs a Component, whose host is a ComponentHost, or a hw::HardwareContainer, whose host is a
+  /// hw::HardwareHost: as `kind` says.
+  void* (*create)(PluginHost& host);
+  void (*destroy)(void* object);
+};
+
+/// The one symbol that a plugin exports, `orca_plugin_manifest`. Plain data: it can be checked before any of
+/// the plugin's code has run. Compatibility is decided by abi_version, size and the objects' type hashes;
+/// build_id is for people.
+struct Manifest {
+  std::uint32_t abi_version;
+  std::uint32_t size;  ///< sizeof(Manifest) when the plugin was built.
+  const char* build_id;
+  const TypeEntry* const* first_type;
+  const TypeEntry* const* end_of_types;
+};
+
+namespace detail {
+
+template <class Class, class Base, class Host>
+void* create(PluginHost& host) {
+  return static_cast<Base*>(new Class(static_cast<Host&>(host)));
+}
+
+template <class Base>
+void destroy(void* object) {
+  delete static_cast<Base*>(object);
+}
+
+}  // namespace detail
+}  // namespace orca
+
+// Entries gather in a section of their own; plugin_entry.cpp, which orca_add_component() adds, exports its
+// bounds.
+#define ORCA_DETAIL_TYPE_ENTRY(...)                                                          \
+  namespace {                                                                                \
+  constexpr ::orca::TypeEntry orca_type_entry __VA_ARGS__;                                   \
+  [[gnu::section("orca_types"), gnu::used,                                                   \
+    gnu::retain]] const ::orca::TypeEntry* const orca_type_entry_pointer = &orca_type_entry; \
+  }
+
+/// Makes a class of this source file known as a component type. Once per file, at its end.
+#define ORCA_COMPONENT(Class, type_name)                                                           \
+  ORCA_DETAIL_TYPE_ENTRY({::orca::PluginKind::component, type_name,                                \
+                          ::orca::detail::create<Class, ::orca::Component, ::orca::ComponentHost>, \
+                          ::orca::detail::destroy<::orca::Component>})
+
+#define ORCA_DETAIL_JOIN(a, b) a##b
+#define ORCA_DETAIL_CLOCK_NOTE(line, text)                                          \
+  namespace {                                                                       \
+  [[gnu::section("orca_clock_notes"), gnu::used,                                    \
+    gnu::retain]] constexpr char ORCA_DETAIL_JOIN(orca_clock_note_, line)[] = text; \
+  }
+
+/// Says that the types of this plugin cannot run in virtual time, and why: "reads a joystick". A literal.
+#define ORCA_STEADY_CLOCK_ONLY(reason) ORCA_DETAIL_CLOCK_NOTE(__LINE__, "steady only: " reason)
+
+/// Says that this plugin may use a symbol in virtual time that is refused there, and why it does no harm:
+/// ORCA_ALLOW_IN_VIRTUAL_TIME("poll", "with a time-out of zero, it never waits"). The symbol as the refusal
+/// names it.
+#define ORCA_ALLOW_IN_VIRTUAL_TIME(symbol, reason) \
+  ORCA_DETAIL_CLOCK_NOTE(__LINE__, "allows " symbol ": " reason)

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "candidates.hpp"
+
+#include "endpoints.hpp"
+#include "orca/xml/names.hpp"
+#include "ports.hpp"
+#include "reading/codes.hpp"
+
+namespace orca::graph {
+namespace {
+
+// The port of a candidate that fits, if there is one and no other. Nothing after a report.
+std::optional<std::string> fitting_port(const CheckedComponent& candidate, const PortContract& wanted,
+                                        const std::string& title, const xml::Position& place,
+                                        Report& report) {
+  std::vector<std::string> fitting;
+  for (const PortContract& port : candidate.contract->ports)
+    if (port.pattern == wanted.pattern && port.role != wanted.role && port.type == wanted.type)
+      fitting.push_back(candidate.value.name + "." + port.name);
+  if (fitting.size() == 1) return fitting.front();
+  const std::string name = in_quotes(candidate.value.name);
+  const std::string reason = fitting.empty()
+                                 ? " has no port that fits; " + name + " has " + ports_of(*candidate.contract)
+                                 : " has several ports that fit, write one: " + xml::listed(fitting);
+  report.error(codes::kCandidate, place,
+               title + " (" + described(wanted) + "): the candidate " + name + reason);
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool candidates_are_names(const LateBinding& late, Report& report) {
+  if (late.candidates.value.find_first_of("=<>\"'") == std::string::npos) return true;
+  report.error(codes::kUnsupported, late.candidates.position,
+               "candidates: " + in_quotes(late.candidates.value) +
+                   " is a trading query, which is not supported yet; name the candidates");
+  return false;
+}
+
+std::optional<Node> candidate_connection(const CheckedComponent& component, const LateBinding& late,
+                                         const std::string& name, const Model& model, Report& report) {
+  const xml::Position& place = late.candidates.position;
+  std::string from = name;
+  if (name.find('.') == std::string::npos) {
+    const std::string title = component.value.name + "." + late.port;
+    if (!check_component_exists(name, place, in_quotes(title) + ": candidates", model, report))
+      return std::nullopt;
+    const CheckedComponent& candidate = *model.component(name);
+    if (!candidate.contract || !candidate.ports_known) return std::nullopt;
+    const PortContract& wanted = *component.contract->port(late.port);
+    const auto port = fitting_port(candidate, wanted, in_quotes(title), place, report);
+    if (!port) return std::nullopt;
+    from = *port;
+  }
+  Node connection{find_rule("connect"), place, {}, {}};
+  connection.attributes["from"] = {from, place, true, place.file};
+  connection.attributes["to"] = {component.value.name + "." + late.port, place, true, place.file};
+  return connection;
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "components.hpp"
+
+#include <limits>
+
+#include "orca/xml/names.hpp"
+#include "ports.hpp"
+#include "reading/codes.hpp"
+#include "reading/naming.hpp"
+#include "reading/node_name.hpp"
+#include "reading/parameters.hpp"
+#include "reading/values.hpp"
+
+namespace orca::graph {
+namespace {
+
+constexpr std::size_t kMostComponents = 10'000;
+
+ParamContract attribute_contract(ParamType type, const char* unit, double min, double max) {
+  ParamContract contract;
+  contract.type = type;
+  contract.unit = unit;
+  contract.min = min;
+  contract.max = max;
+  return contract;
+}
+
+// Reads one component; a new one for each.
+class ComponentReader {
+ public:
+  ComponentReader(const Node& node, Types& types, const Model& model, Report& report)
+      : node_(node), types_(types), model_(model), report_(report) {}
+
+  CheckedComponent read() {
+    checked_.duplicate = node_.duplicate;
+    checked_.value.position = node_.position;
+    checked_.value.name = node_.value("name");
+    checked_.value.type = node_.value("type");
+    checked_.value.hardware = node_.value("hardware");
+    checked_.value.process = node_.value("process");
+    check_name(node_, "name", report_);
+    check_name(node_, "process", report_);
+    read_contract();
+    read_ports(node_, checked_, report_);
+    read_scheduling();
+    read_loading();
+    read_trigger();
+    read_content();
+    return std::move(checked_);
+  }
+
+ private:
+  bool names_hardware() const { return node_.find("hardware") != nullptr && !hardware_left_out(); }
+  // hardware="" takes back what another part of the graph says.
+  bool hardware_left_out() const {
+    return node_.known("hardware") != nullptr && node_.value("hardware").empty();
+  }
+
+  void read_contract() {
+    const CheckedHardware* hardware = names_hardware() ? find_hardware() : nullptr;
+    if (names_hardware() && (hardware == nullptr || !hardware->sound)) {
+      checked_.contract = types_.component_without_hardware(node_);
+      check_hardware_wanted();
+      checked_.ports_known = checked_.contract.has_value() && !checked_.contract->needs_hardware;
+      return;
+    }
+    if (hardware != nullptr) {
+      const HardwareUse use{hardware->value.name, hardware->value.type, hardware->value.params};
+      checked_.contract = types_.component(node_, &use);
+      check_hardware_wanted();
+      checked_.ports_known = checked_.contract.has_value();
+      return;
+    }
+    checked_.contract = types_.component(node_, nullptr);
+    if (!checked_.contract) return;
+    checked_.ports_known = !checked_.contract->needs_hardware;
+    if (checked_.contract->needs_hardware) report_missing_hardware();
+  }
+
+  const CheckedHardware* find_hardware() {
+    const Text* name = node_.known("hardware");
+    if (name == nullptr) return nullptr;
+    const CheckedHardware* hardware = model_.find_hardware(name->value);
+    if (hardware == nullptr && !model_.excused.contains(name->value)) report_no_hardware(*name);
+    return hardware;
+  }
+
+  void report_no_hardware(const Text& name) {
+    const std::vector<std::string>& names = model_.hardware_names;
+    const std::string hint = report_.hint_in_contexts(name.value, names);
+    if (model_.parts_missing && hint.empty()) return;
+    report_.error(codes::kUnknownHardware, name.position,
+                  node_.title() + ": there is no hardware " + in_quotes(name.value) +
+                      "; the graph has: " + xml::listed(names) + hint);
+  }
+
+  void check_hardware_wanted() {
+    if (!checked_.contract || checked_.contract->needs_hardware) return;
+    report_.error(
+        codes::kHardwareNotTaken, node_.place("hardware"),
+        node_.title() + ": " + checked_.contract->type + " takes no hardware; remove the attribute");
+  }
+
+  void report_missing_hardware() {
+    report_.error(
+        codes::kHardwareMissing, node_.position,
+        node_.title() + ": " + checked_.contract->type +
+            " needs a hardware: add hardware=\"NAME\"; the graph has: " + xml::listed(model_.hardware_names));
+  }
+
+  std::optional<ParamValue> attribute(const char* name, const ParamContract& contract) {
+    const Text* text = node_.find(name);
+    if (text == nullptr) return std::nullopt;
+    return read_value(*text, contract, node_.title() + ": " + name, report_);
+  }
+
+  void read_scheduling() {
+    const auto priority = attribute("priority", attribute_contract(ParamType::integer, "", -100, 100));
+    if (priority) checked_.value.priority = static_cast<int>(std::get<std::int64_t>(*priority));
+    const auto autonomous = attribute("autonomous", attribute_contract(ParamType::boolean, "", 0, 0));
+    if (autonomous) checked_.value.autonomous = std::get<bool>(*autonomous);
+    checked_.value.start_after = split_names(node_.value("start_after"));
+  }
+
+  std::string choice(const char* name, std::vector<std::string> choices) {
+    ParamContract contract = attribute_contract(ParamType::text, "", 0, 0);
+    contract.choices = std::move(choices);
+    const auto value = attribute(name, contract);
+    return value ? std::get<std::string>(*value) : contract.choices.front();
+  }
+
+  void read_loading() {
+    constexpr double kDay = 86400.0;
+    constexpr Duration kIdleTime = std::chrono::seconds(10);
+    checked_.value.on_demand = choice("start", {"at_once", "on_demand"}) == "on_demand";
+    const bool warm = choice("stay", {"cold", "warm"}) == "warm";
+    const auto idle_time = attribute("idle_time", attribute_contract(ParamType::real, "s", 0.0, kDay));
+    if (!checked_.value.on_demand) return check_never_unloaded();
+    checked_.value.stay_warm = warm;
+    if (!warm) checked_.value.idle_time = idle_time ? from_seconds(std::get<double>(*idle_time)) : kIdleTime;
+    if (checked_.value.autonomous.value_or(false))
+      report_.error(codes::kLoading, node_.place("start"),
+                    node_.title() +
+                        ": it is autonomous, so it works from the start, whether asked for or not; "
+                        "take start=\"on_demand\" or autonomous=\"true\" away");
+  }
+
+  void check_never_unloaded() {
+    if (node_.find("idle_time") != nullptr)
+      report_.error(codes::kLoading, node_.place("idle_time"),
+                    node_.title() +
+                        ": idle_time is for components with start=\"on_demand\"; this one stays "
+                        "loaded all the time");
+  }
+
+  void read_trigger() {
+    if (node_.find("period") != nullptr && node_.find("on") != nullptr) {
+      return report_.error(codes::kTwoTriggers, node_.place("on"),
+                           node_.title() + ": period and on exclude each other; one of them starts the laps");
+    }
+    constexpr double kDay = 86400.0;
+    const auto period = attribute("period", attribute_contract(ParamType::real, "s", 1e-6, kDay));
+    if (period)
+      checked_.value.trigger = Trigger{Trigger::Kind::period, from_seconds(std::get<double>(*period)), {}};
+    const Text* on = node_.known("on");
+    if (on == nullptr) return;
+    checked_.value.trigger = Trigger{Trigger::Kind::on_port, {}, on->value};
+    if (checked_.contract && checked_.ports_known) check_trigger_port(*on);
+  }
+
+  void check_trigger_port(const Text& on) {
+    std::vector<std::string> inputs;
+    for (const PortContract& port : checked_.contract->ports) {
+      if (port.pattern != Pattern::push || port.role != Role::proxy) continue;
+      if (port.name == on.value) return;
+      inputs.push_back(port.name);
+    }
+    const bool exists = checked_.contract->port(on.value) != nullptr;
+    report_.error(codes::kTriggerPort, on.position,
+                  node_.title() + ": on=" + in_quotes(on.value) +
+                      (exists ? " is not a PushProxy, only what is pushed to a component can start its laps"
+                              : " is not a port of it") +
+                      "; its PushProxies are: " + xml::listed(inputs) + report_.hint(on.value, inputs));
+  }
+
+  void read_content() {
+    if (checked_.contract) {
+      auto params = read_params(node_, *checked_.contract, report_);
+      if (params) checked_.value.params = std::move(*params);
+    }
+    for (const Node& child : node_.children) {
+      if (!child.is("property") || child.known("name") == nullptr) continue;
+      check_name(child, "name", report_);
+      checked_.value.properties[child.value("name")] = child.value("value");
+    }
+  }
+
+  const Node& node_;
+  Types& types_;
+  const Model& model_;
+  Report& report_;
+  CheckedComponent checked_;
+};
+
+void check_start_after(const std::vector<Node>& nodes, const Model& model, Report& report) {
+  for (const Node& node : nodes) {
+    for (const std::string& name : split_names(node.value("start_after"))) {
+      check_component_exists(name, node.place("start_after"), node.title() + ": start_after", model, report);
+    }
+  }
+}
+
+}  // namespace
+
+void check_components(const std::vector<Node>& nodes, Types& types, Model& model, Report& report) {
+  for (const Node& node : nodes) {
+    if (model.components.size() == kMostComponents) {
+      report.error(codes::kTooManyComponents, node.position,
+                   "the graph has " + std::to_string(nodes.size()) + " components, the limit is " +
+                       std::to_string(kMostComponents));
+      break;
+    }
+    model.add(ComponentReader(node, types, model, report).read(),
+              !node.value("name").empty() && !node.duplicate);
+  }
+  check_start_after(nodes, model, report);
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "endpoints.hpp"
+
+#include "orca/xml/names.hpp"
+#include "ports.hpp"
+#include "reading/codes.hpp"
+
+namespace orca::graph {
+namespace {
+
+void report_bad_form(const Node& connection, const char* attribute, const Model& model, Report& report) {
+  const Text& text = *connection.find(attribute);
+  const CheckedComponent* component = model.component(text.value);
+  std::string message =
+      std::string(attribute) + ": " + in_quotes(text.value) + " is no port: write component.port";
+  if (component != nullptr && component->contract && component->ports_known) {
+    message += "; " + in_quotes(text.value) + " has " + ports_of(*component->contract);
+  }
+  report.error(codes::kBadPort, text.position, message);
+}
+
+// The graph has taken the port away, or given it another name. False if it has not.
+bool report_changed_port(Endpoint& end, const CheckedComponent& component, const xml::Position& place,
+                         Report& report) {
+  const std::string port = "component " + in_quotes(end.ref.component) + ": port " + in_quotes(end.ref.port);
+  if (const auto off = component.disabled.find(end.ref.port); off != component.disabled.end()) {
+    report.error(codes::kPortDisabled, place,
+                 port + " is disabled at " + off->second.text() + "; enable it there to connect it");
+    return true;
+  }
+  const auto renaming = component.renamed.find(end.ref.port);
+  if (renaming == component.renamed.end()) return false;
+  const auto& [name, where] = renaming->second;
+  report.error(codes::kUnknownPort, place,
+               port + " is called " + in_quotes(name) + " in this graph, see " + where.text() + "; write " +
+                   in_quotes(end.ref.component + "." + name));
+  end.guessed = name;
+  return true;
+}
+
+void find_port(Endpoint& end, const CheckedComponent& component, const xml::Position& place, Report& report) {
+  const Contract& contract = *component.contract;
+  end.port = contract.port(end.ref.port);
+  if (end.port != nullptr || report_changed_port(end, component, place, report)) return;
+  std::vector<std::string> names;
+  for (const PortContract& port : contract.ports) names.push_back(port.name);
+  end.guessed = report.nearest(end.ref.port, names);
+  report.error(codes::kUnknownPort, place,
+               "component " + in_quotes(end.ref.component) + ": port " + in_quotes(end.ref.port) +
+                   " does not exist; " + in_quotes(end.ref.component) + " has " + ports_of(contract) +
+                   xml::did_you_mean(end.guessed));
+}
+
+}  // namespace
+
+Endpoint resolve_endpoint(const Node& connection, const char* attribute, const Model& model, Report& report) {
+  Endpoint end;
+  const Text* text = connection.known(attribute);
+  if (text == nullptr) return end;
+  const std::size_t dot = text->value.rfind('.');
+  if (dot == std::string::npos || dot == 0 || dot + 1 == text->value.size()) {
+    report_bad_form(connection, attribute, model, report);
+    return end;
+  }
+  end.ref = {text->value.substr(0, dot), text->value.substr(dot + 1)};
+  if (!check_component_exists(end.ref.component, text->position, in_quotes(text->value), model, report))
+    return end;
+  const CheckedComponent& component = *model.component(end.ref.component);
+  if (component.contract && component.ports_known) find_port(end, component, text->position, report);
+  return end;
+}
+
+bool is_from_end(const PortContract& port) {
+  return (port.pattern == Pattern::push) == (port.role == Role::server);
+}
+
+std::string described(const PortContract& port) {
+  const std::string what =
+      std::string(to_string(port.pattern)) + to_string(port.role) + " of " + port.type.name;
+  return port.reply ? what + " answered by " + port.reply->name : what;
+}
+
+std::string described(const Endpoint& end) {
+  return in_quotes(end.ref.text()) + " (" + described(*end.port) + ")";
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "hardware.hpp"
+
+#include "reading/codes.hpp"
+#include "reading/node_name.hpp"
+#include "reading/parameters.hpp"
+
+namespace orca::graph {
+namespace {
+
+// Where the parameter is set, or the hardware's own place if it has its default.
+const xml::Position& place_of(const Node& node, const std::string& param) {
+  for (const Node& child : node.children)
+    if (child.is("param") && child.value("name") == param) return child.place("value");
+  return node.position;
+}
+
+void tell(const Node& node, const HardwareFault& fault, Report& report) {
+  if (fault.param.empty()) {
+    report.line(node.position, fault.text);
+  } else {
+    report.error(codes::kHardwareRefuses, place_of(node, fault.param),
+                 node.title() + ": parameter " + in_quotes(fault.param) + ": " + fault.text);
+  }
+}
+
+CheckedHardware check_one(const Node& node, Types& types, Report& report) {
+  CheckedHardware checked;
+  checked.value = {node.value("name"), node.value("type"), {}, node.position};
+  check_name(node, "name", report);
+  const std::optional<Contract> contract = types.hardware(node);
+  if (!contract) return checked;
+  auto params = read_params(node, *contract, report);
+  if (!params) return checked;
+  checked.value.params = std::move(*params);
+  const HardwareUse use{checked.value.name, checked.value.type, checked.value.params};
+  const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use);
+  for (const HardwareFault& fault : faults) tell(node, fault, report);
+  checked.sound = faults.empty();
+  return checked;
+}
+
+}  // namespace
+
+void check_hardware(const std::vector<Node>& nodes, Types& types, Model& model, Report& report) {
+  for (const Node& node : nodes) {
+    model.add(check_one(node, types, report), !node.value("name").empty() && !node.duplicate);
+  }
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/graph/loader.hpp"
+
+#include <algorithm>
+
+#include "components.hpp"
+#include "hardware.hpp"
+#include "influence.hpp"
+#include "model.hpp"
+#include "orca/xml/document.hpp"
+#include "order.hpp"
+#include "reading/assembly.hpp"
+#include "reading/naming.hpp"
+#include "reading/profiles.hpp"
+#include "reading/values.hpp"
+#include "types.hpp"
+#include "wiring.hpp"
+
+namespace orca::graph {
+namespace {
+
+std::optional<std::uint64_t> read_seed(const Node& graph, Report& report) {
+  const Text* seed = graph.find("seed");
+  if (seed == nullptr) return std::nullopt;
+  ParamContract contract;
+  contract.type = ParamType::integer;
+  contract.min = 0;
+  const auto value = read_value(*seed, contract, "seed", report);
+  if (!value) return std::nullopt;
+  return static_cast<std::uint64_t>(std::get<std::int64_t>(*value));
+}
+
+std::vector<std::string> read_ends(const Node& graph, const Model& model, Report& report) {
+  const std::vector<std::string> ends = split_names(graph.value("ends"));
+  for (const std::string& name : ends)
+    check_component_exists(name, graph.place("ends"), "ends", model, report);
+  return ends;
+}
+
+// What the <graph> element itself says, but for its ends, which are names of components.
+Graph read_root(const Node& root, Report& report) {
+  Graph graph;
+  graph.name = root.value("name");
+  graph.default_profile = root.value("default_profile");
+  graph.seed = read_seed(root, report);
+  return graph;
+}
+
+// Late-bound edges come from the candidates of ports; the ports remember them, so that print() can tell them.
+void note_candidates(Model& model, const std::vector<Edge>& edges) {
+  for (const Edge& edge : edges) {
+    if (!edge.late_bound) continue;
+    auto& ports = model.components[model.component_by_name.at(edge.to.component)].value.ports;
+    const auto is_it = [&](const auto& port) { return port.second.alias == edge.to.port; };
+    const auto renamed = std::ranges::find_if(ports, is_it);
+    PortSetting& setting = renamed == ports.end() ? ports[edge.to.port] : renamed->second;
+    setting.candidates.push_back(edge.from);
+  }
+}
+
+Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& catalogue, Report& report) {
+  const Node& root = assembly.graph;
+  Graph graph = read_root(root, report);
+  graph.plugin_dirs = assembly.plugin_folders;
+  catalogue.add_folders(graph.plugin_dirs);
+  const Parts parts = merge_profiles(assembly, options.profiles, report);
+  Types types(catalogue, report);
+  Model model;
+  model.excused = assembly.excused;
+  model.names_incomplete = assembly.names_incomplete;
+  model.parts_missing = parts.some_missing;
+  check_hardware(parts.hardware, types, model, report);
+  check_components(parts.components, types, model, report);
+  check_start_order(model, report);
+  graph.ends = read_ends(root, model, report);
+  graph.edges = check_wiring(parts.connections, model, report);
+  note_candidates(model, graph.edges);
+  if (report.no_errors()) check_influence(model, graph, report);
+  for (CheckedHardware& hardware : model.hardware) graph.hardware.push_back(std::move(hardware.value));
+  for (CheckedComponent& component : model.components) graph.components.push_back(std::move(component.value));
+  return graph;
+}
+
+std::optional<Graph> load(const std::optional<xml::Document>& document, const LoadOptions& options,
+                          Catalogue& catalogue, xml::Diagnostics& diagnostics, const FileReader& read) {
+  if (!document) return std::nullopt;
+  Report report(diagnostics, options.strict);
+  const auto assembly = assemble(*document, options, read, report, diagnostics);
+  if (!assembly) return std::nullopt;
+  Graph graph = check(*assembly, options, catalogue, report);
+  return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(graph));
+}
+
+}  // namespace
+
+std::optional<Graph> load_file(const std::string& path, const LoadOptions& options, Catalogue& catalogue,
+                               xml::Diagnostics& diagnostics) {
+  return load(xml::read_file(path, diagnostics), options, catalogue, diagnostics, xml::read_bytes);
+}
+
+std::optional<Graph> load_text(std::string_view text, const std::string& file_name,
+                               const LoadOptions& options, Catalogue& catalogue,
+                               xml::Diagnostics& diagnostics, const FileReader& read) {
+  return load(xml::read_text(text, file_name, diagnostics), options, catalogue, diagnostics, read);
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "orca/base/contract.hpp"
+#include "orca/graph/graph.hpp"
+#include "reading/node.hpp"
+#include "reading/report.hpp"
+
+namespace orca::graph {
+
+struct CheckedHardware {
+  HardwareNode value;
+  bool sound = false;  // it may be shown to components
+};
+
+// A port whose peers are chosen at run time, from candidates.
+struct LateBinding {
+  std::string port;  // its name in the graph
+  Text candidates;
+};
+
+// The name that the graph gives a port.
+struct Renaming {
+  std::string name;
+  xml::Position position;
+};
+
+struct CheckedComponent {
+  ComponentNode value;
+  std::optional<Contract> contract;  // nothing if the type is missing or unknown
+  bool ports_known = false;          // false: its ports cannot be judged, for a reason already reported
+  bool duplicate = false;
+  std::map<std::string, xml::Position> disabled;  // ports, and where that is said
+  std::map<std::string, Renaming> renamed;        // by the name that the author gave
+  std::vector<LateBinding> late;
+};
+
+// What the checks know about the graph so far. Nodes stay in the order of the file.
+struct Model {
+  std::vector<CheckedHardware> hardware;
+  std::vector<CheckedComponent> components;
+  std::map<std::string, std::size_t> hardware_by_name;
+  std::map<std::string, std::size_t> component_by_name;
+  std::vector<std::string> hardware_names;  // the same names, in the order of the file, for hints
+  std::vector<std::string> component_names;
+  std::set<std::string> excused;  // see Structure
+  bool names_incomplete = false;  // see Structure
+  bool parts_missing = false;     // see Parts
+
+  void add(CheckedHardware node, bool by_name) {
+    if (by_name && hardware_by_name.emplace(node.value.name, hardware.size()).second) {
+      hardware_names.push_back(node.value.name);
+    }
+    hardware.push_back(std::move(node));
+  }
+  void add(CheckedComponent node, bool by_name) {
+    if (by_name && component_by_name.emplace(node.value.name, components.size()).second) {
+      component_names.push_back(node.value.name);
+    }
+    components.push_back(std::move(node));
+  }
+  [[nodiscard]] const CheckedComponent* component(const std::string& name) const {
+    const auto found = component_by_name.find(name);
+    return found == component_by_name.end() ? nullptr : &components[found->second];
+  }
+  [[nodiscard]] const CheckedHardware* find_hardware(const std::string& name) const {
+    const auto found = hardware_by_name.find(name);
+    return found == hardware_by_name.end() ? nullptr : &hardware[found->second];
+  }
+};
+
+// Reports that `name`, said at `place`, is no component, unless that is excused. True if it is one.
+bool check_component_exists(const std::string& name, const xml::Position& place, const std::string& title,
+                            const Model& model, Report& report);
+
+}  // namespace orca::graph

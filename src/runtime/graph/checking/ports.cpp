@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "ports.hpp"
+
+#include <algorithm>
+
+#include "endpoints.hpp"
+#include "orca/xml/names.hpp"
+#include "reading/codes.hpp"
+#include "reading/naming.hpp"
+#include "reading/values.hpp"
+
+namespace orca::graph {
+namespace {
+
+class PortReader {
+ public:
+  PortReader(const Node& component, CheckedComponent& checked, Report& report)
+      : component_(component), checked_(checked), report_(report) {}
+
+  void read(const Node& node) {
+    const Text* name = node.known("name");
+    if (name == nullptr) return;
+    PortContract* port = find(*name);
+    if (port == nullptr) return;
+    title_ = component_.title() + ": port " + in_quotes(name->value);
+    PortSetting setting;
+    setting.disabled = read_disabled(node, *port);
+    if (setting.disabled && node.find("as") == nullptr && node.find("candidates") == nullptr) {
+      disabled_.push_back(port->name);
+      checked_.disabled[port->name] = node.position;
+    } else if (setting.disabled) {
+      return report_.error(codes::kPortSetting, node.place("disabled"),
+                           title_ + " is disabled: nothing else can be said about it");
+    }
+    setting.alias = read_alias(node, *port);
+    read_candidates(node, setting.alias.empty() ? port->name : setting.alias, *port);
+    if (setting.disabled || !setting.alias.empty()) checked_.value.ports[port->name] = setting;
+  }
+
+  // Only now, so that every <port> sees the names that the author gave.
+  void apply() {
+    Contract& contract = *checked_.contract;
+    std::erase_if(contract.ports, [&](const PortContract& port) {
+      return std::ranges::find(disabled_, port.name) != disabled_.end();
+    });
+    for (PortContract& port : contract.ports) {
+      const auto renaming = checked_.renamed.find(port.name);
+      if (renaming != checked_.renamed.end()) port.name = renaming->second.name;
+    }
+  }
+
+ private:
+  PortContract* find(const Text& name) {
+    Contract& contract = *checked_.contract;
+    const auto found = std::ranges::find(contract.ports, name.value, &PortContract::name);
+    if (found != contract.ports.end()) return &*found;
+    std::vector<std::string> names;
+    for (const PortContract& port : contract.ports) names.push_back(port.name);
+    report_.error(codes::kUnknownPort, name.position,
+                  component_.title() + ": port " + in_quotes(name.value) + " does not exist; " +
+                      contract.type + " has " + ports_of(contract) + report_.hint(name.value, names));
+    return nullptr;
+  }
+
+  bool read_disabled(const Node& node, const PortContract& port) {
+    const Text* disabled = node.find("disabled");
+    ParamContract contract;
+    contract.type = ParamType::boolean;
+    const auto value =
+        disabled == nullptr ? std::nullopt : read_value(*disabled, contract, title_ + ": disabled", report_);
+    if (!value || !std::get<bool>(*value)) return false;
+    if (!port.required) return true;
+    report_.error(codes::kPortNeeded, disabled->position,
+                  title_ + " (" + described(port) + ") must be connected, so it cannot be disabled");
+    return false;
+  }
+
+  // Its new name; empty: it keeps the old one.
+  std::string read_alias(const Node& node, const PortContract& port) {
+    const Text* alias = node.known("as");
+    if (alias == nullptr || alias->value == port.name) return {};
+    const auto fault = alias->value.find('/') == std::string::npos ? name_fault(alias->value)
+                                                                   : "a port has no contexts, so no '/'";
+    if (fault) {
+      report_.error(codes::kBadName, alias->position,
+                    title_ + ": as: the name " + in_quotes(alias->value) + ": " + *fault);
+      return {};
+    }
+    if (is_taken(alias->value)) {
+      report_.error(
+          codes::kDuplicateName, alias->position,
+          title_ + ": as: " + component_.title() + " has a port " + in_quotes(alias->value) + " already");
+      return {};
+    }
+    checked_.renamed[port.name] = {alias->value, node.position};
+    return alias->value;
+  }
+
+  // Not even a name that is given up is free: the error about its use must be able to tell the new one.
+  bool is_taken(const std::string& name) const {
+    const auto has_it = [&](const auto& entry) { return entry.second.name == name; };
+    return checked_.contract->port(name) != nullptr || std::ranges::any_of(checked_.renamed, has_it);
+  }
+
+  void read_candidates(const Node& node, const std::string& name, const PortContract& port) {
+    const Text* candidates = node.known("candidates");
+    if (candidates == nullptr) return;
+    if (port.many) return checked_.late.push_back({name, *candidates});
+    report_.error(codes::kNoLateBinding, candidates->position,
+                  title_ + " (" + described(port) +
+                      ") takes no candidates: only a port array chooses whom it listens to at run time; "
+                      "use <connect>");
+  }
+
+  const Node& component_;
+  CheckedComponent& checked_;
+  Report& report_;
+  std::string title_;
+  std::vector<std::string> disabled_;
+};
+
+}  // namespace
+
+void read_ports(const Node& node, CheckedComponent& component, Report& report) {
+  if (!component.contract || !component.ports_known) return;
+  PortReader reader(node, component, report);
+  for (const Node& child : node.children)
+    if (child.is("port")) reader.read(child);
+  reader.apply();
+}
+
+std::string ports_of(const Contract& contract) {
+  std::vector<std::string> in;
+  std::vector<std::string> out;
+  for (const PortContract& port : contract.ports) (is_from_end(port) ? out : in).push_back(port.name);
+  if (in.empty() && out.empty()) return "no ports";
+  std::string result;
+  if (!in.empty()) result = "in: " + xml::listed(in);
+  if (!out.empty()) result += (result.empty() ? "out: " : "; out: ") + xml::listed(out);
+  return result;
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "model.hpp"
+#include "reading/node.hpp"
+#include "reading/report.hpp"
+
+namespace orca::graph {
+
+// Reads the <port>s of a component and changes its contract as they say: other names, ports left out.
+void read_ports(const Node& node, CheckedComponent& component, Report& report);
+
+// "in: laser, sonar; out: motion": the ports of a contract, for people.
+std::string ports_of(const Contract& contract);
+
+}  // namespace orca::graph

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "types.hpp"
+
+#include "orca/xml/names.hpp"
+#include "reading/codes.hpp"
+#include "reading/naming.hpp"
+
+namespace orca::graph {
+
+const Text* Types::type_of(const Node& node) {
+  const Text* type = node.find("type");
+  if (type == nullptr) {
+    report_.error(codes::kMissingAttribute, node.position,
+                  "<" + std::string(node.rule->name) + "> needs the attribute \"type\", for " + node.title());
+  }
+  return type != nullptr && type->known ? type : nullptr;
+}
+
+std::optional<Contract> Types::hardware(const Node& node) {
+  const Text* type = type_of(node);
+  if (type == nullptr) return std::nullopt;
+  Result<Contract> contract = catalogue_.hardware(type->value);
+  if (contract) report_unfit(node, type->value, PluginKind::hardware);
+  if (contract) return *std::move(contract);
+  report_failure(node, contract.error(), PluginKind::hardware);
+  return std::nullopt;
+}
+
+std::optional<Contract> Types::component(const Node& node, const HardwareUse* use) {
+  const Text* type = type_of(node);
+  if (type == nullptr) return std::nullopt;
+  Result<Contract> contract = catalogue_.component(type->value, use);
+  if (contract) report_unfit(node, type->value, PluginKind::component);
+  if (contract) return *std::move(contract);
+  report_failure(node, contract.error(), PluginKind::component);
+  return std::nullopt;
+}
+
+std::optional<Contract> Types::component_without_hardware(const Node& node) {
+  const Text* type = type_of(node);
+  if (type == nullptr) return std::nullopt;
+  Result<Contract> contract = catalogue_.component(type->value, nullptr);
+  if (contract) report_unfit(node, type->value, PluginKind::component);
+  if (contract) return *std::move(contract);
+  if (contract.error().code == Code::not_found) report_failure(node, contract.error(), PluginKind::component);
+  return std::nullopt;
+}
+
+void Types::report_failure(const Node& node, const Error& error, PluginKind kind) {
+  const std::string what = node.title() + ": " + error.text();
+  if (error.code == Code::not_found) {
+    // A type that is known and not found after all has lost its plugin.
+    std::vector<std::string> names = catalogue_.type_names(kind);
+    std::erase(names, node.value("type"));
+    return report_.error(codes::kUnknownType, node.place("type"),
+                         what + report_.hint(node.value("type"), names));
+  }
+  if (broken_.insert(error.text()).second) report_.error(codes::kPlugin, node.place("type"), what);
+}
+
+void Types::report_unfit(const Node& node, const std::string& type, PluginKind kind) {
+  if (!unfit_.insert(type).second) return;
+  for (const std::string& reason : catalogue_.unfit(kind, type))
+    report_.error(codes::kUnfit, node.place("type"), node.title() + ": " + type + " " + reason);
+}
+
+}  // namespace orca::graph

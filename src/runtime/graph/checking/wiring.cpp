@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "wiring.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "candidates.hpp"
+#include "edges.hpp"
+#include "endpoints.hpp"
+#include "orca/xml/names.hpp"
+#include "reading/codes.hpp"
+#include "reading/naming.hpp"
+
+namespace orca::graph {
+namespace {
+
+bool fit_together(const PortContract& a, const PortContract& b) {
+  return a.pattern == b.pattern && a.role != b.role && a.type == b.type;
+}
+
+class Wiring {
+ public:
+  Wiring(const Model& model, Report& report) : model_(model), report_(report) {}
+
+  void connect(const Node& connection, bool late_bound = false) {
+    const Endpoint from = resolve_endpoint(connection, "from", model_, report_);
+    const Endpoint to = resolve_endpoint(connection, "to", model_, report_);
+    touch(from, to);
+    touch(to, from);
+    if (from.port == nullptr || to.port == nullptr) return;
+    auto edge = make_edge(connection, from, to, report_);
+    if (!edge || connection.duplicate) return;
+    edge->late_bound = late_bound;
+    if (late_bound && is_there_already(*edge)) return;
+    if (takes_one_more(*edge, from, to)) edges_.push_back(*std::move(edge));
+  }
+
+  // The candidates of late-bound ports, after everything that is written as a connection.
+  void connect_candidates() {
+    for (const CheckedComponent& component : model_.components) {
+      for (const LateBinding& late : component.late) {
+        if (component.duplicate || !candidates_are_names(late, report_)) continue;
+        for (const std::string& name : split_names(late.candidates.value)) {
+          const auto connection = candidate_connection(component, late, name, model_, report_);
+          if (connection) connect(*connection, true);
+        }
+      }
+    }
+  }
+
+  void check_required() {
+    if (model_.parts_missing) return;  // the connections may be in them
+    index_offers();
+    for (const CheckedComponent& component : model_.components) {
+      const bool judged = component.contract && component.ports_known;
+      if (!judged || component.duplicate || component.value.name.empty()) continue;
+      for (const PortContract& port : component.contract->ports) {
+        if (port.required && port.role == Role::proxy) check_connected(component, port);
+      }
+    }
+  }
+
+  std::vector<Edge> edges() && { return std::move(edges_); }
+
+ private:
+  // A connection whose other end could not be made out, although something was said about it.
+  struct Loose {
+    const PortContract* port;
+    std::string component;  // that the other end names; empty: not even that is known
+  };
+
+  void touch(const Endpoint& end, const Endpoint& other) {
+    if (end.port != nullptr) touched_.insert(end.ref);
+    if (end.guessed) touched_.insert({end.ref.component, *end.guessed});
+    const bool lost = end.port == nullptr && !end.guessed;
+    if (lost && other.port != nullptr) loose_.push_back({other.port, known_component(end.ref.component)});
+  }
+
+  std::string known_component(const std::string& name) const {
+    return model_.component(name) == nullptr ? "" : name;
+  }
+
+  bool is_there_already(const Edge& edge) {
+    const auto same = [&](const Edge& other) { return other.from == edge.from && other.to == edge.to; };
+    const auto found = std::ranges::find_if(edges_, same);
+    if (found == edges_.end()) return false;
+    report_.error(codes::kDuplicateEdge, edge.position,
+                  "the candidate " + in_quotes(edge.from.text()) + " of " + in_quotes(edge.to.text()) +
+                      " is connected already at " + found->position.text());
+    return true;
+  }
+
+  bool takes_one_more(const Edge& edge, const Endpoint& from, const Endpoint& to) {
+    const Endpoint& proxy = from.port->role == Role::proxy ? from : to;
+    if (proxy.port->many) return true;
+    const auto [first, fresh] = single_.try_emplace(proxy.ref, edge);
+    if (fresh) return true;
+    report_.error(codes::kTooManyEdges, edge.position,
+                  described(proxy) + " takes one connection and gets two: from " +
+                      in_quotes(edge.from.text()) + " to " + in_quotes(edge.to.text()) + " here, from " +
+                      in_quotes(first->second.from.text()) + " to " + in_quotes(first->second.to.text()) +
+                      " at " + first->second.position.text());
+    return false;
+  }
+
+  void check_connected(const CheckedComponent& component, const PortContract& port) {
+    const PortRef ref{component.value.name, port.name};
+    if (touched_.contains(ref) || explained_by_loose_end(ref, port)) return;
+    report_.error(codes::kUnconnected, component.value.position,
+                  "component " + in_quotes(ref.component) + ": port " + in_quotes(port.name) + " (" +
+                      described(port) + ") must be connected; " + offers(port));
+  }
+
+  // One connection with an unknown end may be the one that is missing here: that would be two errors for one
+  // cause.
+  bool explained_by_loose_end(const PortRef& ref, const PortContract& port) {
+    const auto explains = [&](const Loose& loose) {
+      return fit_together(*loose.port, port) && (loose.component.empty() || loose.component == ref.component);
+    };
+    const auto found = std::ranges::find_if(loose_, explains);
+    if (found == loose_.end()) return false;
+    loose_.erase(found);
+    return true;
+  }
+
+  // What an end of a connection must have to fit to another.
+  using Plug = std::tuple<Pattern, Role, std::string, std::uint64_t>;
+
+  void index_offers() {
+    for (const CheckedComponent& component : model_.components) {
+      if (!component.contract) continue;
+      for (const PortContract& port : component.contract->ports) {
+        const Plug plug{port.pattern, port.role, port.type.name, port.type.hash};
+        offers_[plug].push_back(component.value.name + "." + port.name);
+      }
+    }
+  }
+
+  std::string offers(const PortContract& wanted) {
+    const Role other = wanted.role == Role::proxy ? Role::server : Role::proxy;
+    const auto found = offers_.find(Plug{wanted.pattern, other, wanted.type.name, wanted.type.hash});
+    if (found == offers_.end()) return "no component of the graph offers it";
+    return "it is offered by: " + xml::listed(found->second);
+  }
+
+  const Model& model_;
+  Report& report_;
+  std::vector<Edge> edges_;
+  std::set<PortRef> touched_;
+  std::vector<Loose> loose_;
+  std::map<Plug, std::vector<std::string>> offers_;  // ports by what fits to them
+  std::map<PortRef, Edge> single_;                   // the first edge at each proxy that takes only one
+};
+
+}  // namespace
+
+std::vector<Edge> check_wiring(const std::vector<Node>& connections, const Model& model, Report& report) {
+  Wiring wiring(model, report);
+  for (const Node& connection : connections) wiring.connect(connection);
+  wiring.connect_candidates();
+  wiring.check_required();
+  return std::move(wiring).edges();
+}
+
+}  // namespace orca::graph

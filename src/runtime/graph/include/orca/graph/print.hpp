@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "orca/graph/graph.hpp"
+
+namespace orca::graph {
+
+/// The graph as XML again, with profiles merged, arguments replaced, defaults filled in and values in SI.
+/// Loading that text gives an equal Graph.
+[[nodiscard]] std::string print(const Graph& graph);
+
+}  // namespace orca::graph

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/graph/dot.hpp"
+#include "drawing.hpp"
+
+namespace orca::graph {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+// The line break is Graphviz's own escape, so it is put in after quoting.
+std::string label_of(const DrawnNode& node) {
+  std::string name = quoted(node.name);
+  name.pop_back();
+  return name + "\\n" + quoted(node.type).substr(1);
+}
+
+std::string node_text(const DrawnNode& node) {
+  const char* shape = node.hardware ? ", shape=cylinder" : "";
+  return node.id + " [label=" + label_of(node) + shape + "];\n";
+}
+
+}  // namespace
+
+std::string dot(const Graph& graph, const std::string& profiles) {
+  const Drawing drawing = drawing_of(graph, profiles);
+  std::string text = "digraph " + quoted(graph.name) + " {\n  label=" + quoted(drawing.title) +
+                     ";\n  rankdir=LR;\n  node [shape=box];\n";
+  int clusters = 0;
+  for (const auto& [context, nodes] : drawing.nodes) {
+    const bool boxed = !context.empty();
+    if (boxed)
+      text += "  subgraph cluster_" + std::to_string(clusters++) + " {\n    label=" + quoted(context) + ";\n";
+    for (const DrawnNode& node : nodes) text += (boxed ? "    " : "  ") + node_text(node);
+    if (boxed) text += "  }\n";
+  }
+  for (const DrawnEdge& edge : drawing.edges) {
+    text += "  " + edge.from + " -> " + edge.to + " [label=" + quoted(edge.label) +
+            (edge.dashed ? ", style=dashed" : "") + "];\n";
+  }
+  return text + "}\n";
+}
+
+}  // namespace orca::graph

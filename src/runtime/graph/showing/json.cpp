@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <variant>
+
+#include "attributes.hpp"
+#include "orca/base/json.hpp"
+#include "orca/graph/json.hpp"
+
+namespace orca::graph {
+namespace {
+
+void write(const Attributes& attributes, JsonWriter& json) {
+  for (const auto& [name, value] : attributes) json.member(name, value);
+}
+
+// Numbers and flags keep their type here, in SI.
+void write(const Params& params, JsonWriter& json) {
+  json.key("params").begin_object();
+  for (const auto& [name, value] : params)
+    std::visit([&, &key = name](const auto& content) { json.member(key, content); }, value);
+  json.end();
+}
+
+void write(const ComponentNode& node, JsonWriter& json) {
+  json.begin_object();
+  json.member("name", node.name);
+  write(attributes_of(node), json);
+  write(node.params, json);
+  json.key("properties").begin_object();
+  for (const auto& [name, value] : node.properties) json.member(name, value);
+  json.end();
+  json.key("ports").begin_object();
+  for (const auto& [name, setting] : node.ports) {
+    json.key(name).begin_object();
+    write(attributes_of(setting), json);
+    json.end();
+  }
+  json.end();
+  json.end();
+}
+
+void write(const Edge& edge, JsonWriter& json) {
+  json.begin_object();
+  json.member("from", edge.from.text());
+  json.member("to", edge.to.text());
+  json.member("pattern", to_string(edge.pattern));
+  json.member("late_bound", edge.late_bound);
+  write(attributes_of(edge), json);
+  json.end();
+}
+
+}  // namespace
+
+std::string graph_json(const Graph& graph) {
+  JsonWriter json;
+  json.begin_object();
+  json.member("name", graph.name);
+  write(attributes_of(graph), json);
+  json.key("hardware").begin_array();
+  for (const HardwareNode& node : graph.hardware) {
+    json.begin_object();
+    json.member("name", node.name);
+    write(attributes_of(node), json);
+    write(node.params, json);
+    json.end();
+  }
+  json.end();
+  json.key("components").begin_array();
+  for (const ComponentNode& node : graph.components) write(node, json);
+  json.end();
+  json.key("connections").begin_array();
+  for (const Edge& edge : graph.edges) write(edge, json);
+  json.end();
+  json.end();
+  return json.text();
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/graph/print.hpp"
+#include "attributes.hpp"
+#include "orca/xml/document.hpp"
+
+namespace orca::graph {
+namespace {
+
+// A value as it stands in the file: a dollar is doubled, because a single one starts an argument.
+std::string attribute(const std::string& name, const std::string& value) {
+  std::string doubled;
+  for (const char c : value) doubled += c == '$' ? "$$" : std::string(1, c);
+  return " " + name + "=\"" + xml::escaped(doubled) + "\"";
+}
+
+std::string text_of(const Attributes& attributes) {
+  std::string result;
+  for (const auto& [name, value] : attributes) result += attribute(name, value);
+  return result;
+}
+
+std::string named_value(const char* element, const std::string& name, const std::string& value) {
+  return std::string("    <") + element + attribute("name", name) + attribute("value", value) + "/>\n";
+}
+
+std::string params_text(const Params& params) {
+  std::string result;
+  for (const auto& [name, value] : params) result += named_value("param", name, value_text(value));
+  return result;
+}
+
+std::string element(const std::string& name, const std::string& attributes, const std::string& content) {
+  const std::string start = "  <" + name + attributes;
+  return content.empty() ? start + "/>\n" : start + ">\n" + content + "  </" + name + ">\n";
+}
+
+std::string component_text(const ComponentNode& node) {
+  std::string content = params_text(node.params);
+  for (const auto& [name, value] : node.properties) content += named_value("property", name, value);
+  for (const auto& [name, setting] : node.ports)
+    content += "    <port" + attribute("name", name) + text_of(attributes_of(setting)) + "/>\n";
+  return element("component", attribute("name", node.name) + text_of(attributes_of(node)), content);
+}
+
+std::string edge_text(const Edge& edge) {
+  const std::string ends = attribute("from", edge.from.text()) + attribute("to", edge.to.text());
+  return element("connect", ends + text_of(attributes_of(edge)), "");
+}
+
+}  // namespace
+
+std::string print(const Graph& graph) {
+  const std::string attributes =
+      attribute("name", graph.name) + attribute("version", "1") + text_of(attributes_of(graph));
+  std::string result = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graph" + attributes + ">\n";
+  // Its content is merged into the graph; the name stays, so that the file reads back as the same value.
+  if (!graph.default_profile.empty())
+    result += element("profile", attribute("name", graph.default_profile), "");
+  for (const HardwareNode& node : graph.hardware) {
+    result += element("hardware", attribute("name", node.name) + text_of(attributes_of(node)),
+                      params_text(node.params));
+  }
+  for (const ComponentNode& node : graph.components) result += component_text(node);
+  for (const Edge& edge : graph.edges)
+    if (!edge.late_bound) result += edge_text(edge);
+  return result + "</graph>\n";
+}
+
+}  // namespace orca::graph

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "descriptors.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace orca::host {
+namespace {
+
+constexpr std::size_t kNamed = 8;
+
+}  // namespace
+
+std::optional<Descriptors> open_descriptors() {
+  std::error_code cannot_look;
+  std::vector<std::filesystem::path> entries;
+  for (std::filesystem::directory_iterator entry("/proc/self/fd", cannot_look), end;
+       !cannot_look && entry != end; entry.increment(cannot_look))
+    entries.push_back(entry->path());
+  if (cannot_look) return std::nullopt;
+  Descriptors open;
+  for (const auto& entry : entries) {
+    struct stat file {};
+    // By path: other threads may close what is theirs meanwhile.
+    if (stat(entry.c_str(), &file) != 0) continue;  // as the one that read the folder
+    std::error_code unused;
+    open[std::atoi(entry.filename().c_str())] = {file.st_dev, file.st_ino,
+                                                 std::filesystem::read_symlink(entry, unused).native()};
+  }
+  return open;
+}
+
+std::string names_of(const Descriptors& descriptors) {
+  std::string names;
+  std::size_t named = 0;
+  for (const auto& [fd, file] : descriptors) {
+    if (named == kNamed) return names + " and " + std::to_string(descriptors.size() - named) + " more";
+    names += (named++ == 0 ? "" : ", ") + std::to_string(fd) + " (" + file.name + ")";
+  }
+  return names;
+}
+
+void OwnDescriptors::remember() {
+  release();
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(fd, F_GETFD) >= 0) own_.push_back(fd);
+  extra_ = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  if (extra_ >= 0) own_.push_back(extra_);
+}
+
+void OwnDescriptors::release() {
+  own_.clear();
+  if (extra_ >= 0) close(extra_);
+  extra_ = -1;
+}
+
+bool OwnDescriptors::all_open() const {
+  return std::ranges::all_of(own_, [](int fd) { return fcntl(fd, F_GETFD) >= 0; });
+}
+
+int OwnDescriptors::lowest_free() const {
+  const int found = fcntl(extra_, F_DUPFD_CLOEXEC, 0);
+  if (found >= 0) close(found);
+  return found;
+}
+
+}  // namespace orca::host

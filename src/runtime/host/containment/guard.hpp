@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "environment.hpp"
+#include "orca/base/activity.hpp"
+#include "orca/base/exception_text.hpp"
+#include "orca/base/strand.hpp"
+#include "orca/host/last_words.hpp"
+
+namespace orca::host {
+
+/// How a call into a plugin went wrong.
+struct PluginFault {
+  bool interrupted = false;  ///< Not a fault: the strand was told to leave.
+  std::string text;          ///< What was thrown, copied, so that it outlives the plugin.
+};
+
+/// Who is called, for alarms and for the last words of a process that dies of it.
+struct PluginCall {
+  const char* who;   ///< The component or hardware container.
+  const char* hook;  ///< "work"
+  const void* code;  ///< Anything in the plugin.
+};
+
+/// As long as it lives, a plugin's code runs.
+class PluginTurn {
+ public:
+  explicit PluginTurn(const PluginCall& call) : activity_(call.who, call.hook, call.code) {
+    LastWords::prepare_thread();
+    Environment::of_process().entering(activity_);
+  }
+  ~PluginTurn() { Environment::of_process().left(activity_); }
+  PluginTurn(const PluginTurn&) = delete;
+  PluginTurn& operator=(const PluginTurn&) = delete;
+
+ private:
+  const Activity activity_;
+};
+
+/// To be called when a plugin's code begins to wait: what it has left behind until now is looked at before
+/// another one's turn comes.
+inline void pause_plugin_turn() {
+  if (const Activity* const turn = Activity::current()) Environment::of_process().leaving(*turn);
+}
+
+/// Calls into a plugin; nothing that it throws comes further than here.
+template <class Call>
+std::optional<PluginFault> guarded_call(const PluginCall& called, Call&& call) {
+  const PluginTurn turn(called);
+  try {
+    std::forward<Call>(call)();
+    return std::nullopt;
+  } catch (const Interrupted&) {
+    return PluginFault{true, {}};
+  } catch (...) {
+    return PluginFault{false, describe_current_exception()};
+  }
+}
+
+}  // namespace orca::host

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/host/last_words.hpp"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <string_view>
+
+#include "orca/base/activity.hpp"
+#include "orca/base/exception_text.hpp"
+#include "orca/base/log.hpp"
+#include "orca/plugin/loaded_plugins.hpp"
+
+namespace orca::host {
+namespace {
+
+constexpr std::array kSignals{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
+constexpr int kHighDescriptor = 900;  // out of the way of a plugin that closes everything it can count to
+constexpr std::uintptr_t kNearStack = 64 * 1024;
+
+std::atomic<bool> g_armed{false};
+std::atomic<bool> g_said{false};
+int g_stderr = STDERR_FILENO;
+std::array<struct sigaction, kSignals.size()> g_before;
+std::terminate_handler g_terminate_before = nullptr;
+
+// Puts a line together without anything that a signal handler may not use.
+class Line {
+ public:
+  Line& operator<<(std::string_view text) {
+    const std::size_t count = std::min(text.size(), text_.size() - size_);
+    std::copy_n(text.begin(), count, text_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += count;
+    return *this;
+  }
+  Line& operator<<(std::uintptr_t number) {
+    std::array<char, 16> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, 16).ptr;
+    return *this << "0x" << std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));
+  }
+  void write() {
+    *this << "\n";
+    if (::write(g_stderr, text_.data(), size_) < 0) return;  // nothing is left to be done about it
+  }
+
+ private:
+  std::array<char, 2048> text_;
+  std::size_t size_ = 0;
+};
+
+// "error: avoid: work() "
+void start_line(Line& line, const Activity* activity) {
+  line << "error: ";
+  if (activity == nullptr) {
+    line << "a thread that runs no component ";
+  } else {
+    const std::string_view what = activity->what();
+    line << activity->who() << ": " << what << (what.find(' ') == std::string_view::npos ? "() " : " ");
+  }
+}
+
+// "; the plugin is avoid.so"
+void add_plugin(Line& line, const Activity* activity, const void* code) {
+  const char* plugin = plugin::plugin_at(code);
+  if (plugin == nullptr && activity != nullptr) plugin = plugin::plugin_at(activity->code());
+  if (plugin != nullptr) line << "; the plugin is " << plugin;
+}
+
+#if defined(__x86_64__)
+const void* code_at(const ucontext_t& c) {
+  return reinterpret_cast<const void*>(c.uc_mcontext.gregs[REG_RIP]);
+}
+std::uintptr_t stack_at(const ucontext_t& c) {
+  return static_cast<std::uintptr_t>(c.uc_mcontext.gregs[REG_RSP]);
+}
+#else
+const void* code_at(const ucontext_t& c) { return reinterpret_cast<const void*>(c.uc_mcontext.pc); }
+std::uintptr_t stack_at(const ucontext_t& c) { return c.uc_mcontext.sp; }
+#endif
+
+void add_cause(Line& line, int signal, const siginfo_t& info, const ucontext_t& context) {
+  const auto address = reinterpret_cast<std::uintptr_t>(info.si_addr);
+  const std::uintptr_t stack = stack_at(context);
+  line << "SIG" << sigabbrev_np(signal);
+  if (info.si_code <= 0) {
+    line << (signal == SIGABRT ? " (it called abort(), or the C++ library did)" : " (somebody sent it)");
+  } else if (signal == SIGFPE) {
+    line << " (it divided an integer by zero, or the like)";
+  } else if ((signal == SIGSEGV || signal == SIGBUS) && address - stack + kNearStack < 2 * kNearStack) {
+    line << " (its stack has overflowed)";
+  } else if (signal == SIGSEGV || signal == SIGBUS) {
+    line << " (it used memory that is not there, at " << address << ")";
+  }
+}
+
+void on_signal(int signal, siginfo_t* info, void* context) {
+  const auto place =
+      static_cast<std::size_t>(std::find(kSignals.begin(), kSignals.end(), signal) - kSignals.begin());
+  sigaction(signal, &g_before[place], nullptr);
+  if (!g_said.exchange(true)) {
+    const auto& where = *static_cast<const ucontext_t*>(context);
+    const Activity* const activity = Activity::current();
+    Line line;
+    start_line(line, activity);
+    line << "ended the process with the signal ";
+    add_cause(line, signal, *info, where);
+    add_plugin(line, activity, code_at(where));
+    line.write();
+  }
+  // A fault happens again on return and meets the old action. What was sent must be sent again.
+  if (info->si_code <= 0) raise(signal);
+}
+
+void on_terminate() {
+  Line line;
+  const Activity* const activity = Activity::current();
+  start_line(line, activity);
+  if (std::current_exception() != nullptr) {
+    std::string text;
+    try {
+      throw;
+    } catch (...) {
+      text = describe_current_exception();
+    }
+    line << text << " where nothing can catch it (noexcept, a destructor, a thread of its own)";
+  } else {
+    line << "called std::terminate()";
+  }
+  add_plugin(line, activity, nullptr);
+  if (!g_said.exchange(true)) line.write();
+  std::abort();
+}
+
+// exit() while plugins are at work: it would take down the process under the feet of all other components.
+void end_instead_of_exit(std::string_view call) {
+  if (!g_armed.load()) return;
+  const Activity* const activity = Activity::current();
+  Line line;
+  start_line(line, activity);
+  line << "called " << call << "; a plugin must not end the process";
+  add_plugin(line, activity, nullptr);
+  line.write();
+  std::fflush(nullptr);
+  _exit(1);
+}
+
+void on_exit_called(int status, void* /*unused*/) {
+  end_instead_of_exit("exit(" + std::to_string(status) + ")");
+}
+void on_quick_exit() { end_instead_of_exit("quick_exit()"); }
+
+void after_fork_here() {
+  static std::mutex mutex;
+  static std::set<std::string> said;
+  if (!g_armed.load() || Activity::current() == nullptr) return;
+  const std::lock_guard lock(mutex);
+  if (!said.insert(Activity::current()->who()).second) return;
+  log::error(Activity::current()->who(), std::string("alarm FORK: ") + Activity::current()->what() +
+                                             "() has called fork(); the copy is ended, because two must not "
+                                             "drive one robot. Start programs with "
+                                             "posix_spawn()");
+}
+void after_fork_in_copy() {
+  if (g_armed.exchange(false) && Activity::current() != nullptr)
+    _exit(1);  // else it is a copy of our own making
+}
+
+void register_once() {
+  static const bool registered = [] {
+    on_exit(on_exit_called, nullptr);
+    std::at_quick_exit(on_quick_exit);
+    pthread_atfork(nullptr, after_fork_here, after_fork_in_copy);
+    return true;
+  }();
+  (void)registered;
+}
+
+// A stack for signal handlers, unless the thread has one, as it has under AddressSanitizer.
+class SignalStack {
+ public:
+  SignalStack() {
+    stack_t present{};
+    if (sigaltstack(nullptr, &present) != 0 || (present.ss_flags & SS_DISABLE) == 0) return;
+    memory_ = mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    const stack_t mine{memory_, 0, kSize};
+    if (memory_ != MAP_FAILED) sigaltstack(&mine, nullptr);
+  }
+  ~SignalStack() {
+    if (memory_ == MAP_FAILED) return;
+    const stack_t none{nullptr, SS_DISABLE, 0};
+    sigaltstack(&none, nullptr);
+    munmap(memory_, kSize);
+  }
+  SignalStack(const SignalStack&) = delete;
+  SignalStack& operator=(const SignalStack&) = delete;
+
+ private:
+  static constexpr std::size_t kSize = 64 * 1024;
+  void* memory_ = MAP_FAILED;
+};
+
+}  // namespace
+
+LastWords::LastWords() {
+  const int copy = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, kHighDescriptor);
+  if (copy >= 0) g_stderr = copy;
+  register_once();
+  prepare_thread();
+  struct sigaction action {};
+  action.sa_sigaction = on_signal;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &g_before[i]);
+  g_terminate_before = std::set_terminate(on_terminate);
+  g_armed.store(true);
+}
+
+LastWords::~LastWords() {
+  g_armed.store(false);
+  std::set_terminate(g_terminate_before);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &g_before[i], nullptr);
+  if (g_stderr != STDERR_FILENO) close(g_stderr);
+  g_stderr = STDERR_FILENO;
+}
+
+void LastWords::prepare_thread() {
+  static thread_local const SignalStack stack;
+  (void)stack;
+}
+
+void LastWords::say_and_end(const std::string& line) {
+  Line words;
+  words << line;
+  words.write();
+  std::fflush(nullptr);
+  _exit(1);
+}
+
+}  // namespace orca::host

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/host/catalogue.hpp"
+
+#include <filesystem>
+#include <utility>
+
+namespace orca::host {
+
+PluginCatalogue::PluginCatalogue(plugin::PluginIndex index, ClockKind clock)
+    : index_(std::move(index)), clock_(clock) {}
+
+PluginCatalogue::~PluginCatalogue() { forget_answers(); }
+
+void PluginCatalogue::forget_answers() {
+  hardware_.clear();  // before the code that made it
+  const std::lock_guard lock(mutex_);
+  held_.clear();
+}
+
+Result<std::shared_ptr<plugin::PluginLibrary>> PluginCatalogue::library_of(const std::string& type) {
+  const Result<std::string> file = index_.file_of(type);
+  if (!file) return file.error();
+  std::weak_ptr<plugin::PluginLibrary>& known = libraries_[*file];
+  if (std::shared_ptr<plugin::PluginLibrary> library = known.lock()) return library;
+  Result<std::unique_ptr<plugin::PluginLibrary>> loaded = plugin::PluginLibrary::load(*file);
+  if (!loaded) return loaded.error();
+  std::shared_ptr<plugin::PluginLibrary> library = std::move(loaded).value();
+  known = library;
+  return library;
+}
+
+Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& type) {
+  const std::lock_guard lock(mutex_);
+  const Result<std::shared_ptr<plugin::PluginLibrary>> library = library_of(type);
+  if (!library) return library.error();
+  if (const TypeEntry* entry = (*library)->find(kind, type)) return LoadedType{*library, entry};
+  std::string known;
+  for (const TypeEntry* entry : (*library)->types())
+    known += (known.empty() ? "" : ", ") + std::string(entry->type) +
+             (entry->kind == kind                   ? ""
+              : entry->kind == PluginKind::hardware ? " (hardware)"
+                                                    : " (a component)");
+  return fail(Code::not_found, "the plugin " + (*library)->path() + " has no " +
+                                   (kind == PluginKind::component ? "component" : "hardware") + " type \"" +
+                                   type + "\"; it has: " + known);
+}
+
+Status PluginCatalogue::release(LoadedType type) {
+  const std::lock_guard lock(mutex_);
+  const std::string file = type.library->path();
+  const std::weak_ptr<plugin::PluginLibrary> rest = type.library;
+  type.library.reset();
+  if (!rest.expired() || !plugin::is_mapped(file)) return ok();
+  return fail(Code::failed_precondition,
+              "PLUGIN_PINNED: nobody uses this plugin any more, but it cannot be unloaded; is it built with "
+              "orca_add_component(), and do its threads end?",
+              file);
+}
+
+Result<LoadedType> PluginCatalogue::find(PluginKind kind, const std::string& type) {
+  Result<LoadedType> loaded = acquire(kind, type);
+  if (loaded) held_[type] = *loaded;
+  return loaded;
+}
+
+Result<Contract> PluginCatalogue::hardware(const std::string& type) {
+  const Result<LoadedType> found = find(PluginKind::hardware, type);
+  if (!found) return found.error();
+  const auto described = plugin::describe_hardware(*found->entry, found->library->path(), type);
+  if (!described) return described.error();
+  return (*described)->contract();
+}
+
+Result<plugin::DescribedHardware*> PluginCatalogue::described(const graph::HardwareUse& use) {
+  const auto known = hardware_.find(use.name);
+  if (known != hardware_.end()) return known->second.get();
+  const Result<LoadedType> found = find(PluginKind::hardware, use.type);
+  if (!found) return found.error();
+  auto made = plugin::describe_hardware(*found->entry, found->library->path(), use.name);
+  if (!made) return made.error();
+  return hardware_.emplace(use.name, std::move(made).value()).first->second.get();
+}
+
+std::vector<HardwareFault> PluginCatalogue::validate_hardware(const graph::HardwareUse& use) {
+  const Result<plugin::DescribedHardware*> made = described(use);
+  if (!made) return {{"", made.error().text()}};
+  return (*made)->prepare(use.params);
+}
+
+Result<Contract> PluginCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {
+  const Result<LoadedType> found = find(PluginKind::component, type);
+  if (!found) return found.error();
+  hw::HardwareContainer* container = nullptr;
+  if (hardware != nullptr) {
+    const Result<plugin::DescribedHardware*> made = described(*hardware);
+    if (!made) return made.error();
+    container = &(*made)->container();
+  }
+  return plugin::describe_component(*found->entry, found->library->path(), container);
+}
+
+std::vector<std::string> PluginCatalogue::unfit(PluginKind kind, const std::string& type) {
+  const Result<LoadedType> found = find(kind, type);
+  if (clock_ == ClockKind::steady || !found) return {};
+  const std::string file = std::filesystem::path(found->library->path()).filename().string();
+  std::vector<std::string> reasons;
+  for (const std::string& fault : found->library->virtual_time_faults())
+    reasons.push_back("cannot run in virtual time: " + file + " " + fault);
+  return reasons;
+}
+
+std::vector<std::string> PluginCatalogue::type_names(PluginKind kind) const { return index_.types(kind); }
+
+}  // namespace orca::host

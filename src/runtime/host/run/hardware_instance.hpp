@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "orca/host/catalogue.hpp"
+#include "orca/hw/container.hpp"
+#include "run_context.hpp"
+
+namespace orca::host {
+
+/// One hardware container in this process.
+///
+/// Thread contract: as HardwareContainer.
+class HardwareInstance final : public hw::HardwareHost {
+ public:
+  HardwareInstance(RunContext& run, std::string name, LoadedType type);
+  ~HardwareInstance() override;
+
+  /// Constructs the container, sets its parameters and declares its endpoints.
+  /// @errors  internal with what it threw; invalid_argument with the first thing that is wrong with its
+  /// files.
+  Status construct(const std::map<std::string, ParamValue>& params);
+
+  [[nodiscard]] hw::HardwareContainer& container() { return *container_; }
+
+  // PluginHost and HardwareHost
+  void declare_param(ParamDeclaration declaration) override { params_.push_back(std::move(declaration)); }
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] TimePoint now() const override { return run_.executive.now(); }
+  [[nodiscard]] RandomStream random(std::string_view stream) const override {
+    return {run_.seed, name_, stream};
+  }
+  void write_log(log::Level level, std::string_view text) const override { log::write(level, name_, text); }
+  void announce(const Announcement& announcement) override { run_.announce(announcement); }
+  [[nodiscard]] std::uint64_t run_seed() const override { return run_.seed; }
+  void state_changed(hw::HardwareState state) override;
+  [[nodiscard]] Executive& executive() override { return run_.executive; }
+  [[nodiscard]] bool wants_scene() const override { return run_.wants_scene; }
+
+ private:
+  RunContext& run_;
+  const std::string name_;
+  const LoadedType type_;  // outlives the container
+  std::vector<ParamDeclaration> params_;
+  hw::HardwareContainer* container_ = nullptr;
+  hw::HardwareState traced_ = hw::HardwareState::closed;
+};
+
+}  // namespace orca::host

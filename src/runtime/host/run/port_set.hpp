@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "orca/patterns/port_owner.hpp"
+
+namespace orca::host {
+
+/// The ports of one component as the host process owns them: they are there before the component's code is
+/// loaded, stay when it is unloaded or exchanged, and queue meanwhile.
+///
+/// Thread contract: add() before the system runs; find() from anywhere; the rest on the component's strand.
+class PortSet {
+ public:
+  template <class Kind>
+  struct Intake {
+    Kind* endpoint;
+    typename Kind::Handler handler;
+  };
+
+  explicit PortSet(PortHome& home) : home_(home) {}
+
+  /// Makes an endpoint.
+  void add(const PortContract& contract);
+  /// Null if there is no such port.
+  [[nodiscard]] Endpoint* find(const std::string& port) const;
+
+  /// Lets the handles of a component that was constructed just now lead here.
+  /// @errors  failed_precondition if it declares a port that is not there: its code is not the one that the
+  ///          graph was checked with.
+  Status bind(const std::vector<PortDeclaration>& declarations);
+  /// Forgets everything that belongs to the component's code.
+  void unbind();
+
+  /// From now on what comes in is handed to the component's handlers.
+  void open();
+  /// What comes in waits until the component is there.
+  void hold();
+  /// What comes in is refused.
+  void close(const std::string& reason);
+  /// Whether something waits to be handled.
+  [[nodiscard]] bool has_intake() const;
+
+  [[nodiscard]] const std::vector<Intake<SendServerEndpoint>>& send_servers() const { return send_servers_; }
+  [[nodiscard]] const std::vector<Intake<QueryServerEndpoint>>& query_servers() const {
+    return query_servers_;
+  }
+
+  [[nodiscard]] bool has_subscribers() const;
+  /// Subscribes the clients whose subscriptions are not the component's own business.
+  void subscribe();
+  void unsubscribe();
+
+ private:
+  template <class Kind>
+  Kind& make(const PortContract& contract);
+  void bind_handler(const PortDeclaration& declaration);
+
+  PortHome& home_;
+  std::vector<std::unique_ptr<Endpoint>> endpoints_;  // all, in order of declaration
+  std::vector<PushServerEndpoint*> push_servers_;
+  std::vector<PushClientEndpoint*> push_clients_;
+  std::vector<PushClientEndpoint*> automatic_clients_;  // those that the runtime subscribes
+  std::vector<Intake<SendServerEndpoint>> send_servers_;
+  std::vector<Intake<QueryServerEndpoint>> query_servers_;
+};
+
+}  // namespace orca::host

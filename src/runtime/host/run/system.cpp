@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "system.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "orca/graph/settings.hpp"
+#include "orca/patterns/local/local_link.hpp"
+#include "orca/xml/names.hpp"
+
+namespace orca::host {
+namespace {
+
+// Calls `done` each time something changes, until it holds or the deadline comes.
+template <class Done>
+bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline, Done&& done) {
+  while (!done()) {
+    if (executive.now() >= deadline) return false;
+    changed.wait_until(deadline);
+  }
+  return true;
+}
+
+ComponentSettings settings_of(const graph::ComponentNode& node) {
+  ComponentSettings settings;
+  settings.name = node.name;
+  settings.priority = node.priority;
+  settings.autonomous = node.autonomous;
+  settings.trigger = node.trigger;
+  settings.on_demand = node.on_demand;
+  settings.stay_warm = node.stay_warm;
+  settings.idle_time = node.idle_time;
+  settings.params = node.params;
+  for (const auto& [port, setting] : node.ports)
+    if (!setting.alias.empty()) settings.port_names[port] = setting.alias;
+  return settings;
+}
+
+}  // namespace
+
+Status System::build(PluginCatalogue& catalogue) {
+  if (Status built = build_hardware(catalogue); !built.ok()) return built;
+  if (Status built = build_components(catalogue); !built.ok()) return built;
+  catalogue.forget_answers();
+  return connect();
+}
+
+Status System::build_hardware(PluginCatalogue& catalogue) {
+  for (const graph::HardwareNode& node : graph_.hardware) {
+    Result<LoadedType> type = catalogue.acquire(PluginKind::hardware, node.type);
+    if (!type) return type.error();
+    auto instance = std::make_unique<HardwareInstance>(run_, node.name, std::move(type).value());
+    if (Status made = instance->construct(node.params); !made.ok()) return made;
+    hardware_.push_back(std::move(instance));
+  }
+  return ok();
+}
+
+Status System::build_components(PluginCatalogue& catalogue) {
+  for (const graph::ComponentNode& node : graph_.components) {
+    auto instance = std::make_unique<ComponentInstance>(
+        run_, settings_of(node),
+        [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
+        [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
+        container(node.hardware));
+    const Status made = node.on_demand ? declare(node, *instance, catalogue) : instance->load();
+    if (!made.ok()) return made;
+    components_.push_back(std::move(instance));
+  }
+  return ok();
+}
+
+// The ports are there from the start, the code comes when somebody asks for it.
+Status System::declare(const graph::ComponentNode& node, ComponentInstance& instance,
+                       PluginCatalogue& catalogue) {
+  std::optional<graph::HardwareUse> use;
+  if (const graph::HardwareNode* hardware = graph_.find_hardware(node.hardware))
+    use = {hardware->name, hardware->type, hardware->params};
+  const Result<Contract> contract = catalogue.component(node.type, use ? &*use : nullptr);
+  if (!contract) return contract.error();
+  instance.declare(*contract);
+  return ok();
+}
+
+Status System::connect() {
+  for (const graph::Edge& edge : graph_.edges) {
+    Endpoint* const from = find(edge.from.component)->endpoint(edge.from.port);
+    Endpoint* const to = find(edge.to.component)->endpoint(edge.to.port);
+    if (from == nullptr || to == nullptr)
+      return fail(Code::internal, "a port that was there when the graph was checked is not there now",
+                  edge.position.text());
+    QueuePolicy policy = edge.queue;
+    policy.min_interval = edge.interval;
+    if (Status connected = connect_locally(*from, *to, policy); !connected.ok()) return connected;
+  }
+  return ok();
+}
+
+Status System::bring_up(Event& changed, TimePoint deadline) {
+  if (Status opened = open_hardware(changed, deadline); !opened.ok()) return opened;
+  for (ComponentInstance* component : start_order())
+    if (Status configured = configure(*component, changed, deadline); !configured.ok()) return configured;
+  return ok();
+}
+
+Status System::open_hardware(Event& changed, TimePoint deadline) {
+  for (const auto& hardware : hardware_) hardware->container().run();
+  for (const auto& hardware : hardware_) {
+    hw::HardwareContainer& device = hardware->container();
+    wait_until_holds(run_.executive, changed, deadline, [&] {
+      return give_up_() || device.state() == hw::HardwareState::ready ||
+             device.state() == hw::HardwareState::fault;
+    });
+    if (device.state() == hw::HardwareState::fault)
+      return fail(Code::unavailable, "the hardware cannot be opened: " + device.fault(), hardware->name());
+    if (device.state() != hw::HardwareState::ready)
+      return fail(Code::deadline_exceeded, "the hardware did not open in time", hardware->name());
+  }
+  return ok();
+}
+
+Status System::configure(ComponentInstance& component, Event& changed, TimePoint deadline) {
+  component.start();
+  wait_until_holds(run_.executive, changed, deadline,
+                   [&] { return give_up_() || component.state() != ComponentState::init; });
+  if (component.state() == ComponentState::init)
+    return fail(Code::deadline_exceeded, "configure() did not return in time", component.name());
+  if (component.state() == ComponentState::work_failed)
+    return fail(Code::failed_precondition, component.failure(), component.name());
+  return ok();
+}
+
+std::vector<ComponentInstance*> System::start_order() const {
+  std::vector<ComponentInstance*> order;
+  std::vector<const graph::ComponentNode*> left;
+  for (const graph::ComponentNode& node : graph_.components) left.push_back(&node);
+  const auto is_up = [&](const std::string& name) {
+    return std::any_of(order.begin(), order.end(), [&](const auto* up) { return up->name() == name; });
+  };
+  while (!left.empty()) {  // the checker has refused cycles
+    const auto next = std::find_if(left.begin(), left.end(), [&](const graph::ComponentNode* node) {
+      return std::all_of(node->start_after.begin(), node->start_after.end(), is_up);
+    });
+    order.push_back(find((*next)->name));
+    left.erase(next);
+  }
+  return order;
+}
+
+void System::open_gates() {
+  for (const auto& component : components_) component->open_gate();
+}
+
+bool System::at_rest() const {
+  return std::all_of(components_.begin(), components_.end(), [](const auto& c) { return c->at_rest(); }) &&
+         std::all_of(hardware_.begin(), hardware_.end(),
+                     [](const auto& h) { return h->container().state() != hw::HardwareState::active; });
+}
+
+std::vector<std::string> System::take_down(TimePoint deadline) {
+  for (const auto& hardware : hardware_) hardware->container().shut_down();
+  for (const auto& component : components_) component->request_exit();
+  std::vector<std::string> stuck;
+  for (const auto& component : components_) {
+    if (component->join_until(deadline)) continue;
+    const std::string hook = component->current_hook();
+    stuck.push_back(component->name() + (hook.empty() ? "" : " (in " + hook + "())"));
+  }
+  for (const auto& hardware : hardware_)
+    if (!hardware->container().join_until(deadline)) stuck.push_back(hardware->name());
+  return stuck;
+}
+
+ComponentInstance* System::find(const std::string& name) const {
+  for (const auto& component : components_)
+    if (component->name() == name) return component.get();
+  return nullptr;
+}
+
+Status System::suspend(const std::string& name, Event& changed, TimePoint deadline) {
+  return carry_out(name, changed, deadline, [](ComponentInstance& c) { return c.order_suspend(); });
+}
+
+Status System::resume(const std::string& name, Event& changed, TimePoint deadline) {
+  return carry_out(name, changed, deadline, [](ComponentInstance& c) { return c.order_resume(); });
+}
+
+Status System::set_params(const std::string& name, const std::map<std::string, std::string>& texts,
+                          Event& changed, TimePoint deadline) {
+  ComponentInstance* const component = find(name);
+  if (component == nullptr) return no_such(name);
+  Result<graph::Params> values = graph::read_settings(component->param_contracts(), texts);
+  if (!values) return values.error();
+  return carry_out(name, changed, deadline,
+                   [&](ComponentInstance& c) { return c.order_params(std::move(values).value()); });
+}
+
+Status System::carry_out(const std::string& name, Event& changed, TimePoint deadline,
+                         const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make) {
+  ComponentInstance* const component = find(name);
+  if (component == nullptr) return no_such(name);
+  const std::shared_ptr<Order> order = make(*component);
+  if (wait_until_holds(run_.executive, changed, deadline, [&] { return order->done(); }))
+    return order->result();
+  const std::string hook = component->current_hook();
+  return fail(
+      Code::deadline_exceeded,
+      "it has not come to the end of a lap in time" + (hook.empty() ? "" : "; it is in " + hook + "()"),
+      name);
+}
+
+Error System::no_such(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const auto& component : components_) names.push_back(component->name());
+  return fail(Code::not_found,
+              "there is no component \"" + name + "\"; the system has: " + xml::listed(names));
+}
+
+const ComponentInstance* System::component(const std::string& name) const { return find(name); }
+
+hw::HardwareContainer* System::container(const std::string& name) const {
+  for (const auto& hardware : hardware_)
+    if (hardware->name() == name) return &hardware->container();
+  return nullptr;
+}
+
+void System::draw(Scene& scene) {
+  for (const auto& hardware : hardware_) hardware->container().draw(scene);
+}
+
+}  // namespace orca::host

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/base/executive.hpp"
+#include "orca/base/hash.hpp"
+#include "orca/base/result.hpp"
+#include "orca/patterns/endpoint.hpp"
+
+namespace orca::host {
+
+/// Records what happens in a run. In virtual time it also computes the trace hash: FNV-1a over (time in ns,
+/// component, port, seq, XCDR1 payload) of every delivery, in delivery order.
+///
+/// The file has one line per event: time [s], what, who, details.
+///
+/// Thread contract: any strand.
+class Trace final : public LinkObserver {
+ public:
+  explicit Trace(const Executive& executive);
+
+  /// Also writes a file.
+  /// @errors  unavailable with the system's reason if the file cannot be written.
+  Status open(const std::string& path);
+
+  void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
+  void link_changed(std::string_view client, std::string_view server, bool connected) override;
+  void state_changed(std::string_view who, std::string_view from, std::string_view to);
+
+  [[nodiscard]] std::uint64_t hash() const;
+
+ private:
+  void serialize(const ObjectRef& object);
+  template <class... Parts>
+  void write_line(std::string_view event, const Parts&... parts);
+
+  const Executive& executive_;
+  const TimePoint start_;
+  mutable std::mutex mutex_;
+  std::ofstream file_;
+  Fnv1a hash_;
+  ObjectRef
+      serialized_;  // the object whose payload is in payload_: an object with many readers is serialised once
+  std::vector<std::byte> payload_;
+};
+
+}  // namespace orca::host

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "orca/base/result.hpp"
+
+namespace orca::plugin {
+
+/// One symbol that a shared library offers to others, or wants from them.
+struct ElfSymbol {
+  std::string_view name;
+  bool defined = false;
+  bool weak = false;
+  bool unique = false;          ///< STB_GNU_UNIQUE: one for the whole process; pins its library in memory.
+  std::uint64_t address = 0;    ///< In the library's own numbering; of a defined one.
+  std::string_view version;     ///< Wanted; empty: any.
+  std::string_view version_of;  ///< File name of the library that the version belongs to.
+};
+
+/// What a shared library says of itself in its file: what the loader would read, and nothing is run.
+///
+/// The bytes are not trusted: whatever they are, the answer is an error or a description that stays within
+/// them. A value that owns the bytes; its views point into them.
+/// @source  System V ABI, chapters 4 and 5; GNU hash and version tables as in glibc's <elf.h> and
+/// elf/dl-lookup.c.
+class ElfFile {
+ public:
+  using Bytes = std::span<const std::byte>;
+
+  /// @errors  invalid_argument if this is no whole 64-bit shared library for this machine.
+  static Result<ElfFile> parse(std::vector<std::byte> bytes);
+
+  ElfFile(ElfFile&&) = default;
+  ElfFile& operator=(ElfFile&&) = default;
+
+  [[nodiscard]] const std::vector<ElfSymbol>& symbols() const { return symbols_; }
+  /// File names of the libraries that must be there.
+  [[nodiscard]] const std::vector<std::string_view>& needed() const { return needed_; }
+  /// Folders separated by ':', to be searched for them; "$ORIGIN" is the library's own.
+  [[nodiscard]] std::string_view search_path() const { return search_path_; }
+
+  /// What the file holds for the memory at an address; nothing if that is not all in the file.
+  [[nodiscard]] std::optional<Bytes> at_address(std::uint64_t address, std::size_t size) const;
+  /// A section by name; nothing if there is none, or no table of sections.
+  [[nodiscard]] std::optional<Bytes> section(std::string_view name) const;
+
+ private:
+  struct Segment {
+    std::uint64_t address;
+    std::uint64_t offset;
+    std::uint64_t size;
+  };
+  struct Dynamic;
+  using Versions = std::vector<std::pair<std::string_view, std::string_view>>;
+
+  explicit ElfFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+
+  Status read_header();
+  Status read_segments();
+  Status read_dynamic(std::uint64_t offset, std::uint64_t size);
+  Status read_symbols(const Dynamic& dynamic);
+  [[nodiscard]] Versions read_versions(const Dynamic& dynamic) const;
+  [[nodiscard]] std::size_t symbol_count(const Dynamic& dynamic) const;
+  [[nodiscard]] std::size_t count_by_gnu_hash(std::uint64_t table) const;
+
+  [[nodiscard]] std::optional<Bytes> at_offset(std::uint64_t offset, std::uint64_t size) const;
+  /// A plain structure at an offset in the file, or at an address.
+  template <class T>
+  [[nodiscard]] std::optional<T> get(std::uint64_t offset) const;
+  template <class T>
+  [[nodiscard]] std::optional<T> get_at(std::uint64_t address) const;
+  /// A text that ends within the table; empty if it does not.
+  [[nodiscard]] static std::string_view text(Bytes table, std::uint64_t at);
+
+  std::vector<std::byte> bytes_;
+  std::vector<Segment> segments_;
+  Bytes strings_;
+  std::vector<ElfSymbol> symbols_;
+  std::vector<std::string_view> needed_;
+  std::string_view search_path_;
+};
+
+}  // namespace orca::plugin

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "load_error.hpp"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "demangle.hpp"
+
+namespace orca::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folders of a list separated by ':', "$ORIGIN" replaced.
+std::vector<std::string> folders_of(std::string_view list, const std::string& origin) {
+  std::vector<std::string> folders;
+  while (!list.empty()) {
+    std::string folder(list.substr(0, list.find(':')));
+    list.remove_prefix(std::min(list.size(), folder.size() + 1));
+    for (const std::string mark : {"${ORIGIN}", "$ORIGIN"})
+      if (const auto at = folder.find(mark); at != std::string::npos) folder.replace(at, mark.size(), origin);
+    if (!folder.empty()) folders.push_back(folder);
+  }
+  return folders;
+}
+
+// The libraries that a library needs, opened as it would get them; those that are not there.
+class Needed {
+ public:
+  Needed(const ElfFile& library, const std::string& path) {
+    const auto folders = folders_of(library.search_path(), fs::path(path).parent_path().string());
+    for (const std::string_view name : library.needed()) open(std::string(name), folders);
+  }
+  ~Needed() {
+    for (void* handle : handles_) dlclose(handle);
+  }
+  Needed(const Needed&) = delete;
+  Needed& operator=(const Needed&) = delete;
+
+  [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
+
+  [[nodiscard]] bool provide(const ElfSymbol& symbol) const {
+    if (find(RTLD_DEFAULT, symbol)) return true;
+    for (void* handle : handles_)
+      if (find(handle, symbol)) return true;
+    return false;
+  }
+
+ private:
+  void open(const std::string& name, const std::vector<std::string>& folders) {
+    void* handle = nullptr;
+    std::error_code unused;
+    for (const std::string& folder : folders)
+      if (handle == nullptr && fs::exists(folder + "/" + name, unused))
+        handle = dlopen((folder + "/" + name).c_str(), RTLD_LAZY | RTLD_LOCAL);
+    if (handle == nullptr) handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
+    if (handle != nullptr) {
+      handles_.push_back(handle);
+    } else {
+      missing_.push_back(name);
+    }
+  }
+
+  static bool find(void* handle, const ElfSymbol& symbol) {
+    const std::string name(symbol.name);
+    dlerror();
+    const void* const found = symbol.version.empty()
+                                  ? dlsym(handle, name.c_str())
+                                  : dlvsym(handle, name.c_str(), std::string(symbol.version).c_str());
+    return found != nullptr || dlerror() == nullptr;  // a symbol may be null
+  }
+
+  std::vector<void*> handles_;
+  std::vector<std::string> missing_;
+};
+
+std::string joined(const std::vector<std::string>& texts) {
+  constexpr std::size_t kMost = 20;
+  std::string all;
+  for (std::size_t i = 0; i < texts.size() && i < kMost; ++i) all += (i == 0 ? "" : ", ") + texts[i];
+  return texts.size() <= kMost ? all : all + " and " + std::to_string(texts.size() - kMost) + " more";
+}
+
+std::vector<std::string> unprovided_symbols(const ElfFile& library, const Needed& needed) {
+  std::vector<std::string> names;
+  for (const ElfSymbol& symbol : library.symbols()) {
+    if (symbol.defined || symbol.weak || symbol.name.empty() || needed.provide(symbol)) continue;
+    names.push_back(demangled(symbol.name));
+    if (!symbol.version_of.empty())
+      names.back() += " (expected in " + std::string(symbol.version_of) + ", version " +
+                      std::string(symbol.version) + ")";
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string explain_load_error(const ElfFile& library, const std::string& path, const std::string& words) {
+  const Needed needed(library, path);
+  if (!needed.missing().empty())
+    return "it needs libraries that are not found: " + joined(needed.missing()) +
+           "; install them, or build the plugin again where they are";
+  const std::vector<std::string> symbols = unprovided_symbols(library, needed);
+  if (symbols.empty()) return words;
+  return "it uses " + joined(symbols) +
+         ", which no library provides; link what it needs with orca_add_component(... LINK ...), or build it "
+         "again with "
+         "this Orca";
+}
+
+}  // namespace orca::plugin

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "plugin_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <optional>
+
+#include "demangle.hpp"
+#include "orca/base/layout.hpp"
+#include "orca/component/manifest.hpp"
+#include "orca/idl/object_type.hpp"
+#include "virtual_time.hpp"
+
+namespace orca::plugin {
+namespace {
+
+constexpr std::string_view kManifest = "orca_plugin_manifest";
+constexpr const char* kRecipe = "; build it with orca_add_component()";
+
+// The object type that a symbol stands for, and the hash of the layout that its user was built with: a
+// reference to orca::detail::object_type_of<orca::idl::NAME, HASH>().
+struct TypeReference {
+  std::string name;
+  std::uint64_t hash = 0;
+};
+
+std::optional<TypeReference> type_reference(std::string_view symbol) {
+  constexpr std::string_view kPrefix = "_ZN4orca6detail14object_type_ofINS_3idl";
+  if (!symbol.starts_with(kPrefix)) return std::nullopt;
+  symbol.remove_prefix(kPrefix.size());
+  std::size_t length = 0;
+  const auto* const end = symbol.data() + symbol.size();
+  const auto size = std::from_chars(symbol.data(), end, length);
+  symbol.remove_prefix(static_cast<std::size_t>(size.ptr - symbol.data()));
+  if (size.ec != std::errc() || length > symbol.size()) return std::nullopt;
+  TypeReference reference{std::string(symbol.substr(0, length)), 0};
+  symbol.remove_prefix(length);
+  if (!symbol.starts_with("ELm")) return std::nullopt;
+  const auto hash = std::from_chars(symbol.data() + 3, end, reference.hash);
+  return hash.ec == std::errc() ? std::optional(reference) : std::nullopt;
+}
+
+// A few of the names, each short enough to read.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 4;
+  constexpr std::size_t kLongest = 80;
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < kMost; ++i)
+    text += (i == 0 ? "" : ", ") +
+            (names[i].size() <= kLongest ? names[i] : names[i].substr(0, kLongest) + "...");
+  return names.size() <= kMost ? text : text + " and " + std::to_string(names.size() - kMost) + " more";
+}
+
+Result<std::vector<std::byte>> bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) return fail(Code::not_found, std::string("cannot be read: ") + std::strerror(errno), path);
+  const std::streamoff size = file.tellg();
+  std::vector<std::byte> bytes(static_cast<std::size_t>(std::max<std::streamoff>(size, 0)));
+  file.seekg(0);
+  file.read(reinterpret_cast<char*>(bytes.data()), size);
+  if (file.gcount() != size) return fail(Code::data_loss, "cannot be read to its end", path);
+  return bytes;
+}
+
+}  // namespace
+
+TypeId known_type(const std::string& name) {
+  const ObjectType* const type = find_object_type(name);
+  return type != nullptr ? type_id(*type) : TypeId{};
+}
+
+Result<PluginFile> PluginFile::read(const std::string& path) {
+  Result<std::vector<std::byte>> bytes = bytes_of(path);
+  if (!bytes) return bytes.error();
+  Result<PluginFile> file = parse(std::move(bytes).value());
+  if (!file) return fail(file.error().code, file.error().message, path);
+  return file;
+}
+
+Result<PluginFile> PluginFile::parse(std::vector<std::byte> bytes) {
+  Result<ElfFile> elf = ElfFile::parse(std::move(bytes));
+  if (!elf) return elf.error();
+  return PluginFile(std::move(elf).value());
+}
+
+const ElfSymbol* PluginFile::manifest() const {
+  for (const ElfSymbol& symbol : elf_.symbols())
+    if (symbol.defined && symbol.name == kManifest) return &symbol;
+  return nullptr;
+}
+
+std::vector<std::string> PluginFile::faults(const KnownType& known) const {
+  std::vector<std::string> faults;
+  if (manifest() == nullptr)
+    return {"is not an Orca plugin: it exports no " + std::string(kManifest) + kRecipe};
+  check_manifest(faults);
+  if (!faults.empty()) return faults;  // what else it holds follows other rules
+  check_recipe(faults);
+  check_types(known, faults);
+  return faults;
+}
+
+void PluginFile::check_manifest(std::vector<std::string>& faults) const {
+  struct Head {
+    std::uint32_t abi_version, size;
+  } head{};
+  const auto bytes = elf_.at_address(manifest()->address, sizeof head);
+  if (!bytes) return faults.push_back("is damaged: its manifest is not in the file");
+  std::memcpy(&head, bytes->data(), sizeof head);
+  const std::string versions = "was built for plugin ABI " + std::to_string(head.abi_version) +
+                               " (manifest of " + std::to_string(head.size) + " bytes), but this is ABI " +
+                               std::to_string(kAbiVersion) + " (" + std::to_string(sizeof(Manifest)) +
+                               " bytes)";
+  if (head.abi_version < kAbiVersion) {
+    faults.push_back(versions + ": the plugin is older; build it again with this Orca");
+  } else if (head.abi_version > kAbiVersion) {
+    faults.push_back(
+        versions +
+        ": the plugin is newer; use the Orca that it was built with, or build it again with this one");
+  } else if (head.size != sizeof(Manifest)) {
+    faults.push_back(versions +
+                     ": its headers were changed without a new version; build it again with this Orca");
+  }
+}
+
+void PluginFile::check_recipe(std::vector<std::string>& faults) const {
+  std::vector<std::string> unique, exported;
+  bool thread_exit = false;
+  for (const ElfSymbol& symbol : elf_.symbols()) {
+    if (symbol.defined && symbol.unique) unique.push_back(demangled(symbol.name));
+    if (symbol.defined && !symbol.unique && symbol.name != kManifest)
+      exported.push_back(demangled(symbol.name));
+    thread_exit = thread_exit || (!symbol.defined && symbol.name.starts_with("__cxa_thread_atexit"));
+  }
+  if (!unique.empty())
+    faults.push_back("could never be unloaded: it has symbols that are unique in the process, " +
+                     listed(unique) + kRecipe);
+  if (!exported.empty())
+    faults.push_back("exports more than its manifest, so others could bind to it: " + listed(exported) +
+                     kRecipe);
+  if (thread_exit)
+    faults.push_back(
+        "could never be unloaded: it has a thread_local variable with a destructor (__cxa_thread_atexit); "
+        "make the "
+        "variable a member of the component");
+}
+
+void PluginFile::check_types(const KnownType& known, std::vector<std::string>& faults) const {
+  for (const ElfSymbol& symbol : elf_.symbols()) {
+    const auto used = symbol.defined ? std::nullopt : type_reference(symbol.name);
+    if (!used) continue;
+    const TypeId here = known(used->name);
+    if (here.name.empty()) {
+      faults.push_back("uses the object type " + used->name +
+                       ", which this Orca does not have; build it again with this Orca");
+    } else if (here.hash != used->hash) {
+      const std::string there = layout_of(used->name);
+      faults.push_back(
+          "was built for another layout of the object type " + used->name +
+          (there.empty() || there == here.layout
+               ? ""
+               : ": " + layout_difference(there, here.layout, {"in the plugin", "in this Orca"})) +
+          "; build it again with this Orca");
+    }
+  }
+}
+
+// "NAME{...}" as it was when the plugin was built; empty if it does not tell.
+std::string PluginFile::layout_of(const std::string& type) const {
+  const auto section = elf_.section("orca_layouts");
+  if (!section) return {};
+  std::string_view layouts(reinterpret_cast<const char*>(section->data()), section->size());
+  while (!layouts.empty()) {
+    const std::string_view one = layouts.substr(0, layouts.find('\0'));
+    if (one.starts_with(type + "{")) return std::string(one);
+    layouts.remove_prefix(std::min(layouts.size(), one.size() + 1));
+  }
+  return {};
+}
+
+std::vector<std::string> PluginFile::notes(std::string_view mark) const {
+  std::vector<std::string> found;
+  const auto section = elf_.section("orca_clock_notes");
+  std::string_view notes =
+      section ? std::string_view(reinterpret_cast<const char*>(section->data()), section->size()) : "";
+  while (!notes.empty()) {
+    const std::string_view one = notes.substr(0, notes.find('\0'));
+    if (one.starts_with(mark)) found.emplace_back(one.substr(mark.size()));
+    notes.remove_prefix(std::min(notes.size(), one.size() + 1));
+  }
+  return found;
+}
+
+std::vector<std::string> PluginFile::virtual_time_faults() const {
+  const std::vector<std::string> steady_only = notes("steady only: ");
+  std::vector<std::string> faults;
+  for (const std::string& reason : steady_only)
+    faults.push_back("runs with the steady clock only (--clock steady): " + reason);
+  if (!faults.empty()) return faults;
+  std::vector<std::string> allowed = notes("allows ");
+  for (std::string& note : allowed) note = note.substr(0, note.find(": "));
+  for (const ElfSymbol& symbol : elf_.symbols()) {
+    const auto use = symbol.defined ? std::nullopt : unfit_for_virtual_time(symbol.name);
+    std::string name = demangled(symbol.name);
+    name = name.substr(0, name.find('('));
+    if (use && std::ranges::find(allowed, name) == allowed.end())
+      faults.push_back("uses " + name + ", which " + use->does + "; use " + use->instead);
+  }
+  return faults;
+}
+
+bool PluginFile::may_start_threads() const {
+  return std::ranges::any_of(
+      elf_.symbols(), [](const ElfSymbol& symbol) { return !symbol.defined && starts_threads(symbol.name); });
+}
+
+}  // namespace orca::plugin

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Faults that only real plugins, worlds and robots show. As approval_test.cpp, with the plugins of the build:
+// in the approved texts PLUGINS is the folder of this test's plugins, SHIPPED that of Orca's, SOURCE the top
+// of the tree.
+#include <catch2/catch.hpp>
+
+#include <fstream>
+
+#include "approval.hpp"
+#include "orca/host/catalogue.hpp"
+#include "temp_folder.hpp"
+
+namespace fs = std::filesystem;
+using namespace orca;
+using namespace orca::host;
+using namespace orca::plugin;
+using namespace orca::test;
+
+namespace {
+
+const fs::path kFolder = fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs/plugins";
+const std::string kShipped = ORCA_BINARY_DIR "/plugins";
+
+// Broken plugins as they may lie about, with the lists that say which types they should hold.
+void lay_out_plugins(const TempFolder& folder) {
+  const auto add = [&](const std::string& name, const std::string& types, const std::string& built) {
+    static_cast<void>(folder.write(name + ".types", types));
+    if (!built.empty()) fs::create_symlink(ORCA_BINARY_DIR "/tests/" + built, folder.file(name + ".so"));
+  };
+  add("gone", "component test.Gone\n", "");
+  add("no_manifest", "component test.NoManifest\n", "unit_plugins/bad/bad_no_manifest.so");
+  add("abi_version", "component test.AbiVersion\n", "unit_plugins/bad/bad_abi_newer.so");
+  add("layout", "component test.Layout\n", "unit_plugins/bad/bad_layout.so");
+  add("manifest_size", "component test.ManifestSize\n", "unit_plugins/bad/bad_manifest_size.so");
+  add("undefined", "component test.Undefined\n", "unit_plugins/bad/bad_undefined_symbol.so");
+  add("avoid", "component test.Forgotten\nhardware test.hw.Forgotten\n", "plugins/avoid.so");
+  add("throws", "component test.ThrowsInConstructor\ncomponent test.ThrowsIntInConstructor\n",
+      "plugins/test_components.so");
+  add("text", "component test.Text\n", "");
+  add("empty", "component test.Empty\n", "");
+  static_cast<void>(folder.write("text.so", std::string(5000, 'x')));
+  static_cast<void>(folder.write("empty.so", ""));
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string errors_of(const fs::path& path, const TempFolder& plugins) {
+  PluginCatalogue catalogue{PluginIndex({kShipped})};
+  xml::Diagnostics diagnostics;
+  const graph::LoadOptions options{{}, {"plugins=" + plugins.path().string()}, false};
+  CHECK_FALSE(graph::load_file(path.string(), options, catalogue, diagnostics).has_value());
+  std::string said = replaced(diagnostics.text(), plugins.path().string(), "PLUGINS");
+  said = replaced(said, kFolder.string() + "/", "");
+  said = replaced(said, kShipped, "SHIPPED");
+  return replaced(said, ORCA_SOURCE_DIR, "SOURCE");
+}
+
+}  // namespace
+
+TEST_CASE("each graph with a broken plugin, world or robot gives its approved errors", "[graph][approval]") {
+  const TempFolder plugins;
+  lay_out_plugins(plugins);
+  for (const fs::path& path : files_in(kFolder, ".xml"))
+    check_approved(approved_text_of(path), errors_of(path, plugins));
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "containment/descriptors.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca;
+using namespace orca::host;
+using orca::test::TempFolder;
+
+namespace {
+
+// Lets the process open nothing more as long as it lives.
+class NoDescriptorsLeft {
+ public:
+  NoDescriptorsLeft() {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    const int lowest_free = dup(STDIN_FILENO);
+    close(lowest_free);
+    const rlimit none{static_cast<rlim_t>(lowest_free), before_.rlim_max};
+    setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NoDescriptorsLeft() { setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+}  // namespace
+
+TEST_CASE("what is open is told with its name, and is still the same after a rename", "[host][descriptors]") {
+  const TempFolder folder;
+  const std::string name = folder.file("log");
+  const int fd = open(name.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  REQUIRE(fd >= 0);
+  const auto before = open_descriptors();
+  REQUIRE(before);
+  REQUIRE(before->contains(fd));
+  CHECK(before->at(fd).name == name);
+  REQUIRE(std::rename(name.c_str(), folder.file("log.1").c_str()) == 0);
+  const auto after = open_descriptors();
+  REQUIRE(after);
+  CHECK(after->at(fd) == before->at(fd));
+  CHECK(after->at(fd).name == folder.file("log.1"));
+  close(fd);
+  CHECK_FALSE(open_descriptors()->contains(fd));
+}
+
+TEST_CASE("without a descriptor to look with nothing is said of what is open", "[host][descriptors]") {
+  REQUIRE(open_descriptors());
+  const NoDescriptorsLeft none;
+  CHECK_FALSE(open_descriptors());
+}
+
+TEST_CASE("of many descriptors only the first are named", "[host][descriptors]") {
+  Descriptors many;
+  for (int fd = 3; fd < 5; ++fd) many[fd] = {0, 0, "/dev/null"};
+  CHECK(names_of(many) == "3 (/dev/null), 4 (/dev/null)");
+  for (int fd = 5; fd < 100; ++fd) many[fd] = {0, 0, "x"};
+  CHECK(names_of(many) ==
+        "3 (/dev/null), 4 (/dev/null), 5 (x), 6 (x), 7 (x), 8 (x), 9 (x), 10 (x) and 89 more");
+}

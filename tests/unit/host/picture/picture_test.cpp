@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What pictures show: read back pixel by pixel.
+#include <cairo.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <functional>
+
+#include "orca/host/picture.hpp"
+#include "picture/key_moments.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca;
+using namespace orca::host;
+using orca::test::TempFolder;
+using namespace std::chrono_literals;
+
+namespace {
+
+Scene::Moment moment_at(double seconds, double x) {
+  Scene::Moment moment;
+  moment.time = TimePoint(std::chrono::milliseconds(static_cast<int>(1000 * seconds)));
+  moment.position = {x, 0.0};
+  return moment;
+}
+
+// A robot that drives along x with 1 m/s for so long.
+Scene drive(double seconds) {
+  Scene scene;
+  scene.walls = {{{-1, -2}, {11, -2}}, {{-1, 2}, {11, 2}}};
+  Scene::Robot robot;
+  robot.name = "Dewey";
+  robot.radius_m = 0.2;
+  for (double t = 0.0; t <= seconds; t += 0.1) robot.moments.push_back(moment_at(t, t));
+  robot.position = robot.moments.back().position;
+  scene.robots.push_back(robot);
+  return scene;
+}
+
+Scene sensing() {
+  Scene scene = drive(1.0);
+  Scene::Moment& last = scene.robots[0].moments.back();
+  last.sonar = {{{0.2, 0.0}, 0.5, 0.2, 1.5, true}};
+  last.lasers = {{{0.0, 0.0}, {{1.0, -1.0}, {1.2, -0.8}, {1.4, -0.6}}}};
+  last.speed = 1.5;
+  last.turn_rate = 1.0;
+  return scene;
+}
+
+using IsColour = std::function<bool(int red, int green, int blue)>;
+const IsColour kYellow = [](int r, int g, int b) { return r > 200 && g > 140 && b < 60; };
+const IsColour kBlue = [](int r, int g, int b) { return r < 60 && g < 110 && b > 200; };
+const IsColour kRed = [](int r, int g, int b) { return r > 180 && g < 60 && b < 60; };
+
+/// A picture that was written, read back.
+class Pixels {
+ public:
+  Pixels(const Scene& scene, PictureOptions options) {
+    const TempFolder folder;
+    options.file = folder.file("picture.png");
+    const Status written = write_picture(scene, options);
+    INFO((written.ok() ? std::string() : written.error().text()));
+    REQUIRE(written.ok());
+    surface_ = cairo_image_surface_create_from_png(options.file.c_str());
+    REQUIRE(cairo_surface_status(surface_) == CAIRO_STATUS_SUCCESS);
+  }
+  ~Pixels() { cairo_surface_destroy(surface_); }
+  Pixels(const Pixels&) = delete;
+  Pixels& operator=(const Pixels&) = delete;
+
+  [[nodiscard]] int width() const { return cairo_image_surface_get_width(surface_); }
+  [[nodiscard]] int height() const { return cairo_image_surface_get_height(surface_); }
+  /// How many pixels of that colour a part of the picture has.
+  [[nodiscard]] int count(const IsColour& is, int left, int top, int right, int bottom) const {
+    const unsigned char* const data = cairo_image_surface_get_data(surface_);
+    const int stride = cairo_image_surface_get_stride(surface_);
+    int found = 0;
+    for (int y = top; y < bottom; ++y)
+      for (int x = left; x < right; ++x) {
+        const unsigned char* const p = data + y * stride + 4 * x;
+        found += is(p[2], p[1], p[0]) ? 1 : 0;
+      }
+    return found;
+  }
+  [[nodiscard]] int count(const IsColour& is) const { return count(is, 0, 0, width(), height()); }
+
+ private:
+  cairo_surface_t* surface_ = nullptr;
+};
+
+std::vector<std::string> reasons(const Scene& scene) {
+  std::vector<std::string> why;
+  for (const KeyMoment& key : key_moments(scene)) why.push_back(key.why);
+  return why;
+}
+
+}  // namespace
+
+TEST_CASE("around the robot sonar is yellow, laser blue, and its motion red, each until it is hidden",
+          "[host][picture]") {
+  const Scene scene = sensing();
+  for (const View view : {View::world, View::robot, View::film}) {
+    CAPTURE(static_cast<int>(view));
+    const Pixels all(scene, {"", view, {}});
+    CHECK(all.count(kYellow) > 10);
+    CHECK(all.count(kBlue) > 10);
+    CHECK(all.count(kRed) > 10);
+    CHECK(Pixels(scene, {"", view, {Layer::sonar}}).count(kYellow) == 0);
+    CHECK(Pixels(scene, {"", view, {Layer::laser}}).count(kBlue) == 0);
+    CHECK(Pixels(scene, {"", view, {Layer::motion}}).count(kRed) == 0);
+  }
+}
+
+TEST_CASE("in the robot's view ahead is up, whatever its heading in the world", "[host][picture]") {
+  for (const double heading : {0.0, 1.0, -2.5}) {
+    CAPTURE(heading);
+    Scene scene = sensing();
+    Scene::Moment& last = scene.robots[0].moments.back();
+    last.turn_rate = 0.0;
+    last.heading_rad = heading;
+    const Pixels view(scene, {"", View::robot, {}});
+    const int middle = view.width() / 2;  // the square is as high as wide
+    CHECK(view.count(kRed, middle - 5, middle - 155, middle + 5, middle - 20) > 100);
+    CHECK(view.count(kRed, 0, middle + 20, view.width(), view.height()) == 0);
+    CHECK(view.count(kYellow, 0, 0, middle, middle) > 10);  // the sonar looks to the left
+    CHECK(view.count(kYellow, middle + 20, 0, view.width(), view.height()) == 0);
+  }
+}
+
+TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments between",
+          "[host][picture]") {
+  Scene scene = drive(10.0);
+  CHECK(reasons(scene) == std::vector<std::string>{"start", "", "", "", "", "end"});
+  scene.arrivals = {{"kitchen", {4.0, 0.0}, TimePoint(4s)}};
+  scene.contacts = {{"Dewey", {9.0, 0.1}, TimePoint(9s)}, {"Huey", {0.0, 5.0}, TimePoint(9s)}};
+  CHECK(reasons(scene) == std::vector<std::string>{"start", "", "at kitchen", "", "contact of Dewey", "end"});
+  scene.arrivals.push_back({"hall", {10.0, 0.0}, TimePoint(10s)});
+  CHECK(reasons(scene).back() == "at hall, end");
+}
+
+TEST_CASE("a film of a robot that does much shows twelve moments, first and last among them",
+          "[host][picture]") {
+  Scene scene = drive(60.0);
+  for (int i = 1; i < 40; ++i)
+    scene.arrivals.push_back({"p" + std::to_string(i), {1.0 * i, 0.0}, TimePoint(std::chrono::seconds(i))});
+  const std::vector<std::string> why = reasons(scene);
+  CHECK(why.size() == 12);
+  CHECK(why.front() == "start");
+  CHECK(why.back() == "end");
+  const Pixels film(scene, {"", View::film, {}});
+  CHECK(film.width() == 3 * 400);
+}
+
+TEST_CASE("a scene without robots, or without anything they sensed, is told and nothing is written",
+          "[host][picture]") {
+  const TempFolder folder;
+  Scene scene = drive(1.0);
+  scene.robots[0].moments.clear();
+  for (const View view : {View::robot, View::film}) {
+    const Status status = write_picture(scene, {folder.file("no.png"), view, {}});
+    REQUIRE_FALSE(status.ok());
+    CHECK(status.error().message.find("no simulated robot has sensed anything") != std::string::npos);
+  }
+  const Status nothing = write_picture({}, {folder.file("no.png"), View::world, {}});
+  REQUIRE_FALSE(nothing.ok());
+  CHECK(nothing.error().message.find("no simulated hardware") != std::string::npos);
+  CHECK_FALSE(std::ifstream(folder.file("no.png")).good());
+}
+
+TEST_CASE("views and layers have the names that people write", "[host][picture]") {
+  for (std::size_t i = 0; i < view_names().size(); ++i)
+    CHECK(view_from(view_names()[i]) == static_cast<View>(i));
+  for (std::size_t i = 0; i < layer_names().size(); ++i)
+    CHECK(layer_from(layer_names()[i]) == static_cast<Layer>(i));
+  CHECK_FALSE(view_from("World"));
+  CHECK_FALSE(layer_from(""));
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live_system.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace orca::test {
+
+using namespace orca::host;
+
+void LiveSystem::run(const ExecutiveOptions& executive, const std::function<void(LiveSystem&)>& body) {
+  run_on(executive, [&](Executive& made) { with(made, body); });
+}
+
+void LiveSystem::with(Executive& executive, const std::function<void(LiveSystem&)>& body) {
+  PluginCatalogue catalogue{plugin::PluginIndex({ORCA_BINARY_DIR "/tests/host_plugins"})};
+  xml::Diagnostics diagnostics;
+  const auto graph = graph::load_text("<graph name=\"live\" version=\"1\">" + elements_ + "</graph>",
+                                      "live.xml", {}, catalogue, diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(graph);
+  executive_ = &executive;
+  const std::unique_ptr<Event> changed = executive.make_event();  // ends before the executive does
+  changed_ = changed.get();
+  Trace trace(executive);
+  RunContext context{executive, trace, 1, [this](const Announcement& a) { diary.note(a.name); },
+                     [this] { changed_->notify(); }};
+  System system(*graph, context, [] { return false; });
+  system_ = &system;
+  const Status built = system.build(catalogue);
+  INFO((built.ok() ? "" : built.error().text()));
+  REQUIRE(built.ok());
+  REQUIRE(system.bring_up(*changed_, soon()).ok());
+  system.open_gates();
+  body(*this);
+  CHECK(system.take_down(soon()).empty());
+}
+
+std::vector<std::string> LiveSystem::news() {
+  const std::vector<std::string> all = diary.lines();
+  std::vector<std::string> result(all.begin() + static_cast<std::ptrdiff_t>(read_), all.end());
+  read_ = all.size();
+  return result;
+}
+
+}  // namespace orca::test

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "live_system.hpp"
+
+using namespace orca;
+using namespace orca::host;
+using namespace orca::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+std::string life(const std::string& mode) {
+  return R"(<component name="life" type="test.Life"><param name="mode" value=")" + mode +
+         R"("/></component>)";
+}
+const std::string kTwoUsers = R"(
+  <component name="first" type="test.User"><param name="from" value="1"/><param name="until" value="2"/></component>
+  <component name="second" type="test.User"><param name="from" value="3"/><param name="until" value="4"/></component>
+  <connect from="life.out" to="first.push"/>
+  <connect from="life.out" to="second.push"/>)";
+
+}  // namespace
+
+TEST_CASE("a component works from its first client to its last", "[host][states]") {
+  for (const ExecutiveOptions& kind : virtual_executives()) {
+    LiveSystem live(life("") + kTwoUsers);
+    live.run(kind, [](LiveSystem& run) {
+      run.sleep(950ms);
+      CHECK(run.state("life") == ComponentState::idle);
+      CHECK(run.news() == Words{"configure"});
+      run.sleep(200ms);
+      CHECK(run.state("life") == ComponentState::work);
+      CHECK(run.news() == Words{"start", "work 1-2", "work 1-2"});
+      run.sleep(900ms);
+      CHECK(run.state("life") == ComponentState::idle);
+      CHECK(run.news().back() == "stop");
+      run.sleep(1s);
+      CHECK(run.state("life") == ComponentState::work);
+    });
+  }
+}
+
+TEST_CASE("after a failure that it reported itself a component is idle again when its clients have gone",
+          "[host][states]") {
+  const std::string mode = GENERATE("start fails", "work fails");
+  LiveSystem live(life(mode) + kTwoUsers);
+  live.run(virtual_executives().front(), [&](LiveSystem& run) {
+    run.sleep(1500ms);
+    CHECK(run.state("life") == ComponentState::work_failed);
+    CHECK(run.system().component("life")->has_failed());
+    run.sleep(1s);
+    CHECK(run.state("life") == ComponentState::idle);
+    (void)run.news();
+    run.sleep(1s);
+    CHECK(run.news().front() == "start");  // the second client lets it try again
+    CHECK(run.state("life") == ComponentState::work_failed);
+  });
+}
+
+TEST_CASE("a component that threw stays in WORK_FAILED, with the text", "[host][states]") {
+  LiveSystem live(life("work throws") + kTwoUsers);
+  live.run(virtual_executives().front(), [](LiveSystem& run) {
+    run.sleep(5s);
+    CHECK(run.state("life") == ComponentState::work_failed);
+    CHECK(run.system().component("life")->failure() == "work() threw std::runtime_error: no work today");
+  });
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A plugin's file is not trusted: cut short or damaged anywhere, it gives an error or a description, never a
+// crash.
+#include <cstring>
+#include <fstream>
+
+#include "../places.hpp"
+#include "inspection/plugin_file.hpp"
+
+using namespace orca;
+using namespace orca::plugin;
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+Bytes small_plugin() {
+  std::ifstream file(test_plugin("test_small"), std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  Bytes bytes(text.size());
+  std::memcpy(bytes.data(), text.data(), text.size());
+  return bytes;
+}
+
+// Reads all that can be read of it; whether it is a good plugin.
+bool judge(Bytes bytes) {
+  const Result<PluginFile> file = PluginFile::parse(std::move(bytes));
+  if (!file) {
+    CHECK(file.error().code == Code::invalid_argument);
+    return false;
+  }
+  (void)file->virtual_time_faults();
+  (void)file->may_start_threads();
+  return file->faults(known_type).empty();
+}
+
+}  // namespace
+
+TEST_CASE("the plugin to be damaged is good", "[plugin][damage]") { CHECK(judge(small_plugin())); }
+
+TEST_CASE("a plugin cut short before its last segment ends is refused, at every length", "[plugin][damage]") {
+  const Bytes whole = small_plugin();
+  // Behind the last segment there are only names for people.
+  std::size_t refused = 0;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const bool good = judge(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
+    if (!good && refused == size) ++refused;
+  }
+  CHECK(refused > whole.size() / 2);
+}
+
+TEST_CASE("a plugin that is cut short says so", "[plugin][damage]") {
+  Bytes bytes = small_plugin();
+  bytes.resize(bytes.size() / 2);
+  const auto file = PluginFile::parse(std::move(bytes));
+  REQUIRE_FALSE(file);
+  CHECK_THAT(file.error().text(), Contains("cut short") && Contains("bytes"));
+}
+
+TEST_CASE("any bit flipped gives an error or a description, never a crash", "[plugin][damage]") {
+  const Bytes whole = small_plugin();
+  std::size_t refused = 0;
+  for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+    Bytes damaged = whole;
+    damaged[bit / 8] ^= std::byte{1} << (bit % 8);
+    refused += judge(std::move(damaged)) ? 0 : 1;
+  }
+  CHECK(refused > 100);                   // the tables
+  CHECK(refused < 8 * whole.size() / 2);  // not the code
+}

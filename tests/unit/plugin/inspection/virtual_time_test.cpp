@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a plugin uses decides whether it may run in virtual time; all is told at once.
+#include "inspection/virtual_time.hpp"
+
+#include "../places.hpp"
+
+using namespace orca;
+using namespace orca::plugin;
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+std::string faults_of(const std::string& plugin) {
+  std::string all;
+  const auto library = loaded(test_plugin(plugin));
+  for (const std::string& fault : library->virtual_time_faults()) all += fault + "\n";
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("every shipped plugin may run in virtual time, but for what a person drives with",
+          "[plugin][virtual]") {
+  for (const std::string& path : plugins_in(kShipped)) {
+    CAPTURE(path);
+    const auto library = loaded(path);
+    CHECK(library->virtual_time_faults().empty() == !path.ends_with("/teleop.so"));
+  }
+}
+
+TEST_CASE("clocks, sleeps, threads, waits and random devices are named, each with what to use instead",
+          "[plugin][virtual]") {
+  const std::string faults = faults_of("test_clockwork");
+  CHECK_THAT(
+      faults,
+      Contains("uses std::chrono::_V2::steady_clock::now, which reads the machine's clock; use now()"));
+  CHECK_THAT(faults, Contains("std::chrono::_V2::system_clock::now"));
+  CHECK_THAT(faults, Contains("uses time, which reads the machine's clock"));
+  CHECK_THAT(faults,
+             Contains("uses usleep, which waits for the machine's clock; use sleep() or lap_every()"));
+  CHECK_THAT(faults, Contains("std::thread::_M_start_thread") && Contains("starts a thread"));
+  CHECK_THAT(faults, Contains("std::condition_variable::wait") && Contains("the blocking calls of a port"));
+  CHECK_THAT(faults, Contains("std::random_device") && Contains("use random(\"name\")"));
+  CHECK_THAT(faults, Contains("uses getrandom") && Contains("uses rand,"));
+}
+
+TEST_CASE("a plugin that says that it needs the steady clock is believed, and the symbols do not matter",
+          "[plugin][virtual]") {
+  CHECK(faults_of("test_steady_only") ==
+        "runs with the steady clock only (--clock steady): reads a joystick\n");
+}
+
+TEST_CASE("a plugin may allow itself one symbol, and no other", "[plugin][virtual]") {
+  const std::string faults = faults_of("test_allowed");
+  CHECK_THAT(faults, Contains("uses rand,"));
+  CHECK_THAT(faults, !Contains("poll"));
+}
+
+TEST_CASE("only whole names count, not what begins like them", "[plugin][virtual]") {
+  CHECK(unfit_for_virtual_time("time"));
+  CHECK(unfit_for_virtual_time("clock_gettime"));
+  CHECK_FALSE(unfit_for_virtual_time("timegm"));
+  CHECK_FALSE(unfit_for_virtual_time("pthread_mutex_lock"));
+  CHECK_FALSE(unfit_for_virtual_time("_ZN4mine4timeEv"));
+  CHECK_FALSE(unfit_for_virtual_time(""));
+}
