@@ -3,6 +3,8 @@
 # see docs/adr/0004-plugin-recipe.md.
 set(ORCA_BUILD_ID ${PROJECT_VERSION})
 set(ORCA_PLUGIN_SUPPORT_DIR ${CMAKE_CURRENT_LIST_DIR}/plugin)
+set(ORCA_PLUGIN_OPTIONS -fvisibility=hidden -fvisibility-inlines-hidden $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+orca_add_precompiled_headers(orca_plugin_headers ${ORCA_PLUGIN_OPTIONS})
 
 # orca_add_component(NAME SOURCES... [LINK targets...])
 #
@@ -13,9 +15,9 @@ function(orca_add_component name)
   add_library(${name} MODULE ${arg_UNPARSED_ARGUMENTS} ${ORCA_PLUGIN_SUPPORT_DIR}/plugin_entry.cpp)
   set_target_properties(${name} PROPERTIES
     PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${ORCA_PLUGIN_DIR}
-    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     LINK_DEPENDS ${ORCA_PLUGIN_SUPPORT_DIR}/plugin.map)
-  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+  target_compile_options(${name} PRIVATE ${ORCA_PLUGIN_OPTIONS})
+  orca_use_precompiled_headers(${name} orca_plugin_headers)
   target_link_options(${name} PRIVATE -Wl,--version-script=${ORCA_PLUGIN_SUPPORT_DIR}/plugin.map)
   if(NOT (CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND ORCA_SANITIZE))
     target_link_options(${name} PRIVATE -Wl,-z,defs)
