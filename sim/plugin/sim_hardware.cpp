@@ -6,6 +6,7 @@
 
 #include "moment_log.hpp"
 #include "objects.hpp"
+#include "orca/base/text.hpp"
 #include "orca/hardware.hpp"
 #include "orca/sim/robot_file.hpp"
 #include "orca/sim/world_file.hpp"
@@ -83,7 +84,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
       if (place == nullptr) {
         const std::vector<std::string> names = place_names();
         errors.push_back({"place", "\"" + *place_ + "\" is no place of " + *world_file_ +
-                                       "; places: " + orca::xml::listed(names) +
+                                       "; places: " + orca::listed(names) +
                                        orca::xml::did_you_mean(orca::xml::nearest_name(*place_, names))});
         return;
       }

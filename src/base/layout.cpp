@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "orca/base/text.hpp"
+
 namespace orca {
 namespace {
 
@@ -39,8 +41,6 @@ std::vector<Field> fields_of(std::string_view layout) {
   return fields;
 }
 
-std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
-
 // Walks both layouts until the first difference.
 class Comparison {
  public:
@@ -52,8 +52,8 @@ class Comparison {
       if (i >= to.size()) return only(prefix, from[i], from_);
       if (i >= from.size()) return only(prefix, to[i], to_);
       if (from[i].name != to[i].name) {
-        return "the field " + quoted(prefix + std::string(from[i].name)) + " " + from_ + " is " +
-               quoted(prefix + std::string(to[i].name)) + " " + to_;
+        return "the field " + in_quotes(prefix + std::string(from[i].name)) + " " + from_ + " is " +
+               in_quotes(prefix + std::string(to[i].name)) + " " + to_;
       }
       if (from[i].type != to[i].type)
         return of_field(prefix + std::string(from[i].name), from[i].type, to[i].type);
@@ -63,7 +63,7 @@ class Comparison {
 
  private:
   static std::string only(const std::string& prefix, const Field& field, const std::string& end) {
-    return "the field " + quoted(prefix + std::string(field.name)) + " is only " + end;
+    return "the field " + in_quotes(prefix + std::string(field.name)) + " is only " + end;
   }
 
   [[nodiscard]] std::string of_field(const std::string& path, std::string_view from,
@@ -73,8 +73,8 @@ class Comparison {
     if (!inner_from.empty() && !inner_to.empty() &&
         from.substr(0, from.find('{')) == to.substr(0, to.find('{')))
       return of_fields(path + ".", inner_from, inner_to);
-    return "the field " + quoted(path) + " is " + quoted(from) + " " + from_ + " and " + quoted(to) + " " +
-           to_;
+    return "the field " + in_quotes(path) + " is " + in_quotes(from) + " " + from_ + " and " + in_quotes(to) +
+           " " + to_;
   }
 
   std::string from_;

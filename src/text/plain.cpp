@@ -12,14 +12,13 @@
 #include "codes.hpp"
 #include "instant.hpp"
 #include "number.hpp"
+#include "orca/base/text.hpp"
 #include "orca/idl/generated/time.h"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::text {
 namespace {
-
-std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 std::vector<std::string_view> words_of(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n";
@@ -152,9 +151,8 @@ struct ReadPlain {
       return {};
     }
     const std::vector<std::string> names(value.names.begin(), value.names.end());
-    return Problem{codes::kChoice, in_quotes(text) + " is no " + std::string(value.type) +
-                                       "; there are: " + xml::listed(names) +
-                                       xml::did_you_mean(xml::nearest_name(word, names))};
+    return Problem{codes::kChoice, in_quotes(text) + " is no " + std::string(value.type) + "; there are: " +
+                                       listed(names) + xml::did_you_mean(xml::nearest_name(word, names))};
   }
 
   Verdict operator()(const StructValue&) const { return {}; }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "codes.hpp"
+#include "orca/base/text.hpp"
 #include "orca/text/object_xml.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/names.hpp"
@@ -17,8 +18,6 @@ namespace {
 
 namespace codes = text::codes;
 using Names = std::vector<std::string>;
-
-std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 bool contains(const Names& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -127,7 +126,7 @@ class ElementReader final : public FieldVisitor {
     Names all = attributes_;
     all.insert(all.end(), elements_.begin(), elements_.end());
     report(codes::kUnknownField, position,
-           "there is no " + in_quotes(name) + "; there are: " + xml::listed(all) +
+           "there is no " + in_quotes(name) + "; there are: " + listed(all) +
                xml::did_you_mean(xml::nearest_name(name, all)));
   }
 
@@ -155,7 +154,7 @@ const ObjectType* type_of(const xml::Element& root, const ObjectType* expected,
     message += "a <" + std::string(expected->name) + "> is expected here";
   } else {
     const Names names = all_type_names();
-    message += "there is no such object type; there are: " + xml::listed(names) +
+    message += "there is no such object type; there are: " + listed(names) +
                xml::did_you_mean(xml::nearest_name(root.name(), names));
   }
   diagnostics.error(codes::kWrongType, root.position(), message);

@@ -67,16 +67,4 @@ std::string did_you_mean(const std::optional<std::string>& nearest) {
   return nearest ? "; did you mean \"" + *nearest + "\"?" : "";
 }
 
-std::string listed(std::span<const std::string> names) {
-  constexpr std::size_t kShown = 20;
-  if (names.empty()) return "nothing";
-  std::string result;
-  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) {
-    if (i > 0) result += ", ";
-    result += names[i];
-  }
-  if (names.size() > kShown) result += " and " + std::to_string(names.size() - kShown) + " more";
-  return result;
-}
-
 }  // namespace orca::xml

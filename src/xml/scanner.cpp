@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "codes.hpp"
+#include "orca/base/text.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
 #include "references.hpp"
@@ -14,8 +15,6 @@ namespace {
 
 // Beyond this many errors a file is something else than XML with slips.
 constexpr std::size_t kMaxErrors = 1000;
-
-std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 // The value of `name="value"` in an XML declaration, empty if there is none.
 std::string declared(std::string_view declaration, std::string_view name) {
@@ -232,14 +231,26 @@ void Scanner::close(std::string_view tag, Mark begin) {
   const auto same = [&](const Open& open) { return open.name == tag; };
   const auto match = std::find_if(open_.rbegin(), open_.rend(), same);
   if (innermost.name != tag) {
+    // The end tag that was missing before, come late: "<a><b></a></b>" is one error.
+    if (match == open_.rend() && take_crossed(tag)) return;
     broken(codes::kEndTag, begin,
            shown + " does not fit: <" + std::string(innermost.name) + "> from " + place(innermost.begin) +
                " is open and needs </" + std::string(innermost.name) + "> first");
     end_tags_wrong_ = true;
   }
   // An end tag that fits nothing is taken for a misspelt one.
-  open_.erase(match == open_.rend() ? open_.end() - 1 : match.base() - 1, open_.end());
+  const auto closed = match == open_.rend() ? open_.end() - 1 : match.base() - 1;
+  if (match != open_.rend())
+    for (auto crossed = closed + 1; crossed != open_.end(); ++crossed) ++crossed_[crossed->name];
+  open_.erase(closed, open_.end());
   root_closed_ = open_.empty();
+}
+
+bool Scanner::take_crossed(std::string_view tag) {
+  const auto crossed = crossed_.find(tag);
+  if (crossed == crossed_.end()) return false;
+  if (--crossed->second == 0) crossed_.erase(crossed);
+  return true;
 }
 
 void Scanner::check_complete() {

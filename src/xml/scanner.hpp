@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,6 +64,8 @@ class Scanner {
   void instruction();
   void end_tag();
   void close(std::string_view name, Mark begin);
+  // Whether the element was closed by the end tag of an outer one, and its own comes now.
+  bool take_crossed(std::string_view tag);
   void check_complete();
 
   // scanner_tags.cpp: start tags. Where a TagEnd comes back early, the rest of a broken tag has been skipped.
@@ -93,7 +96,8 @@ class Scanner {
   std::size_t reported_ = 0;
   Scan scan_;
   std::vector<Open> open_;
-  std::vector<std::string_view> seen_;  // attribute names of the present tag
+  std::map<std::string_view, std::size_t> crossed_;  // elements that the end tag of an outer one closed
+  std::vector<std::string_view> seen_;               // attribute names of the present tag
   bool root_closed_ = false;
   bool second_root_ = false;
   bool end_tags_wrong_ = false;

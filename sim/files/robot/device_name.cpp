@@ -23,11 +23,11 @@ const char* owner_of(const std::string& name, const RobotModel& model) {
 
 }  // namespace
 
-bool name_is_free(const Attributes& e, const std::string& name, const RobotModel& model) {
-  if (name.empty()) return true;  // That is told already.
+bool name_is_free(const xml::Attributes& e, const std::string& name, const RobotModel& model) {
+  if (name.empty()) return true;  // Reported already.
   const char* const owner = owner_of(name, model);
   if (owner == nullptr) return true;
-  e.error_at("name", 10,
+  e.error_at("name", robot_codes::kDuplicate,
              std::string("there is a ") + owner + " \"" + name + "\" already; choose another name");
   return false;
 }

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "files/formats/attributes.hpp"
+#include "codes.hpp"
 #include "footprint.hpp"
+#include "orca/base/text.hpp"
+#include "orca/xml/attributes.hpp"
 #include "orca/xml/names.hpp"
+#include "robot_rules.hpp"
 #include "urdf_parts.hpp"
 
 namespace orca::sim::detail {
@@ -14,44 +17,44 @@ namespace {
 
 constexpr double kUpright = 1.0 - 1e-9;
 
-// R012 unless `map` has what the attribute of that name says, if there is one.
+// Reports an attribute that names something which `map` does not hold. True if it holds it.
 template <class Map>
-bool names_one_of(const Map& map, const Attributes& e, const char* attribute) {
-  const xml::Attribute* a = e.element().attribute(attribute);
-  if (a == nullptr || !a->intact) return false;
+bool names_one_of(const Map& map, const xml::Attributes& e, const char* attribute) {
+  const xml::Attribute* a = e.readable(attribute);
+  if (a == nullptr) return false;
   if (map.contains(a->value)) return true;
   std::vector<std::string> names;
   for (const auto& entry : map) names.push_back(entry.first);
-  e.error_at(attribute, 12,
-             std::string("there is no ") + attribute + " \"" + a->value + "\"" +
+  e.error_at(attribute, robot_codes::kUnknownName,
+             std::string("there is no ") + attribute + " " + in_quotes(a->value) +
                  xml::did_you_mean(xml::nearest_name(a->value, names)));
   return false;
 }
 
-void mount_turret(Turret& turret, const UrdfBody& body, const Attributes& e) {
+void mount_turret(Turret& turret, const UrdfBody& body, const xml::Attributes& e) {
   if (!names_one_of(body.joints, e, "joint")) return;
   const UrdfJoint& joint = body.joints.at(turret.joint);
   if (!joint.continuous || joint.upright < kUpright)
-    return e.error_at("joint", 22,
+    return e.error_at("joint", robot_codes::kContradiction,
                       "a turret needs a joint of type continuous whose axis points up: it turns without end");
   turret.axis = {joint.X_BJ.x, joint.X_BJ.y};
   for (std::size_t i = joint.first_part; i < joint.end_part; ++i)
     if (round_radius(body.parts[i], turret.axis) < 0.0)
-      return e.error_at("joint", 22,
+      return e.error_at("joint", robot_codes::kContradiction,
                         "the collision geometry of a turret must be round about its axis, upright cylinders "
                         "and spheres on it: the simulator does not turn it");
 }
 
-// R022 for what looks up, down or upside down.
-void check_upright(const UrdfBody& body, const Attributes& e) {
-  const xml::Attribute* a = e.element().attribute("link");
+// Reports a link that looks up, down or upside down.
+void check_upright(const UrdfBody& body, const xml::Attributes& e) {
+  const xml::Attribute* a = e.attribute("link");
   const auto link = a != nullptr ? body.links.find(a->value) : body.links.end();
   if (link == body.links.end()) return;
   const Pose3& X = link->second;
   if (1.0 - 2.0 * (X.qx * X.qx + X.qy * X.qy) < kUpright)
-    e.error_at("link", 22,
-               "the link \"" + a->value +
-                   "\" is tilted: sensors of the simulator look horizontally, their z axis points up");
+    e.error_at("link", robot_codes::kContradiction,
+               "the link " + in_quotes(a->value) +
+                   " is tilted: sensors of the simulator look horizontally, their z axis points up");
 }
 
 // @tparam Sensor  has link, center, height and on_turret.
@@ -72,11 +75,11 @@ void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* 
 }  // namespace
 
 void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& orca,
-                   xml::Diagnostics& diagnostics) {
+                   xml::Reporter& reporter) {
   const xml::Element* turret = only_child(orca, "turret");
-  if (turret != nullptr && model.turret) mount_turret(*model.turret, body, {*turret, 'R', diagnostics});
+  if (turret != nullptr && model.turret) mount_turret(*model.turret, body, {*turret, kRobotFile, reporter});
   for (const xml::Element& e : orca.children())
-    if (const Attributes device(e, 'R', diagnostics); names_one_of(body.links, device, "link"))
+    if (const xml::Attributes device(e, kRobotFile, reporter); names_one_of(body.links, device, "link"))
       check_upright(body, device);
   const auto joint = model.turret ? body.joints.find(model.turret->joint) : body.joints.end();
   const UrdfJoint* turns = joint != body.joints.end() ? &joint->second : nullptr;

@@ -3,13 +3,14 @@
 
 #include "orca/sim/robot_model.hpp"
 #include "orca/xml/document.hpp"
+#include "orca/xml/reporter.hpp"
 #include "urdf_body.hpp"
 
 namespace orca::sim::detail {
 
-// Tells the model's turret and sensors where on the body they are. R012 at each element of `orca` that names
-// a link or joint which is not there, R022 at a turret whose joint is not fit for one.
+// Gives the model's turret and sensors their places on the body. Reports each element of `orca` that names a
+// link or joint which is not there, a turret whose joint is not fit for one, and links that are tilted.
 void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& orca,
-                   xml::Diagnostics& diagnostics);
+                   xml::Reporter& reporter);
 
 }  // namespace orca::sim::detail

@@ -3,9 +3,8 @@
 
 namespace orca::sim::detail {
 
-void read_odometry(const Attributes& e, RobotModel& model) {
-  e.allow({"period"}, {});
-  const auto period = e.duration("period", Sign::positive);
+void read_odometry(const xml::Attributes& e, RobotModel& model) {
+  const auto period = e.duration("period");
   if (!period) return;
   check_period(e, *period);
   model.odometer = Odometer{*period};

@@ -7,64 +7,60 @@
 
 #include "extension_readers.hpp"
 #include "orca/sim/world.hpp"
+#include "robot_rules.hpp"
 
 namespace orca::sim::detail {
 namespace {
 
 struct Kind {
-  const char* name;
+  const xml::ElementRule* rule;
   bool once;  // A robot has at most one.
-  void (*read)(const Attributes& e, RobotModel& model);
+  void (*read)(const xml::Attributes& e, RobotModel& model);
 };
 
 constexpr std::array kKinds{
-    Kind{"drive", true, read_drive},
-    Kind{"turret", true, read_turret},
-    Kind{"sonar_ring", false, read_sonar_ring},
-    Kind{"laser", false, read_laser},
-    Kind{"infrared_ring", false, read_infrared_ring},
-    Kind{"bumper_ring", false, read_bumper_ring},
-    Kind{"odometry", true, read_odometry},
+    Kind{&kDriveRule, true, read_drive},
+    Kind{&kTurretRule, true, read_turret},
+    Kind{&kSonarRingRule, false, read_sonar_ring},
+    Kind{&kLaserRule, false, read_laser},
+    Kind{&kInfraredRingRule, false, read_infrared_ring},
+    Kind{&kBumperRingRule, false, read_bumper_ring},
+    Kind{&kOdometryRule, true, read_odometry},
 };
 
-std::vector<std::string> kind_names() {
-  std::vector<std::string> names;
-  for (const Kind& kind : kKinds) names.emplace_back(kind.name);
-  return names;
-}
-
-void read_robot_attributes(const Attributes& e, RobotModel& model) {
-  model.vendor = e.text_or("vendor", "");
-  model.model = e.text_or("model", "");
-  set(model.radius, e.quantity("radius", "m", Sign::positive));
-  set(model.bumper_radius, e.quantity_or("bumper_radius", "m", Sign::positive, model.radius));
+void read_robot_attributes(const xml::Attributes& e, RobotModel& model) {
+  model.vendor = e.text("vendor").value_or("");
+  model.model = e.text("model").value_or("");
+  set(model.radius, e.number("radius"));
+  set(model.bumper_radius, e.number_or("bumper_radius", model.radius));
   if (model.bumper_radius < model.radius)
-    e.error_at("bumper_radius", 22, "bumper_radius must not be less than radius: the bumper is outside");
+    e.error_at("bumper_radius", robot_codes::kContradiction,
+               "bumper_radius must not be less than radius: the bumper is outside");
 }
 
 }  // namespace
 
-void check_period(const Attributes& e, Duration period) {
+void check_period(const xml::Attributes& e, Duration period) {
   if (period < World::kTick || period > std::chrono::hours{1})
-    e.error_at("period", 22, "the period must be between the simulation's tick of 10 ms and an hour");
+    e.error_at("period", robot_codes::kContradiction,
+               "the period must be between the simulation's tick of 10 ms and an hour");
 }
 
-void read_extension(const xml::Element& orca, RobotModel& model, xml::Diagnostics& diagnostics) {
-  const Attributes e(orca, 'R', diagnostics);
-  e.allow({"vendor", "model", "radius", "bumper_radius"}, kind_names());
+void read_extension(const xml::Element& orca, RobotModel& model, xml::Reporter& reporter) {
+  const xml::Attributes e(orca, kOrcaRule, kRobotFile, reporter);
   read_robot_attributes(e, model);
-  std::set<std::string> seen;
-  for (const xml::Element& child : orca.children()) {
-    const auto kind = std::ranges::find(kKinds, child.name(), &Kind::name);
-    if (kind == kKinds.end()) continue;
-    const Attributes element(child, 'R', diagnostics);
-    if (!seen.insert(child.name()).second && kind->once) {
-      element.error(10, "there is a <" + child.name() + "> already; a robot has one");
+  std::set<const xml::ElementRule*> seen;
+  for (const auto& [child, rule] : e.children()) {
+    const auto kind = std::ranges::find(kKinds, rule, &Kind::rule);
+    const bool again = !seen.insert(rule).second;
+    if (again && kind->once) {
+      reporter.error(robot_codes::kDuplicate, child->position(),
+                     "there is a <" + std::string(rule->name) + "> already; a robot has one");
     } else {
-      kind->read(element, model);
+      kind->read({*child, *rule, kRobotFile, reporter}, model);
     }
   }
-  if (!seen.contains("drive")) e.error(4, "<orca> needs the element <drive>");
+  if (!seen.contains(&kDriveRule)) e.error(robot_codes::kMissing, "<orca> needs the element <drive>");
 }
 
 }  // namespace orca::sim::detail

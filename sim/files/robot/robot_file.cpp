@@ -4,16 +4,21 @@
 #include <fstream>
 #include <iterator>
 
+#include "codes.hpp"
 #include "mounts.hpp"
+#include "orca/xml/attributes.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
 #include "robot_extension.hpp"
+#include "robot_rules.hpp"
 #include "urdf_body.hpp"
 #include "urdf_check.hpp"
 #include "urdf_parts.hpp"
 
 namespace orca::sim {
 namespace {
+
+namespace codes = detail::robot_codes;
 
 constexpr double kBumperTolerance = 0.001;  // [m]
 
@@ -24,14 +29,15 @@ double reach_of(const Shape& footprint) {
   return reach;
 }
 
-void check_body(const RobotModel& model, const detail::Attributes& robot,
-                const detail::Attributes& extension) {
-  if (model.mass <= 0.0) robot.error(18, "no link of the robot has a mass; give its main link an <inertial>");
+void check_body(const RobotModel& model, const xml::Attributes& robot, const xml::Attributes& extension) {
+  if (model.mass <= 0.0)
+    robot.error(codes::kMass, "no link of the robot has a mass; give its main link an <inertial>");
   if (model.parts.empty())
-    return robot.error(4, "no link of the robot has a <collision>; without one it would pass through walls");
+    return robot.error(codes::kMissing,
+                       "no link of the robot has a <collision>; without one it would pass through walls");
   const double reach = reach_of(model.footprint);
   if (reach > model.bumper_radius + kBumperTolerance)
-    extension.error_at("bumper_radius", 23,
+    extension.error_at("bumper_radius", codes::kBumperRadius,
                        "the collision geometry reaches " + xml::number_text(reach) +
                            " m from the axis, but bumper_radius is " + xml::number_text(model.bumper_radius) +
                            " m; make them agree");
@@ -39,10 +45,10 @@ void check_body(const RobotModel& model, const detail::Attributes& robot,
 
 // @pre  the root is <robot> and has an <orca>; urdf and extension are checked as far as they stand alone.
 void read_body(const xml::Element& root, const xml::Element& orca, const detail::MeshHulls& hulls,
-               RobotModel& model, xml::Diagnostics& diagnostics) {
-  const detail::Attributes robot(root, 'R', diagnostics);
+               RobotModel& model, xml::Reporter& reporter) {
+  const xml::Attributes robot(root, detail::kRobotFile, reporter);
   Result<detail::UrdfBody> body = detail::read_urdf_body(model.urdf, hulls);
-  if (!body) return robot.error(24, body.error().message);
+  if (!body) return robot.error(codes::kUrdfdom, body.error().message);
   model.name = body->name;
   model.mass = body->mass;
   model.yaw_inertia = body->yaw_inertia;
@@ -51,30 +57,30 @@ void read_body(const xml::Element& root, const xml::Element& orca, const detail:
     model.footprint = footprint_of(model.parts);
     std::tie(model.bottom, model.top) = height_range_of(model.parts);
   }
-  check_body(model, robot, {orca, 'R', diagnostics});
-  detail::mount_devices(model, *body, orca, diagnostics);
+  check_body(model, robot, {orca, detail::kRobotFile, reporter});
+  detail::mount_devices(model, *body, orca, reporter);
 }
 
 std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
                                     xml::Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.error_count();
-  const detail::Attributes robot(root, 'R', diagnostics);
+  xml::Reporter reporter(diagnostics);
+  const xml::Attributes robot(root, detail::kRobotFile, reporter);
   if (root.name() != "robot")
-    return robot.error(
-               1, "the root element is <" + root.name() + ">; a robot file begins with <robot name=\"...\">"),
-           std::nullopt;
-  static_cast<void>(robot.text("name"));
+    return robot.refuse(codes::kWrongRoot, "the root element is <" + root.name() +
+                                               ">; a robot file begins with <robot name=\"...\">");
+  robot.require("name");
   detail::MeshHulls hulls;
-  detail::check_urdf(root, diagnostics, hulls);
+  detail::check_urdf(root, reporter, hulls);
   const bool urdf_is_sound = diagnostics.error_count() == before;
   RobotModel model;
   model.urdf = std::move(text);
   const xml::Element* orca = detail::only_child(root, "orca");
   if (orca == nullptr)
-    return robot.error(4, "<robot> needs the element <orca radius=\"...\"> with its drive and sensors"),
-           std::nullopt;
-  detail::read_extension(*orca, model, diagnostics);
-  if (urdf_is_sound) read_body(root, *orca, hulls, model, diagnostics);
+    return robot.refuse(codes::kMissing,
+                        "<robot> needs the element <orca radius=\"...\"> with its drive and sensors");
+  detail::read_extension(*orca, model, reporter);
+  if (urdf_is_sound) read_body(root, *orca, hulls, model, reporter);
   if (diagnostics.error_count() != before) return std::nullopt;
   return model;
 }

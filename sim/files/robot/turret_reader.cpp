@@ -3,13 +3,12 @@
 
 namespace orca::sim::detail {
 
-void read_turret(const Attributes& e, RobotModel& model) {
-  e.allow({"joint", "max_speed", "max_acceleration", "period"}, {});
+void read_turret(const xml::Attributes& e, RobotModel& model) {
   Turret turret;
   set(turret.joint, e.text("joint"));
-  set(turret.max_speed, e.quantity("max_speed", "rad/s", Sign::positive));
-  set(turret.max_acceleration, e.quantity("max_acceleration", "rad/s2", Sign::positive));
-  set(turret.period, e.duration("period", Sign::positive));
+  set(turret.max_speed, e.number("max_speed"));
+  set(turret.max_acceleration, e.number("max_acceleration"));
+  set(turret.period, e.duration("period"));
   if (turret.period > Duration{0}) check_period(e, turret.period);
   model.turret = turret;
 }

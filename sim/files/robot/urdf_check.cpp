@@ -5,16 +5,20 @@
 #include <array>
 #include <filesystem>
 
-#include "files/formats/attributes.hpp"
+#include "codes.hpp"
 #include "motion/hull_corners.hpp"
+#include "orca/xml/attributes.hpp"
+#include "robot_rules.hpp"
 #include "urdf_parts.hpp"
 
 namespace orca::sim::detail {
 namespace {
 
+namespace codes = robot_codes;
+
 class UrdfChecker {
  public:
-  UrdfChecker(xml::Diagnostics& diagnostics, MeshHulls& hulls) : diagnostics_(diagnostics), hulls_(hulls) {}
+  UrdfChecker(xml::Reporter& reporter, MeshHulls& hulls) : reporter_(reporter), hulls_(hulls) {}
 
   void link(const xml::Element& link) const {
     if (const auto* inertial = only_child(link, "inertial")) this->inertial(*inertial);
@@ -23,7 +27,7 @@ class UrdfChecker {
       origin(e);
       const xml::Element* geometry = only_child(e, "geometry");
       if (geometry == nullptr || geometry->children().empty()) {
-        of(e).error(4, "<" + e.name() + "> needs a <geometry> with a shape in it");
+        of(e).error(codes::kMissing, "<" + e.name() + "> needs a <geometry> with a shape in it");
       } else {
         shape(geometry->children().front(), e.name() == "collision");
       }
@@ -31,45 +35,55 @@ class UrdfChecker {
   }
 
   void joint(const xml::Element& joint) const {
-    static const std::vector<std::string> kTypes{"fixed",     "continuous", "revolute",
-                                                 "prismatic", "planar",     "floating"};
-    const auto type = of(joint).choice("type", kTypes);
+    const xml::Attributes a = of(joint);
+    const auto type = a.require("type") ? a.choice("type", kJointType) : std::nullopt;
     origin(joint);
     if (const auto* axis = only_child(joint, "axis")) {
-      const auto xyz = of(*axis).numbers("xyz", 3);
+      const auto xyz = numbers(of(*axis), "xyz");
       if (xyz && std::ranges::all_of(*xyz, [](double v) { return v == 0.0; }))
-        of(*axis).error_at("xyz", 16, "the axis is zero; it must point somewhere, e.g. \"0 0 1\"");
+        of(*axis).error_at("xyz", codes::kZeroAxis,
+                           "the axis is zero; it must point somewhere, e.g. \"0 0 1\"");
     }
     if (type == "revolute" || type == "prismatic") limit(joint, *type);
   }
 
  private:
-  [[nodiscard]] Attributes of(const xml::Element& e) const { return {e, 'R', diagnostics_}; }
+  [[nodiscard]] xml::Attributes of(const xml::Element& e) const { return {e, kRobotFile, reporter_}; }
 
   void origin(const xml::Element& parent) const {
     const xml::Element* origin = only_child(parent, "origin");
     if (origin == nullptr) return;
     for (const char* name : {"xyz", "rpy"})
-      if (of(*origin).has(name)) static_cast<void>(of(*origin).numbers(name, 3));
+      if (of(*origin).has(name)) static_cast<void>(numbers(of(*origin), name));
   }
 
   void limit(const xml::Element& joint, const std::string& type) const {
     const xml::Element* limit = only_child(joint, "limit");
-    if (limit == nullptr) return of(joint).error(4, "a " + type + " joint needs the element <limit>");
-    const auto low = of(*limit).has("lower") ? of(*limit).number("lower") : 0.0;
-    const auto high = of(*limit).has("upper") ? of(*limit).number("upper") : 0.0;
+    if (limit == nullptr)
+      return of(joint).error(codes::kMissing, "a " + type + " joint needs the element <limit>");
+    const auto low = of(*limit).has("lower") ? number(of(*limit), "lower") : 0.0;
+    const auto high = of(*limit).has("upper") ? number(of(*limit), "upper") : 0.0;
     if (low && high && *low > *high)
-      of(*limit).error_at("lower", 17, "the lower limit is above the upper one");
-    static_cast<void>(of(*limit).number("effort"));
-    static_cast<void>(of(*limit).number("velocity"));
+      of(*limit).error_at("lower", codes::kLimitsExchanged, "the lower limit is above the upper one");
+    static_cast<void>(number(of(*limit), "effort"));
+    static_cast<void>(number(of(*limit), "velocity"));
   }
 
-  // A child's attribute as a number; errors told.
+  // A required attribute as a number, or as three of them; errors are reported.
+  static std::optional<double> number(const xml::Attributes& a, const char* name) {
+    return a.require(name) ? a.bare_number(name) : std::nullopt;
+  }
+  static std::optional<std::vector<double>> numbers(const xml::Attributes& a, const char* name) {
+    return a.require(name) ? a.bare_numbers(name, 3) : std::nullopt;
+  }
+
+  // A child's attribute as a number; errors are reported.
   [[nodiscard]] std::optional<double> value(const xml::Element& parent, const char* child,
                                             const char* name) const {
     const xml::Element* e = only_child(parent, child);
-    if (e == nullptr) of(parent).error(4, "<" + parent.name() + "> needs the element <" + child + ">");
-    return e != nullptr ? of(*e).number(name) : std::nullopt;
+    if (e == nullptr)
+      of(parent).error(codes::kMissing, "<" + parent.name() + "> needs the element <" + child + ">");
+    return e != nullptr ? number(of(*e), name) : std::nullopt;
   }
 
   void inertial(const xml::Element& inertial) const {
@@ -77,7 +91,7 @@ class UrdfChecker {
     const auto mass = value(inertial, "mass", "value");
     if (mass && *mass <= 0.0)
       of(*only_child(inertial, "mass"))
-          .error_at("value", 18,
+          .error_at("value", codes::kMass,
                     "the mass must be more than 0 kg; leave <inertial> out for a link that is only a frame");
     std::array<double, 6> m{};  // xx, xy, xz, yy, yz, zz.
     constexpr std::array<const char*, 6> kNames{"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
@@ -93,13 +107,13 @@ class UrdfChecker {
                                m[2] * (m[1] * m[4] - m[3] * m[2]);
     if (!(m[0] > 0.0 && minor > 0.0 && determinant > 0.0))  // Sylvester's criterion.
       of(*only_child(inertial, "inertia"))
-          .error(19, "the inertia is not positive definite; no body has such an inertia");
+          .error(codes::kInertia, "the inertia is not positive definite; no body has such an inertia");
   }
 
   void shape(const xml::Element& shape, bool collision) const {
-    const Attributes a = of(shape);
+    const xml::Attributes a = of(shape);
     if (shape.name() == "box") {
-      const auto size = a.numbers("size", 3);
+      const auto size = numbers(a, "size");
       if (size && std::ranges::any_of(*size, [](double v) { return v <= 0.0; })) not_positive(a, "size");
     } else if (shape.name() == "cylinder" || shape.name() == "sphere") {
       length(a, "radius");
@@ -107,47 +121,49 @@ class UrdfChecker {
     } else if (shape.name() == "mesh") {
       if (collision) mesh(a);
     } else {
-      a.error(2, "<" + shape.name() + "> is not a shape; known are: box, cylinder, sphere, mesh");
+      a.error(codes::kUnknownElement,
+              "<" + shape.name() + "> is not a shape; known are: box, cylinder, sphere, mesh");
     }
   }
 
   // Pictures of a robot are nobody's concern here: only meshes for collisions are read.
-  void mesh(const Attributes& a) const {
-    const auto name = a.text("filename");
-    const auto scale = a.has("scale") ? a.numbers("scale", 3) : std::vector<double>{1.0, 1.0, 1.0};
+  void mesh(const xml::Attributes& a) const {
+    const auto name = a.require("filename") ? a.text("filename") : std::nullopt;
+    const auto scale = a.has("scale") ? numbers(a, "scale") : std::vector<double>{1.0, 1.0, 1.0};
     if (scale && std::ranges::any_of(*scale, [](double v) { return v == 0.0; }))
-      a.error_at("scale", 20, "scale of <mesh> must not be 0");
+      a.error_at("scale", codes::kSize, "scale of <mesh> must not be 0");
     if (!name || hulls_.contains(*name)) return;
     if (name->find("://") != std::string::npos)
-      return a.error_at("filename", 21,
+      return a.error_at("filename", codes::kUnreadableMesh,
                         "\"" + *name + "\" cannot be looked up; write the path, beside this file or from /");
     const auto folder = std::filesystem::path(a.element().position().file).parent_path();
     const auto mesh = read_mesh((folder / *name).lexically_normal().string());
-    if (!mesh) return a.error_at("filename", 21, mesh.error().text());
+    if (!mesh) return a.error_at("filename", codes::kUnreadableMesh, mesh.error().text());
     hulls_[*name] = hull_corners(*mesh);
   }
 
-  void length(const Attributes& a, const char* name) const {
-    const auto value = a.number(name);
+  void length(const xml::Attributes& a, const char* name) const {
+    const auto value = number(a, name);
     if (value && *value <= 0.0) not_positive(a, name);
   }
-  static void not_positive(const Attributes& a, const char* name) {
-    a.error_at(name, 20, std::string(name) + " of <" + a.element().name() + "> must be more than 0 m");
+  static void not_positive(const xml::Attributes& a, const char* name) {
+    a.error_at(name, codes::kSize,
+               std::string(name) + " of <" + a.element().name() + "> must be more than 0 m");
   }
 
-  xml::Diagnostics& diagnostics_;
+  xml::Reporter& reporter_;
   MeshHulls& hulls_;
 };
 
 }  // namespace
 
-void check_urdf(const xml::Element& robot, xml::Diagnostics& diagnostics, MeshHulls& hulls) {
-  const UrdfChecker checker(diagnostics, hulls);
+void check_urdf(const xml::Element& robot, xml::Reporter& reporter, MeshHulls& hulls) {
+  const UrdfChecker checker(reporter, hulls);
   for (const xml::Element& e : robot.children()) {
     if (e.name() == "link") checker.link(e);
     if (e.name() == "joint") checker.joint(e);
   }
-  check_tree(robot, diagnostics);
+  check_tree(robot, reporter);
 }
 
 }  // namespace orca::sim::detail

@@ -7,6 +7,7 @@
 
 #include "orca/sim/mesh.hpp"
 #include "orca/xml/document.hpp"
+#include "orca/xml/reporter.hpp"
 
 namespace orca::sim::detail {
 
@@ -17,6 +18,6 @@ using MeshHulls = std::map<std::string, std::vector<Vec3>>;
 // Reports what is wrong with the links and joints of a <robot>, with line and column; urdfdom, which reads
 // the file afterwards, cannot tell where a mistake is. Reads the meshes of collision geometry, beside the
 // file, into `hulls`.
-void check_urdf(const xml::Element& robot, xml::Diagnostics& diagnostics, MeshHulls& hulls);
+void check_urdf(const xml::Element& robot, xml::Reporter& reporter, MeshHulls& hulls);
 
 }  // namespace orca::sim::detail

@@ -4,13 +4,14 @@
 #include <string_view>
 
 #include "orca/xml/document.hpp"
+#include "orca/xml/reporter.hpp"
 
 namespace orca::sim::detail {
 
 // The first child of that name, or null.
 [[nodiscard]] const xml::Element* only_child(const xml::Element& element, std::string_view name);
 
-// Names, parents, roots, loops, mimics.
-void check_tree(const xml::Element& robot, xml::Diagnostics& diagnostics);
+// Checks names, parents, roots, loops and mimics.
+void check_tree(const xml::Element& robot, xml::Reporter& reporter);
 
 }  // namespace orca::sim::detail

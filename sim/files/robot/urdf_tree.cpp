@@ -4,48 +4,58 @@
 #include <string>
 #include <vector>
 
-#include "files/formats/attributes.hpp"
+#include "codes.hpp"
+#include "orca/base/text.hpp"
+#include "orca/xml/attributes.hpp"
 #include "orca/xml/names.hpp"
+#include "robot_rules.hpp"
 #include "urdf_parts.hpp"
 
 namespace orca::sim::detail {
 namespace {
+
+namespace codes = robot_codes;
 
 constexpr std::size_t kMaxLinks = 1000;
 
 // The links and joints of a file as a tree, which they are to be.
 class Tree {
  public:
-  Tree(const xml::Element& robot, xml::Diagnostics& diagnostics) : robot_(robot), diagnostics_(diagnostics) {}
+  Tree(const xml::Element& robot, xml::Reporter& reporter) : robot_(robot), reporter_(reporter) {}
 
   void check() {
     for (const xml::Element& e : robot_.children()) {
-      if (e.name() == "link") collect(e, links_, 10);
-      if (e.name() == "joint") collect(e, joints_, 10);
+      if (e.name() == "link") collect(e, links_);
+      if (e.name() == "joint") collect(e, joints_);
     }
     if (links_.size() > kMaxLinks)
-      return of(robot_).error(
-          11, "the robot has " + std::to_string(links_.size()) + " links; at most 1000 are read");
+      return of(robot_).error(codes::kLinkCount, "the robot has " + std::to_string(links_.size()) +
+                                                     " links; at most 1000 are read");
     if (joints_.size() > kMaxLinks)
-      return of(robot_).error(
-          11, "the robot has " + std::to_string(joints_.size()) + " joints; at most 1000 are read");
+      return of(robot_).error(codes::kLinkCount, "the robot has " + std::to_string(joints_.size()) +
+                                                     " joints; at most 1000 are read");
     for (const auto& [name, joint] : joints_) connect(name, *joint);
     for (const auto& [name, joint] : joints_) check_mimic(name, *joint);
-    if (links_.empty()) return of(robot_).error(11, "the robot has no <link>");
+    if (links_.empty()) return of(robot_).error(codes::kLinkCount, "the robot has no <link>");
     check_roots();
   }
 
  private:
   using Named = std::map<std::string, const xml::Element*>;
-  [[nodiscard]] Attributes of(const xml::Element& e) const { return {e, 'R', diagnostics_}; }
+  [[nodiscard]] xml::Attributes of(const xml::Element& e) const { return {e, kRobotFile, reporter_}; }
 
-  void collect(const xml::Element& e, Named& into, int code) {
-    const auto name = of(e).text("name");
+  // A required attribute; a missing one is reported.
+  [[nodiscard]] std::optional<std::string> text(const xml::Element& e, const char* name) const {
+    return of(e).require(name) ? of(e).text(name) : std::nullopt;
+  }
+
+  void collect(const xml::Element& e, Named& into) {
+    const auto name = text(e, "name");
     if (!name) return;
     const auto [first, is_new] = into.emplace(*name, &e);
     if (is_new) return;
     complete_ = false;  // what a second joint of the name joins is not looked at
-    of(e).error_at("name", code,
+    of(e).error_at("name", codes::kDuplicate,
                    "there is a " + e.name() + " \"" + *name + "\" already, at " +
                        first->second->position().text() + "; choose another name");
   }
@@ -54,20 +64,21 @@ class Tree {
   [[nodiscard]] std::string end_of(const xml::Element& joint, const std::string& which) const {
     const xml::Element* end = only_child(joint, which);
     if (end == nullptr) {
-      of(joint).error(4, "<joint> needs the element <" + which + " link=\"...\"/>");
+      of(joint).error(codes::kMissing, "<joint> needs the element <" + which + " link=\"...\"/>");
       return {};
     }
-    const auto link = of(*end).text("link");
+    const auto link = text(*end, "link");
     if (!link) return {};
     if (links_.contains(*link)) return *link;
-    of(*end).error_at("link", 12, "there is no link \"" + *link + "\"" + what_there_is(*link, links_));
+    of(*end).error_at("link", codes::kUnknownName,
+                      "there is no link \"" + *link + "\"" + what_there_is(*link, links_));
     return {};
   }
 
   [[nodiscard]] static std::string what_there_is(const std::string& word, const Named& named) {
     std::vector<std::string> names;
     for (const auto& entry : named) names.push_back(entry.first);
-    return "; there is: " + xml::listed(names) + xml::did_you_mean(xml::nearest_name(word, names));
+    return "; there is: " + listed(names) + xml::did_you_mean(xml::nearest_name(word, names));
   }
 
   void connect(const std::string& name, const xml::Element& joint) {
@@ -79,9 +90,9 @@ class Tree {
     }
     const auto [first, is_new] = parent_of_.emplace(child, parent);
     if (!is_new)
-      of(joint).error(13, "link \"" + child + "\" is the child of joint \"" + name +
-                              "\" and of another joint, under \"" + first->second +
-                              "\"; a link has one parent");
+      of(joint).error(codes::kTwoParents, "link \"" + child + "\" is the child of joint \"" + name +
+                                              "\" and of another joint, under \"" + first->second +
+                                              "\"; a link has one parent");
   }
 
   // With one parent at most per link, a link that leads up to no root stands in a loop or under one.
@@ -89,13 +100,14 @@ class Tree {
     std::vector<std::string> roots;
     for (const auto& [name, link] : links_)
       if (!parent_of_.contains(name)) roots.push_back(name);
-    // A joint that names a missing link is told already; its child would only look like a second root.
+    // A joint that names a missing link is reported already; its child would only look like a second root.
     if (complete_ && roots.size() > 1)
-      of(robot_).error(14, "the robot has " + std::to_string(roots.size()) + " root links (" +
-                               xml::listed(roots) + "); join them by joints, so that one is left");
+      of(robot_).error(codes::kSeveralRoots, "the robot has " + std::to_string(roots.size()) +
+                                                 " root links (" + listed(roots) +
+                                                 "); join them by joints, so that one is left");
     for (const auto& [name, link] : links_)
       if (in_loop(name))
-        return of(*link).error(15, "link \"" + name + "\" is its own ancestor: " + loop_text(name));
+        return of(*link).error(codes::kLoop, "link \"" + name + "\" is its own ancestor: " + loop_text(name));
   }
 
   [[nodiscard]] bool in_loop(const std::string& name) const {
@@ -115,16 +127,16 @@ class Tree {
 
   void check_mimic(const std::string& name, const xml::Element& joint) const {
     const xml::Element* mimic = only_child(joint, "mimic");
-    const auto master = mimic != nullptr ? of(*mimic).text("joint") : std::nullopt;
+    const auto master = mimic != nullptr ? text(*mimic, "joint") : std::nullopt;
     if (!master) return;
     if (!joints_.contains(*master))
-      return of(*mimic).error_at("joint", 12,
+      return of(*mimic).error_at("joint", codes::kUnknownName,
                                  "there is no joint \"" + *master + "\"" + what_there_is(*master, joints_));
     const std::vector<std::string> circle = mimic_circle(name);
-    if (circle.empty() || *std::ranges::min_element(circle) != name) return;  // told once
+    if (circle.empty() || *std::ranges::min_element(circle) != name) return;  // reported once
     std::string text = name;
     for (const std::string& next : circle) text += " mimics " + next;
-    of(*mimic).error(15, "joint \"" + name + "\" mimics itself in the end: " + text);
+    of(*mimic).error(codes::kLoop, "joint \"" + name + "\" mimics itself in the end: " + text);
   }
 
   // The joints that this one mimics, up to itself; empty if it does not come back to itself.
@@ -144,7 +156,7 @@ class Tree {
   }
 
   const xml::Element& robot_;
-  xml::Diagnostics& diagnostics_;
+  xml::Reporter& reporter_;
   Named links_;
   Named joints_;
   std::map<std::string, std::string> parent_of_;
@@ -158,8 +170,6 @@ const xml::Element* only_child(const xml::Element& element, std::string_view nam
   return found == element.children().end() ? nullptr : &*found;
 }
 
-void check_tree(const xml::Element& robot, xml::Diagnostics& diagnostics) {
-  Tree(robot, diagnostics).check();
-}
+void check_tree(const xml::Element& robot, xml::Reporter& reporter) { Tree(robot, reporter).check(); }
 
 }  // namespace orca::sim::detail

@@ -7,8 +7,10 @@
 #include <set>
 #include <vector>
 
-#include "files/formats/attributes.hpp"
+#include "codes.hpp"
 #include "files/formats/gzip_file.hpp"
+#include "files/formats/values.hpp"
+#include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::sim::detail {
@@ -17,7 +19,6 @@ namespace {
 constexpr std::string_view kHeader = "world,x,y";
 constexpr double kRadius = 0.075;       // [m]
 constexpr double kHeight = 2.5;         // [m]
-constexpr double kFarthest = 1e5;       // [m]
 constexpr std::size_t kMost = 100'000;  // cylinders of one world
 
 // BARN's task: through the field from the free strip before it to the open behind it.
@@ -43,9 +44,7 @@ class CylinderFile {
       start = end + 1;
       if (++line == 1) {
         if (content != kHeader)
-          return error(1, 1,
-                       "the first line is not \"" + std::string(kHeader) + "\", the names of the columns"),
-                 std::nullopt;
+          return refuse(1, 1, "the first line is not " + in_quotes(kHeader) + ", the names of the columns");
       } else if (!content.empty()) {
         row(content, line);
       }
@@ -55,12 +54,17 @@ class CylinderFile {
   }
 
  private:
-  void error(int line, int column, const std::string& message, const char* code = "W016") {
+  void error(int line, int column, const std::string& message, const char* code = world_codes::kBadRow) {
     diagnostics_.error(code, {path_, line, column}, message);
   }
 
+  std::nullopt_t refuse(int line, int column, const std::string& message) {
+    error(line, column, message);
+    return std::nullopt;
+  }
+
   void row(std::string_view content, int line) {
-    const auto fields = split(content, ",");
+    const auto fields = xml::split(content, ",");
     if (fields.size() != 3)
       return error(
           line, 1,
@@ -70,8 +74,7 @@ class CylinderFile {
     };
     const Result<std::int64_t> world = xml::parse_integer(fields[0]);
     if (!world || *world < 0)
-      return error(line, column(fields[0]),
-                   "world: \"" + std::string(fields[0]) + "\" is not a world's number");
+      return error(line, column(fields[0]), "world: " + in_quotes(fields[0]) + " is not a world's number");
     const auto x = coordinate("x", fields[1], line, column(fields[1]));
     const auto y = coordinate("y", fields[2], line, column(fields[2]));
     if (x && y) add(static_cast<std::uint64_t>(*world), {{*x, *y}, kRadius}, line);
@@ -79,10 +82,9 @@ class CylinderFile {
 
   std::optional<double> coordinate(const std::string& name, std::string_view field, int line, int column) {
     const Result<double> value = xml::parse_number(field);
-    if (!value) return error(line, column, name + ": " + value.error().message), std::nullopt;
+    if (!value) return refuse(line, column, name + ": " + value.error().message);
     if (std::fabs(*value) <= kFarthest) return *value;
-    return error(line, column, name + ": \"" + std::string(field) + "\" is farther than 100 km"),
-           std::nullopt;
+    return refuse(line, column, name + ": " + in_quotes(field) + " is farther than 100 km");
   }
 
   void add(std::uint64_t world, const Circle& cylinder, int line) {
@@ -91,11 +93,11 @@ class CylinderFile {
     for (const Place& place : world_.places)
       if (contains(cylinder, place.pose.position()))
         error(line, 1, "the cylinder stands on the place \"" + place.name + "\"; no robot can get there",
-              "W012");
+              world_codes::kPlaceInObstacle);
     if (world_.obstacles.size() == kMost)
       error(line, 1,
             "world " + std::to_string(world) + " has more than 100000 cylinders; at most these are read",
-            "W014");
+            world_codes::kTooMany);
     if (world_.obstacles.size() <= kMost) world_.obstacles.push_back({"cylinder", cylinder, kHeight});
   }
 
@@ -106,13 +108,13 @@ class CylinderFile {
                              std::to_string(*worlds_.begin()) + " to " + std::to_string(*worlds_.rbegin());
     if (!number_)
       return error(0, 0, held + "; choose one: \"" + path_ + "#" + std::to_string(*worlds_.begin()) + "\"",
-                   "W017");
+                   world_codes::kNumber);
     const auto after = worlds_.lower_bound(*number_);
     const std::uint64_t nearest = after == worlds_.end() ? *worlds_.rbegin() : *after;
     error(0, 0,
           "there is no world " + std::to_string(*number_) + "; " + held + "; did you mean " +
               std::to_string(nearest) + "?",
-          "W017");
+          world_codes::kNumber);
   }
 
   std::string path_;
@@ -128,7 +130,7 @@ std::optional<WorldModel> read_cylinder_world(const std::string& path, std::opti
                                               xml::Diagnostics& diagnostics) {
   const Result<std::string> text = read_maybe_packed(path);
   if (text) return CylinderFile(path, number, diagnostics).read(*text);
-  diagnostics.error("W011", {path, 0, 0}, text.error().message);
+  diagnostics.error(world_codes::kUnreadable, {path, 0, 0}, text.error().message);
   return std::nullopt;
 }
 

@@ -2,38 +2,39 @@
 #include "generator_reader.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "codes.hpp"
+#include "files/formats/values.hpp"
+#include "orca/base/text.hpp"
 
 namespace orca::sim::detail {
 namespace {
 
-constexpr std::size_t kMany = 1'000'000;  // More than any family allows, and says so itself.
-
 // Takes values over into the parameters of a family and remembers whether all were good.
 class Values {
  public:
-  explicit Values(const Attributes& element) : element_(element) {}
+  explicit Values(const xml::Attributes& element) : element_(element) {}
 
-  void length(const char* name, double& to) { take(to, element_.quantity_or(name, "m", Sign::positive, to)); }
+  void length(const char* name, double& to) { take(to, element_.number_or(name, to)); }
   void count(const char* name, std::size_t& to) {
-    if (element_.has(name)) take(to, element_.count(name, 0, kMany));
+    if (element_.has(name)) take(to, element_.integer(name));
   }
   void share(const char* name, std::optional<double>& to) {
-    if (element_.has(name)) take(to, element_.number(name));
+    if (element_.has(name)) take(to, element_.bare_number(name));
   }
   void count(const char* name, std::optional<std::size_t>& to) {
-    if (element_.has(name)) take(to, element_.count(name, 0, kMany));
+    if (element_.has(name)) take(to, element_.integer(name));
   }
   [[nodiscard]] bool good() const { return good_; }
 
  private:
   template <class To, class From>
   void take(To& to, const std::optional<From>& from) {
-    if (from) to = *from;
+    set(to, from);
     good_ = good_ && from.has_value();
   }
 
-  const Attributes& element_;
+  const xml::Attributes& element_;
   bool good_ = true;
 };
 
@@ -94,32 +95,35 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-std::vector<std::string> kind_names() {
-  std::vector<std::string> names;
-  for (const Kind& kind : kinds()) names.emplace_back(kind.name);
-  return names;
+// Reports the attributes that other kinds have. True if there are none.
+bool check_attributes(const xml::Attributes& element, const Kind& kind, xml::Reporter& reporter) {
+  std::vector<std::string> names{"kind", "seed", "radius"};
+  names.insert(names.end(), kind.attributes.begin(), kind.attributes.end());
+  bool good = true;
+  for (const auto& [name, attribute] : element.matched()) {
+    const bool misspelt = attribute->name != name;  // Reported already.
+    if (misspelt || std::ranges::find(names, name) != names.end()) continue;
+    reporter.error(world_codes::kUnknownAttribute, attribute->position,
+                   "<generate> of kind " + in_quotes(kind.name) + " has no attribute " + in_quotes(name) +
+                       "; it has: " + listed(names));
+    good = false;
+  }
+  return good;
 }
 
 }  // namespace
 
-std::optional<std::uint64_t> read_seed(const Attributes& element) {
-  const auto seed = element.count("seed", 0, std::numeric_limits<std::int64_t>::max());
-  return seed ? std::optional<std::uint64_t>(*seed) : std::nullopt;
-}
-
-std::optional<Order> read_generate(const Attributes& element) {
-  const auto name = element.choice("kind", kind_names());
+std::optional<Order> read_generate(const xml::Attributes& element, xml::Reporter& reporter) {
+  const auto name = element.choice("kind");
   if (!name) return std::nullopt;
   const auto kind = std::ranges::find(kinds(), *name, &Kind::name);
-  std::vector<std::string> attributes{"kind", "seed", "radius"};
-  attributes.insert(attributes.end(), kind->attributes.begin(), kind->attributes.end());
-  element.allow(attributes, {});
+  if (!check_attributes(element, *kind, reporter)) return std::nullopt;
   Values values(element);
   Order order{kind->read(values)};
   values.length("radius", order.radius);
-  const auto seed = element.has("seed") ? read_seed(element) : std::optional(order.seed);
+  const auto seed = element.has("seed") ? element.integer("seed") : std::optional<std::int64_t>(order.seed);
   if (!seed || !values.good()) return std::nullopt;
-  order.seed = *seed;
+  order.seed = static_cast<std::uint64_t>(*seed);
   return order;
 }
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "files/formats/attributes.hpp"
 #include "orca/sim/generate.hpp"
+#include "orca/xml/attributes.hpp"
 
 namespace orca::sim::detail {
 
@@ -16,10 +16,7 @@ struct Order {
   double radius = 0.3;  // [m]
 };
 
-// Reads a <generate>; nothing if something in it is wrong, which is told.
-[[nodiscard]] std::optional<Order> read_generate(const Attributes& element);
-
-// A seed: a whole number that is not negative.
-[[nodiscard]] std::optional<std::uint64_t> read_seed(const Attributes& element);
+// Reads a <generate>. Returns nothing if something in it is wrong, which is reported.
+[[nodiscard]] std::optional<Order> read_generate(const xml::Attributes& element, xml::Reporter& reporter);
 
 }  // namespace orca::sim::detail

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "generator_reader.hpp"
+#include "codes.hpp"
+#include "files/formats/values.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -13,11 +14,6 @@ constexpr double kShortest = 0.001;  // [m]
 constexpr double kSlowest = 0.01;    // [m/s]
 constexpr double kFastest = 20.0;
 constexpr Duration kLongest = std::chrono::hours{1000};
-
-template <class To, class From>
-void set(To& to, const std::optional<From>& from) {
-  if (from) to = *from;
-}
 
 // Why nobody can walk along these corners; empty if one can.
 std::string track_fault(const std::vector<Vec2>& track) {
@@ -29,19 +25,21 @@ std::string track_fault(const std::vector<Vec2>& track) {
                                                : "the track has no length: all its corners are one point";
 }
 
-void read_track(const Attributes& element, Walker& walker) {
-  auto track = element.points("track");
+void read_track(const xml::Attributes& element, Walker& walker) {
+  auto track = read_points(element, "track");
   if (!track) return;
   if (const std::string fault = track_fault(*track); !fault.empty())
-    return element.error_at("track", 19, fault);
+    return element.error_at("track", world_codes::kBadWalker, fault);
   walker.track = std::move(*track);
 }
 
-void check_limits(const Attributes& element, const Walker& walker) {
+void check_limits(const xml::Attributes& element, const Walker& walker) {
   if (walker.speed < kSlowest || walker.speed > kFastest)
-    element.error_at("speed", 19, "a walker's speed is between 0.01 m/s and 20 m/s");
-  if (walker.pause > kLongest) element.error_at("pause", 19, "a rest of more than 1000 h is not simulated");
-  if (walker.start > kLongest) element.error_at("start", 19, "a walker's start is at most 1000 h");
+    element.error_at("speed", world_codes::kBadWalker, "a walker's speed is between 0.01 m/s and 20 m/s");
+  if (walker.pause > kLongest)
+    element.error_at("pause", world_codes::kBadWalker, "a rest of more than 1000 h is not simulated");
+  if (walker.start > kLongest)
+    element.error_at("start", world_codes::kBadWalker, "a walker's start is at most 1000 h");
 }
 
 // What a circle covers on its way along a leg, but for the half circles at the ends.
@@ -53,21 +51,19 @@ Box swept(Vec2 from, Vec2 to, double radius) {
 
 }  // namespace
 
-Walker read_walker(const Attributes& element) {
-  element.allow({"name", "track", "speed", "radius", "height", "loop", "pause", "start", "seed", "stops"},
-                {});
+Walker read_walker(const xml::Attributes& element) {
   Walker walker;
   set(walker.name, element.name("name"));
   read_track(element, walker);
-  set(walker.speed, element.quantity_or("speed", "m/s", Sign::positive, walker.speed));
-  set(walker.radius, element.quantity_or("radius", "m", Sign::positive, walker.radius));
-  set(walker.height, element.quantity_or("height", "m", Sign::positive, walker.height));
-  if (element.has("loop")) walker.round = element.choice("loop", {"back", "round"}) == "round";
+  set(walker.speed, element.number_or("speed", walker.speed));
+  set(walker.radius, element.number_or("radius", walker.radius));
+  set(walker.height, element.number_or("height", walker.height));
+  if (element.has("loop")) walker.round = element.choice("loop") == "round";
   set(walker.pause, element.duration_or("pause", walker.pause));
-  if (element.has("start")) walker.start = element.duration("start", Sign::not_negative);
-  if (element.has("seed")) walker.seed = read_seed(element);
+  if (element.has("start")) walker.start = element.duration("start");
+  if (element.has("seed")) walker.seed = element.integer("seed");
   check_limits(element, walker);
-  set(walker.stops, element.quantity_or("stops", "m", Sign::not_negative, walker.stops));
+  set(walker.stops, element.number_or("stops", walker.stops));
   return walker;
 }
 

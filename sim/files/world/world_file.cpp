@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "codes.hpp"
 #include "cylinder_file.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
@@ -11,6 +12,8 @@
 
 namespace orca::sim {
 namespace {
+
+namespace codes = detail::world_codes;
 
 enum class Format { xml, bitmap, cylinders };
 
@@ -34,7 +37,7 @@ std::optional<Reference> reference_of(const std::string& path, xml::Diagnostics&
   const Result<std::int64_t> number = xml::parse_integer(text);
   if (number && *number >= 0) return Reference{file, static_cast<std::uint64_t>(*number)};
   diagnostics.error(
-      "W017", {file, 0, 0},
+      codes::kNumber, {file, 0, 0},
       "\"#" + text + "\" does not choose a world: write a whole number after the #, e.g. \"" + file + "#1\"");
   return std::nullopt;
 }
@@ -45,7 +48,7 @@ std::optional<WorldModel> read_document(const std::optional<xml::Document>& docu
   if (!document) return std::nullopt;
   const xml::Element& root = document->root;
   if (root.name() != "world") {
-    diagnostics.error("W001", root.position(),
+    diagnostics.error(codes::kWrongRoot, root.position(),
                       "the root element is <" + root.name() +
                           ">; a world file begins with <world name=\"...\" "
                           "version=\"1\">");
@@ -59,19 +62,19 @@ std::optional<WorldModel> read_document(const std::optional<xml::Document>& docu
 std::optional<WorldModel> read_bitmap(const Reference& from, const BitmapScale& scale,
                                       xml::Diagnostics& diagnostics) {
   if (from.number) {
-    diagnostics.error("W017", {from.file, 0, 0}, "a picture holds one world; leave \"#N\" out");
+    diagnostics.error(codes::kNumber, {from.file, 0, 0}, "a picture holds one world; leave \"#N\" out");
     return std::nullopt;
   }
   Result<WorldModel> world = read_bitmap_world(from.file, scale);
   if (world) return std::move(*world);
-  diagnostics.error("W011", {from.file, 0, 0}, world.error().message);
+  diagnostics.error(codes::kUnreadable, {from.file, 0, 0}, world.error().message);
   return std::nullopt;
 }
 
 void refuse_scale(const std::string& file, const BitmapScale& scale, xml::Diagnostics& diagnostics) {
   if (!scale.map_width && !scale.resolution) return;
   const std::string name = scale.map_width ? "map_width" : "map_resolution";
-  diagnostics.error("W013", {file, 0, 0},
+  diagnostics.error(codes::kScaleWithoutPicture, {file, 0, 0},
                     name + " is for bitmaps (.png, .pgm); this world has its own size. Leave it out");
 }
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "files/formats/attributes.hpp"
 #include "model/walls.hpp"
 #include "orca/sim/world_model.hpp"
+#include "orca/xml/attributes.hpp"
 
 namespace orca::sim::detail {
 
@@ -17,16 +20,22 @@ class WorldReader {
  public:
   // @param seed  of all that is generated, instead of the file's own.
   WorldReader(const std::string& file_name, std::optional<std::uint64_t> seed, xml::Diagnostics& diagnostics)
-      : file_name_(file_name), seed_(seed), diagnostics_(diagnostics) {}
+      : file_name_(file_name), seed_(seed), reporter_(diagnostics) {}
 
   WorldModel read(const xml::Element& root);
 
  private:
-  using Read = void (WorldReader::*)(const Attributes&);
-  [[nodiscard]] Attributes of(const xml::Element& element) const { return {element, 'W', diagnostics_}; }
+  using Attributes = xml::Attributes;
+  using Elements = std::vector<std::pair<const xml::Element*, const xml::ElementRule*>>;
+  // An element inside <world>, and the function that reads it.
+  struct Reader {
+    const xml::ElementRule* rule;
+    void (WorldReader::*read)(const Attributes&);
+  };
+  static const std::array<Reader, 10> kReaders;
 
   void header(const Attributes& world);
-  bool within_limits(const Attributes& world) const;
+  bool within_limits(const Attributes& world, const Elements& elements) const;
   void wall(const Attributes& element);
   void room(const Attributes& element);
   void box(const Attributes& element);
@@ -41,18 +50,18 @@ class WorldReader {
   void add_wall(const Attributes& element, WallPlan plan);
   void add(const Attributes& element, Shape shape, double height);
   void add_place(const Attributes& element, Place place);
-  [[nodiscard]] std::optional<Opening> door(const Attributes& element, bool in_room) const;
+  [[nodiscard]] Attributes attributes_of(const xml::Element& element, const xml::ElementRule& rule);
   [[nodiscard]] std::optional<double> height(const Attributes& element) const;
-  // The name the element gives itself, told if it is taken; its kind if it gives none.
+  // Returns the name that the element gives itself, its kind if it gives none. Reports a name that is taken.
   std::string own_name(const Attributes& element);
   void claim(const Attributes& element, const std::string& kind, const std::string& name);
-  void check_places() const;
-  void check_walkers() const;
-  void check_seed(const Attributes& world) const;
+  void check_places();
+  void check_walkers();
+  void check_seed();
 
   std::string file_name_;
   std::optional<std::uint64_t> seed_;
-  xml::Diagnostics& diagnostics_;
+  xml::Reporter reporter_;
   WorldModel world_;
   std::map<std::string, xml::Position> taken_;  // By kind and name.
   std::vector<xml::Position> place_positions_;

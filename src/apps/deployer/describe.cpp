@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "orca/base/text.hpp"
 #include "orca/plugin/describe.hpp"
 #include "orca/plugin/library.hpp"
 #include "orca/xml/number.hpp"
@@ -18,11 +19,9 @@ std::string text_of(const ParamValue& value) {
     std::string operator()(bool b) const { return b ? "true" : "false"; }
     std::string operator()(std::int64_t i) const { return std::to_string(i); }
     std::string operator()(double d) const { return xml::number_text(d); }
-    std::string operator()(const std::string& s) const { return "\"" + s + "\""; }
+    std::string operator()(const std::string& s) const { return in_quotes(s); }
     std::string operator()(const std::vector<std::string>& list) const {
-      std::string joined;
-      for (const std::string& item : list) joined += (joined.empty() ? "" : "; ") + item;
-      return "\"" + joined + "\"";
+      return in_quotes(joined(list, "; "));
     }
   };
   return std::visit(Visitor{}, value);

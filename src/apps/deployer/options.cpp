@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "orca/base/text.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
 #include "orca/xml/quantity.hpp"
@@ -83,7 +84,7 @@ Status set_picture(Options& options, const std::string& value) {
 
 Status set_view(Options& options, const std::string& value) {
   const std::optional<host::View> view = host::view_from(value);
-  if (!view) return expected("--view", xml::listed(host::view_names()), value);
+  if (!view) return expected("--view", listed(host::view_names()), value);
   options.run.picture.view = *view;
   return ok();
 }
@@ -93,8 +94,7 @@ Status hide(Options& options, const std::string& value) {
   for (std::string word; std::getline(words, word, ',');) {
     const std::optional<host::Layer> layer = host::layer_from(word);
     if (!layer)
-      return expected("--hide", "some of " + xml::listed(host::layer_names()) + ", with commas between",
-                      word);
+      return expected("--hide", "some of " + listed(host::layer_names()) + ", with commas between", word);
     options.run.picture.hidden.insert(*layer);
   }
   return ok();

@@ -18,6 +18,7 @@
 #include "inspection/trial.hpp"
 #include "loaded_plugins.hpp"
 #include "orca/base/log.hpp"
+#include "orca/base/text.hpp"
 #include "orca/plugin/describe.hpp"
 
 namespace orca::plugin {
@@ -29,12 +30,6 @@ constexpr Duration kTrialLimit = 5s;
 
 Error refuse(const std::string& path, const std::string& what) {
   return fail(Code::invalid_argument, what, path);
-}
-
-std::string joined(const std::vector<std::string>& faults) {
-  std::string all;
-  for (const std::string& fault : faults) all += (all.empty() ? "" : "; it ") + fault;
-  return all;
 }
 
 const Manifest* manifest_of(void* handle) {
@@ -68,7 +63,8 @@ struct Judgement {
 Result<Judgement> judge(const std::string& path, const std::string& file) {
   const Result<PluginFile> read = PluginFile::read(path);
   if (!read) return read.error();
-  if (const auto faults = read->faults(known_type); !faults.empty()) return refuse(path, joined(faults));
+  if (const auto faults = read->faults(known_type); !faults.empty())
+    return refuse(path, joined(faults, "; it "));
   const auto attempt = [&](const auto& step) { load_and_describe(file, step); };
   if (const Status survived = survives_trial(attempt, kTrialLimit); !survived.ok())
     return fail(survived.error().code, survived.error().message + ", when it was tried out", path);

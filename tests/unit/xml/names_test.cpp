@@ -39,9 +39,3 @@ TEST_CASE("a hint is a question, or nothing", "[xml][names]") {
   CHECK(did_you_mean("laser") == "; did you mean \"laser\"?");
   CHECK(did_you_mean(std::nullopt).empty());
 }
-
-TEST_CASE("a list of names for people stops at twenty", "[xml][names]") {
-  CHECK(listed(std::vector<std::string>{}) == "nothing");
-  CHECK(listed(std::vector<std::string>{"a", "b"}) == "a, b");
-  CHECK(listed(std::vector<std::string>(23, "x")).ends_with("x, x and 3 more"));
-}

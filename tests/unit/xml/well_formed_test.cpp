@@ -2,6 +2,7 @@
 // What is not well-formed, and the one line that says so.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -138,6 +139,21 @@ TEST_CASE("nesting, attributes, elements and size have limits that are named", "
   CHECK(errors_of(many + "</a>").find("error G121: there are more than 500000 elements") !=
         std::string::npos);
   CHECK(errors_of(std::string(Limits::kBytes + 1, ' ')).find("G103") != std::string::npos);
+}
+
+TEST_CASE("end tags that cross each other are one error, and hide no other", "[xml][reading]") {
+  const std::string crossed =
+      "f.xml:1:7: error G111: the end tag </a> does not fit: <b> from line 1, column 4 is open and needs "
+      "</b> first\n";
+  CHECK(errors_of("<a><b></a></b>") == crossed);
+  CHECK(errors_of("<r><b><c></b></c><d/></r>") ==
+        "f.xml:1:10: error G111: the end tag </b> does not fit: <c> from line 1, column 7 is open and needs "
+        "</c> "
+        "first\n");
+  const std::string twice = errors_of("<r><b><c></b></c></c></r>");
+  CHECK(std::count(twice.begin(), twice.end(), '\n') == 2);  // the second </c> closes nothing
+  const std::string after = errors_of("<r><b><c></b></c><d e=1/></r>");
+  CHECK(after.find("error G114") != std::string::npos);
 }
 
 TEST_CASE("a flood of errors ends", "[xml][reading]") {

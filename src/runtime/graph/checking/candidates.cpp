@@ -2,7 +2,7 @@
 #include "candidates.hpp"
 
 #include "endpoints.hpp"
-#include "orca/xml/names.hpp"
+#include "orca/base/text.hpp"
 #include "ports.hpp"
 #include "reading/codes.hpp"
 
@@ -21,7 +21,7 @@ std::optional<std::string> fitting_port(const CheckedComponent& candidate, const
   const std::string name = in_quotes(candidate.value.name);
   const std::string reason = fitting.empty()
                                  ? " has no port that fits; " + name + " has " + ports_of(*candidate.contract)
-                                 : " has several ports that fit, write one: " + xml::listed(fitting);
+                                 : " has several ports that fit, write one: " + listed(fitting);
   report.error(codes::kCandidate, place,
                title + " (" + described(wanted) + "): the candidate " + name + reason);
   return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<Node> candidate_connection(const CheckedComponent& component, cons
     if (!port) return std::nullopt;
     from = *port;
   }
-  Node connection{find_rule("connect"), place, {}, {}};
+  Node connection{graph_rules().find("connect"), place, {}, {}};
   connection.attributes["from"] = {from, place, true, place.file};
   connection.attributes["to"] = {component.value.name + "." + late.port, place, true, place.file};
   return connection;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "components.hpp"
 
-#include <limits>
+#include <cstdint>
+#include <string>
 
-#include "orca/xml/names.hpp"
+#include "orca/base/text.hpp"
 #include "ports.hpp"
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
@@ -15,15 +16,6 @@ namespace orca::graph {
 namespace {
 
 constexpr std::size_t kMostComponents = 10'000;
-
-ParamContract attribute_contract(ParamType type, const char* unit, double min, double max) {
-  ParamContract contract;
-  contract.type = type;
-  contract.unit = unit;
-  contract.min = min;
-  contract.max = max;
-  return contract;
-}
 
 // Reads one component; a new one for each.
 class ComponentReader {
@@ -91,7 +83,7 @@ class ComponentReader {
     if (model_.parts_missing && hint.empty()) return;
     report_.error(codes::kUnknownHardware, name.position,
                   node_.title() + ": there is no hardware " + in_quotes(name.value) +
-                      "; the graph has: " + xml::listed(names) + hint);
+                      "; the graph has: " + listed(names) + hint);
   }
 
   void check_hardware_wanted() {
@@ -105,39 +97,34 @@ class ComponentReader {
     report_.error(
         codes::kHardwareMissing, node_.position,
         node_.title() + ": " + checked_.contract->type +
-            " needs a hardware: add hardware=\"NAME\"; the graph has: " + xml::listed(model_.hardware_names));
+            " needs a hardware: add hardware=\"NAME\"; the graph has: " + listed(model_.hardware_names));
   }
 
-  std::optional<ParamValue> attribute(const char* name, const ParamContract& contract) {
+  // The value of an attribute, by its rule.
+  template <class T>
+  std::optional<T> attribute(const char* name) {
     const Text* text = node_.find(name);
     if (text == nullptr) return std::nullopt;
-    return read_value(*text, contract, node_.title() + ": " + name, report_);
+    const auto value =
+        read_value(*text, node_.rule->attribute(name)->value, node_.title() + ": " + name, report_);
+    return value ? std::optional(std::get<T>(*value)) : std::nullopt;
   }
 
   void read_scheduling() {
-    const auto priority = attribute("priority", attribute_contract(ParamType::integer, "", -100, 100));
-    if (priority) checked_.value.priority = static_cast<int>(std::get<std::int64_t>(*priority));
-    const auto autonomous = attribute("autonomous", attribute_contract(ParamType::boolean, "", 0, 0));
-    if (autonomous) checked_.value.autonomous = std::get<bool>(*autonomous);
+    if (const auto priority = attribute<std::int64_t>("priority"))
+      checked_.value.priority = static_cast<int>(*priority);
+    if (const auto autonomous = attribute<bool>("autonomous")) checked_.value.autonomous = *autonomous;
     checked_.value.start_after = split_names(node_.value("start_after"));
   }
 
-  std::string choice(const char* name, std::vector<std::string> choices) {
-    ParamContract contract = attribute_contract(ParamType::text, "", 0, 0);
-    contract.choices = std::move(choices);
-    const auto value = attribute(name, contract);
-    return value ? std::get<std::string>(*value) : contract.choices.front();
-  }
-
   void read_loading() {
-    constexpr double kDay = 86400.0;
     constexpr Duration kIdleTime = std::chrono::seconds(10);
-    checked_.value.on_demand = choice("start", {"at_once", "on_demand"}) == "on_demand";
-    const bool warm = choice("stay", {"cold", "warm"}) == "warm";
-    const auto idle_time = attribute("idle_time", attribute_contract(ParamType::real, "s", 0.0, kDay));
+    checked_.value.on_demand = attribute<std::string>("start") == "on_demand";
+    const bool warm = attribute<std::string>("stay") == "warm";
+    const auto idle_time = attribute<double>("idle_time");
     if (!checked_.value.on_demand) return check_never_unloaded();
     checked_.value.stay_warm = warm;
-    if (!warm) checked_.value.idle_time = idle_time ? from_seconds(std::get<double>(*idle_time)) : kIdleTime;
+    if (!warm) checked_.value.idle_time = idle_time ? from_seconds(*idle_time) : kIdleTime;
     if (checked_.value.autonomous.value_or(false))
       report_.error(codes::kLoading, node_.place("start"),
                     node_.title() +
@@ -158,10 +145,8 @@ class ComponentReader {
       return report_.error(codes::kTwoTriggers, node_.place("on"),
                            node_.title() + ": period and on exclude each other; one of them starts the laps");
     }
-    constexpr double kDay = 86400.0;
-    const auto period = attribute("period", attribute_contract(ParamType::real, "s", 1e-6, kDay));
-    if (period)
-      checked_.value.trigger = Trigger{Trigger::Kind::period, from_seconds(std::get<double>(*period)), {}};
+    if (const auto period = attribute<double>("period"))
+      checked_.value.trigger = Trigger{Trigger::Kind::period, from_seconds(*period), {}};
     const Text* on = node_.known("on");
     if (on == nullptr) return;
     checked_.value.trigger = Trigger{Trigger::Kind::on_port, {}, on->value};
@@ -169,18 +154,20 @@ class ComponentReader {
   }
 
   void check_trigger_port(const Text& on) {
+    const PortContract* const refused = checked_.refused_port(on.value);
+    const std::string& wanted = refused == nullptr ? on.value : refused->name;
     std::vector<std::string> inputs;
     for (const PortContract& port : checked_.contract->ports) {
       if (port.pattern != Pattern::push || port.role != Role::proxy) continue;
-      if (port.name == on.value) return;
+      if (port.name == wanted) return;
       inputs.push_back(port.name);
     }
-    const bool exists = checked_.contract->port(on.value) != nullptr;
+    const bool exists = checked_.contract->port(wanted) != nullptr;
     report_.error(codes::kTriggerPort, on.position,
                   node_.title() + ": on=" + in_quotes(on.value) +
                       (exists ? " is not a PushProxy, only what is pushed to a component can start its laps"
                               : " is not a port of it") +
-                      "; its PushProxies are: " + xml::listed(inputs) + report_.hint(on.value, inputs));
+                      "; its PushProxies are: " + listed(inputs) + report_.hint(on.value, inputs));
   }
 
   void read_content() {

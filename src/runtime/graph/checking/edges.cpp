@@ -4,6 +4,7 @@
 #include <array>
 
 #include "orca/base/layout.hpp"
+#include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
 #include "reading/codes.hpp"
 #include "reading/values.hpp"
@@ -50,6 +51,14 @@ std::optional<Misfit> misfit(const Endpoint& from, const Endpoint& to) {
   return type_misfit(*from.port->reply, *to.port->reply, "reply");
 }
 
+// Whether the ends fit if they are the ports that the graph could not give these names.
+bool may_be_meant_otherwise(Endpoint from, Endpoint to) {
+  if (from.perhaps == nullptr && to.perhaps == nullptr) return false;
+  if (from.perhaps != nullptr) from.port = from.perhaps;
+  if (to.perhaps != nullptr) to.port = to.perhaps;
+  return !misfit(from, to);
+}
+
 // Where an attribute of the policy has a meaning.
 struct PolicyAttribute {
   const char* name;
@@ -72,10 +81,10 @@ class PolicyReader {
     if (!check_pattern()) return false;
     bool good = read_depth();
     good = read_overflow() && good;
-    good = read_time("interval", 0.0, edge_.interval) && good;
-    good = read_time("deadline", 0.0, edge_.queue.deadline) && good;
+    good = read_time("interval", edge_.interval) && good;
+    good = read_time("deadline", edge_.queue.deadline) && good;
     good = check_deadline() && good;
-    return read_time("block_limit", 1e-6, edge_.queue.block_limit) && good;
+    return read_time("block_limit", edge_.queue.block_limit) && good;
   }
 
  private:
@@ -99,23 +108,18 @@ class PolicyReader {
       edge_.queue.overflow = QueuePolicy::Overflow::drop_oldest;
       return true;
     }
-    ParamContract contract;
-    contract.type = ParamType::integer;
-    contract.min = 1;
-    contract.max = 100'000;
     const char* const latest = edge_.pattern == Pattern::push ? "\"latest\" or " : "";
-    const auto depth =
-        read_value(*queue, contract, std::string("queue (") + latest + "a number of objects)", report_);
+    const auto depth = read_value(*queue, rule_of("queue"),
+                                  std::string("queue (") + latest + "a number of objects)", report_);
     if (depth) edge_.queue.depth = static_cast<std::uint32_t>(std::get<std::int64_t>(*depth));
     return depth.has_value();
   }
 
   bool read_overflow() {
     if (const Text* overflow = connection_.find("overflow")) {
-      ParamContract contract;
-      contract.type = ParamType::text;
-      for (const QueuePolicy::Overflow choice : choices()) contract.choices.emplace_back(to_string(choice));
-      const auto read = read_value(*overflow, contract, "overflow", report_);
+      std::vector<std::string_view> names;
+      for (const QueuePolicy::Overflow choice : choices()) names.emplace_back(to_string(choice));
+      const auto read = read_value(*overflow, xml::ValueRule{.choices = names}, "overflow", report_);
       if (!read) return false;
       for (const QueuePolicy::Overflow choice : choices())
         if (std::get<std::string>(*read) == to_string(choice)) edge_.queue.overflow = choice;
@@ -153,14 +157,14 @@ class PolicyReader {
                   "0 for none");
   }
 
-  bool read_time(const char* attribute, double min, Duration& time) {
+  [[nodiscard]] const xml::ValueRule& rule_of(const char* attribute) const {
+    return connection_.rule->attribute(attribute)->value;
+  }
+
+  bool read_time(const char* attribute, Duration& time) {
     const Text* text = connection_.find(attribute);
     if (text == nullptr) return true;
-    ParamContract contract;
-    contract.unit = "s";
-    contract.min = min;
-    contract.max = 86400.0;
-    const auto seconds = read_value(*text, contract, attribute, report_);
+    const auto seconds = read_value(*text, rule_of(attribute), attribute, report_);
     if (seconds) time = from_seconds(std::get<double>(*seconds));
     return seconds.has_value();
   }
@@ -186,6 +190,7 @@ std::optional<Edge> make_edge(const Node& connection, const Endpoint& from, cons
   if (edge.pattern != Pattern::push && edge.queue.overflow != QueuePolicy::Overflow::block)
     edge.queue.overflow = QueuePolicy::Overflow::refuse;
   const auto reason = misfit(from, to);
+  if (reason && may_be_meant_otherwise(from, to)) return std::nullopt;
   if (reason) {
     report.error(reason->code, connection.position,
                  "cannot connect " + described(from) + " to " + described(to) + ": " + reason->reason);

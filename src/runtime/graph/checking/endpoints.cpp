@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "endpoints.hpp"
 
+#include "orca/base/text.hpp"
 #include "orca/xml/names.hpp"
 #include "ports.hpp"
 #include "reading/codes.hpp"
@@ -40,7 +41,14 @@ bool report_changed_port(Endpoint& end, const CheckedComponent& component, const
 
 void find_port(Endpoint& end, const CheckedComponent& component, const xml::Position& place, Report& report) {
   const Contract& contract = *component.contract;
+  const PortContract* const refused = component.refused_port(end.ref.port);
   end.port = contract.port(end.ref.port);
+  if (end.port != nullptr) {
+    end.perhaps = refused;
+  } else if (refused != nullptr) {
+    end.ref.port = refused->name;
+    end.port = refused;
+  }
   if (end.port != nullptr || report_changed_port(end, component, place, report)) return;
   std::vector<std::string> names;
   for (const PortContract& port : contract.ports) names.push_back(port.name);

@@ -16,6 +16,8 @@ struct Endpoint {
   PortRef ref;  // as far as known
   const PortContract* port = nullptr;
   std::optional<std::string> guessed;  // the port of `ref.component` that was probably meant
+  // Another port that may be meant: the graph gives it the name of `port`, which it does not get.
+  const PortContract* perhaps = nullptr;
 };
 
 Endpoint resolve_endpoint(const Node& connection, const char* attribute, const Model& model, Report& report);

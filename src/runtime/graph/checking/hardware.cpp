@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hardware.hpp"
 
+#include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 #include "reading/node_name.hpp"
 #include "reading/parameters.hpp"
@@ -15,7 +16,7 @@ const xml::Position& place_of(const Node& node, const std::string& param) {
   return node.position;
 }
 
-void tell(const Node& node, const HardwareFault& fault, Report& report) {
+void report_fault(const Node& node, const HardwareFault& fault, Report& report) {
   if (fault.param.empty()) {
     report.line(node.position, fault.text);
   } else {
@@ -35,7 +36,7 @@ CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   checked.value.params = std::move(*params);
   const HardwareUse use{checked.value.name, checked.value.type, checked.value.params};
   const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use);
-  for (const HardwareFault& fault : faults) tell(node, fault, report);
+  for (const HardwareFault& fault : faults) report_fault(node, fault, report);
   checked.sound = faults.empty();
   return checked;
 }

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "orca/xml/names.hpp"
+#include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 
 namespace orca::graph {
@@ -42,7 +42,7 @@ class Influence {
     std::vector<std::string> unused;
     for (const PortContract& port : component.contract->ports)
       if (is_output(port)) unused.push_back(port.name);
-    if (!unused.empty()) warn(component, "nobody listens to what it pushes: " + xml::listed(unused));
+    if (!unused.empty()) warn(component, "nobody listens to what it pushes: " + listed(unused));
   }
 
   [[nodiscard]] bool works_by_itself(const ComponentNode& node) const {

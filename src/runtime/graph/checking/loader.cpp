@@ -10,8 +10,8 @@
 #include "orca/xml/document.hpp"
 #include "order.hpp"
 #include "reading/assembly.hpp"
+#include "reading/merging/profiles.hpp"
 #include "reading/naming.hpp"
-#include "reading/profiles.hpp"
 #include "reading/values.hpp"
 #include "types.hpp"
 #include "wiring.hpp"
@@ -22,10 +22,7 @@ namespace {
 std::optional<std::uint64_t> read_seed(const Node& graph, Report& report) {
   const Text* seed = graph.find("seed");
   if (seed == nullptr) return std::nullopt;
-  ParamContract contract;
-  contract.type = ParamType::integer;
-  contract.min = 0;
-  const auto value = read_value(*seed, contract, "seed", report);
+  const auto value = read_value(*seed, graph.rule->attribute("seed")->value, "seed", report);
   if (!value) return std::nullopt;
   return static_cast<std::uint64_t>(std::get<std::int64_t>(*value));
 }
@@ -46,7 +43,7 @@ Graph read_root(const Node& root, Report& report) {
   return graph;
 }
 
-// Late-bound edges come from the candidates of ports; the ports remember them, so that print() can tell them.
+// Late-bound edges come from the candidates of ports. The ports remember them, for print() to write.
 void note_candidates(Model& model, const std::vector<Edge>& edges) {
   for (const Edge& edge : edges) {
     if (!edge.late_bound) continue;

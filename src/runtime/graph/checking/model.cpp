@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "model.hpp"
 
-#include "orca/xml/names.hpp"
+#include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 
 namespace orca::graph {
@@ -14,7 +14,7 @@ bool check_component_exists(const std::string& name, const xml::Position& place,
   if (model.names_incomplete && hint.empty()) return false;
   report.error(codes::kUnknownComponent, place,
                title + ": there is no component " + in_quotes(name) +
-                   (hint.empty() ? "; the graph has: " + xml::listed(model.component_names) : hint));
+                   (hint.empty() ? "; the graph has: " + listed(model.component_names) : hint));
   return false;
 }
 

@@ -38,7 +38,17 @@ struct CheckedComponent {
   bool duplicate = false;
   std::map<std::string, xml::Position> disabled;  // ports, and where that is said
   std::map<std::string, Renaming> renamed;        // by the name that the author gave
+  // Ports by a name that the graph gives them and that they do not get, which is reported.
+  std::map<std::string, std::string> refused_names;
+  // Ports of which the graph says wrongly, as is reported, that nothing is connected to them.
+  std::set<std::string> wrongly_disabled;
   std::vector<LateBinding> late;
+
+  // The port that was to get `name` and did not, or null.
+  [[nodiscard]] const PortContract* refused_port(const std::string& name) const {
+    const auto found = refused_names.find(name);
+    return found == refused_names.end() ? nullptr : contract->port(found->second);
+  }
 };
 
 // What the checks know about the graph so far. Nodes stay in the order of the file.

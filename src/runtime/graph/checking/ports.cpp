@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "endpoints.hpp"
-#include "orca/xml/names.hpp"
+#include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
 #include "reading/values.hpp"
@@ -45,6 +45,9 @@ class PortReader {
     });
     for (PortContract& port : contract.ports) {
       const auto renaming = checked_.renamed.find(port.name);
+      if (std::ranges::find(wrongly_disabled_, port.name) != wrongly_disabled_.end())
+        checked_.wrongly_disabled.insert(renaming == checked_.renamed.end() ? port.name
+                                                                            : renaming->second.name);
       if (renaming != checked_.renamed.end()) port.name = renaming->second.name;
     }
   }
@@ -64,14 +67,14 @@ class PortReader {
 
   bool read_disabled(const Node& node, const PortContract& port) {
     const Text* disabled = node.find("disabled");
-    ParamContract contract;
-    contract.type = ParamType::boolean;
-    const auto value =
-        disabled == nullptr ? std::nullopt : read_value(*disabled, contract, title_ + ": disabled", report_);
+    const auto value = disabled == nullptr ? std::nullopt
+                                           : read_value(*disabled, node.rule->attribute("disabled")->value,
+                                                        title_ + ": disabled", report_);
     if (!value || !std::get<bool>(*value)) return false;
     if (!port.required) return true;
     report_.error(codes::kPortNeeded, disabled->position,
                   title_ + " (" + described(port) + ") must be connected, so it cannot be disabled");
+    wrongly_disabled_.push_back(port.name);
     return false;
   }
 
@@ -84,19 +87,24 @@ class PortReader {
     if (fault) {
       report_.error(codes::kBadName, alias->position,
                     title_ + ": as: the name " + in_quotes(alias->value) + ": " + *fault);
-      return {};
+      return refuse_alias(*alias, port);
     }
     if (is_taken(alias->value)) {
       report_.error(
           codes::kDuplicateName, alias->position,
           title_ + ": as: " + component_.title() + " has a port " + in_quotes(alias->value) + " already");
-      return {};
+      return refuse_alias(*alias, port);
     }
     checked_.renamed[port.name] = {alias->value, node.position};
     return alias->value;
   }
 
-  // Not even a name that is given up is free: the error about its use must be able to tell the new one.
+  std::string refuse_alias(const Text& alias, const PortContract& port) {
+    checked_.refused_names.emplace(alias.value, port.name);
+    return {};
+  }
+
+  // Not even a name that is given up is free: an error about its use must be able to name the new one.
   bool is_taken(const std::string& name) const {
     const auto has_it = [&](const auto& entry) { return entry.second.name == name; };
     return checked_.contract->port(name) != nullptr || std::ranges::any_of(checked_.renamed, has_it);
@@ -117,6 +125,7 @@ class PortReader {
   Report& report_;
   std::string title_;
   std::vector<std::string> disabled_;
+  std::vector<std::string> wrongly_disabled_;
 };
 
 }  // namespace
@@ -135,8 +144,8 @@ std::string ports_of(const Contract& contract) {
   for (const PortContract& port : contract.ports) (is_from_end(port) ? out : in).push_back(port.name);
   if (in.empty() && out.empty()) return "no ports";
   std::string result;
-  if (!in.empty()) result = "in: " + xml::listed(in);
-  if (!out.empty()) result += (result.empty() ? "out: " : "; out: ") + xml::listed(out);
+  if (!in.empty()) result = "in: " + listed(in);
+  if (!out.empty()) result += (result.empty() ? "out: " : "; out: ") + listed(out);
   return result;
 }
 

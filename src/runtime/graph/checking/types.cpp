@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "types.hpp"
 
-#include "orca/xml/names.hpp"
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
 

@@ -9,7 +9,7 @@
 #include "candidates.hpp"
 #include "edges.hpp"
 #include "endpoints.hpp"
-#include "orca/xml/names.hpp"
+#include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
 
@@ -74,6 +74,7 @@ class Wiring {
   void touch(const Endpoint& end, const Endpoint& other) {
     if (end.port != nullptr) touched_.insert(end.ref);
     if (end.guessed) touched_.insert({end.ref.component, *end.guessed});
+    if (end.perhaps != nullptr) touched_.insert({end.ref.component, end.perhaps->name});
     const bool lost = end.port == nullptr && !end.guessed;
     if (lost && other.port != nullptr) loose_.push_back({other.port, known_component(end.ref.component)});
   }
@@ -107,7 +108,9 @@ class Wiring {
 
   void check_connected(const CheckedComponent& component, const PortContract& port) {
     const PortRef ref{component.value.name, port.name};
-    if (touched_.contains(ref) || explained_by_loose_end(ref, port)) return;
+    if (touched_.contains(ref) || component.wrongly_disabled.contains(port.name) ||
+        explained_by_loose_end(ref, port))
+      return;
     report_.error(codes::kUnconnected, component.value.position,
                   "component " + in_quotes(ref.component) + ": port " + in_quotes(port.name) + " (" +
                       described(port) + ") must be connected; " + offers(port));
@@ -142,7 +145,7 @@ class Wiring {
     const Role other = wanted.role == Role::proxy ? Role::server : Role::proxy;
     const auto found = offers_.find(Plug{wanted.pattern, other, wanted.type.name, wanted.type.hash});
     if (found == offers_.end()) return "no component of the graph offers it";
-    return "it is offered by: " + xml::listed(found->second);
+    return "it is offered by: " + listed(found->second);
   }
 
   const Model& model_;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "arguments.hpp"
 
+#include <set>
+
 #include "codes.hpp"
 #include "naming.hpp"
+#include "orca/base/text.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::graph {
@@ -44,7 +47,7 @@ void Arguments::declare(const Node& arg) {
     report_.error(codes::kBadName, name->position, arg.title() + ": " + *fault);
   }
   if (arguments_.contains(name->value)) return report_duplicate(name->value, arg);
-  arguments_[name->value] = {value_of(name->value, arg), arg.position};
+  arguments_[name->value] = read(name->value, arg);
   names_.push_back(name->value);
 }
 
@@ -53,24 +56,24 @@ void Arguments::report_duplicate(const std::string& name, const Node& arg) {
                 arg.title() + " is declared already at " + arguments_.at(name).position.text());
 }
 
-Text Arguments::value_of(const std::string& name, const Node& arg) {
+Arguments::Argument Arguments::read(const std::string& name, const Node& arg) {
   const auto setting = settings_.find(name);
   if (setting != settings_.end()) {
     setting->second.used = true;
-    return setting->second.value;
+    return {setting->second.value, arg.position};
   }
-  if (const Text* default_value = arg.find("default")) return *default_value;
-  report_without_value(name, arg);
-  return {"", arg.position, false, arg.position.file};
+  if (const Text* default_value = arg.find("default")) return {*default_value, arg.position};
+  return {{"", arg.position, false, arg.position.file}, arg.position, true};
 }
 
-void Arguments::report_without_value(const std::string& name, const Node& arg) {
+void Arguments::report_without_value(const std::string& name, const Argument& argument) {
+  const std::string title = "arg " + in_quotes(name);
   if (bringer_ == nullptr) {
-    return report_.error(codes::kArgumentWithoutValue, arg.position,
-                         arg.title() + " has no default and is not set: add --set " + name + "=VALUE");
+    return report_.error(codes::kArgumentWithoutValue, argument.position,
+                         title + " has no default and is not set: add --set " + name + "=VALUE");
   }
   report_.error(codes::kArgumentWithoutValue, bringer_->position,
-                arg.title() + " of " + arg.position.file + " has no default and is not set: add <arg name=" +
+                title + " of " + argument.position.file + " has no default and is not set: add <arg name=" +
                     in_quotes(name) + " value=\"...\"/> to this <" + std::string(bringer_->rule->name) + ">");
 }
 
@@ -124,23 +127,29 @@ void Arguments::report_undefined(const std::string& name, const Text& text) {
   if (near) arguments_.at(*near).used = true;  // to call it unused would be a second error for one cause
   report_.error(
       codes::kUndefinedArgument, text.position,
-      "${" + name + "} is not defined; there is <arg> for: " + xml::listed(names_) + xml::did_you_mean(near));
+      "${" + name + "} is not defined; there is <arg> for: " + listed(names_) + xml::did_you_mean(near));
 }
 
-void Arguments::report_no_such_argument(const std::string& name, const Setting& setting) {
+std::optional<std::string> Arguments::report_no_such_argument(const std::string& name,
+                                                              const Setting& setting) {
   const bool from_line = bringer_ == nullptr;
   const std::string what = from_line ? "--set " + name : "arg " + in_quotes(name);
   const std::string whose =
       from_line ? "the graph" : "the file that this <" + std::string(bringer_->rule->name) + "> names";
-  report_.error(codes::kBadSetting, setting.position,
-                what + ": " + whose + " has no such argument; it has: " + xml::listed(names_) +
-                    report_.hint(name, names_));
+  const auto near = report_.nearest(name, names_);
+  report_.error(
+      codes::kBadSetting, setting.position,
+      what + ": " + whose + " has no such argument; it has: " + listed(names_) + xml::did_you_mean(near));
+  return near;
 }
 
 void Arguments::check_use() {
+  std::set<std::string> meant;  // to miss the value of these would be a second error for one cause
   for (const auto& [name, setting] : settings_)
-    if (!setting.used) report_no_such_argument(name, setting);
+    if (!setting.used)
+      if (const auto argument = report_no_such_argument(name, setting)) meant.insert(*argument);
   for (const auto& [name, argument] : arguments_) {
+    if (argument.without_value && !meant.contains(name)) report_without_value(name, argument);
     if (!argument.used) {
       report_.warning(codes::kUnusedArgument, argument.position,
                       "arg " + in_quotes(name) + " is used nowhere");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,7 @@ class Arguments {
   struct Argument {
     Text value;
     xml::Position position;
+    bool without_value = false;  // it has no default and is not set
     bool used = false;
   };
   struct Setting {
@@ -44,9 +46,10 @@ class Arguments {
   };
 
   void report_duplicate(const std::string& name, const Node& arg);
-  void report_without_value(const std::string& name, const Node& arg);
-  void report_no_such_argument(const std::string& name, const Setting& setting);
-  Text value_of(const std::string& name, const Node& arg);
+  void report_without_value(const std::string& name, const Argument& argument);
+  // Returns the argument that the setting was meant for.
+  std::optional<std::string> report_no_such_argument(const std::string& name, const Setting& setting);
+  Argument read(const std::string& name, const Node& arg);
   // Replaces what stands at the '$' that `rest` starts with, and takes it off.
   void replace_one(std::string_view& rest, Text& text);
   void append(const std::string& name, Text& text);

@@ -10,6 +10,7 @@
 #include "files.hpp"
 #include "naming.hpp"
 #include "node_name.hpp"
+#include "orca/base/text.hpp"
 #include "prefix.hpp"
 #include "structure.hpp"
 #include "values.hpp"
@@ -67,7 +68,7 @@ class Assembler {
     if (document == nullptr || (use && prefix == nullptr)) return leave_out();
     const std::string context = use && !prefix->value.empty() ? prefix->value + "/" : "";
     if (use && name_fault(prefix->value)) report_.tolerate(context);
-    result_.origins.push_back({node.position, origin_});
+    result_.origins.push_back({node.position, origin_, node.rule});
     const Origin* const outer = std::exchange(origin_, &result_.origins.back());
     chain_.push_back(document->root.position().file);
     std::vector<Node> brought = content(*document, node, context);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "node.hpp"
 
+#include "orca/base/text.hpp"
 #include "report.hpp"
 
 namespace orca::graph {

@@ -23,6 +23,7 @@ struct Text {
 struct Origin {
   xml::Position position;
   const Origin* parent = nullptr;
+  const xml::ElementRule* bringer = nullptr;  // the rule of that element
 
   // "main.xml:4:3", then what that was included by: "b.xml:2:3, included at main.xml:4:3".
   [[nodiscard]] std::string text() const;
@@ -30,11 +31,12 @@ struct Origin {
 
 // An element whose name and attributes follow the rules; slips that could be guessed are put right already.
 struct Node {
-  const ElementRule* rule = nullptr;
+  const xml::ElementRule* rule = nullptr;
   xml::Position position;
   std::map<std::string, Text, std::less<>> attributes;
   std::vector<Node> children;
-  bool duplicate = false;          // its name is taken; it is checked, but never found by name
+  // Its name is taken: the node is checked, but never found by name.
+  bool duplicate = false;
   const Origin* origin = nullptr;  // null: the file on the command line
 
   [[nodiscard]] bool is(std::string_view element) const { return rule->name == element; }

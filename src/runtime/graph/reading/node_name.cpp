@@ -5,6 +5,7 @@
 
 #include "codes.hpp"
 #include "naming.hpp"
+#include "orca/base/text.hpp"
 
 namespace orca::graph {
 

@@ -2,7 +2,7 @@
 #include "parameters.hpp"
 
 #include "codes.hpp"
-#include "orca/xml/names.hpp"
+#include "orca/base/text.hpp"
 #include "values.hpp"
 
 namespace orca::graph {
@@ -14,7 +14,7 @@ void report_unknown(const Node& node, const Node& param, const Contract& contrac
   const std::string name = param.value("name");
   report.error(codes::kUnknownParameter, param.place("name"),
                node.title() + ": there is no parameter " + in_quotes(name) + "; " + contract.type +
-                   " has: " + xml::listed(names) + report.hint(name, names));
+                   " has: " + listed(names) + report.hint(name, names));
 }
 
 // False if the parameter cannot be used.

@@ -33,34 +33,24 @@ bool Report::told_already(const char* code, const xml::Position& position, const
 
 void Report::error(const char* code, const xml::Position& position, std::string message) {
   if (told_already(code, position, message)) return;
-  out_.error(code, position, std::move(message));
+  Reporter::error(code, position, std::move(message));
 }
 
 void Report::warning(const char* code, const xml::Position& position, std::string message) {
   if (told_already(code, position, message)) return;
   if (strict_) {
     ++strict_warnings_;
-    return out_.error(code, position, std::move(message));
+    return diagnostics().error(code, position, std::move(message));
   }
-  out_.warning(code, position, std::move(message));
+  diagnostics().warning(code, position, std::move(message));
 }
 
 void Report::line(const xml::Position& position, std::string finished_line) {
-  if (told_.insert(finished_line).second) out_.line(position, std::move(finished_line));
-}
-
-std::optional<std::string> Report::nearest(std::string_view word, std::span<const std::string> candidates) {
-  if (hints_left_ == 0) return std::nullopt;
-  --hints_left_;
-  return xml::nearest_name(word, candidates);
-}
-
-std::string Report::hint(std::string_view word, std::span<const std::string> candidates) {
-  return xml::did_you_mean(nearest(word, candidates));
+  if (told_.insert(finished_line).second) diagnostics().line(position, std::move(finished_line));
 }
 
 std::string Report::hint_in_contexts(std::string_view name, std::span<const std::string> candidates) {
-  if (hints_left_ == 0) return {};
+  if (!has_hints()) return {};
   if (const auto near = nearest(name, candidates)) return xml::did_you_mean(near);
   const std::string ending = "/" + std::string(name);
   const auto fits = [&](const std::string& candidate) { return candidate.ends_with(ending); };

@@ -1,21 +1,33 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "rules.hpp"
 
-#include <algorithm>
 #include <array>
 
-#include "orca/xml/names.hpp"
+#include "codes.hpp"
 
 namespace orca::graph {
 namespace {
 
-using Support = ElementRule::Support;
-using Attributes = std::span<const AttributeRule>;
+using xml::AttributeRule;
+using xml::ElementRule;
+using xml::ValueRule;
 
 constexpr std::array<std::string_view, 2> kYesNo{"true", "false"};
 constexpr std::array<std::string_view, 2> kStart{"at_once", "on_demand"};
 constexpr std::array<std::string_view, 2> kStay{"cold", "warm"};
 constexpr std::array<std::string_view, 4> kOverflow{"drop_oldest", "drop_newest", "block", "refuse"};
+
+constexpr double kDay = 86400.0;
+constexpr double kMicrosecond = 1e-6;
+
+constexpr ValueRule kBoolean{.form = ValueRule::Form::boolean, .choices = kYesNo};
+constexpr ValueRule one_of(std::span<const std::string_view> choices) { return {.choices = choices}; }
+constexpr ValueRule integer(double min, double max) {
+  return {.form = ValueRule::Form::integer, .min = min, .max = max};
+}
+constexpr ValueRule seconds(double min) {
+  return {.form = ValueRule::Form::number, .unit = "s", .min = min, .max = kDay};
+}
 
 constexpr std::array kGraph{
     AttributeRule{"name", true, "Name of the system."},
@@ -23,7 +35,8 @@ constexpr std::array kGraph{
     AttributeRule{"ends", false, "Components: the run ends when they are done, or one of them has failed."},
     AttributeRule{"default_profile", false, "The profile that is taken unless --profile names others."},
     AttributeRule{"plugins", false, "More folders with plugins, separated by ';'."},
-    AttributeRule{"seed", false, "Of all random numbers, unless --seed gives one."}};
+    AttributeRule{"seed", false, "Of all random numbers, unless --seed gives one.",
+                  integer(0, ValueRule::kUnlimited)}};
 constexpr std::array kArg{
     AttributeRule{"name", true, "Used as ${name} in the values of this file."},
     AttributeRule{"default", false, "Its value unless it is set; without one it must be set."},
@@ -38,30 +51,35 @@ constexpr std::array kComponent{
     AttributeRule{"hardware", false, "The hardware that it wraps."},
     AttributeRule{"process", false, "The process that it lives in."},
     AttributeRule{"priority", false,
-                  "-100 to 100: of components that are ready together the higher goes first."},
-    AttributeRule{"autonomous", false, "Whether it works without clients.", kYesNo},
-    AttributeRule{"period", false, "A lap each such time, for example 50 ms."},
+                  "-100 to 100: of components that are ready together the higher goes first.",
+                  integer(-100, 100)},
+    AttributeRule{"autonomous", false, "Whether it works without clients.", kBoolean},
+    AttributeRule{"period", false, "A lap each such time, for example 50 ms.", seconds(kMicrosecond)},
     AttributeRule{"on", false, "A lap for each object that comes to this PushProxy."},
     AttributeRule{"start_after", false, "Components that must be up before."},
     AttributeRule{"start", false, "When its plugin is loaded: on_demand is when it is first asked for.",
-                  kStart},
-    AttributeRule{"stay", false, "Whether it stays loaded when nobody uses it any more.", kStay},
-    AttributeRule{"idle_time", false, "So long unused it is unloaded."}};
+                  one_of(kStart)},
+    AttributeRule{"stay", false, "Whether it stays loaded when nobody uses it any more.", one_of(kStay)},
+    AttributeRule{"idle_time", false, "So long unused it is unloaded.", seconds(0.0)}};
 constexpr std::array kParam{AttributeRule{"name", true, ""},
                             AttributeRule{"value", true, "With a unit (0.5 m, 22.5 deg), or bare in SI."}};
 constexpr std::array kConnect{
     AttributeRule{"from", true, "component.port: a PushServer, QueryProxy or SendProxy."},
     AttributeRule{"to", true, "component.port: a PushProxy, QueryServer or SendServer."},
-    AttributeRule{"queue", false, "How many objects wait: latest, or a number."},
-    AttributeRule{"overflow", false, "What happens when the queue is full.", kOverflow},
+    AttributeRule{"queue", false, "How many objects wait: latest, or a number.", integer(1, 100'000)},
+    AttributeRule{"overflow", false, "What happens when the queue is full.", one_of(kOverflow)},
     AttributeRule{"block_limit", false,
-                  "So long at most the publisher waits for room, with overflow=\"block\"."},
-    AttributeRule{"deadline", false, "Without an object for so long the edge counts a missed deadline."},
-    AttributeRule{"interval", false, "Deliver at most one object in such a time, for example 1 s."}};
+                  "So long at most the publisher waits for room, with overflow=\"block\".",
+                  seconds(kMicrosecond)},
+    AttributeRule{"deadline", false, "Without an object for so long the edge counts a missed deadline.",
+                  seconds(0.0)},
+    AttributeRule{"interval", false, "Deliver at most one object in such a time, for example 1 s.",
+                  seconds(0.0)}};
 constexpr std::array kPort{
     AttributeRule{"name", true, "As its author calls it."},
     AttributeRule{"as", false, "As this graph calls it, everywhere."},
-    AttributeRule{"disabled", false, "Whether nothing may be connected to it; optional ports only.", kYesNo},
+    AttributeRule{"disabled", false, "Whether nothing may be connected to it; optional ports only.",
+                  kBoolean},
     AttributeRule{
         "candidates", false,
         "Components or component.ports that a port array may be connected to at run time, by name."}};
@@ -69,82 +87,90 @@ constexpr std::array kInclude{AttributeRule{"file", true, "Path from the folder 
 constexpr std::array kUse{AttributeRule{"graph", true, "Path from the folder of this file."},
                           AttributeRule{"prefix", true, "The context that its names get here."}};
 
-constexpr std::array<std::string_view, 9> kInGraph{"arg",     "profile", "hardware", "component", "connect",
-                                                   "include", "use",     "machine",  "process"};
-constexpr std::array<std::string_view, 7> kInProfile{"hardware", "component", "connect", "include",
-                                                     "use",      "machine",   "process"};
-constexpr std::array<std::string_view, 1> kInHardware{"param"};
-constexpr std::array<std::string_view, 3> kInComponent{"param", "property", "port"};
-constexpr std::array<std::string_view, 1> kInBringer{"arg"};
+constexpr std::array<std::string_view, 2> kEnds{"from", "to"};
+// How editors find graphs/orca-graph.xsd.
+constexpr std::array<std::string_view, 2> kSchema{"xmlns:xsi", "xsi:noNamespaceSchemaLocation"};
 
-constexpr std::array kRules{
-    ElementRule{"graph", kGraph, kInGraph, "A robot system."},
-    ElementRule{"arg", kArg, {}, "A value that whoever starts or includes the graph may set."},
-    ElementRule{"profile", kProfile, kInProfile,
-                "Parts that are added or override others when it is chosen."},
-    ElementRule{"hardware", kHardware, kInHardware, "A device, or the simulator in its place."},
-    ElementRule{"component", kComponent, kInComponent, "One peer of the system."},
-    ElementRule{"param", kParam, {}, "A parameter's value; deployer --describe PLUGIN.so lists them."},
-    ElementRule{"property", kParam, {}, "Something that the component says of itself, to be found by."},
-    ElementRule{"connect", kConnect, {}, "A connection between two ports."},
-    ElementRule{"machine", Attributes{}, kInProfile, "", Support::transparent},
-    ElementRule{"process", Attributes{}, kInProfile, "", Support::transparent},
-    ElementRule{"port", kPort, {}, "What is different about a port of the component in this system."},
-    ElementRule{"include", kInclude, kInBringer, "Another graph file, as if it stood here."},
-    ElementRule{"use", kUse, kInBringer,
-                "Another graph file as a sub-graph: its names get a context of their own."},
-};
-constexpr ElementRule kGivenArg{"arg", kParam, {}, "Sets an argument of the file that is brought in."};
+// These contain each other.
+extern const ElementRule kMachineRule;
+extern const ElementRule kProcessRule;
+
+constexpr ElementRule kArgRule{
+    .name = "arg", .attributes = kArg, .text = "A value that whoever starts or includes the graph may set."};
+constexpr ElementRule kGivenArgRule{
+    .name = "arg", .attributes = kParam, .text = "Sets an argument of the file that is brought in."};
+constexpr ElementRule kParamRule{.name = "param",
+                                 .attributes = kParam,
+                                 .text = "A parameter's value; deployer --describe PLUGIN.so lists them."};
+constexpr ElementRule kPropertyRule{.name = "property",
+                                    .attributes = kParam,
+                                    .text = "Something that the component says of itself, to be found by."};
+constexpr ElementRule kPortRule{.name = "port",
+                                .attributes = kPort,
+                                .text = "What is different about a port of the component in this system."};
+constexpr ElementRule kConnectRule{
+    .name = "connect", .attributes = kConnect, .text = "A connection between two ports.", .telling = kEnds};
+
+constexpr std::array kInHardware{&kParamRule};
+constexpr ElementRule kHardwareRule{.name = "hardware",
+                                    .attributes = kHardware,
+                                    .children = kInHardware,
+                                    .text = "A device, or the simulator in its place."};
+constexpr std::array kInComponent{&kParamRule, &kPropertyRule, &kPortRule};
+constexpr ElementRule kComponentRule{.name = "component",
+                                     .attributes = kComponent,
+                                     .children = kInComponent,
+                                     .text = "One peer of the system."};
+constexpr std::array kInBringer{&kGivenArgRule};
+constexpr ElementRule kIncludeRule{.name = "include",
+                                   .attributes = kInclude,
+                                   .children = kInBringer,
+                                   .text = "Another graph file, as if it stood here."};
+constexpr ElementRule kUseRule{
+    .name = "use",
+    .attributes = kUse,
+    .children = kInBringer,
+    .text = "Another graph file as a sub-graph: its names get a context of their own."};
+
+constexpr std::array kInProfile{&kHardwareRule, &kComponentRule, &kConnectRule, &kIncludeRule,
+                                &kUseRule,      &kMachineRule,   &kProcessRule};
+constexpr ElementRule kProfileRule{.name = "profile",
+                                   .attributes = kProfile,
+                                   .children = kInProfile,
+                                   .text = "Parts that are added or override others when it is chosen."};
+constexpr ElementRule kMachineRule{.name = "machine", .children = kInProfile, .planned = true};
+constexpr ElementRule kProcessRule{.name = "process", .children = kInProfile, .planned = true};
+
+constexpr std::array kInGraph{&kArgRule,     &kProfileRule, &kHardwareRule, &kComponentRule, &kConnectRule,
+                              &kIncludeRule, &kUseRule,     &kMachineRule,  &kProcessRule};
+constexpr ElementRule kGraphRule{.name = "graph",
+                                 .attributes = kGraph,
+                                 .children = kInGraph,
+                                 .text = "A robot system.",
+                                 .foreign = kSchema};
+
+constexpr std::array kElements{&kGraphRule, &kArgRule,      &kProfileRule, &kHardwareRule, &kComponentRule,
+                               &kParamRule, &kPropertyRule, &kConnectRule, &kMachineRule,  &kProcessRule,
+                               &kPortRule,  &kIncludeRule,  &kUseRule};
+
+constexpr xml::FileRules kFile{"a graph",
+                               kElements,
+                               {.unknown_element = codes::kUnknownElement,
+                                .misplaced_element = codes::kMisplacedElement,
+                                .unknown_attribute = codes::kUnknownAttribute,
+                                .missing_attribute = codes::kMissingAttribute,
+                                .stray_text = codes::kStrayText,
+                                .bad_value = codes::kBadValue,
+                                .wrong_unit = codes::kUnit,
+                                .out_of_range = codes::kRange,
+                                .unknown_choice = codes::kChoice}};
 
 }  // namespace
 
-const AttributeRule* ElementRule::attribute(std::string_view wanted) const {
-  const auto found = std::ranges::find(attributes, wanted, &AttributeRule::name);
-  return found == attributes.end() ? nullptr : &*found;
-}
-
-bool ElementRule::allows(std::string_view child) const {
-  return std::ranges::find(children, child) != children.end();
-}
-
-const ElementRule* ElementRule::child(std::string_view element) const {
-  return brings_file(*this) ? &kGivenArg : find_rule(element);
-}
-
-const ElementRule* ElementRule::guess_child(const xml::Element& element) const {
-  if (allows(element.name())) return child(element.name());
-  if (find_rule(element.name()) != nullptr) return nullptr;
-  if (const auto near = xml::nearest_name(element.name(), child_names())) return child(*near);
-  const bool has_ends = element.attribute("from") != nullptr && element.attribute("to") != nullptr;
-  return has_ends && allows("connect") ? find_rule("connect") : nullptr;
-}
-
-std::vector<std::string> ElementRule::attribute_names() const {
-  std::vector<std::string> names;
-  for (const AttributeRule& rule : attributes) names.emplace_back(rule.name);
-  return names;
-}
-
-std::vector<std::string> ElementRule::child_names() const { return {children.begin(), children.end()}; }
+const xml::FileRules& graph_rules() { return kFile; }
 
 bool brings_file(const ElementRule& rule) { return rule.name == "include" || rule.name == "use"; }
 
 const char* file_attribute(const ElementRule& rule) { return rule.name == "use" ? "graph" : "file"; }
-
-std::span<const ElementRule> all_rules() { return kRules; }
-
-const ElementRule* find_rule(std::string_view element) {
-  const auto found = std::ranges::find(kRules, element, &ElementRule::name);
-  return found == kRules.end() ? nullptr : &*found;
-}
-
-std::string parents_of(std::string_view child) {
-  std::string result;
-  for (const ElementRule& rule : kRules) {
-    if (!rule.allows(child) || rule.support != Support::full) continue;
-    result += (result.empty() ? "<" : " or <") + std::string(rule.name) + ">";
-  }
-  return result;
-}
 
 }  // namespace orca::graph

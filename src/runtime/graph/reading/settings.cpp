@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "codes.hpp"
-#include "orca/xml/names.hpp"
+#include "orca/base/text.hpp"
 #include "report.hpp"
 #include "values.hpp"
 
@@ -22,7 +22,7 @@ Result<Params> read_settings(const std::vector<ParamContract>& contracts,
     const std::string title = "parameter " + in_quotes(name);
     if (declared == contracts.end()) {
       report.error(codes::kUnknownParameter, {},
-                   "there is no " + title + "; there are: " + xml::listed(names) + report.hint(name, names));
+                   "there is no " + title + "; there are: " + listed(names) + report.hint(name, names));
     } else if (declared->fixed) {
       report.line({},
                   title + " cannot change while the component runs; change it in the graph and start anew");

@@ -6,96 +6,81 @@
 
 #include "codes.hpp"
 #include "naming.hpp"
-#include "orca/xml/names.hpp"
-#include "orca/xml/number.hpp"
-#include "orca/xml/quantity.hpp"
+#include "orca/base/text.hpp"
+#include "orca/xml/values.hpp"
+#include "rules.hpp"
 
 namespace orca::graph {
 namespace {
 
-// "0.05 to 5 m is allowed", or nothing if everything is.
-std::string limit_text(const ParamContract& contract) {
-  const std::string unit = contract.unit.empty() ? "" : " " + contract.unit;
-  const std::string min = contract.min ? xml::number_text(*contract.min) : "";
-  const std::string max = contract.max ? xml::number_text(*contract.max) : "";
-  if (contract.min && contract.max) return min + " to " + max + unit + " is allowed";
-  if (contract.min) return "at least " + min + unit + " is allowed";
-  return contract.max ? "at most " + max + unit + " is allowed" : "";
+xml::ValueRule rule_of(const ParamContract& contract, xml::ValueRule::Form form) {
+  constexpr double kUnlimited = xml::ValueRule::kUnlimited;
+  return {.form = form,
+          .unit = contract.unit,
+          .min = contract.min.value_or(-kUnlimited),
+          .max = contract.max.value_or(kUnlimited)};
 }
 
 class Converter {
  public:
-  Converter(const Text& text, const ParamContract& contract, const std::string& title, Report& report)
-      : text_(text), contract_(contract), title_(title), report_(report) {}
+  Converter(const Text& text, const std::string& title, Report& report)
+      : text_(text), title_(title), report_(report) {}
 
-  std::optional<ParamValue> convert() {
-    switch (contract_.type) {
-      case ParamType::boolean: return boolean();
-      case ParamType::integer: return integer();
-      case ParamType::real: return real();
-      case ParamType::text: return text(text_.value);
-      case ParamType::text_list: return list();
+  std::optional<ParamValue> convert(const ParamContract& contract) {
+    using Form = xml::ValueRule::Form;
+    switch (contract.type) {
+      case ParamType::boolean: return scalar(rule_of(contract, Form::boolean));
+      case ParamType::integer: return scalar(rule_of(contract, Form::integer));
+      case ParamType::real: return scalar(rule_of(contract, Form::number));
+      case ParamType::text: return text(text_.value, contract);
+      case ParamType::text_list: return list(contract);
     }
     return std::nullopt;
   }
 
+  std::optional<ParamValue> convert(const xml::ValueRule& rule) {
+    if (rule.form != xml::ValueRule::Form::text) return scalar(rule);
+    const std::vector<std::string> choices(rule.choices.begin(), rule.choices.end());
+    return one_of(text_.value, choices) ? std::optional<ParamValue>(text_.value) : std::nullopt;
+  }
+
  private:
-  std::optional<ParamValue> boolean() {
-    const std::string_view word = xml::trimmed(text_.value);
-    if (word == "true" || word == "false") return word == "true";
-    return wrong(codes::kBadValue, in_quotes(text_.value) + " is neither true nor false");
-  }
-
-  std::optional<ParamValue> integer() {
-    const Result<std::int64_t> value = xml::parse_integer(text_.value);
-    if (!value) return no_number(value.error());
-    if (!in_range(static_cast<double>(*value))) return out_of_range();
-    return *value;
-  }
-
-  std::optional<ParamValue> real() {
-    const Result<xml::LeadingNumber> number = xml::parse_leading_number(text_.value);
-    if (!number) return no_number(number.error());
-    const Result<double> value = xml::to_si(number->value, number->rest, contract_.unit);
-    if (!value) return wrong(codes::kUnit, in_quotes(text_.value) + ": " + value.error().message);
-    if (!in_range(*value)) return out_of_range();
-    return *value;
-  }
-
-  std::optional<ParamValue> text(const std::string& value) {
-    const auto& choices = contract_.choices;
-    if (!choices.empty() && std::ranges::find(choices, value) == choices.end()) {
-      return wrong(codes::kChoice, in_quotes(value) + " is not one of: " + xml::listed(choices) +
-                                       report_.hint(value, choices));
+  std::optional<ParamValue> scalar(const xml::ValueRule& rule) {
+    xml::ValueFault fault;
+    if (rule.form == xml::ValueRule::Form::boolean) {
+      if (const auto value = xml::read_boolean(text_.value, fault)) return *value;
+    } else if (rule.form == xml::ValueRule::Form::integer) {
+      if (const auto value = xml::read_integer(text_.value, rule, fault)) return *value;
+    } else if (const auto value = xml::read_number(text_.value, rule, fault)) {
+      return *value;
     }
-    return contract_.file && !value.empty() ? resolved_path(value, text_) : value;
+    return wrong(xml::code_of(fault.kind, graph_rules().codes), fault.message);
   }
 
-  std::optional<ParamValue> list() {
+  bool one_of(const std::string& value, const std::vector<std::string>& choices) {
+    if (choices.empty() || std::ranges::find(choices, value) != choices.end()) return true;
+    wrong(codes::kChoice,
+          in_quotes(value) + " is not one of: " + listed(choices) + report_.hint(value, choices));
+    return false;
+  }
+
+  std::optional<ParamValue> text(const std::string& value, const ParamContract& contract) {
+    if (!one_of(value, contract.choices)) return std::nullopt;
+    return contract.file && !value.empty() ? resolved_path(value, text_) : value;
+  }
+
+  std::optional<ParamValue> list(const ParamContract& contract) {
     std::vector<std::string> result;
     for (const std::string& part : split_list(text_.value)) {
       if (part.empty()) {
         return wrong(codes::kBadValue,
                      in_quotes(text_.value) + " has an empty part; parts are separated by ';'");
       }
-      const auto value = text(part);
+      const auto value = text(part, contract);
       if (!value) return std::nullopt;
       result.push_back(std::get<std::string>(*value));
     }
     return result;
-  }
-
-  [[nodiscard]] bool in_range(double value) const {
-    return value >= contract_.min.value_or(value) && value <= contract_.max.value_or(value);
-  }
-
-  std::nullopt_t no_number(const Error& error) {
-    const std::string limits = limit_text(contract_);
-    return wrong(codes::kBadValue, error.message + (limits.empty() ? "" : "; " + limits));
-  }
-
-  std::nullopt_t out_of_range() {
-    return wrong(codes::kRange, in_quotes(text_.value) + " is out of range: " + limit_text(contract_));
   }
 
   std::nullopt_t wrong(const char* code, const std::string& message) {
@@ -104,7 +89,6 @@ class Converter {
   }
 
   const Text& text_;
-  const ParamContract& contract_;
   const std::string& title_;
   Report& report_;
 };
@@ -114,7 +98,13 @@ class Converter {
 std::optional<ParamValue> read_value(const Text& text, const ParamContract& contract,
                                      const std::string& title, Report& report) {
   if (!text.known) return std::nullopt;
-  return Converter(text, contract, title, report).convert();
+  return Converter(text, title, report).convert(contract);
+}
+
+std::optional<ParamValue> read_value(const Text& text, const xml::ValueRule& rule, const std::string& title,
+                                     Report& report) {
+  if (!text.known) return std::nullopt;
+  return Converter(text, title, report).convert(rule);
 }
 
 std::string resolved_path(const std::string& path, const Text& origin) {

@@ -6,6 +6,7 @@
 
 #include "node.hpp"
 #include "orca/base/contract.hpp"
+#include "orca/xml/rules.hpp"
 #include "report.hpp"
 
 namespace orca::graph {
@@ -14,6 +15,10 @@ namespace orca::graph {
 // text is unknown or wrong; what is wrong is reported after `title`.
 std::optional<ParamValue> read_value(const Text& text, const ParamContract& contract,
                                      const std::string& title, Report& report);
+
+// The value of an attribute as its rule wants it: a boolean, an integer, a number in SI, or a text.
+std::optional<ParamValue> read_value(const Text& text, const xml::ValueRule& rule, const std::string& title,
+                                     Report& report);
 
 // A path as the text means it: absolute and without "..". It starts at the folder of the file that names it,
 // or at the current one if the command line does.

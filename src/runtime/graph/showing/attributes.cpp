@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::graph {
@@ -23,12 +24,6 @@ void add(Attributes& attributes, const char* name, const std::string& value) {
 }
 
 }  // namespace
-
-std::string joined(const std::vector<std::string>& parts, const char* separator) {
-  std::string result;
-  for (const std::string& part : parts) result += (result.empty() ? "" : separator) + part;
-  return result;
-}
 
 std::string value_text(const ParamValue& value) { return std::visit(ValueText{}, value); }
 

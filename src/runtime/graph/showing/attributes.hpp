@@ -24,6 +24,4 @@ Attributes attributes_of(const Edge& edge);
 // As it stands in a <param>.
 std::string value_text(const ParamValue& value);
 
-std::string joined(const std::vector<std::string>& parts, const char* separator);
-
 }  // namespace orca::graph

@@ -7,6 +7,9 @@
 namespace orca::graph {
 namespace {
 
+using xml::AttributeRule;
+using xml::ElementRule;
+
 std::string documentation(std::string_view text, const std::string& indent) {
   if (text.empty()) return {};
   return indent + "<xs:annotation><xs:documentation>" + xml::escaped(text) +
@@ -27,20 +30,20 @@ std::string choices_text(std::span<const std::string_view> choices) {
 
 std::string attribute_text(const AttributeRule& rule) {
   std::string start = "    <xs:attribute name=\"" + std::string(rule.name) + "\"";
-  if (rule.choices.empty()) start += " type=\"xs:string\"";
+  if (rule.value.choices.empty()) start += " type=\"xs:string\"";
   if (rule.required) start += " use=\"required\"";
-  const std::string content =
-      documentation(rule.text, "      ") + (rule.choices.empty() ? "" : choices_text(rule.choices));
+  const std::string content = documentation(rule.text, "      ") +
+                              (rule.value.choices.empty() ? "" : choices_text(rule.value.choices));
   return content.empty() ? start + "/>\n" : start + ">\n" + content + "    </xs:attribute>\n";
 }
 
 std::string children_text(const ElementRule& rule) {
   std::string text;
-  for (const std::string_view name : rule.children) {
-    if (find_rule(name)->support != ElementRule::Support::full) continue;
-    const char* given = brings_file(rule) ? "given_" : "";
-    text +=
-        "      <xs:element name=\"" + std::string(name) + "\" type=\"" + given + std::string(name) + "\"/>\n";
+  for (const ElementRule* child : rule.children) {
+    if (child->planned) continue;
+    const std::string name(child->name);
+    text += "      <xs:element name=\"" + name + "\" type=\"" + (brings_file(rule) ? "given_" : "") + name +
+            "\"/>\n";
   }
   if (text.empty()) return {};
   return "    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + text + "    </xs:choice>\n";
@@ -65,9 +68,9 @@ std::string schema() {
       "    <xs:restriction base=\"xs:string\"><xs:pattern value=\".*[$]\\{.*\\}.*\"/></xs:restriction>\n"
       "  </xs:simpleType>\n"
       "  <xs:element name=\"graph\" type=\"graph\"/>\n";
-  for (const ElementRule& rule : all_rules())
-    if (rule.support == ElementRule::Support::full) text += type_text(std::string(rule.name), rule);
-  return text + type_text("given_arg", *find_rule("include")->child("arg")) + "</xs:schema>\n";
+  for (const ElementRule* rule : graph_rules().elements)
+    if (!rule->planned) text += type_text(std::string(rule->name), *rule);
+  return text + type_text("given_arg", *graph_rules().find("include")->child("arg")) + "</xs:schema>\n";
 }
 
 }  // namespace orca::graph

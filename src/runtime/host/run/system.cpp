@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "orca/base/text.hpp"
 #include "orca/graph/settings.hpp"
 #include "orca/patterns/local/local_link.hpp"
-#include "orca/xml/names.hpp"
 
 namespace orca::host {
 namespace {
@@ -212,8 +212,7 @@ Status System::carry_out(const std::string& name, Event& changed, TimePoint dead
 Error System::no_such(const std::string& name) const {
   std::vector<std::string> names;
   for (const auto& component : components_) names.push_back(component->name());
-  return fail(Code::not_found,
-              "there is no component \"" + name + "\"; the system has: " + xml::listed(names));
+  return fail(Code::not_found, "there is no component \"" + name + "\"; the system has: " + listed(names));
 }
 
 const ComponentInstance* System::component(const std::string& name) const { return find(name); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "demangle.hpp"
+#include "orca/base/text.hpp"
 
 namespace orca::plugin {
 namespace {
@@ -77,13 +78,6 @@ class Needed {
   std::vector<std::string> missing_;
 };
 
-std::string joined(const std::vector<std::string>& texts) {
-  constexpr std::size_t kMost = 20;
-  std::string all;
-  for (std::size_t i = 0; i < texts.size() && i < kMost; ++i) all += (i == 0 ? "" : ", ") + texts[i];
-  return texts.size() <= kMost ? all : all + " and " + std::to_string(texts.size() - kMost) + " more";
-}
-
 std::vector<std::string> unprovided_symbols(const ElfFile& library, const Needed& needed) {
   std::vector<std::string> names;
   for (const ElfSymbol& symbol : library.symbols()) {
@@ -101,11 +95,11 @@ std::vector<std::string> unprovided_symbols(const ElfFile& library, const Needed
 std::string explain_load_error(const ElfFile& library, const std::string& path, const std::string& words) {
   const Needed needed(library, path);
   if (!needed.missing().empty())
-    return "it needs libraries that are not found: " + joined(needed.missing()) +
+    return "it needs libraries that are not found: " + listed(needed.missing()) +
            "; install them, or build the plugin again where they are";
   const std::vector<std::string> symbols = unprovided_symbols(library, needed);
   if (symbols.empty()) return words;
-  return "it uses " + joined(symbols) +
+  return "it uses " + listed(symbols) +
          ", which no library provides; link what it needs with orca_add_component(... LINK ...), or build it "
          "again with "
          "this Orca";

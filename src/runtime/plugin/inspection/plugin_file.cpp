@@ -10,6 +10,7 @@
 
 #include "demangle.hpp"
 #include "orca/base/layout.hpp"
+#include "orca/base/text.hpp"
 #include "orca/component/manifest.hpp"
 #include "orca/idl/object_type.hpp"
 #include "virtual_time.hpp"
@@ -44,14 +45,12 @@ std::optional<TypeReference> type_reference(std::string_view symbol) {
 }
 
 // A few of the names, each short enough to read.
-std::string listed(const std::vector<std::string>& names) {
+std::string shortly_listed(std::vector<std::string> names) {
   constexpr std::size_t kMost = 4;
   constexpr std::size_t kLongest = 80;
-  std::string text;
-  for (std::size_t i = 0; i < names.size() && i < kMost; ++i)
-    text += (i == 0 ? "" : ", ") +
-            (names[i].size() <= kLongest ? names[i] : names[i].substr(0, kLongest) + "...");
-  return names.size() <= kMost ? text : text + " and " + std::to_string(names.size() - kMost) + " more";
+  for (std::string& name : names)
+    if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";
+  return listed(names, kMost);
 }
 
 Result<std::vector<std::byte>> bytes_of(const std::string& path) {
@@ -137,10 +136,10 @@ void PluginFile::check_recipe(std::vector<std::string>& faults) const {
   }
   if (!unique.empty())
     faults.push_back("could never be unloaded: it has symbols that are unique in the process, " +
-                     listed(unique) + kRecipe);
+                     shortly_listed(unique) + kRecipe);
   if (!exported.empty())
-    faults.push_back("exports more than its manifest, so others could bind to it: " + listed(exported) +
-                     kRecipe);
+    faults.push_back(
+        "exports more than its manifest, so others could bind to it: " + shortly_listed(exported) + kRecipe);
   if (thread_exit)
     faults.push_back(
         "could never be unloaded: it has a thread_local variable with a destructor (__cxa_thread_atexit); "

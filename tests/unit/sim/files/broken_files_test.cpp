@@ -96,6 +96,7 @@ TEST_CASE("a world beyond its limits is refused, in a moment, whatever it holds"
   CHECK_THAT(
       many(100'001, "<cylinder x='0' y='0' radius='1'/>"),
       Catch::StartsWith("w.xml:1:1: error W014: the world has 100001 obstacles, at most 100000 are read"));
+  CHECK_THAT(many(1001, "<plase name='p' x='0' y='0'/>"), Catch::Contains("the world has 1001 places"));
   CHECK_THAT(many(1001, "<place name='p' x='0' y='0'/>"),
              Catch::Contains("w.xml:1:1: error W014: the world has 1001 places, at most 1000 are read"));
 }

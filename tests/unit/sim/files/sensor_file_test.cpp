@@ -80,7 +80,8 @@ TEST_CASE("wrong lasers are told where they stand", "[sim][robot_file]") {
   };
   CHECK_THAT(laser("mast", "mats"),
              Catch::Contains("R012: there is no link \"mats\"; did you mean \"mast\"?"));
-  CHECK_THAT(laser("361", "0"), Catch::Contains("error R005: count: \"0\" is not between 1 and 10000"));
+  CHECK_THAT(laser("361", "0"),
+             Catch::Contains("error R005: count: \"0\" is out of range: 1 to 10000 is allowed"));
   CHECK_THAT(laser("\"0.5 deg\"", "\"0.5 m\""), Catch::Contains("error R005: pitch: \"0.5 m\""));
   CHECK_THAT(laser("max_range=\"8 m\"", ""),
              Catch::Contains("R004: <laser> needs the attribute \"max_range\""));
@@ -100,7 +101,7 @@ TEST_CASE("wrong infrared and bumper rings are told where they stand", "[sim][ro
              Catch::Contains("error R022: the segments are wider than a full turn together"));
   CHECK_THAT(errors_in(replaced(kBumper, "20 ms", "-1 s")), Catch::Contains("error R005: period"));
   CHECK_THAT(errors_in(replaced(kSonar, "parallel=\"2\"", "parallel=\"5\"")),
-             Catch::Contains("error R005: parallel: \"5\" is not between 1 and 4"));
+             Catch::Contains("error R005: parallel: \"5\" is out of range: 1 to 4 is allowed"));
 }
 
 TEST_CASE("devices of all kinds have names of their own", "[sim][robot_file]") {

@@ -184,8 +184,10 @@ TEST_CASE("a world file names walkers with all that they may have", "[sim][walke
 }
 
 TEST_CASE("what is wrong with a walker is told where it stands", "[sim][walker][world_file]") {
-  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' loop='no'/>"), Catch::Contains("\"no\" is not known"));
-  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' speed='0 m/s'/>"), Catch::Contains("not more than 0"));
+  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' loop='no'/>"),
+             Catch::Contains("\"no\" is not one of: back, round"));
+  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' speed='0 m/s'/>"),
+             Catch::Contains("speed: \"0 m/s\" is out of range: more than 0"));
   CHECK_THAT(errors("<walker name='a' track='0 0'/>"),
              Catch::Contains("W019: a track needs at least 2 corners"));
   CHECK_THAT(errors("<walker name='a' track='1 1; 1 1'/>"), Catch::Contains("W019: the track has no length"));

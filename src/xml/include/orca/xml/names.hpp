@@ -21,7 +21,4 @@ namespace orca::xml {
 /// `; did you mean "laser"?`, or nothing: the end of a message about an unknown name.
 [[nodiscard]] std::string did_you_mean(const std::optional<std::string>& nearest);
 
-/// "a, b, c" for people; "nothing" if there are none, and the first 20 of more.
-[[nodiscard]] std::string listed(std::span<const std::string> names);
-
 }  // namespace orca::xml

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "assembly.hpp"
-#include "node.hpp"
-#include "report.hpp"
+#include "reading/assembly.hpp"
+#include "reading/node.hpp"
+#include "reading/report.hpp"
 
 namespace orca::graph {
 

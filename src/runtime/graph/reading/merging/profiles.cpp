@@ -7,9 +7,10 @@
 #include <set>
 #include <utility>
 
-#include "codes.hpp"
-#include "naming.hpp"
-#include "orca/xml/names.hpp"
+#include "clashes.hpp"
+#include "orca/base/text.hpp"
+#include "reading/codes.hpp"
+#include "reading/naming.hpp"
 
 namespace orca::graph {
 namespace {
@@ -49,15 +50,15 @@ void override_node(Node& base, const Node& over) {
 // One kind of parts while sections are merged into it.
 class Merger {
  public:
-  Merger(std::vector<Node>& nodes, Report& report) : nodes_(nodes), report_(report) {}
+  Merger(std::vector<Node>& nodes, Clashes& clashes) : nodes_(nodes), clashes_(clashes) {}
 
   void start_section() { section_.clear(); }
 
   void add(const Node& node) {
     const auto key = identity(node);
     if (!key) return nodes_.push_back(node);
-    const auto [first, fresh] = section_.try_emplace(*key, node.whereabouts());
-    if (!fresh) return add_duplicate(node, first->second);
+    const auto [first, fresh] = section_.try_emplace(*key, &node);
+    if (!fresh) return add_duplicate(node, *first->second);
     const auto [index, is_new] = index_.try_emplace(*key, nodes_.size());
     if (is_new) {
       nodes_.push_back(node);
@@ -67,24 +68,15 @@ class Merger {
   }
 
  private:
-  // @param first  where the other one is
-  void add_duplicate(const Node& node, const std::string& first) {
-    const std::string here = node.origin == nullptr ? "" : " (included at " + node.origin->text() + ")";
-    if (node.is("connect")) {
-      report_.error(codes::kDuplicateEdge, node.position,
-                    "the connection from " + in_quotes(node.value("from")) + " to " +
-                        in_quotes(node.value("to")) + here + " exists already at " + first);
-    } else {
-      report_.error(codes::kDuplicateName, node.place("name"),
-                    "the name of " + node.title() + here + " is taken already at " + first);
-    }
+  void add_duplicate(const Node& node, const Node& first) {
+    clashes_.add(node, first);
     nodes_.push_back(node);
     nodes_.back().duplicate = true;
   }
 
   std::vector<Node>& nodes_;
-  Report& report_;
-  std::map<std::string, std::string> section_;  // what the present section has defined, and where
+  Clashes& clashes_;
+  std::map<std::string, const Node*> section_;  // what the present section has defined
   std::map<std::string, std::size_t> index_;
 };
 
@@ -94,7 +86,7 @@ void report_unknown(const std::string& wanted, const xml::Position& position,
   const std::string hint = report.hint(wanted, names);
   if (files_missing && hint.empty()) return;
   report.error(codes::kUnknownProfile, position,
-               "there is no profile " + in_quotes(wanted) + "; the graph has: " + xml::listed(names) + hint);
+               "there is no profile " + in_quotes(wanted) + "; the graph has: " + listed(names) + hint);
 }
 
 // The profiles of a graph, in its order. Those of one name add up if they come from different files.
@@ -179,9 +171,10 @@ class Choice {
 
 Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& chosen, Report& report) {
   Parts parts;
-  Merger hardware(parts.hardware, report);
-  Merger components(parts.components, report);
-  Merger connections(parts.connections, report);
+  Clashes clashes;
+  Merger hardware(parts.hardware, clashes);
+  Merger components(parts.components, clashes);
+  Merger connections(parts.connections, clashes);
   Choice choice(assembly, chosen, report);
   parts.some_missing = assembly.files_missing || choice.some_unknown();
   std::vector<const Node*> sections = std::move(choice).profiles();
@@ -194,6 +187,7 @@ Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& c
       if (child.is("connect")) connections.add(child);
     }
   }
+  clashes.report(report);
   return parts;
 }
 

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "world_rules.hpp"
+
+#include <array>
+
+#include "codes.hpp"
+#include "files/formats/values.hpp"
+
+namespace orca::sim::detail {
+namespace {
+
+using xml::ElementRule;
+
+constexpr ValueRule kSeed = whole(0.0, ValueRule::kUnlimited);
+constexpr ValueRule kCount = whole(0.0, 1e6);  // More than any generator allows, and says so itself.
+constexpr std::array<std::string_view, 4> kSides{"south", "north", "west", "east"};
+constexpr std::array<std::string_view, 2> kLoops{"back", "round"};
+constexpr std::array<std::string_view, 5> kKinds{"barn", "u_trap", "narrow_doors", "corridor", "office"};
+
+constexpr std::array kWorld{required("name", kName), required("version", kText), optional("text", kText)};
+constexpr std::array kWall{optional("name", kName), required("from", kText), required("to", kText),
+                           optional("thickness", kLength), optional("height", kLength)};
+constexpr std::array kDoor{required("at", kLength), required("width", kLength)};
+constexpr std::array kRoomDoor{required("side", one_of(kSides)), required("at", kLength),
+                               required("width", kLength)};
+constexpr std::array kBox{optional("name", kName),     required("x", kCoordinate),
+                          required("y", kCoordinate),  optional("yaw", kAngle),
+                          required("length", kLength), required("width", kLength),
+                          optional("height", kLength), optional("bottom", kLengthOrZero)};
+constexpr std::array kCylinder{optional("name", kName),     required("x", kCoordinate),
+                               required("y", kCoordinate),  required("radius", kLength),
+                               optional("height", kLength), optional("bottom", kLengthOrZero)};
+constexpr std::array kPolygon{optional("name", kName), required("points", kText), optional("height", kLength),
+                              optional("bottom", kLengthOrZero)};
+constexpr std::array kBitmap{optional("name", kName), required("file", kText), optional("width", kLength),
+                             optional("resolution", kLength), optional("height", kLength)};
+constexpr std::array kMesh{optional("name", kName),        required("file", kText),
+                           required("x", kCoordinate),     required("y", kCoordinate),
+                           optional("z", kCoordinate),     optional("yaw", kAngle),
+                           optional("scale", positive(""))};
+constexpr std::array kPlace{required("name", kName), required("x", kCoordinate), required("y", kCoordinate),
+                            optional("yaw", kAngle)};
+// Of all kinds; generator_reader.cpp says which kind has which.
+constexpr std::array kGenerate{
+    required("kind", one_of(kKinds)), optional("seed", kSeed),      optional("radius", kLength),
+    optional("fill", kText),          optional("rounds", kCount),   optional("width", kLength),
+    optional("depth", kLength),       optional("beside", kLength),  optional("door", kLength),
+    optional("walls", kCount),        optional("spacing", kLength), optional("legs", kCount),
+    optional("shortest", kLength),    optional("longest", kLength), optional("rooms", kCount),
+    optional("corridor", kLength),    optional("furniture", kCount)};
+constexpr std::array kWalker{
+    required("name", kName),         required("track", kText),    optional("speed", positive("m/s")),
+    optional("radius", kLength),     optional("height", kLength), optional("loop", one_of(kLoops)),
+    optional("pause", kTime),        optional("start", kTime),    optional("seed", kSeed),
+    optional("stops", kLengthOrZero)};
+
+constexpr ElementRule kDoorRule{.name = "door", .attributes = kDoor};
+constexpr ElementRule kRoomDoorRule{.name = "door", .attributes = kRoomDoor};
+constexpr std::array kInWall{&kDoorRule};
+constexpr std::array kInRoom{&kRoomDoorRule};
+
+}  // namespace
+
+constexpr ElementRule kWallRule{.name = "wall", .attributes = kWall, .children = kInWall};
+constexpr ElementRule kRoomRule{.name = "room", .attributes = kWall, .children = kInRoom};
+constexpr ElementRule kBoxRule{.name = "box", .attributes = kBox};
+constexpr ElementRule kCylinderRule{.name = "cylinder", .attributes = kCylinder};
+constexpr ElementRule kPolygonRule{.name = "polygon", .attributes = kPolygon};
+constexpr ElementRule kBitmapRule{.name = "bitmap", .attributes = kBitmap};
+constexpr ElementRule kMeshRule{.name = "mesh", .attributes = kMesh};
+constexpr ElementRule kPlaceRule{.name = "place", .attributes = kPlace};
+constexpr ElementRule kGenerateRule{.name = "generate", .attributes = kGenerate};
+constexpr ElementRule kWalkerRule{.name = "walker", .attributes = kWalker};
+
+namespace {
+
+constexpr std::array kInWorld{&kWallRule,   &kRoomRule, &kBoxRule,   &kCylinderRule, &kPolygonRule,
+                              &kBitmapRule, &kMeshRule, &kPlaceRule, &kGenerateRule, &kWalkerRule};
+
+}  // namespace
+
+constexpr ElementRule kWorldRule{.name = "world", .attributes = kWorld, .children = kInWorld};
+
+namespace {
+
+constexpr std::array kElements{&kWorldRule, &kWallRule,     &kRoomRule,     &kDoorRule,
+                               &kBoxRule,   &kCylinderRule, &kPolygonRule,  &kBitmapRule,
+                               &kMeshRule,  &kPlaceRule,    &kGenerateRule, &kWalkerRule};
+
+}  // namespace
+
+constexpr xml::FileRules kWorldFile{"a world",
+                                    kElements,
+                                    {.unknown_element = world_codes::kUnknownElement,
+                                     .misplaced_element = world_codes::kUnknownElement,
+                                     .unknown_attribute = world_codes::kUnknownAttribute,
+                                     .missing_attribute = world_codes::kMissing,
+                                     .stray_text = world_codes::kStrayText,
+                                     .bad_value = world_codes::kBadValue,
+                                     .wrong_unit = world_codes::kBadValue,
+                                     .out_of_range = world_codes::kBadValue,
+                                     .unknown_choice = world_codes::kBadValue}};
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "orca/xml/rules.hpp"
+
+// The elements of a world file and their attributes; docs/simulation.md describes them to people.
+namespace orca::sim::detail {
+
+extern const xml::ElementRule kWorldRule;
+extern const xml::ElementRule kWallRule;
+extern const xml::ElementRule kRoomRule;
+extern const xml::ElementRule kBoxRule;
+extern const xml::ElementRule kCylinderRule;
+extern const xml::ElementRule kPolygonRule;
+extern const xml::ElementRule kBitmapRule;
+extern const xml::ElementRule kMeshRule;
+extern const xml::ElementRule kPlaceRule;
+extern const xml::ElementRule kGenerateRule;
+extern const xml::ElementRule kWalkerRule;
+
+extern const xml::FileRules kWorldFile;
+
+}  // namespace orca::sim::detail

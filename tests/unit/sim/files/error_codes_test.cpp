@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The codes of world and robot files: what the headers name, the page explains and the approved texts show.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "approval.hpp"
+
+namespace fs = std::filesystem;
+using namespace orca::test;
+
+namespace {
+
+const fs::path kRoot = fs::path(ORCA_SOURCE_DIR);
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Every code of that letter in a text: the letter and three digits, with no letter or digit on either side.
+std::set<std::string> codes_in(const std::string& text, char letter) {
+  std::set<std::string> codes;
+  for (std::size_t at = text.find(letter); at != std::string::npos; at = text.find(letter, at + 1)) {
+    const std::string code = text.substr(at, 4);
+    const bool alone = (at == 0 || std::isalnum(static_cast<unsigned char>(text[at - 1])) == 0) &&
+                       (at + 4 >= text.size() || !is_digit(text[at + 4]));
+    if (alone && code.size() == 4 && std::all_of(code.begin() + 1, code.end(), is_digit)) codes.insert(code);
+  }
+  return codes;
+}
+
+// The codes that head a row of the tables in docs/simulation.md: "| W001 / R001 | ...".
+std::set<std::string> documented_codes(char letter) {
+  const std::string page = bytes_of(kRoot / "docs/simulation.md");
+  std::set<std::string> codes;
+  for (std::size_t at = page.find("\n| "); at != std::string::npos; at = page.find("\n| ", at + 1)) {
+    const std::size_t cell = at + 3;
+    codes.merge(codes_in(page.substr(cell, page.find(" |", cell) - cell), letter));
+  }
+  return codes;
+}
+
+std::set<std::string> approved_codes(const std::string& folder, char letter) {
+  std::set<std::string> codes;
+  for (const fs::path& path : files_in(kRoot / "tests/data" / folder / "broken", ".expected"))
+    codes.merge(codes_in(bytes_of(path), letter));
+  return codes;
+}
+
+}  // namespace
+
+TEST_CASE("docs/simulation.md explains every code of a world and a robot, and no other", "[sim][docs]") {
+  CHECK(documented_codes('W') == codes_in(bytes_of(kRoot / "sim/files/world/codes.hpp"), 'W'));
+  CHECK(documented_codes('R') == codes_in(bytes_of(kRoot / "sim/files/robot/codes.hpp"), 'R'));
+}
+
+TEST_CASE("every code appears in the approved text of a broken world or robot", "[sim][approval]") {
+  // What needs a command line, 100,000 elements, or a fault of another library is tested elsewhere.
+  std::set<std::string> worlds = approved_codes("worlds", 'W');
+  std::set<std::string> robots = approved_codes("robots", 'R');
+  for (const std::string& code : codes_in(bytes_of(kRoot / "sim/files/world/codes.hpp"), 'W')) {
+    INFO(code);
+    CHECK((worlds.contains(code) || code == "W013" || code == "W017"));
+  }
+  for (const std::string& code : codes_in(bytes_of(kRoot / "sim/files/robot/codes.hpp"), 'R')) {
+    INFO(code);
+    CHECK((robots.contains(code) || code == "R024"));
+  }
+}
