@@ -21,15 +21,15 @@ struct Views {
   Views() {
     RandomStream random(2, "bench", "views");
     while (poses.size() < 1000) {
-      const sim::Pose2 X_WS{random.uniform(0.5, 29.5), random.uniform(0.5, 19.5),
-                            random.uniform(-std::numbers::pi, std::numbers::pi)};
+      const Pose2 X_WS{random.uniform(0.5, 29.5), random.uniform(0.5, 19.5),
+                       random.uniform(-std::numbers::pi, std::numbers::pi)};
       if (model.obstacle_at(sim::Circle{X_WS.position(), 0.2}, 0.0) == nullptr) poses.push_back(X_WS);
     }
   }
-  const sim::Pose2& next() { return poses[turn++ % poses.size()]; }
+  const Pose2& next() { return poses[turn++ % poses.size()]; }
 
   sim::WorldModel model = two_hundred_boxes();
-  std::vector<sim::Pose2> poses;
+  std::vector<Pose2> poses;
   std::size_t turn = 0;
 };
 
@@ -42,7 +42,7 @@ Nanoseconds orca_rays(Views& views, const Fan& fan, const sim::Caster& caster) {
 Nanoseconds bullet_rays(Views& views, const Fan& fan, const BulletMesh& bullet) {
   return time_per_operation(kFans * static_cast<int>(Fan::kBeams), [&] {
     for (int i = 0; i < kFans; ++i) {
-      const sim::Pose2& X_WS = views.next();
+      const Pose2& X_WS = views.next();
       for (std::size_t k = 0; k < Fan::kBeams; ++k) benchmark::DoNotOptimize(bullet.cast(fan.ray(k, X_WS)));
     }
   });

@@ -75,9 +75,9 @@ RobotModel scout() {
   m.footprint = footprint_of(m.parts);
   std::tie(m.bottom, m.top) = height_range_of(m.parts);
   m.drive.max_speed = 1.0;
-  m.drive.max_steer_speed = 2.0;
+  m.drive.max_turn_rate = 2.0;
   m.drive.max_acceleration = 0.76;
-  m.drive.max_steer_acceleration = 4.0;
+  m.drive.max_turn_acceleration = 4.0;
   m.drive.track = 0.3452;
   m.drive.wheel_diameter = 0.15;
   m.drive.lag = std::chrono::milliseconds{100};

@@ -28,13 +28,13 @@ class Fan {
   static constexpr double kHeight = 0.3;  // [m]
   Fan();
   /// The ranges of all beams from `X_WS`, not seeing `own_body`.
-  [[nodiscard]] std::array<double, kBeams> cast(const sim::Caster& caster, const sim::Pose2& X_WS,
+  [[nodiscard]] std::array<double, kBeams> cast(const sim::Caster& caster, const Pose2& X_WS,
                                                 std::size_t own_body = static_cast<std::size_t>(-1)) const;
   /// The rays themselves.
-  [[nodiscard]] sim::Ray ray(std::size_t beam, const sim::Pose2& X_WS) const;
+  [[nodiscard]] sim::Ray ray(std::size_t beam, const Pose2& X_WS) const;
 
  private:
-  std::array<sim::Vec2, kBeams> directions_;  // Of the sensor's frame.
+  std::array<Vec2, kBeams> directions_;  // Of the sensor's frame.
 };
 
 }  // namespace orca::bench

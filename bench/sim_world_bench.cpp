@@ -41,9 +41,9 @@ class Wanderers {
     const sim::Bounds bounds = model.bounds();
     for (int tries = 0; robots_.size() < setting.robots; ++tries) {
       if (tries > 100'000) throw std::runtime_error("no room for the robots of the benchmark");
-      const sim::Pose2 X_WB{random.uniform(bounds.low.x, bounds.high.x),
-                            random.uniform(bounds.low.y, bounds.high.y),
-                            random.uniform(-std::numbers::pi, std::numbers::pi)};
+      const Pose2 X_WB{random.uniform(bounds.low.x, bounds.high.x),
+                       random.uniform(bounds.low.y, bounds.high.y),
+                       random.uniform(-std::numbers::pi, std::numbers::pi)};
       const auto id = world_.add_robot("robot" + std::to_string(tries), robot, X_WB);
       if (id) robots_.push_back(*id);
     }
@@ -65,8 +65,8 @@ class Wanderers {
     return std::all_of(ranges.begin() + 120, ranges.begin() + 241, [](double range) { return range > 0.6; });
   }
   void steer(sim::RobotId id, bool free) {
-    const sim::Velocity wanted = free ? sim::Velocity{0.4, 0.1} : sim::Velocity{0.0, 0.8};
-    if (!world_.set_velocity_command(id, wanted.forward, wanted.turn))
+    const Twist2 wanted = free ? Twist2{0.4, 0.0, 0.1} : Twist2{0.0, 0.0, 0.8};
+    if (!world_.set_velocity_command(id, wanted.forward, wanted.turn_rate))
       throw std::runtime_error("a command of the benchmark is wrong");
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/idl/motion.hpp"
 
+#include <cmath>
+
 namespace orca {
 namespace {
 
@@ -31,6 +33,27 @@ Loan<idl::MotionCommand> turn(double rate, double speed, double weight) {
   wish->turn_rate(rate);
   wish->speed(speed);
   return wish;
+}
+
+Status check_command(const idl::MotionCommand& command) {
+  if (command.kind() == idl::FULLSTOP) return ok();
+  const bool finite = std::isfinite(command.speed()) && std::isfinite(command.direction()) &&
+                      std::isfinite(command.turn_rate()) && std::isfinite(command.weight());
+  if (finite && command.weight() >= 0.0) return ok();
+  return fail(Code::invalid_argument,
+              "a motion command holds a number that is not finite, or a negative weight");
+}
+
+Status check_command(const idl::HolonomicVelocity& velocity) {
+  if (std::isfinite(velocity.forward()) && std::isfinite(velocity.left()) &&
+      std::isfinite(velocity.turn_rate()))
+    return ok();
+  return fail(Code::invalid_argument, "a holonomic velocity holds a number that is not finite");
+}
+
+Status check_command(const idl::TurretCommand& turret) {
+  if (std::isfinite(turret.angle())) return ok();
+  return fail(Code::invalid_argument, "a turret's angle must be finite");
 }
 
 }  // namespace orca

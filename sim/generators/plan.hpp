@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/walls.hpp"
+#include "orca/geometry/vec2.hpp"
 #include "orca/sim/world_model.hpp"
 
 namespace orca::sim::detail {

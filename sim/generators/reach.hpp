@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "orca/geometry/vec2.hpp"
 #include "orca/sim/world_model.hpp"
 
 namespace orca::sim::detail {

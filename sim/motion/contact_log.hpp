@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "orca/geometry/pose2.hpp"
 #include "physics.hpp"
 
 namespace orca::sim::detail {

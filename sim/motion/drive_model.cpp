@@ -22,10 +22,10 @@ DriveModel::DriveModel(const Drive& drive, const ErrorLevels& errors, Duration t
   pending_.resize(static_cast<std::size_t>(ticks) + 1);
 }
 
-void DriveModel::command(const Velocity& wanted) {
+void DriveModel::command(const Twist2& wanted) {
   const Vec2 way = shortened({wanted.forward, wanted.left}, drive_.max_speed);
-  pending_.back().velocity = {way.x, std::clamp(wanted.turn, -drive_.max_steer_speed, drive_.max_steer_speed),
-                              way.y};
+  pending_.back().velocity = {way.x, way.y,
+                              std::clamp(wanted.turn_rate, -drive_.max_turn_rate, drive_.max_turn_rate)};
 }
 
 double DriveModel::approach(double now, double target, double max_change) const {
@@ -36,14 +36,15 @@ Vec2 DriveModel::approach(Vec2 now, Vec2 target, double max_change) const {
   return now + shortened(share_ * (target - now), max_change);
 }
 
-Velocity DriveModel::step() {
+Twist2 DriveModel::step() {
   target_ = pending_.front();
   pending_.push_back(pending_.back());
   pending_.pop_front();
-  const Velocity& target = target_.velocity;
+  const Twist2& target = target_.velocity;
   const Vec2 way = approach({velocity_.forward, velocity_.left}, {target.forward, target.left},
                             drive_.max_acceleration * tick_s_);
-  velocity_ = {way.x, approach(velocity_.turn, target.turn, drive_.max_steer_acceleration * tick_s_), way.y};
+  velocity_ = {way.x, way.y,
+               approach(velocity_.turn_rate, target.turn_rate, drive_.max_turn_acceleration * tick_s_)};
   return velocity_;
 }
 

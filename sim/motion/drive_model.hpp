@@ -3,6 +3,8 @@
 
 #include <deque>
 
+#include "orca/geometry/twist2.hpp"
+#include "orca/geometry/vec2.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
 
@@ -10,7 +12,7 @@ namespace orca::sim::detail {
 
 // What a base was last told.
 struct BaseCommand {
-  Velocity velocity;
+  Twist2 velocity;
   double turret_angle = 0.0;  // [rad] In the robot's frame.
 };
 
@@ -20,16 +22,16 @@ class DriveModel {
  public:
   DriveModel(const Drive& drive, const ErrorLevels& errors, Duration tick);
 
-  void command(const Velocity& wanted);
+  void command(const Twist2& wanted);
   void point_turret(double angle) { pending_.back().turret_angle = angle; }
 
   // The velocity to drive in the tick that begins now.
-  Velocity step();
+  Twist2 step();
   // Where the turret shall point in that tick.
   [[nodiscard]] double turret_angle() const { return target_.turret_angle; }
 
   // Something stood in the way: the base really moved like this. The next step starts from it.
-  void held_to(const Velocity& real) { velocity_ = real; }
+  void held_to(const Twist2& real) { velocity_ = real; }
 
  private:
   [[nodiscard]] double approach(double now, double target, double max_change) const;
@@ -38,7 +40,7 @@ class DriveModel {
   Drive drive_;
   double tick_s_;
   double share_;  // Of the difference to its target that the velocity covers in a tick.
-  Velocity velocity_;
+  Twist2 velocity_;
   BaseCommand target_;
   std::deque<BaseCommand> pending_;  // One per tick of dead time, the oldest first, the newest command last.
 };

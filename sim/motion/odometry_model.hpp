@@ -2,6 +2,8 @@
 #pragma once
 
 #include "orca/base/random.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/geometry/twist2.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
@@ -19,7 +21,7 @@ class OdometryModel {
       : random_(random), wheels_(drive, errors) {}
 
   // The base moved so in `seconds`.
-  void add(const Travel& real, double seconds);
+  void add(const Travel2& real, double seconds);
 
   [[nodiscard]] OdometryReading reading(TimePoint stamp) const { return {stamp, pose_, velocity_}; }
 
@@ -27,7 +29,7 @@ class OdometryModel {
   RandomStream random_;
   WheelModel wheels_;
   Pose2 pose_;
-  Velocity velocity_;
+  Twist2 velocity_;
 };
 
 }  // namespace orca::sim::detail

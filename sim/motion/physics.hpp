@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/robot_model.hpp"
 #include "orca/sim/world_model.hpp"
 #include "sensors/bumper_model.hpp"

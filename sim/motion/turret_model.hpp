@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/robot_model.hpp"
 
 namespace orca::sim::detail {

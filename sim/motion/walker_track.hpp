@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "orca/geometry/vec2.hpp"
 #include "orca/sim/walker.hpp"
 
 namespace orca::sim::detail {

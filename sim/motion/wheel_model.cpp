@@ -20,7 +20,7 @@ WheelErrors WheelErrors::drawn(DriveKind kind, const ErrorLevels& errors, Random
   return drawn;
 }
 
-Travel WheelModel::measured(const Travel& real, RandomStream& random) const {
+Travel2 WheelModel::measured(const Travel2& real, RandomStream& random) const {
   switch (kind_) {
     case DriveKind::differential: return differential(real, random);
     case DriveKind::synchro: return synchro(real, random);
@@ -34,7 +34,7 @@ double WheelModel::wheel(std::size_t number, double travel, RandomStream& random
          random.normal(0.0, errors_.slip * std::sqrt(std::fabs(travel)));
 }
 
-Travel WheelModel::differential(const Travel& real, RandomStream& random) const {
+Travel2 WheelModel::differential(const Travel2& real, RandomStream& random) const {
   const double left = wheel(0, real.forward - 0.5 * real.turn * track_, random);
   const double right = wheel(1, real.forward + 0.5 * real.turn * track_, random);
   return {0.5 * (left + right), 0.0, (right - left) / (track_ * (1.0 + errors_.track))};
@@ -42,7 +42,7 @@ Travel WheelModel::differential(const Travel& real, RandomStream& random) const 
 
 // One motor drives all wheels and one steers them, so the steering angle on the body is exact. But wheels
 // that slip unequally turn the body (least squares over the three), and nothing measures that.
-Travel WheelModel::synchro(const Travel& real, RandomStream& random) const {
+Travel2 WheelModel::synchro(const Travel2& real, RandomStream& random) const {
   double mean = 0.0;
   double twist = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -54,8 +54,8 @@ Travel WheelModel::synchro(const Travel& real, RandomStream& random) const {
   return {mean, 0.0, real.turn + twist};
 }
 
-Travel WheelModel::holonomic(const Travel& real, RandomStream& random) const {
-  Travel sum;
+Travel2 WheelModel::holonomic(const Travel2& real, RandomStream& random) const {
+  Travel2 sum;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec2 rolls = kTangents[k];
     const double travel = wheel(k, dot(rolls, {real.forward, real.left}) + 0.5 * track_ * real.turn, random);

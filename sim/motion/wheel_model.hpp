@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "arc.hpp"
 #include "orca/base/random.hpp"
+#include "orca/geometry/twist2.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
 
@@ -29,13 +29,13 @@ class WheelModel {
   WheelModel(const Drive& drive, const WheelErrors& errors)
       : kind_(drive.kind), errors_(errors), track_(drive.track) {}
 
-  [[nodiscard]] Travel measured(const Travel& real, RandomStream& random) const;
+  [[nodiscard]] Travel2 measured(const Travel2& real, RandomStream& random) const;
 
  private:
   [[nodiscard]] double wheel(std::size_t number, double travel, RandomStream& random) const;
-  [[nodiscard]] Travel differential(const Travel& real, RandomStream& random) const;
-  [[nodiscard]] Travel synchro(const Travel& real, RandomStream& random) const;
-  [[nodiscard]] Travel holonomic(const Travel& real, RandomStream& random) const;
+  [[nodiscard]] Travel2 differential(const Travel2& real, RandomStream& random) const;
+  [[nodiscard]] Travel2 synchro(const Travel2& real, RandomStream& random) const;
+  [[nodiscard]] Travel2 holonomic(const Travel2& real, RandomStream& random) const;
 
   DriveKind kind_;
   WheelErrors errors_;

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "moment_log.hpp"
 
-#include <cmath>
-
 namespace orca::sim {
 namespace {
 
 constexpr std::size_t kMost = 512;
 
-std::vector<orca::Scene::Cone> cones_of(const SonarScan& scan, const SonarRing& ring) {
-  std::vector<orca::Scene::Cone> cones;
+std::vector<Scene::Cone> cones_of(const SonarScan& scan, const SonarRing& ring) {
+  std::vector<Scene::Cone> cones;
   for (const SonarReading& reading : scan.readings)
-    cones.push_back({{reading.sensor.x, reading.sensor.y},
-                     reading.sensor.yaw,
-                     ring.half_lobe,
-                     reading.range,
-                     reading.echo});
+    cones.push_back({reading.sensor, ring.half_lobe, reading.range, reading.echo});
   return cones;
 }
 
-orca::Scene::Scan scan_of(const LaserScan& scan, const LaserScanner& laser) {
+Scene::Scan scan_of(const LaserScan& scan, const LaserScanner& laser) {
   const Pose2 at = scan.X_RB * laser.center;
-  orca::Scene::Scan drawn{{at.x, at.y}, {}};
+  Scene::Scan drawn{at.position(), {}};
   for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
     const double angle = at.yaw + laser.first_angle + static_cast<double>(k) * laser.pitch;
-    drawn.ends.push_back({at.x + scan.ranges[k] * std::cos(angle), at.y + scan.ranges[k] * std::sin(angle)});
+    drawn.ends.push_back(at.position() + scan.ranges[k] * direction(angle));
   }
   return drawn;
 }
@@ -35,10 +29,9 @@ void MomentLog::add(const SharedWorld::Inbox& inbox) {
   see(inbox);
   for (const SharedWorld::Inbox::Truth& truth : inbox.truth) {
     now_.time = truth.stamp;
-    now_.position = {truth.pose.x, truth.pose.y};
-    now_.heading_rad = truth.pose.yaw;
+    now_.pose = truth.pose;
     now_.speed = truth.velocity.forward;
-    now_.turn_rate = truth.velocity.turn;
+    now_.turn_rate = truth.velocity.turn_rate;
     keep();
   }
 }
@@ -60,8 +53,8 @@ void MomentLog::keep() {
   step_ *= 2;
 }
 
-std::vector<orca::Scene::Moment> MomentLog::moments() const {
-  std::vector<orca::Scene::Moment> all = kept_;
+std::vector<Scene::Moment> MomentLog::moments() const {
+  std::vector<Scene::Moment> all = kept_;
   if (!all.empty() && all.back().time < now_.time) all.push_back(now_);
   return all;
 }

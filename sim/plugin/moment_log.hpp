@@ -18,15 +18,15 @@ class MomentLog {
   explicit MomentLog(const RobotModel& robot) : robot_(robot) {}
 
   void add(const SharedWorld::Inbox& inbox);
-  [[nodiscard]] std::vector<orca::Scene::Moment> moments() const;
+  [[nodiscard]] std::vector<Scene::Moment> moments() const;
 
  private:
   void see(const SharedWorld::Inbox& inbox);
   void keep();
 
   const RobotModel& robot_;
-  orca::Scene::Moment now_;
-  std::vector<orca::Scene::Moment> kept_;
+  Scene::Moment now_;
+  std::vector<Scene::Moment> kept_;
   std::size_t step_ = 1;   // of so many moments one is kept
   std::size_t count_ = 0;  // of moments so far
 };

@@ -32,7 +32,7 @@ idl::Drive describe(const Drive& drive) {
   object.driver("orca.hw.Sim");
   object.type(type_of(drive.kind));
   object.max_speed(drive.max_speed);
-  object.max_steer_speed(drive.max_steer_speed);
+  object.max_steer_speed(drive.max_turn_rate);
   object.steer_gain(drive.steer_gain);
   object.speed_change(drive.max_acceleration);
   object.big_turn_angle(drive.big_turn_angle);
@@ -40,15 +40,13 @@ idl::Drive describe(const Drive& drive) {
   return object;
 }
 
-orca::Scene::Point point(Vec2 p) { return {p.x, p.y}; }
-
-void draw_circle(const Circle& circle, orca::Scene& to) {
+void draw_circle(const Circle& circle, Scene& to) {
   constexpr int kSides = 32;
   for (int i = 0; i < kSides; ++i) {
     const double a = 2.0 * std::numbers::pi * i / kSides;
     const double b = 2.0 * std::numbers::pi * (i + 1) / kSides;
-    to.walls.push_back({point(circle.center + circle.radius * direction(a)),
-                        point(circle.center + circle.radius * direction(b))});
+    to.walls.push_back(
+        {circle.center + circle.radius * direction(a), circle.center + circle.radius * direction(b)});
   }
 }
 
@@ -57,7 +55,7 @@ void draw_circle(const Circle& circle, orca::Scene& to) {
 hw::DriveLimits limits_of(const RobotModel& robot) {
   const Drive& drive = robot.drive;
   return {.max_speed = drive.max_speed,
-          .max_steer_speed = drive.max_steer_speed,
+          .max_turn_rate = drive.max_turn_rate,
           .steer_gain = drive.steer_gain,
           .big_turn_angle = drive.big_turn_angle,
           .big_turn_speed = drive.big_turn_speed,
@@ -79,20 +77,17 @@ idl::Robot describe(const RobotModel& model, const std::string& name) {
   return robot;
 }
 
-void draw(const Scene& from, const std::string& name, const RobotModel& model,
-          std::vector<orca::Scene::Moment> moments, orca::Scene& to) {
+void draw(const Snapshot& from, const std::string& name, const RobotModel& model,
+          std::vector<Scene::Moment> moments, Scene& to) {
   if (to.walls.empty()) {
-    for (const Segment& edge : from.edges) to.walls.push_back({point(edge.a), point(edge.b)});
+    for (const Segment& edge : from.edges) to.walls.push_back({edge.a, edge.b});
     for (const Circle& circle : from.circles) draw_circle(circle, to);
   }
-  for (const SceneRobot& body : from.robots) {
+  for (const RobotSnapshot& body : from.robots) {
     if (body.name != name) continue;
-    orca::Scene::Robot drawn{body.name, point(body.pose.position()), body.pose.yaw, model.radius, {},
-                             {},        std::move(moments)};
-    for (const Segment& edge : edges_of(model.footprint))
-      drawn.outline.push_back({point(edge.a), point(edge.b)});
-    for (const SceneRobot::Sample& sample : body.trajectory)
-      drawn.track.push_back(point(sample.pose.position()));
+    Scene::Robot drawn{body.name, body.pose, model.radius, {}, {}, std::move(moments)};
+    for (const Segment& edge : edges_of(model.footprint)) drawn.outline.push_back({edge.a, edge.b});
+    for (const RobotSnapshot::Sample& sample : body.trajectory) drawn.track.push_back(sample.pose.position());
     to.robots.push_back(std::move(drawn));
   }
 }

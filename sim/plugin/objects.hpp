@@ -31,7 +31,7 @@ void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
 void describe_sensors(const RobotModel& model, idl::Robot& robot);
 
 /// Adds the walls, if no other robot of the same world has done so, and the robot of that name.
-void draw(const Scene& from, const std::string& name, const RobotModel& model,
-          std::vector<orca::Scene::Moment> moments, orca::Scene& to);
+void draw(const Snapshot& from, const std::string& name, const RobotModel& model,
+          std::vector<Scene::Moment> moments, Scene& to);
 
 }  // namespace orca::sim

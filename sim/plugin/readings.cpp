@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "frames.hpp"
 #include "objects.hpp"
+#include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca::sim {
@@ -11,20 +11,20 @@ void fill(idl::SonarRangeReadings& object, const SonarScan& scan, const SonarRin
   object.stamps().clear();
   for (const SonarReading& reading : scan.readings) {
     object.ranges().push_back(reading.range);
-    object.poses().push_back(frame(reading.sensor, ring.height_of(reading.transducer)));
+    object.poses().push_back(level_frame(reading.sensor, ring.height_of(reading.transducer)));
     object.stamps().push_back(to_time_value(reading.stamp));
   }
   object.min_range(ring.min_range);
   object.max_range(ring.max_range);
   object.half_lobe(ring.half_lobe);
-  object.pose(frame(ring.center, ring.height));
+  object.pose(level_frame(ring.center, ring.height));
 }
 
 void fill(idl::LaserRangeReadings& object, const LaserScan& scan, const LaserScanner& laser) {
   object.ranges().assign(scan.ranges.begin(), scan.ranges.end());
   object.min_range(laser.min_range);
   object.max_range(laser.max_range);
-  object.pose(frame(scan.X_RB * laser.center, laser.height));
+  object.pose(level_frame(scan.X_RB * laser.center, laser.height));
   object.stamp(to_time_value(scan.stamp));
   object.angle_start(laser.first_angle);
   object.angle_increment(laser.pitch);
@@ -36,19 +36,19 @@ void fill(idl::InfraredRangeReadings& object, const InfraredScan& scan, const In
   object.ranges().assign(scan.ranges.begin(), scan.ranges.end());
   object.poses().clear();
   for (std::size_t k = 0; k < ring.count; ++k)
-    object.poses().push_back(frame(scan.X_RB * ring.sensor(k), ring.height));
+    object.poses().push_back(level_frame(scan.X_RB * ring.sensor(k), ring.height));
   object.stamps().assign(ring.count, to_time_value(scan.stamp));
   object.min_range(ring.min_range);
   object.max_range(ring.max_range);
   object.half_beam(ring.half_beam);
-  object.pose(frame(scan.X_RB * ring.center, ring.height));
+  object.pose(level_frame(scan.X_RB * ring.center, ring.height));
 }
 
 void fill(idl::BumperReadings& object, const BumperReading& reading, const BumperRing& ring) {
   object.pressed().assign(reading.pressed.begin(), reading.pressed.end());
   object.poses().clear();
   for (std::size_t k = 0; k < ring.count; ++k)
-    object.poses().push_back(frame(reading.X_RB * ring.segment(k), 0.0));
+    object.poses().push_back(level_frame(reading.X_RB * ring.segment(k), 0.0));
   object.stamp(to_time_value(reading.stamp));
 }
 
@@ -58,7 +58,7 @@ void fill(idl::Odometry& object, const OdometryReading& reading) {
   object.steer_angle(reading.pose.yaw);
   object.translational_velocity(reading.velocity.forward);
   object.sideways_velocity(reading.velocity.left);
-  object.steering_velocity(reading.velocity.turn);
+  object.steering_velocity(reading.velocity.turn_rate);
   object.stamp(to_time_value(reading.stamp));
 }
 
@@ -74,7 +74,7 @@ void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth) {
   object.orientation(truth.pose.yaw);
   object.translational_velocity(truth.velocity.forward);
   object.sideways_velocity(truth.velocity.left);
-  object.steering_velocity(truth.velocity.turn);
+  object.steering_velocity(truth.velocity.turn_rate);
   object.stamp(to_time_value(truth.stamp));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "frames.hpp"
 #include "objects.hpp"
+#include "orca/geometry/objects/plane.hpp"
 
 namespace orca::sim {
 namespace {
@@ -32,7 +32,7 @@ idl::SonarRing describe(const SonarRing& ring) {
 
 idl::LaserSensor describe(const LaserScanner& laser) {
   auto object = named<idl::LaserSensor>(laser, "LaserRangeReadings");
-  object.mount(frame(laser.center, laser.height));
+  object.mount(level_frame(laser.center, laser.height));
   object.number(static_cast<std::uint32_t>(laser.count));
   object.angle_start(laser.first_angle);
   object.angle_increment(laser.pitch);

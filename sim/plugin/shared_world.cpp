@@ -54,7 +54,7 @@ Result<RobotId> SharedWorld::add_robot(const std::string& name, const RobotModel
   return robot;
 }
 
-Status SharedWorld::command(RobotId robot, const Velocity& wanted, double turret_angle) {
+Status SharedWorld::command(RobotId robot, const Twist2& wanted, double turret_angle) {
   const std::lock_guard lock(mutex_);
   if (world_.robot_model(robot).turret)
     if (Status pointed = world_.set_turret_command(robot, turret_angle); !pointed.ok()) return pointed;
@@ -119,9 +119,9 @@ TimePoint SharedWorld::next_tick() const {
   return on_run_clock(world_.time() + World::kTick);
 }
 
-Scene SharedWorld::scene() const {
+Snapshot SharedWorld::snapshot() const {
   const std::lock_guard lock(mutex_);
-  return world_.scene();
+  return world_.snapshot();
 }
 
 }  // namespace orca::sim

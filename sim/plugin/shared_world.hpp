@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "orca/geometry/pose2.hpp"
+#include "orca/geometry/twist2.hpp"
 #include "orca/sim/world.hpp"
 
 namespace orca::sim {
@@ -24,7 +26,7 @@ class SharedWorld {
     struct Truth {
       TimePoint stamp;
       Pose2 pose;
-      Velocity velocity;
+      Twist2 velocity;
     };
     /// What a device measured, and its number among those of its kind.
     template <class Reading>
@@ -60,7 +62,7 @@ class SharedWorld {
                             Duration truth_period);
 
   /// @errors  as World::set_velocity_command() and, for a robot with a turret, set_turret_command().
-  Status command(RobotId robot, const Velocity& wanted, double turret_angle);
+  Status command(RobotId robot, const Twist2& wanted, double turret_angle);
 
   /// Simulates up to `now` [run's clock] and returns what the robot has sensed; its stamps are of the run's
   /// clock.
@@ -71,7 +73,7 @@ class SharedWorld {
 
   /// When the next tick is due [run's clock].
   [[nodiscard]] TimePoint next_tick() const;
-  [[nodiscard]] Scene scene() const;
+  [[nodiscard]] Snapshot snapshot() const;
 
  private:
   struct Member {

@@ -18,6 +18,7 @@
 namespace {
 
 using namespace orca::sim;
+using orca::Pose2;
 using orca::Status;
 using orca::TimePoint;
 
@@ -26,7 +27,7 @@ constexpr orca::Duration kMaxCommandAge = std::chrono::milliseconds(200);
 
 /// A robot in the simulated world: behind the same container as real hardware. Robots whose graph entries
 /// name the same world file share one world.
-class SimHardware final : public orca::hw::HardwareContainer {
+class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::Drawable {
  public:
   using HardwareContainer::HardwareContainer;
 
@@ -62,8 +63,8 @@ class SimHardware final : public orca::hw::HardwareContainer {
     return diagnostics.has_errors() ? std::nullopt : std::move(robot);
   }
 
-  // What is wrong inside a file is told with its place there; what is wrong with the file as a whole, such as
-  // that there is none, at the parameter that names it.
+  // Reports a fault inside a file with its place there, and a fault of the file as a whole, for instance that it is
+  // missing, at the parameter that names the file.
   static void append(const orca::xml::Diagnostics& diagnostics, const char* param,
                      std::vector<orca::HardwareFault>& errors) {
     for (const auto& diagnostic : diagnostics.sorted()) {
@@ -113,8 +114,10 @@ class SimHardware final : public orca::hw::HardwareContainer {
 
   [[nodiscard]] orca::idl::Robot description() const override { return describe(*robot_, *name_); }
 
+  orca::hw::Drawable* drawable() override { return this; }
+  void keep_moments() override { keeps_moments_ = true; }
   void draw(orca::Scene& scene) override {
-    if (moments_) orca::sim::draw(shared_->scene(), *name_, *robot_, moments_->moments(), scene);
+    if (moments_) orca::sim::draw(shared_->snapshot(), *name_, *robot_, moments_->moments(), scene);
   }
 
   Status open() override {
@@ -144,9 +147,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
   }
 
   Status drive(const orca::hw::DriveSetpoint& setpoint) override {
-    return shared_->command(
-        id_, {.forward = setpoint.speed, .turn = setpoint.steer_speed, .left = setpoint.side_speed},
-        setpoint.turret_angle);
+    return shared_->command(id_, setpoint.velocity, setpoint.turret_angle);
   }
 
   [[nodiscard]] TimePoint next_poll() const override { return shared_->next_tick(); }
@@ -155,7 +156,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
   Status poll() override {
     const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
     for (const auto& contact : inbox.contacts) report(contact);
-    if (host().wants_scene()) moments_->add(inbox);
+    if (keeps_moments_) moments_->add(inbox);
     if (state() == orca::hw::HardwareState::active) sensors_->publish(inbox);
     return orca::ok();
   }
@@ -201,14 +202,13 @@ class SimHardware final : public orca::hw::HardwareContainer {
       "realism",
       "nominal",
       {.choices = {"ideal", "nominal", "harsh"}, .text = "How unkind sensors, motors and odometry are."}};
-  orca::Param<std::int64_t> threads_{
-      *this,
-      "threads",
-      1,
-      {.min = 0.0,
-       .max = 64.0,
-       .text =
-           "That the robots of a world sense on; 0: as many as the processor has. It changes no result."}};
+  orca::Param<std::int64_t> threads_{*this,
+                                     "threads",
+                                     1,
+                                     {.min = 0.0,
+                                      .max = 64.0,
+                                      .text = "Number of threads that compute sensor readings; 0: one per "
+                                              "processor. Results do not depend on it."}};
 
   std::optional<WorldModel> world_;
   std::optional<RobotModel> robot_;
@@ -217,6 +217,7 @@ class SimHardware final : public orca::hw::HardwareContainer {
   std::unique_ptr<orca::hw::MotionHW> motion_;
   std::shared_ptr<SharedWorld> shared_;
   RobotId id_{};
+  bool keeps_moments_ = false;
   std::optional<MomentLog> moments_;
 };
 

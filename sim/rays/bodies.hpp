@@ -18,14 +18,13 @@ class Bodies {
   void move(std::size_t number, Shape shape);
   void remove(std::size_t number);
 
-  // The nearest body on the ray closer than the hit, which it then becomes, with a number of its own for each
-  // edge of each body.
+  // Replaces the hit by the nearest body on the ray if that is closer. Each edge of each body has a number of its own.
   void cast(const Ray& ray, Hit& hit) const;
-  // The same of the bodies with these numbers only.
+  // Does the same for the bodies with these numbers only.
   void cast(const Ray& ray, std::span<const std::uint32_t> numbers, Hit& hit) const;
 
-  // Finds all bodies that a ray of the cone may meet which is as the axis otherwise; false if that is not
-  // worth the search.
+  // Collects the bodies that rays within the cone can hit; the rays equal the axis but for origin and direction.
+  // Returns false if the cone is too wide for the search to pay off.
   bool choose(const Ray& axis, const Cone& cone, std::vector<std::uint32_t>& found) const;
 
  private:

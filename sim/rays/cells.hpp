@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "orca/geometry/vec2.hpp"
 #include "orca/sim/caster.hpp"
 
 namespace orca::sim::detail {

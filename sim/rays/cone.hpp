@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "orca/sim/geometry.hpp"
+#include "orca/geometry/vec2.hpp"
 
 namespace orca::sim::detail {
 

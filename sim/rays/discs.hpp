@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cone.hpp"
+#include "orca/sim/figures.hpp"
 
 namespace orca::sim::detail {
 

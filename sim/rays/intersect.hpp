@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "orca/sim/geometry.hpp"
+#include "orca/geometry/vec2.hpp"
+#include "orca/sim/figures.hpp"
 
 // The closed forms of a ray against an edge and a circle; both write the nearest distance if it is below
 // `best`.

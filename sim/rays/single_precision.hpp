@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "orca/sim/geometry.hpp"
+#include "orca/geometry/vec2.hpp"
 
 namespace orca::sim::detail {
 

@@ -6,6 +6,7 @@
 
 #include "cells.hpp"
 #include "cone.hpp"
+#include "orca/geometry/vec2.hpp"
 
 namespace orca::sim::detail {
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/sensors.hpp"
 

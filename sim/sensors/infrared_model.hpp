@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "orca/base/random.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/caster.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "orca/base/random.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/caster.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"

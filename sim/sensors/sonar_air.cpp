@@ -19,7 +19,7 @@ double seconds_of(TimePoint time) { return to_seconds(time.time_since_epoch()); 
 
 }  // namespace
 
-// Off what the sound of others may come to a listener.
+// The points and walls off which the sound of other sonars can reach one listener.
 class SonarAir::Ear {
  public:
   // Scatters sound to all sides.

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "orca/geometry/vec2.hpp"
 #include "sonar_beam.hpp"
 #include "sonar_sectors.hpp"
 
@@ -38,8 +39,8 @@ class SonarAir {
   // Forgets what can no longer be heard at `now`.
   void settle(TimePoint now);
 
-  // What the sonar reads [m] that has sent chirp number `own`, if it hears anything: it takes whatever comes
-  // first for its echo, be it that echo or another's sound. Many may ask at once.
+  // Returns what the sonar that has sent chirp number `own` reads [m], if it hears anything. It takes the first sound
+  // that arrives for its echo, even if another sonar sent it. Several threads may ask at once.
   // @pre  that chirp is still in the air.
   [[nodiscard]] std::optional<double> first_heard(const Caster& caster, std::uint64_t own, const Echo& echo,
                                                   Sectors::Search& search) const;
@@ -51,7 +52,7 @@ class SonarAir {
   struct Window {
     std::uint64_t own;   // The chirp that is its own.
     double now;          // [s] When it has sent that.
-    double silent_from;  // [s] What is silent before that cannot come to it any more.
+    double silent_from;  // [s] Chirps that ended before this can no longer reach it.
   };
 
   [[nodiscard]] const Cone& cone(std::uint64_t chirp) const { return cones_[chirp - cones_.front().number]; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/caster.hpp"
 
 namespace orca::sim::detail {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orca/base/random.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/caster.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"
@@ -21,11 +22,11 @@ class SonarModel {
  public:
   SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start);
 
-  // Fires all that is due in the span, into a silent world;
+  // Fires the transducers that are due in the span, and finds their own echoes.
   void fire(const Caster& caster, std::size_t own_body, const TickSpan& span);
-  // lets others hear it,
+  // Sends the chirps fired, so that other sonars can hear them.
   void send(SonarAir& air);
-  // and takes what comes back, also of others.
+  // Turns the first sound that each transducer hears into its reading.
   void listen(const Caster& caster, const SonarAir& air);
 
   // The round that was completed in the last listen(), if one was.

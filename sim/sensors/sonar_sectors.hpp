@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "orca/geometry/pose2.hpp"
 #include "sonar_beam.hpp"
 
 namespace orca::sim::detail {

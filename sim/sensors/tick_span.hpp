@@ -2,7 +2,7 @@
 #pragma once
 
 #include "orca/base/time.hpp"
-#include "orca/sim/geometry.hpp"
+#include "orca/geometry/pose2.hpp"
 
 namespace orca::sim::detail {
 

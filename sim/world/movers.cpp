@@ -85,16 +85,16 @@ const std::string* Movers::at(const Shape& body, double bottom) const {
   return found == movers_.end() ? nullptr : &found->name;
 }
 
-void Movers::draw(Scene& scene) const {
+void Movers::draw(Snapshot& snapshot) const {
   for (const Mover& m : movers_) {
     if (!m.present) continue;
     const Shape shape = m.placed();
-    if (const auto* circle = std::get_if<Circle>(&shape)) scene.circles.push_back(*circle);
+    if (const auto* circle = std::get_if<Circle>(&shape)) snapshot.circles.push_back(*circle);
     const std::vector<Segment> edges = edges_of(shape);
-    scene.edges.insert(scene.edges.end(), edges.begin(), edges.end());
+    snapshot.edges.insert(snapshot.edges.end(), edges.begin(), edges.end());
     const Bounds b = bounds_of(shape);
-    scene.bounds.add(b.low);
-    scene.bounds.add(b.high);
+    snapshot.bounds.add(b.low);
+    snapshot.bounds.add(b.high);
   }
 }
 

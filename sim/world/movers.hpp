@@ -9,8 +9,9 @@
 #include "motion/physics.hpp"
 #include "motion/walker_track.hpp"
 #include "orca/base/hash.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/caster.hpp"
-#include "orca/sim/scene.hpp"
+#include "orca/sim/snapshot.hpp"
 #include "robot.hpp"
 
 namespace orca::sim::detail {
@@ -38,7 +39,7 @@ class Movers {
   // The name of what overlaps `body` and is taller than `bottom` [m], or null.
   [[nodiscard]] const std::string* at(const Shape& body, double bottom) const;
 
-  void draw(Scene& scene) const;
+  void draw(Snapshot& snapshot) const;
   void add_to(Fnv1a& hash) const;
 
  private:

@@ -4,7 +4,7 @@
 #include <bit>
 #include <utility>
 
-#include "motion/arc.hpp"
+#include "orca/geometry/arc.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -34,30 +34,31 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
   for (const BumperRing& s : model.bumpers) bumpers.emplace_back(s, birth.time);
 }
 
-Travel Robot::set_off() {
+Travel2 Robot::set_off() {
   driving_ = drive.step();
-  const double seconds = to_seconds(tick_);
-  return {driving_.forward * seconds, driving_.left * seconds, driving_.turn * seconds};
+  return driving_ * to_seconds(tick_);
 }
 
 void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
   const double seconds = to_seconds(tick_);
-  if (steers()) steer_ = wrapped(steer_ + driving_.turn * seconds);
+  if (steers()) steer_ = wrapped(steer_ + driving_.turn_rate * seconds);
   const Pose2 X_WR{X_WB.x, X_WB.y, steers() ? wrapped(X_WB.yaw + steer_) : X_WB.yaw};
-  const Travel real = arc_between(pose, X_WR);
-  velocity = {real.forward / seconds, real.turn / seconds, real.left / seconds};
+  const Travel2 real = arc_between(pose, X_WR);
+  velocity = real / seconds;
   // Whatever stands in the way holds the body, not the wheels' steering.
   const bool slides = model.drive.kind == DriveKind::holonomic;
   if (blocked)
-    drive.held_to({velocity.forward, steers() ? driving_.turn : velocity.turn, slides ? velocity.left : 0.0});
+    drive.held_to({.forward = velocity.forward,
+                   .left = slides ? velocity.left : 0.0,
+                   .turn_rate = steers() ? driving_.turn_rate : velocity.turn_rate});
   reckon(real, now);
   carry(X_WB, X_WR, now);
   sample(now);
 }
 
-void Robot::reckon(const Travel& real, TimePoint now) {
-  Travel seen = real;
-  if (steers()) seen.turn = driving_.turn * to_seconds(tick_);
+void Robot::reckon(const Travel2& real, TimePoint now) {
+  Travel2 seen = real;
+  if (steers()) seen.turn = driving_.turn_rate * to_seconds(tick_);
   odometry_model_.add(seen, to_seconds(tick_));
   odometry.reset();
   if (now < odometry_due_) return;
@@ -87,7 +88,7 @@ Pose2 Robot::turret_pose(const Pose2& X_WB) const {
 
 std::optional<TurretReading> Robot::turret() const {
   if (!turret_) return std::nullopt;
-  const double steering = steers() ? driving_.turn : 0.0;
+  const double steering = steers() ? driving_.turn_rate : 0.0;
   return TurretReading{on_body_.to, wrapped(turret_->angle() - wrapped(pose.yaw - body.yaw)),
                        turret_->rate() - steering};
 }
@@ -120,8 +121,8 @@ void Robot::sample(TimePoint now) {
     trajectory_.push_back({now, pose});
 }
 
-SceneRobot Robot::drawn() const {
-  SceneRobot drawn{name, pose, placed(model.footprint, body), trajectory_};
+RobotSnapshot Robot::drawn() const {
+  RobotSnapshot drawn{name, pose, placed(model.footprint, body), trajectory_};
   if (!(drawn.trajectory.back().pose == pose)) drawn.trajectory.push_back({on_body_.to, pose});
   return drawn;
 }
@@ -130,7 +131,7 @@ void Robot::add_to(Fnv1a& hash) const {
   const Pose2 odometric = odometry_model_.reading({}).pose;
   for (const double value :
        {pose.x, pose.y, pose.yaw, body.yaw, turret_ ? turret_->angle() : 0.0, velocity.forward, velocity.left,
-        velocity.turn, odometric.x, odometric.y, odometric.yaw})
+        velocity.turn_rate, odometric.x, odometric.y, odometric.yaw})
     hash.add_u64(std::bit_cast<std::uint64_t>(value));
 }
 

@@ -10,7 +10,9 @@
 #include "motion/odometry_model.hpp"
 #include "motion/turret_model.hpp"
 #include "orca/base/hash.hpp"
-#include "orca/sim/scene.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/geometry/twist2.hpp"
+#include "orca/sim/snapshot.hpp"
 #include "sensors/bumper_model.hpp"
 #include "sensors/infrared_model.hpp"
 #include "sensors/laser_model.hpp"
@@ -32,9 +34,9 @@ class Robot {
   Robot(Birth birth, RobotModel model, const ErrorLevels& errors);
 
   // Sets off for a tick. @return  how the robot's frame moves if nothing is in its way.
-  Travel set_off();
+  Travel2 set_off();
   // How fast the body turns meanwhile [rad/s].
-  [[nodiscard]] double body_turn() const { return steers() ? 0.0 : driving_.turn; }
+  [[nodiscard]] double body_turn_rate() const { return steers() ? 0.0 : driving_.turn_rate; }
   // The body has moved to `X_WB` in the tick that ended at `now`; `blocked`: something was in its way.
   void moved(const Pose2& X_WB, TimePoint now, bool blocked);
   // Lets the sonars fire. @pre  moved() was called for all robots.
@@ -48,15 +50,15 @@ class Robot {
 
   [[nodiscard]] double speed() const { return std::hypot(driving_.forward, driving_.left); }  // [m/s]
   [[nodiscard]] std::optional<TurretReading> turret() const;
-  [[nodiscard]] SceneRobot drawn() const;
+  [[nodiscard]] RobotSnapshot drawn() const;
   void add_to(Fnv1a& hash) const;
 
   const std::string name;
   const RobotModel model;
   DriveModel drive;
-  Velocity velocity;  // True, in the last tick, in the robot's frame.
-  Pose2 pose;         // Of the robot's frame: x is forward.
-  Pose2 body;         // The same but on a synchro base, which does not turn with its wheels.
+  Twist2 velocity;  // True, in the last tick, in the robot's frame.
+  Pose2 pose;       // Of the robot's frame: x is forward.
+  Pose2 body;       // The same but on a synchro base, which does not turn with its wheels.
   std::vector<SonarModel> sonars;
   std::vector<LaserModel> lasers;
   std::vector<InfraredModel> infrareds;
@@ -65,21 +67,21 @@ class Robot {
 
  private:
   [[nodiscard]] bool steers() const { return model.drive.kind == DriveKind::synchro; }
-  void reckon(const Travel& real, TimePoint now);
+  void reckon(const Travel2& real, TimePoint now);
   void carry(const Pose2& X_WB, const Pose2& X_WR, TimePoint now);
   [[nodiscard]] Pose2 turret_pose(const Pose2& X_WB) const;
   [[nodiscard]] const TickSpan& span(bool on_turret) const { return on_turret ? on_turret_ : on_body_; }
   void sample(TimePoint now);
 
   Duration tick_;
-  Velocity driving_;    // Of the drive, in the present tick.
+  Twist2 driving_;      // Of the drive, in the present tick.
   double steer_ = 0.0;  // [rad] Of the wheels on the body.
   std::optional<TurretModel> turret_;
   OdometryModel odometry_model_;
   TickSpan on_body_;  // The last tick.
   TickSpan on_turret_;
   TimePoint odometry_due_;
-  std::vector<SceneRobot::Sample> trajectory_;
+  std::vector<RobotSnapshot::Sample> trajectory_;
 };
 
 }  // namespace orca::sim::detail

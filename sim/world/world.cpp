@@ -5,11 +5,11 @@
 #include <deque>
 #include <utility>
 
-#include "motion/arc.hpp"
 #include "motion/contact_log.hpp"
 #include "motion/physics.hpp"
 #include "movers.hpp"
 #include "orca/base/team.hpp"
+#include "orca/geometry/arc.hpp"
 #include "robot.hpp"
 
 namespace orca::sim {
@@ -122,8 +122,8 @@ void World::Impl::drive() {
   const double seconds = to_seconds(kTick);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     detail::Robot& r = robots[i];
-    const Vec2 way = detail::chord(r.pose.yaw, r.set_off());
-    physics.set_velocity(i, (1.0 / seconds) * way, r.body_turn());
+    const Vec2 way = chord(r.pose.yaw, r.set_off());
+    physics.set_velocity(i, (1.0 / seconds) * way, r.body_turn_rate());
   }
   movers.walk(kTick, robots);
   physics.step(seconds);
@@ -212,14 +212,13 @@ std::optional<RobotId> World::find(std::string_view name) const {
   return RobotId{static_cast<std::size_t>(found - impl_->robots.begin())};
 }
 
-Status World::set_velocity_command(RobotId robot, double forward, double turn) {
-  return set_velocity_command(robot, Velocity{.forward = forward, .turn = turn});
+Status World::set_velocity_command(RobotId robot, double forward, double turn_rate) {
+  return set_velocity_command(robot, Twist2{.forward = forward, .turn_rate = turn_rate});
 }
 
-Status World::set_velocity_command(RobotId robot, const Velocity& wanted) {
+Status World::set_velocity_command(RobotId robot, const Twist2& wanted) {
   detail::Robot& r = impl_->robot(robot);
-  if (!std::isfinite(wanted.forward) || !std::isfinite(wanted.turn) || !std::isfinite(wanted.left))
-    return fail(Code::invalid_argument, "a velocity command must be finite", r.name);
+  if (!is_finite(wanted)) return fail(Code::invalid_argument, "a velocity command must be finite", r.name);
   if (wanted.left != 0.0 && r.model.drive.kind != DriveKind::holonomic)
     return fail(Code::failed_precondition, "this base cannot move sideways; only a holonomic one can",
                 r.name);
@@ -246,7 +245,7 @@ TimePoint World::time() const { return impl_->now; }
 Pose2 World::pose(RobotId robot) const { return impl_->robot(robot).pose; }
 Pose2 World::body_pose(RobotId robot) const { return impl_->robot(robot).body; }
 std::optional<TurretReading> World::turret(RobotId robot) const { return impl_->robot(robot).turret(); }
-Velocity World::velocity(RobotId robot) const { return impl_->robot(robot).velocity; }
+Twist2 World::velocity(RobotId robot) const { return impl_->robot(robot).velocity; }
 const std::vector<ContactEvent>& World::contacts() const { return impl_->contacts; }
 const std::optional<SonarScan>& World::sonar(RobotId robot, std::size_t ring) const {
   return impl_->robot(robot).sonars.at(ring).completed();
@@ -268,11 +267,11 @@ const RobotModel& World::robot_model(RobotId robot) const { return impl_->robot(
 const Caster& World::caster() const { return impl_->caster; }
 std::size_t World::body(RobotId robot) const { return impl_->bodies.at(index(robot)); }
 
-Scene World::scene() const {
-  Scene scene = scene_of(impl_->model);
-  impl_->movers.draw(scene);
-  for (const detail::Robot& r : impl_->robots) scene.robots.push_back(r.drawn());
-  return scene;
+Snapshot World::snapshot() const {
+  Snapshot snapshot = snapshot_of(impl_->model);
+  impl_->movers.draw(snapshot);
+  for (const detail::Robot& r : impl_->robots) snapshot.robots.push_back(r.drawn());
+  return snapshot;
 }
 
 std::uint64_t World::state_hash() const {

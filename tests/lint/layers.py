@@ -23,9 +23,9 @@ class Layer:
 
 
 COMPONENT = ("component_api", "patterns", "idl", "base")
-DEVICE = ("hw_api", *COMPONENT)
+DEVICE = ("hw_api", "geometry", *COMPONENT)
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
-SIM_MODEL = ("xml", "base")
+SIM_MODEL = ("geometry", "xml", "base")
 SIM_RAYS = ("sim_model", *SIM_MODEL)
 SIM_SENSORS = ("sim_rays", *SIM_RAYS)
 SIM_MOTION = ("sim_sensors", *SIM_SENSORS)
@@ -39,14 +39,17 @@ LAYERS = (
     Layer("idl", ("idl",), ("orca/idl/",), ("base",), ("fastcdr",), ("fastcdr",)),
     Layer("xml", ("src/xml",), ("orca/xml/",), ("base",), ("tinyxml2", "fmt")),
     Layer("text", ("src/text",), ("orca/text/",), ("idl", "xml", "base")),
-    Layer("geometry", ("src/geometry",), ("orca/geometry/",), ("idl", "base"), ("eigen",)),
+    Layer("geometry", ("src/geometry",), ("orca/geometry/",)),
+    Layer("geometry_objects", ("src/geometry/objects",), ("orca/geometry/objects/",), ("geometry", "idl", "base"),
+          ("eigen",)),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ("idl", "base"), ("fmt",)),
     Layer("patterns_local", ("src/patterns/local",), ("orca/patterns/local/",), ("patterns", "idl", "base"), ("fmt",)),
     Layer("patterns_dds", ("src/patterns/dds",), ("orca/patterns/dds/",), ("patterns", "idl", "base"),
           ("fastdds", "fastcdr", "fmt")),
     Layer("component_api", ("src/component_api", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
           ("patterns", "idl", "base"), ("fmt",)),
-    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), COMPONENT, ("fmt",)),
+    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), ("geometry", *COMPONENT),
+          ("fmt",)),
     Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_reading", (f"{GRAPH}/reading",), (), ("graph", "xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_checking", (f"{GRAPH}/checking",), (), ("graph_reading", "graph", "xml", "base"), ("fmt",), module=GRAPH),
@@ -54,12 +57,13 @@ LAYERS = (
           module=GRAPH),
     Layer("plugin_inspection", (f"{PLUGIN}/inspection",), (), DEVICE, ("fmt",), module=PLUGIN),
     Layer("plugin", (PLUGIN,), ("orca/plugin/",), ("plugin_inspection", *DEVICE), ("fmt",), module=PLUGIN),
-    Layer("device", ("src/hw",), (), ("geometry", *DEVICE), ("fmt",), siblings=False),
-    Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",), COMPONENT),
-    Layer("components", ("src/components",), (), ("avoidance", "geometry", *DEVICE), ("eigen", "fcl", "fmt"),
+    Layer("device", ("src/hw",), (), ("geometry_objects", *DEVICE), ("fmt",), siblings=False),
+    Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",),
+          ("geometry_objects", "geometry", *COMPONENT)),
+    Layer("components", ("src/components",), (), ("avoidance", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
     Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
-        "geometry", "mesh", "readings", "realism", "robot_model", "scene", "sensors", "shape", "walker", "world_model")),
+        "figures", "mesh", "readings", "realism", "robot_model", "sensors", "shape", "snapshot", "walker", "world_model")),
           SIM_MODEL, ("eigen", "fmt"), module="sim"),
     Layer("sim_rays", ("sim/rays",), ("orca/sim/caster.hpp",), SIM_RAYS, ("eigen", "fmt"), module="sim"),
     Layer("sim_generators", ("sim/generators",), ("orca/sim/generate.hpp",), SIM_RAYS, ("fmt",), module="sim"),
@@ -68,7 +72,7 @@ LAYERS = (
     Layer("sim_world", ("sim/world",), ("orca/sim/world.hpp",), SIM_WORLD, ("eigen", "fmt"), module="sim"),
     Layer("sim_files", ("sim/files",), ("orca/sim/bitmap.hpp", "orca/sim/robot_file.hpp", "orca/sim/world_file.hpp"),
           SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # of Bullet its transforms
-    Layer("sim_plugin", ("sim/plugin",), (), ("sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
+    Layer("sim_plugin", ("sim/plugin",), (), ("geometry_objects", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
     Layer("host_containment", (f"{HOST}/containment",), ("orca/host/last_words.hpp", "orca/host/stop_signal.hpp"),
           ("plugin", *DEVICE), ("fmt",), module=HOST),
     Layer("host_picture", (f"{HOST}/picture",), ("orca/host/picture.hpp",), DEVICE, ("cairo", "fmt"), module=HOST),

@@ -84,6 +84,20 @@ TEST_CASE("a full stop stops the robot within one period, in every mode, wheneve
   }
 }
 
+TEST_CASE("a full stop is obeyed at once even if it holds a number that is not finite", "[system][fuser]") {
+  const Run run = two_voices("weighted", "any", "full_stop_at_nan");
+  INFO(run.err);
+  const double stopped = told_at(run, "TOLD_TO_STOP by guard speed 0.00");
+  CHECK(stopped >= 2.0);
+  CHECK(stopped <= 2.0 + 0.1 + kPeriod);
+}
+
+TEST_CASE("a wish with a number that is not finite counts as silence", "[system][fuser]") {
+  const Run run = two_voices("weighted", "any", "drive_at_nan");
+  INFO(run.err);
+  CHECK(told_at(run, "REQUIRED_SILENT by guard speed 0.00") >= 2.5);
+}
+
 TEST_CASE("a required behaviour that falls silent stops the robot, in every mode", "[system][fuser]") {
   for (const std::string& mode : kModes) {
     const Run run = two_voices(mode, "any", "silence");

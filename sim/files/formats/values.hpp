@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "orca/sim/geometry.hpp"
+#include "orca/geometry/vec2.hpp"
 #include "orca/xml/attributes.hpp"
 
 namespace orca::sim::detail {

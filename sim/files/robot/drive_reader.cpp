@@ -15,9 +15,9 @@ void read_drive(const xml::Attributes& e, RobotModel& model) {
   Drive& drive = model.drive;
   if (const auto type = e.choice("type")) drive.kind = kind_of(*type);
   set(drive.max_speed, e.number("max_speed"));
-  set(drive.max_steer_speed, e.number("max_steer_speed"));
+  set(drive.max_turn_rate, e.number("max_steer_speed"));
   set(drive.max_acceleration, e.number("max_acceleration"));
-  set(drive.max_steer_acceleration, e.number("max_steer_acceleration"));
+  set(drive.max_turn_acceleration, e.number("max_steer_acceleration"));
   set(drive.track, e.number("track"));
   set(drive.wheel_diameter, e.number("wheel_diameter"));
   set(drive.lag, e.duration_or("lag", drive.lag));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "orca/geometry/vec2.hpp"
 #include "orca/sim/robot_model.hpp"
 
 namespace orca::sim::detail {

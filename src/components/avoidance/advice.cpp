@@ -17,14 +17,14 @@ constexpr double kBlockedPenalty = 4.0;          // [rad] for no free way at all
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-double way_to_point(const Echo& echo, double direction, const Limits& limits) {
+double way_to_point(Vec2 echo, double direction, const Limits& limits) {
   const double reach = limits.robot_radius + limits.margin;
   const double along = std::cos(direction) * echo.x + std::sin(direction) * echo.y;
   const double aside = std::abs(-std::sin(direction) * echo.x + std::cos(direction) * echo.y);
   return along <= 0.0 || aside >= reach ? kNever : along - std::sqrt(reach * reach - aside * aside);
 }
 
-double way_to_wall(const Echo& echo, double direction, const Limits& limits) {
+double way_to_wall(Vec2 echo, double direction, const Limits& limits) {
   const double gap = std::hypot(echo.x, echo.y) - limits.robot_radius;
   const double closing = std::cos(direction - std::atan2(echo.y, echo.x));
   return gap >= limits.side_distance || closing < 0.05 ? kNever : (gap - limits.margin) / closing;
@@ -33,14 +33,14 @@ double way_to_wall(const Echo& echo, double direction, const Limits& limits) {
 // What speaks against a direction: leaving the goal aside, turning far, changing sides, and a short way.
 double cost(double direction, double way, const Situation& situation, const Limits& limits) {
   const double goal = situation.goal.value_or(0.0);
-  const double off = std::remainder(direction - goal, 2.0 * std::numbers::pi);
+  const double off = wrapped(direction - goal);
   const bool changes_side = situation.last_direction * direction < 0.0;
   const double missing = std::max(0.0, limits.safe_distance - way) / limits.safe_distance;
   return kGoalShare * std::abs(off) + (1.0 - kGoalShare) * std::abs(direction) +
          (changes_side ? kOtherSidePenalty : 0.0) + kBlockedPenalty * missing;
 }
 
-double best_direction(std::span<const Echo> echoes, const Situation& situation, const Limits& limits) {
+double best_direction(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
   double best = 0.0;
   double lowest = cost(0.0, free_way(echoes, 0.0, limits), situation, limits);
   for (int i = 1; i <= kSteps; ++i) {
@@ -57,14 +57,14 @@ double best_direction(std::span<const Echo> echoes, const Situation& situation, 
 
 }  // namespace
 
-double free_way(std::span<const Echo> echoes, double direction, const Limits& limits) {
+double free_way(std::span<const Vec2> echoes, double direction, const Limits& limits) {
   double way = limits.safe_distance;
-  for (const Echo& echo : echoes)
+  for (Vec2 echo : echoes)
     way = std::min({way, way_to_point(echo, direction, limits), way_to_wall(echo, direction, limits)});
   return std::max(0.0, way);
 }
 
-Advice avoid(std::span<const Echo> echoes, const Situation& situation, const Limits& limits) {
+Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
   const double ahead = std::min(free_way(echoes, 0.0, limits), free_way(echoes, situation.turning, limits));
   if (ahead >= limits.safe_distance) return {};
   Advice advice;

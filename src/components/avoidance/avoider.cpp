@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orca/geometry/arc.hpp"
+#include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca::avoid {
@@ -91,24 +93,21 @@ Outcome Avoider::work() {
 
 void Avoider::follow(const idl::Odometry& odometry) {
   const TimePoint stamp = to_time_point(odometry.stamp());
-  const Motion pose{odometry.x(), odometry.y(), odometry.steer_angle()};
-  if (moved_at_) memory_.advance(between(pose_, pose), to_seconds(stamp - *moved_at_), keep());
+  const Pose2 pose = plane_pose(odometry);
+  if (moved_at_) memory_.advance(seen_from(pose_, pose), to_seconds(stamp - *moved_at_), keep());
   moved_at_ = stamp;
   pose_ = pose;
-  speed_ = odometry.translational_velocity();
-  turn_rate_ = odometry.steering_velocity();
+  twist_ = {.forward = odometry.translational_velocity(), .turn_rate = odometry.steering_velocity()};
 }
 
-Echo Avoider::moved_since(const Echo& echo, double age) const {
-  return seen_after(echo, arc(speed_, turn_rate_, age));
-}
+Vec2 Avoider::moved_since(Vec2 point, double age) const { return seen_from(moved(twist_, age), point); }
 
 void Avoider::advise() {
   if (!heard_at_ || to_seconds(now() - *heard_at_) > *deaf_after_) {
     motion_.push(full_stop());
     return;
   }
-  const Situation situation{last_direction_, turn_rate_ * *reaction_time_, goal_direction()};
+  const Situation situation{last_direction_, twist_.turn_rate * *reaction_time_, goal_direction()};
   const Advice advice = avoid(memory_.echoes(), situation, limits());
   last_direction_ = advice.direction;
   if (advice.needed) {
@@ -118,21 +117,21 @@ void Avoider::advise() {
   }
 }
 
-std::optional<Motion> Avoider::pose() const {
+std::optional<Pose2> Avoider::pose() const {
   if (!localizer_.connected()) return moved_at_ ? std::optional(pose_) : std::nullopt;
   const auto pose = localizer_.latest();
   if (!pose) return std::nullopt;
-  return Motion{pose->x(), pose->y(), pose->orientation()};
+  return plane_pose(*pose);
 }
 
 std::optional<double> Avoider::goal_direction() const {
   if (!goal_.connected()) return std::nullopt;
   const auto goal = goal_.latest();
-  const std::optional<Motion> here = pose();
+  const std::optional<Pose2> here = pose();
   if (!goal || !here || to_seconds(now() - to_time_point(goal->creation_time())) > *goal_max_age_)
     return std::nullopt;
   const auto& place = goal->coordinate().point();
-  const Echo seen = seen_after({place.x(), place.y()}, *here);
+  const Vec2 seen = seen_from(*here, Vec2{place.x(), place.y()});
   return std::atan2(seen.y, seen.x);
 }
 

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 
-double distance(const Target& target, const Pose& pose) {
-  return std::hypot(target.x - pose.x, target.y - pose.y);
+double distance(const Target& target, const Pose2& pose) {
+  return std::hypot(target.place.x - pose.x, target.place.y - pose.y);
 }
 
-double bearing(const Target& target, const Pose& pose) {
-  return wrap(std::atan2(target.y - pose.y, target.x - pose.x) - pose.heading);
+double bearing(const Target& target, const Pose2& pose) {
+  return wrapped(std::atan2(target.place.y - pose.y, target.place.x - pose.x) - pose.yaw);
 }
 
 Step drive(double direction, double speed, const Limits& limits) {
@@ -25,16 +25,16 @@ Step drive(double direction, double speed, const Limits& limits) {
 }
 
 // Towards the circle from afar, along it with the place on the left when on it, outwards from within it.
-Step circle(const Target& target, const Pose& pose, const Limits& limits) {
+Step circle(const Target& target, const Pose2& pose, const Limits& limits) {
   const double inwards =
       std::atan2(distance(target, pose) - limits.circle_radius, 0.5 * limits.circle_radius);
-  return drive(wrap(bearing(target, pose) - kQuarterTurn + inwards), limits.max_speed, limits);
+  return drive(wrapped(bearing(target, pose) - kQuarterTurn + inwards), limits.max_speed, limits);
 }
 
-Step come_to_rest(const Target& target, const Pose& pose, const Limits& limits, const Before& before) {
+Step come_to_rest(const Target& target, const Pose2& pose, const Limits& limits, const Before& before) {
   const double speed = before.speed - limits.deceleration * before.time;
   if (speed > 0.0 && !target.via) return {Step::Kind::drive, 0.0, speed};
-  const double off = wrap(target.orientation - pose.heading);
+  const double off = wrapped(target.orientation - pose.yaw);
   if (target.use_orientation && !target.via && std::abs(off) > target.reach_angle)
     return {Step::Kind::turn, off, 0.0};
   return {Step::Kind::reached, 0.0, 0.0};
@@ -42,16 +42,11 @@ Step come_to_rest(const Target& target, const Pose& pose, const Limits& limits, 
 
 }  // namespace
 
-double wrap(double angle) {
-  const double wrapped = std::remainder(angle, 2.0 * std::numbers::pi);
-  return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
+bool within_reach(const Target& target, const Pose2& pose) {
+  return std::hypot(target.place.x - pose.x, target.place.y - pose.y, target.rise) < target.reach_radius;
 }
 
-bool within_reach(const Target& target, const Pose& pose) {
-  return std::hypot(target.x - pose.x, target.y - pose.y, target.rise) < target.reach_radius;
-}
-
-Step step_towards(const Target& target, const Pose& pose, const Limits& limits, const Before& before) {
+Step step_towards(const Target& target, const Pose2& pose, const Limits& limits, const Before& before) {
   if (before.near || within_reach(target, pose)) return come_to_rest(target, pose, limits, before);
   if (target.reach_radius <= 0.0) return circle(target, pose, limits);
   const double approach = std::max(limits.min_speed, limits.slow_down * distance(target, pose));

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "orca/geometry/pose2.hpp"
+
 namespace orca::go {
 
-/// Where the robot is, in the frame that the goals are given in.
-struct Pose {
-  double x = 0.0;        ///< [m]
-  double y = 0.0;        ///< [m]
-  double heading = 0.0;  ///< [rad]
-};
-
+/// A goal in the frame of the robot's pose.
 struct Target {
-  double x = 0.0;             ///< [m]
-  double y = 0.0;             ///< [m]
+  Vec2 place;
   double rise = 0.0;          ///< [m] how far the place lies above the robot, or below.
   double reach_radius = 0.0;  ///< [m] of the ball around the place; 0: never reached, the robot circles it.
   bool use_orientation = false;
@@ -30,11 +25,11 @@ struct Limits {
   double circle_radius = 0.0;  ///< [m] of the circle around a place that is never reached.
 };
 
-/// What the robot was told in the lap before.
+/// The lap before: where the robot was, and what Goto commanded.
 struct Before {
   bool near = false;   ///< It has been within reach before: a little drift out of it does not start the
                        ///< approach again.
-  double speed = 0.0;  ///< [m/s] that it was told.
+  double speed = 0.0;  ///< [m/s] that was commanded.
   double time = 0.0;   ///< [s] since then.
 };
 
@@ -46,16 +41,13 @@ struct Step {
   double speed = 0.0;      ///< [m/s]
 };
 
-/// The angle in (-pi, pi] [rad].
-[[nodiscard]] double wrap(double angle);
-
 /// One control step towards a target: straight at it, slower when the target lies off the robot's axis and
-/// near a goal. Within reach it comes to rest evenly, then turns to face what it shall face. Around a target
+/// near a goal. Within reach it comes to rest evenly, then turns to the target's orientation. Around a target
 /// without reach it circles counter-clockwise.
-[[nodiscard]] Step step_towards(const Target& target, const Pose& pose, const Limits& limits,
+[[nodiscard]] Step step_towards(const Target& target, const Pose2& pose, const Limits& limits,
                                 const Before& before);
 
 /// Whether the pose lies within the target's reach radius.
-[[nodiscard]] bool within_reach(const Target& target, const Pose& pose);
+[[nodiscard]] bool within_reach(const Target& target, const Pose2& pose);
 
 }  // namespace orca::go

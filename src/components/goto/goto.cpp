@@ -6,6 +6,7 @@
 
 #include "algorithm.hpp"
 #include "orca/component.hpp"
+#include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
@@ -14,8 +15,8 @@
 namespace {
 
 using orca::ObjectPtr;
+using orca::Pose2;
 using orca::Status;
-using orca::go::Pose;
 using orca::go::Step;
 
 /// Drives to a goal in a straight line (thesis 11.1); around one whose reach_radius is 0 it circles until
@@ -58,7 +59,7 @@ class Goto final : public orca::Component {
   }
 
   orca::Outcome work() override {
-    const Pose pose = take_pose();
+    const Pose2 pose = take_pose();
     pass_via_points(pose);
     if (route_.empty()) {
       before_ = {};
@@ -82,15 +83,15 @@ class Goto final : public orca::Component {
     posed_at_.reset();
   }
 
-  Pose take_pose() {
+  Pose2 take_pose() {
     if (!localizer_.connected()) {
       const auto odometry = odometry_.get_update();
       note_time(odometry->stamp());
-      return {odometry->x(), odometry->y(), odometry->steer_angle()};
+      return orca::plane_pose(*odometry);
     }
     const auto pose = localizer_.get_update();
     note_time(pose->stamp());
-    return {pose->x(), pose->y(), pose->orientation()};
+    return orca::plane_pose(*pose);
   }
 
   void note_time(const orca::idl::TimeValue& stamp) {
@@ -99,11 +100,11 @@ class Goto final : public orca::Component {
     posed_at_ = time;
   }
 
-  void pass_via_points(const Pose& pose) {
+  void pass_via_points(const Pose2& pose) {
     while (!route_.empty() && route_.front()->via() && within_reach(target(), pose)) route_.pop_front();
   }
 
-  void arrive(const Pose& pose) {
+  void arrive(const Pose2& pose) {
     auto arrived = arrived_.loan();
     arrived->name() = route_.front()->name();
     arrived->x(pose.x);
@@ -118,14 +119,8 @@ class Goto final : public orca::Component {
   [[nodiscard]] orca::go::Target target() const {
     const orca::idl::GoalPoint& goal = *route_.front();
     const auto& place = goal.coordinate().point();
-    return {place.x(),
-            place.y(),
-            place.z() - *height_,
-            goal.reach_radius(),
-            goal.use_orientation(),
-            goal.orientation(),
-            goal.reach_angle(),
-            goal.via()};
+    return {{place.x(), place.y()}, place.z() - *height_, goal.reach_radius(), goal.use_orientation(),
+            goal.orientation(),     goal.reach_angle(),   goal.via()};
   }
 
   [[nodiscard]] orca::go::Limits limits() const {

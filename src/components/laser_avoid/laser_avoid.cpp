@@ -3,6 +3,7 @@
 
 #include "orca/avoidance/avoider.hpp"
 #include "orca/avoidance/scan.hpp"
+#include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
 namespace {
@@ -20,10 +21,10 @@ class LaserAvoid final : public orca::avoid::Avoider {
   // The scan was taken a moment ago from where the robot was then.
   void listen(orca::avoid::EchoMemory& memory) override {
     const auto readings = laser_.get_update();
-    const auto& mount = readings->pose();
+    const orca::Pose2 mount = orca::plane_pose(readings->pose());
     const double age = orca::to_seconds(now() - orca::to_time_point(readings->stamp()));
-    const orca::avoid::Echo place = moved_since({mount.position().x(), mount.position().y()}, age);
-    const double yaw = mount.rotation().yaw() - turned_since(age);
+    const orca::Vec2 place = moved_since(mount.position(), age);
+    const double yaw = mount.yaw - turned_since(age);
     const orca::avoid::Scan scan{readings->ranges(),          readings->min_range(),
                                  readings->max_range(),       readings->angle_start(),
                                  readings->angle_increment(), {place.x, place.y, yaw}};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -130,7 +129,7 @@ class MotionCommandFuser final : public orca::Component {
 
   Voice hear(Listened& behaviour) {
     const auto newest = MotionPort::take_latest(*behaviour.edge);
-    if (newest && is_sound(*newest)) {
+    if (newest && orca::check_command(*newest).ok()) {  // else it is as if it had not been said
       behaviour.last = newest;
       if (newest->kind() == orca::idl::NORMAL) behaviour.last_wish = newest;
     }
@@ -143,12 +142,6 @@ class MotionCommandFuser final : public orca::Component {
     voice.wish = wish_of(*behaviour.last_wish);
     voice.wish_age = age_of(*behaviour.last_wish);
     return voice;
-  }
-
-  // What holds no number is as if it had not been said.
-  static bool is_sound(const orca::idl::MotionCommand& command) {
-    return std::isfinite(command.direction()) && std::isfinite(command.turn_rate()) &&
-           std::isfinite(command.speed()) && std::isfinite(command.weight());
   }
 
   static Voice::Said said(const orca::idl::MotionCommand& command) {

@@ -6,14 +6,13 @@
 #include "orca/avoidance/advice.hpp"
 #include "orca/avoidance/scan.hpp"
 #include "orca/component.hpp"
+#include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 #include "walk.hpp"
 
 namespace {
-
-using orca::avoid::Echo;
 
 /// Drives about: straight on, and away by a random turn where sonars or laser find the way blocked. Beside an
 /// avoid behaviour it only gives the robot something to do; alone it stops short of obstacles, but keeps no
@@ -69,19 +68,20 @@ class RandomWalk final : public orca::Component {
 
   void hear_round(const orca::idl::SonarRangeReadings& round) {
     for (std::size_t i = 0; i < std::min(round.ranges().size(), round.poses().size()); ++i)
-      note(round, i, round.poses()[i], 0.0);
+      note(round, i, orca::plane_pose(round.poses()[i]));
   }
 
   void hear_scan(const orca::idl::LaserRangeReadings& scan) {
-    for (std::size_t i = 0; i < scan.ranges().size(); ++i)
-      note(scan, i, scan.pose(), scan.angle_start() + scan.angle_increment() * static_cast<double>(i));
+    const orca::Pose2 mount = orca::plane_pose(scan.pose());
+    for (std::size_t i = 0; i < scan.ranges().size(); ++i) {
+      const double angle = scan.angle_start() + scan.angle_increment() * static_cast<double>(i);
+      note(scan, i, {mount.x, mount.y, mount.yaw + angle});
+    }
   }
 
-  void note(const orca::idl::RangeReadings& readings, std::size_t i, const orca::idl::Frame3D& mount,
-            double angle) {
+  void note(const orca::idl::RangeReadings& readings, std::size_t i, const orca::Pose2& beam) {
     const auto echo =
-        orca::avoid::echo_of(readings.ranges()[i], readings.min_range(), readings.max_range(),
-                             {mount.position().x(), mount.position().y(), mount.rotation().yaw() + angle});
+        orca::avoid::echo_of(readings.ranges()[i], readings.min_range(), readings.max_range(), beam);
     if (echo) echoes_.push_back(*echo);
   }
 
@@ -126,7 +126,7 @@ class RandomWalk final : public orca::Component {
 
   orca::walk::Walk walk_;
   std::optional<orca::RandomStream> random_;
-  std::vector<Echo> echoes_;
+  std::vector<orca::Vec2> echoes_;
   orca::ObjectPtr<orca::idl::SonarRangeReadings> last_sonar_;
   orca::ObjectPtr<orca::idl::LaserRangeReadings> last_laser_;
   std::optional<orca::TimePoint> heard_at_;

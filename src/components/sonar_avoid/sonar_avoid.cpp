@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "orca/avoidance/avoider.hpp"
+#include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
 namespace {
@@ -20,10 +21,8 @@ class SonarAvoid final : public orca::avoid::Avoider {
     const auto readings = sonar_.get_update();
     const std::size_t count = std::min(readings->ranges().size(), readings->poses().size());
     for (std::size_t i = 0; i < count; ++i) {
-      const auto& mount = readings->poses()[i];
-      const auto echo =
-          orca::avoid::echo_of(readings->ranges()[i], readings->min_range(), readings->max_range(),
-                               {mount.position().x(), mount.position().y(), mount.rotation().yaw()});
+      const auto echo = orca::avoid::echo_of(readings->ranges()[i], readings->min_range(),
+                                             readings->max_range(), orca::plane_pose(readings->poses()[i]));
       if (!echo) continue;
       const double age = i < readings->stamps().size()
                              ? orca::to_seconds(now() - orca::to_time_point(readings->stamps()[i]))

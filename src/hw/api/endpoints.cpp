@@ -32,27 +32,15 @@ MotionHW::MotionHW(const DriveLimits& limits, Duration max_command_age)
     : limits_(limits), max_command_age_(max_command_age) {}
 
 Status MotionHW::check(const idl::MotionCommand& command) {
-  if (command.kind() == idl::FULLSTOP) return ok();  // obeyed, whatever else it holds
   if (command.kind() == idl::DONTCARE)
     return fail(Code::invalid_argument,
                 "a base needs a crisp motion command, not DONTCARE; put a MotionCommandFuser in front of it");
-  const bool sound = std::isfinite(command.speed()) && std::isfinite(command.direction()) &&
-                     std::isfinite(command.turn_rate()) && std::isfinite(command.weight());
-  if (sound && command.weight() >= 0.0) return ok();
-  return fail(Code::invalid_argument,
-              "a motion command holds a number that is not finite, or a negative weight");
-}
-
-Status MotionHW::check(const idl::HolonomicVelocity& velocity) {
-  if (std::isfinite(velocity.forward()) && std::isfinite(velocity.left()) &&
-      std::isfinite(velocity.turn_rate()))
-    return ok();
-  return fail(Code::invalid_argument, "a holonomic velocity holds a number that is not finite");
+  return check_command(command);
 }
 
 Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
   if (Status checked = check(command); !checked.ok()) return checked;
-  move(command.kind() == idl::FULLSTOP ? DriveSetpoint{} : within_limits(command), now);
+  move(command.kind() == idl::FULLSTOP ? Twist2{} : within_limits(command), now);
   return ok();
 }
 
@@ -60,47 +48,49 @@ Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) 
   if (limits_.type != idl::HOLONOMIC)
     return fail(Code::failed_precondition,
                 "this base cannot move sideways; send it a MotionCommand, not a HolonomicVelocity");
-  if (Status checked = check(velocity); !checked.ok()) return checked;
-  const double speed = std::hypot(velocity.forward(), velocity.left());
-  const double share = speed > limits_.max_speed ? limits_.max_speed / speed : 1.0;
-  move({.speed = share * velocity.forward(),
-        .steer_speed = std::clamp(velocity.turn_rate(), -limits_.max_steer_speed, limits_.max_steer_speed),
-        .side_speed = share * velocity.left()},
-       now);
+  if (Status checked = check_command(velocity); !checked.ok()) return checked;
+  move(within_limits(velocity), now);
   return ok();
 }
 
 Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
   if (!limits_.turret) return fail(Code::failed_precondition, "this base has no turret");
-  if (!std::isfinite(turret.angle())) return fail(Code::invalid_argument, "a turret's angle must be finite");
+  if (Status checked = check_command(turret); !checked.ok()) return checked;
   const std::lock_guard lock(mutex_);
   setpoint_.turret_angle = turret.angle();
   return ok();
 }
 
-void MotionHW::move(const DriveSetpoint& wanted, TimePoint now) {
+void MotionHW::move(const Twist2& wanted, TimePoint now) {
   const std::lock_guard lock(mutex_);
-  const double turret_angle = setpoint_.turret_angle;
-  setpoint_ = wanted;
-  setpoint_.turret_angle = turret_angle;
+  setpoint_.velocity = wanted;
   received_ = now;
 }
 
 // @pre  mutex_ is held.
-void MotionHW::stand() { setpoint_ = DriveSetpoint{.turret_angle = setpoint_.turret_angle}; }
+void MotionHW::stand() { setpoint_.velocity = {}; }
 
-DriveSetpoint MotionHW::within_limits(const idl::MotionCommand& command) const {
-  DriveSetpoint setpoint;
-  setpoint.speed = std::clamp(command.speed(), -limits_.max_speed, limits_.max_speed);
+double MotionHW::within_limits(double turn_rate) const {
+  return std::clamp(turn_rate, -limits_.max_turn_rate, limits_.max_turn_rate);
+}
+
+Twist2 MotionHW::within_limits(const idl::HolonomicVelocity& velocity) const {
+  const double speed = std::hypot(velocity.forward(), velocity.left());
+  const double share = speed > limits_.max_speed ? limits_.max_speed / speed : 1.0;
+  return {share * velocity.forward(), share * velocity.left(), within_limits(velocity.turn_rate())};
+}
+
+Twist2 MotionHW::within_limits(const idl::MotionCommand& command) const {
+  Twist2 twist;
+  twist.forward = std::clamp(command.speed(), -limits_.max_speed, limits_.max_speed);
   if (command.steering() == idl::BY_TURN_RATE) {
-    setpoint.steer_speed = command.turn_rate();
-  } else {
-    setpoint.steer_speed = limits_.steer_gain * command.direction();
-    if (limits_.big_turn_angle > 0.0 && std::abs(command.direction()) > limits_.big_turn_angle)
-      setpoint.speed = std::clamp(setpoint.speed, -limits_.big_turn_speed, limits_.big_turn_speed);
+    twist.turn_rate = within_limits(command.turn_rate());
+    return twist;
   }
-  setpoint.steer_speed = std::clamp(setpoint.steer_speed, -limits_.max_steer_speed, limits_.max_steer_speed);
-  return setpoint;
+  twist.turn_rate = within_limits(limits_.steer_gain * command.direction());
+  if (limits_.big_turn_angle > 0.0 && std::abs(command.direction()) > limits_.big_turn_angle)
+    twist.forward = std::clamp(twist.forward, -limits_.big_turn_speed, limits_.big_turn_speed);
+  return twist;
 }
 
 DriveSetpoint MotionHW::due(TimePoint now) {

@@ -151,7 +151,7 @@ Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {
 }
 
 Status HardwareServer::on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velocity) {
-  if (Status checked = MotionHW::check(*velocity); !checked.ok()) return checked;
+  if (Status checked = check_command(*velocity); !checked.ok()) return checked;
   return carry_out(velocity,
                    velocity->forward() == 0.0 && velocity->left() == 0.0 && velocity->turn_rate() == 0.0);
 }

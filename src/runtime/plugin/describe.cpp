@@ -112,7 +112,6 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   [[nodiscard]] std::uint64_t run_seed() const override { refuse("asked for the seed"); }
   void state_changed(hw::HardwareState /*state*/) override { refuse("changed its state"); }
   [[nodiscard]] Executive& executive() override { refuse("asked for the executive"); }
-  [[nodiscard]] bool wants_scene() const override { return false; }
 
  private:
   void (*destroy_)(void*);

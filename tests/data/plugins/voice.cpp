@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <limits>
+
 #include "orca/component.hpp"
 #include "orca/idl/motion.hpp"
 
@@ -19,9 +21,18 @@ class VoiceOf final : public orca::Component {
     if (what == "no_opinion") motion_.push(orca::dont_care());
     if (what == "full_stop") motion_.push(orca::full_stop());
     if (what == "drive") motion_.push(orca::head(0.0, 0.3));
+    if (what == "full_stop_at_nan") motion_.push(at_nan(orca::full_stop()));
+    if (what == "drive_at_nan") motion_.push(at_nan(orca::head(0.0, 0.3)));
   }
 
-  static std::vector<std::string> words() { return {"no_opinion", "full_stop", "drive", "silence"}; }
+  static orca::Loan<orca::idl::MotionCommand> at_nan(orca::Loan<orca::idl::MotionCommand> command) {
+    command->speed(std::numeric_limits<double>::quiet_NaN());
+    return command;
+  }
+
+  static std::vector<std::string> words() {
+    return {"no_opinion", "full_stop", "drive", "silence", "full_stop_at_nan", "drive_at_nan"};
+  }
 
   orca::PushServer<orca::idl::MotionCommand> motion_{*this, "motion"};
   orca::Param<std::string> first_{*this, "first", "no_opinion", {.choices = words()}};

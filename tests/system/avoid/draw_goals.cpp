@@ -15,6 +15,8 @@
 namespace {
 
 using namespace orca::sim;
+using orca::direction;
+using orca::Vec2;
 
 constexpr double kClearance = 0.35;  // [m] free around a start and a goal
 constexpr double kNearest = 4.0;     // [m] from start to goal

@@ -10,6 +10,7 @@
 
 using namespace orca::avoid;
 using Catch::Detail::Approx;
+using orca::Vec2;
 using std::numbers::pi;
 
 namespace {
@@ -22,9 +23,9 @@ const Limits kLimits{.robot_radius = 0.2,
                      .max_speed = 0.4};
 constexpr double kReach = 0.3;  // robot_radius + margin
 
-std::vector<Echo> random_echoes(orca::RandomStream& random) {
-  std::vector<Echo> echoes(random() % 17);
-  for (Echo& echo : echoes) {
+std::vector<Vec2> random_echoes(orca::RandomStream& random) {
+  std::vector<Vec2> echoes(random() % 17);
+  for (Vec2& echo : echoes) {
     const double range = random.uniform(0.25, 3.0);
     const double angle = random.uniform(-pi, pi);
     echo = {range * std::cos(angle), range * std::sin(angle)};
@@ -33,8 +34,8 @@ std::vector<Echo> random_echoes(orca::RandomStream& random) {
 }
 
 // A wall across the way ahead, symmetric to it.
-std::vector<Echo> wall(double distance, double half_width) {
-  std::vector<Echo> echoes;
+std::vector<Vec2> wall(double distance, double half_width) {
+  std::vector<Vec2> echoes;
   for (double y = -half_width; y <= half_width + 1e-9; y += 0.1) echoes.push_back({distance, y});
   return echoes;
 }
@@ -42,9 +43,9 @@ std::vector<Echo> wall(double distance, double half_width) {
 }  // namespace
 
 TEST_CASE("the free way ends where the robot with its margin touches the echo", "[avoidance]") {
-  const std::vector<Echo> ahead{{0.7, 0.0}};
+  const std::vector<Vec2> ahead{{0.7, 0.0}};
   CHECK(free_way(ahead, 0.0, kLimits) == Approx(0.7 - kReach));
-  const std::vector<Echo> aside{{0.7, 0.18}};
+  const std::vector<Vec2> aside{{0.7, 0.18}};
   CHECK(free_way(aside, 0.0, kLimits) == Approx(0.7 - std::sqrt(kReach * kReach - 0.18 * 0.18)));
   CHECK(free_way(ahead, pi / 2, kLimits) == kLimits.safe_distance);
 }
@@ -52,15 +53,15 @@ TEST_CASE("the free way ends where the robot with its margin touches the echo", 
 TEST_CASE("a near echo beside the way counts as a wall across its beam", "[avoidance]") {
   const double angle = 1.2;
   const double gap = 0.15;
-  const std::vector<Echo> near{{0.35 * std::cos(angle), 0.35 * std::sin(angle)}};
+  const std::vector<Vec2> near{{0.35 * std::cos(angle), 0.35 * std::sin(angle)}};
   CHECK(free_way(near, 0.0, kLimits) == Approx((gap - kLimits.margin) / std::cos(angle)));
   CHECK(free_way(near, angle - pi / 2, kLimits) == kLimits.safe_distance);
-  const std::vector<Echo> farther{{0.41 * std::cos(angle), 0.41 * std::sin(angle)}};
+  const std::vector<Vec2> farther{{0.41 * std::cos(angle), 0.41 * std::sin(angle)}};
   CHECK(free_way(farther, 0.0, kLimits) == kLimits.safe_distance);
 }
 
 TEST_CASE("echoes behind, beside or far away leave the way free", "[avoidance]") {
-  const std::vector<Echo> echoes{{-0.1, 0.0}, {0.5, 1.01 * kReach}, {0.5, -1.01 * kReach}, {2.0, 0.0}};
+  const std::vector<Vec2> echoes{{-0.1, 0.0}, {0.5, 1.01 * kReach}, {0.5, -1.01 * kReach}, {2.0, 0.0}};
   CHECK(free_way(echoes, 0.0, kLimits) == kLimits.safe_distance);
 }
 
@@ -68,7 +69,7 @@ TEST_CASE("the free way lies between nothing and the safe distance, and an echo 
           "[avoidance]") {
   orca::RandomStream random(1, "test", "way");
   for (int i = 0; i < 1000; ++i) {
-    std::vector<Echo> echoes = random_echoes(random);
+    std::vector<Vec2> echoes = random_echoes(random);
     const double direction = random.uniform(-pi, pi);
     const double before = free_way(echoes, direction, kLimits);
     CHECK(before >= 0.0);
@@ -81,7 +82,7 @@ TEST_CASE("the free way lies between nothing and the safe distance, and an echo 
 TEST_CASE("with a free way ahead there is no advice, whatever was advised before", "[avoidance]") {
   orca::RandomStream random(2, "test", "free");
   for (int i = 0; i < 1000; ++i) {
-    const std::vector<Echo> echoes = random_echoes(random);
+    const std::vector<Vec2> echoes = random_echoes(random);
     const bool free = free_way(echoes, 0.0, kLimits) >= kLimits.safe_distance;
     const Advice advice = avoid(echoes, {.last_direction = random.uniform(-2.0, 2.0)}, kLimits);
     CHECK(advice.needed == !free);
@@ -92,7 +93,7 @@ TEST_CASE("with a free way ahead there is no advice, whatever was advised before
 TEST_CASE("an advised direction is at least as free as the way ahead", "[avoidance]") {
   orca::RandomStream random(3, "test", "better");
   for (int i = 0; i < 1000; ++i) {
-    const std::vector<Echo> echoes = random_echoes(random);
+    const std::vector<Vec2> echoes = random_echoes(random);
     const Advice advice = avoid(echoes, {}, kLimits);
     if (!advice.needed) continue;
     CHECK(free_way(echoes, advice.direction, kLimits) >= free_way(echoes, 0.0, kLimits));
@@ -101,8 +102,8 @@ TEST_CASE("an advised direction is at least as free as the way ahead", "[avoidan
 }
 
 TEST_CASE("an obstacle on one side is avoided to the other", "[avoidance]") {
-  const std::vector<Echo> on_the_left{{0.7, 0.15}, {0.7, 0.25}};
-  const std::vector<Echo> on_the_right{{0.7, -0.15}, {0.7, -0.25}};
+  const std::vector<Vec2> on_the_left{{0.7, 0.15}, {0.7, 0.25}};
+  const std::vector<Vec2> on_the_right{{0.7, -0.15}, {0.7, -0.25}};
   const Advice right = avoid(on_the_left, {}, kLimits);
   const Advice left = avoid(on_the_right, {}, kLimits);
   CHECK(right.direction < 0.0);
@@ -114,7 +115,7 @@ TEST_CASE("in front of something symmetric the side once chosen is kept", "[avoi
   for (const double half_width : {0.0, 0.2, 0.6}) {
     CAPTURE(half_width);
     for (double distance = 1.0; distance > 0.4; distance -= 0.02) {
-      const std::vector<Echo> echoes = wall(distance, half_width);
+      const std::vector<Vec2> echoes = wall(distance, half_width);
       const Advice left = avoid(echoes, {.last_direction = 0.3}, kLimits);
       const Advice right = avoid(echoes, {.last_direction = -0.3}, kLimits);
       CHECK(left.direction >= 0.0);
@@ -128,8 +129,8 @@ TEST_CASE("noise that shifts a symmetric obstacle a little does not change the s
   orca::RandomStream random(4, "test", "noise");
   double last = 0.0;
   for (int i = 0; i < 300; ++i) {
-    std::vector<Echo> echoes = wall(0.6, 0.3);
-    for (Echo& echo : echoes) echo.y += random.normal(0.0, 0.02);
+    std::vector<Vec2> echoes = wall(0.6, 0.3);
+    for (Vec2& echo : echoes) echo.y += random.normal(0.0, 0.02);
     const Advice advice = avoid(echoes, {.last_direction = last}, kLimits);
     REQUIRE(advice.needed);
     CHECK(advice.direction * last >= 0.0);
@@ -143,7 +144,7 @@ TEST_CASE("the nearer the obstacle, the slower and the more urgent, to a stand a
   double last_speed = kLimits.max_speed;
   double last_urgency = 0.0;
   for (double ahead = 0.79; ahead > 0.0; ahead -= 0.01) {
-    const std::vector<Echo> echo{{ahead + kReach, 0.0}};
+    const std::vector<Vec2> echo{{ahead + kReach, 0.0}};
     const Advice advice = avoid(echo, {}, kLimits);
     REQUIRE(advice.needed);
     CHECK(advice.speed <= last_speed);
@@ -158,7 +159,7 @@ TEST_CASE("the nearer the obstacle, the slower and the more urgent, to a stand a
 }
 
 TEST_CASE("of the free directions the one nearest to the goal is chosen", "[avoidance]") {
-  const std::vector<Echo> ahead = wall(0.6, 0.2);
+  const std::vector<Vec2> ahead = wall(0.6, 0.2);
   const Advice left = avoid(ahead, {.goal = 1.2}, kLimits);
   const Advice right = avoid(ahead, {.goal = -1.2}, kLimits);
   REQUIRE(left.needed);
@@ -167,14 +168,14 @@ TEST_CASE("of the free directions the one nearest to the goal is chosen", "[avoi
 }
 
 TEST_CASE("a goal on the other side outweighs the side once chosen, a goal ahead does not", "[avoidance]") {
-  const std::vector<Echo> ahead = wall(0.6, 0.2);
+  const std::vector<Vec2> ahead = wall(0.6, 0.2);
   CHECK(avoid(ahead, {.last_direction = -0.5, .goal = 1.5}, kLimits).direction > 0.0);
   CHECK(avoid(ahead, {.last_direction = -0.5, .goal = 0.1}, kLimits).direction < 0.0);
 }
 
 TEST_CASE("beside a wall with the goal behind it, the robot goes the way that leads to the goal",
           "[avoidance]") {
-  std::vector<Echo> on_the_left;
+  std::vector<Vec2> on_the_left;
   for (double x = -1.0; x <= 1.0; x += 0.1) on_the_left.push_back({x, 0.35});
   const double turning_left = 0.3;
   const Advice onwards = avoid(on_the_left, {.turning = turning_left, .goal = 1.2}, kLimits);
@@ -188,13 +189,13 @@ TEST_CASE("beside a wall with the goal behind it, the robot goes the way that le
 TEST_CASE("the advice does not depend on which of two mirrored worlds it is given in", "[avoidance]") {
   orca::RandomStream random(5, "test", "mirror");
   for (int i = 0; i < 500; ++i) {
-    std::vector<Echo> echoes = random_echoes(random);
+    std::vector<Vec2> echoes = random_echoes(random);
     const Situation here{random.uniform(-1.0, 1.0), random.uniform(-0.5, 0.5), random.uniform(-3.0, 3.0)};
     const Advice advice = avoid(echoes, here, kLimits);
-    for (Echo& echo : echoes) echo.y = -echo.y;
+    for (Vec2& echo : echoes) echo.y = -echo.y;
     const Advice mirrored = avoid(echoes, {-here.last_direction, -here.turning, -*here.goal}, kLimits);
     CHECK(mirrored.needed == advice.needed);
-    CHECK(std::abs(std::remainder(mirrored.direction + advice.direction, 2 * pi)) < 1e-9);
+    CHECK(std::abs(orca::wrapped(mirrored.direction + advice.direction)) < 1e-9);
     CHECK(mirrored.speed == Approx(advice.speed));
   }
 }

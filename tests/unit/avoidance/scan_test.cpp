@@ -26,7 +26,7 @@ const Limits kLimits{.robot_radius = 0.2,
                      .max_speed = 0.4};
 
 // Half a turn ahead in steps of a degree, as a scanner of the time has it.
-Scan scan_of(const std::vector<double>& ranges, const Motion& mount = {}) {
+Scan scan_of(const std::vector<double>& ranges, const orca::Pose2& mount = {}) {
   return {ranges, 0.05, kMaxRange, -pi / 2, pi / 180, mount};
 }
 
@@ -43,7 +43,7 @@ std::vector<double> wall(double ahead, double half_width) {
   return ranges;
 }
 
-EchoMemory memory_of(const std::vector<double>& ranges, const Motion& mount = {}) {
+EchoMemory memory_of(const std::vector<double>& ranges, const orca::Pose2& mount = {}) {
   EchoMemory memory;
   see(scan_of(ranges, mount), kSector, 2.0, kKeep, memory);
   return memory;
@@ -100,7 +100,7 @@ TEST_CASE("of the beams in a sector the nearest is kept, so a scan costs no more
     const EchoMemory memory = memory_of(ranges);
     CHECK(memory.echoes().size() <= 37);
     double kept = kMaxRange;
-    for (const Echo& echo : memory.echoes()) kept = std::min(kept, std::hypot(echo.x, echo.y));
+    for (const orca::Vec2& echo : memory.echoes()) kept = std::min(kept, std::hypot(echo.x, echo.y));
     CHECK(kept < nearest + 0.04);  // neighbours nearer to each other than that are one echo
   }
 }

@@ -10,6 +10,8 @@
 
 using namespace orca::go;
 using Catch::Detail::Approx;
+using orca::Pose2;
+using orca::wrapped;
 using std::numbers::pi;
 
 namespace {
@@ -22,20 +24,21 @@ const Limits kLimits{.max_speed = 0.5,
                      .circle_radius = 0.6};
 constexpr double kLap = 0.05;  // [s]
 
-Target target_at(double x, double y) { return {.x = x, .y = y, .reach_radius = 0.2}; }
+Target target_at(double x, double y) { return {.place = {x, y}, .reach_radius = 0.2}; }
 
-Pose random_pose(orca::RandomStream& random) {
+Pose2 random_pose(orca::RandomStream& random) {
   return {random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-pi, pi)};
 }
 
 // A pose that lies `distance` before the target and faces it.
-Pose facing(const Target& target, double distance, double from_angle) {
-  return {target.x - distance * std::cos(from_angle), target.y - distance * std::sin(from_angle), from_angle};
+Pose2 facing(const Target& target, double distance, double from_angle) {
+  return {target.place.x - distance * std::cos(from_angle), target.place.y - distance * std::sin(from_angle),
+          from_angle};
 }
 
 // Drives a point robot by the steps, a lap of 50 ms each; the turn rate is twice the direction asked for.
 struct Drive {
-  Pose pose;
+  Pose2 pose;
   Before before{.time = kLap};
 
   Step lap(const Target& target) {
@@ -43,9 +46,9 @@ struct Drive {
     const Step step = step_towards(target, pose, kLimits, before);
     before.speed = step.speed;
     if (step.kind == Step::Kind::reached) return step;
-    pose.heading = wrap(pose.heading + std::clamp(2.0 * step.direction, -1.0, 1.0) * kLap);
-    pose.x += step.speed * std::cos(pose.heading) * kLap;
-    pose.y += step.speed * std::sin(pose.heading) * kLap;
+    pose.yaw = wrapped(pose.yaw + std::clamp(2.0 * step.direction, -1.0, 1.0) * kLap);
+    pose.x += step.speed * std::cos(pose.yaw) * kLap;
+    pose.y += step.speed * std::sin(pose.yaw) * kLap;
     return step;
   }
 
@@ -58,31 +61,14 @@ struct Drive {
 
 }  // namespace
 
-TEST_CASE("wrap gives the same angle in (-pi, pi]", "[components][goto]") {
-  CHECK(wrap(0.0) == 0.0);
-  CHECK(wrap(pi) == Approx(pi));
-  CHECK(wrap(-pi) == Approx(pi));
-  CHECK(wrap(1.5 * pi) == Approx(-0.5 * pi));
-  orca::RandomStream random(1, "test", "wrap");
-  for (int i = 0; i < 1000; ++i) {
-    const double angle = random.uniform(-100.0, 100.0);
-    const double wrapped = wrap(angle);
-    CAPTURE(angle);
-    CHECK(wrapped > -pi);
-    CHECK(wrapped <= pi);
-    CHECK(std::abs(std::sin(wrapped - angle)) < 1e-12);
-    CHECK(std::cos(wrapped - angle) > 0.0);
-  }
-}
-
 TEST_CASE("a target without orientation is reached anywhere within its radius, and nowhere else",
           "[components][goto]") {
   orca::RandomStream random(2, "test", "reach");
   for (int i = 0; i < 1000; ++i) {
-    const Pose pose = random_pose(random);
+    const Pose2 pose = random_pose(random);
     Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
     target.reach_radius = random.uniform(0.0, 10.0);
-    const bool inside = std::hypot(target.x - pose.x, target.y - pose.y) < target.reach_radius;
+    const bool inside = std::hypot(target.place.x - pose.x, target.place.y - pose.y) < target.reach_radius;
     CHECK((step_towards(target, pose, kLimits, {}).kind == Step::Kind::reached) == inside);
     CHECK(within_reach(target, pose) == inside);
   }
@@ -112,7 +98,7 @@ TEST_CASE("a robot that drifts out of the radius while it turns does not approac
   Target target = target_at(0.0, 0.0);
   target.use_orientation = true;
   target.reach_angle = 0.1;
-  const Pose drifted{0.25, 0.0, 1.0};
+  const Pose2 drifted{0.25, 0.0, 1.0};
   CHECK(step_towards(target, drifted, kLimits, {.near = true}).kind == Step::Kind::turn);
   CHECK(step_towards(target, drifted, kLimits, {.near = true}).direction == Approx(-1.0));
 }
@@ -145,13 +131,13 @@ TEST_CASE(
     "[components][goto]") {
   orca::RandomStream random(3, "test", "direction");
   for (int i = 0; i < 1000; ++i) {
-    const Pose pose = random_pose(random);
+    const Pose2 pose = random_pose(random);
     const Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
     if (within_reach(target, pose)) continue;
     const Step step = step_towards(target, pose, kLimits, {});
-    const double distance = std::hypot(target.x - pose.x, target.y - pose.y);
-    CHECK(pose.x + distance * std::cos(pose.heading + step.direction) == Approx(target.x).margin(1e-9));
-    CHECK(pose.y + distance * std::sin(pose.heading + step.direction) == Approx(target.y).margin(1e-9));
+    const double distance = std::hypot(target.place.x - pose.x, target.place.y - pose.y);
+    CHECK(pose.x + distance * std::cos(pose.yaw + step.direction) == Approx(target.place.x).margin(1e-9));
+    CHECK(pose.y + distance * std::sin(pose.yaw + step.direction) == Approx(target.place.y).margin(1e-9));
     CHECK((step.kind == Step::Kind::turn) == (std::abs(step.direction) > kLimits.turn_in_place));
     CHECK(step.speed >= 0.0);
     CHECK(step.speed <= kLimits.max_speed);
@@ -162,17 +148,18 @@ TEST_CASE(
 TEST_CASE("the steps do not depend on where the world's axes lie", "[components][goto]") {
   orca::RandomStream random(4, "test", "frame");
   for (int i = 0; i < 200; ++i) {
-    const Pose pose = random_pose(random);
+    const Pose2 pose = random_pose(random);
     const Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
     const double turned = random.uniform(-pi, pi);
     const double c = std::cos(turned);
     const double s = std::sin(turned);
-    const Pose pose2{c * pose.x - s * pose.y, s * pose.x + c * pose.y, wrap(pose.heading + turned)};
+    const Pose2 turned_pose{c * pose.x - s * pose.y, s * pose.x + c * pose.y, wrapped(pose.yaw + turned)};
     const Step a = step_towards(target, pose, kLimits, {});
-    const Step b =
-        step_towards(target_at(c * target.x - s * target.y, s * target.x + c * target.y), pose2, kLimits, {});
+    const Step b = step_towards(
+        target_at(c * target.place.x - s * target.place.y, s * target.place.x + c * target.place.y),
+        turned_pose, kLimits, {});
     CHECK(b.kind == a.kind);
-    CHECK(std::abs(wrap(b.direction - a.direction)) < 1e-9);
+    CHECK(std::abs(wrapped(b.direction - a.direction)) < 1e-9);
     CHECK(b.speed == Approx(a.speed).margin(1e-9));
   }
 }
@@ -187,8 +174,8 @@ TEST_CASE("a point robot arrives from anywhere, and facing as wanted", "[compone
     Drive drive{random_pose(random)};
     CAPTURE(i);
     CHECK(drive.follow(target).kind == Step::Kind::reached);
-    CHECK(std::abs(wrap(drive.pose.heading - target.orientation)) <= 0.1);
-    CHECK(std::hypot(target.x - drive.pose.x, target.y - drive.pose.y) < 0.2 + 1e-9);
+    CHECK(std::abs(wrapped(drive.pose.yaw - target.orientation)) <= 0.1);
+    CHECK(std::hypot(target.place.x - drive.pose.x, target.place.y - drive.pose.y) < 0.2 + 1e-9);
   }
 }
 
@@ -222,10 +209,10 @@ TEST_CASE(
     for (int laps = 0; laps < 2000; ++laps) REQUIRE(drive.lap(target).kind != Step::Kind::reached);
     double around = 0.0;
     for (int laps = 0; laps < 2000; ++laps) {
-      const double before = std::atan2(drive.pose.y - target.y, drive.pose.x - target.x);
+      const double before = std::atan2(drive.pose.y - target.place.y, drive.pose.x - target.place.x);
       drive.lap(target);
-      around += wrap(std::atan2(drive.pose.y - target.y, drive.pose.x - target.x) - before);
-      const double off = std::hypot(drive.pose.x - target.x, drive.pose.y - target.y);
+      around += wrapped(std::atan2(drive.pose.y - target.place.y, drive.pose.x - target.place.x) - before);
+      const double off = std::hypot(drive.pose.x - target.place.x, drive.pose.y - target.place.y);
       CHECK(off > 0.7 * kLimits.circle_radius);
       CHECK(off < 2.0 * kLimits.circle_radius);
     }

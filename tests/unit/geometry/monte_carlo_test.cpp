@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 
-#include "orca/geometry/odometry.hpp"
+#include "orca/geometry/objects/odometry.hpp"
 #include "poses.hpp"
 
 using namespace orca;

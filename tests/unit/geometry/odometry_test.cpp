@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "orca/geometry/odometry.hpp"
+#include "orca/geometry/objects/odometry.hpp"
 #include "poses.hpp"
 
 using namespace orca;

@@ -26,15 +26,6 @@ Vector<3> composed(const Eigen::Matrix<double, 6, 1>& both) {
 
 }  // namespace
 
-TEST_CASE("an angle is wrapped into (-pi, pi]", "[geometry][angle]") {
-  CHECK(wrapped_angle(0.5) == 0.5);
-  CHECK(wrapped_angle(kPi) == kPi);
-  CHECK(wrapped_angle(-kPi) == kPi);
-  CHECK(wrapped_angle(2.0 * kPi + 0.5) == Approx(0.5).margin(kRounding));
-  CHECK(wrapped_angle(-1.5 * kPi) == Approx(0.5 * kPi).margin(kRounding));
-  CHECK(std::isnan(wrapped_angle(INFINITY)));
-}
-
 TEST_CASE("composing walks along the second pose from the first", "[geometry][pose2]") {
   const idl::Pose2D X_AC = compose(pose_of(Vector<3>(1.0, 2.0, kPi / 2)), pose_of(Vector<3>(3.0, 1.0, kPi)));
   CHECK(near(X_AC, pose_of(Vector<3>(0.0, 5.0, -kPi / 2))));

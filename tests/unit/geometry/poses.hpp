@@ -4,7 +4,8 @@
 #include <Eigen/Core>
 
 #include "orca/base/random.hpp"
-#include "orca/geometry/pose.hpp"
+#include "orca/geometry/angle.hpp"
+#include "orca/geometry/objects/covariance.hpp"
 
 // What the compiler takes long for is in poses.cpp, once.
 namespace orca::test {
@@ -24,7 +25,7 @@ idl::Pose3D pose_of(const Vector<6>& v);
 template <int N>
 Vector<N> difference(const Vector<N>& a, const Vector<N>& b) {
   Vector<N> d = b - a;
-  for (int i = N / 2 + (N == 3 ? 1 : 0); i < N; ++i) d(i) = wrapped_angle(d(i));
+  for (int i = N / 2 + (N == 3 ? 1 : 0); i < N; ++i) d(i) = wrapped(d(i));
   return d;
 }
 

@@ -19,6 +19,13 @@ TEST_CASE("a container opens its device and does not start it before somebody us
   });
 }
 
+TEST_CASE("a container that is not simulated has nothing that draws it", "[hw][container]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    RunningScout robot(executive);
+    CHECK(robot.scout.drawable() == nullptr);
+  });
+}
+
 TEST_CASE("the device runs from the first user to the last", "[hw][container]") {
   run_on_each(all_executives(), [](Executive& executive) {
     RunningScout robot(executive);

@@ -30,7 +30,6 @@ class FakeHardwareHost final : public hw::HardwareHost {
   [[nodiscard]] std::uint64_t run_seed() const override { return 1; }
   void state_changed(hw::HardwareState state) override { diary_.note(std::string("-> ") + to_string(state)); }
   [[nodiscard]] Executive& executive() override { return executive_; }
-  [[nodiscard]] bool wants_scene() const override { return false; }
 
  private:
   Executive& executive_;
@@ -38,11 +37,8 @@ class FakeHardwareHost final : public hw::HardwareHost {
   std::string name_ = "scout";
 };
 
-inline constexpr hw::DriveLimits kScoutLimits{.max_speed = 1.0,
-                                              .max_steer_speed = 2.0,
-                                              .steer_gain = 0.5,
-                                              .big_turn_angle = 1.0,
-                                              .big_turn_speed = 0.2};
+inline constexpr hw::DriveLimits kScoutLimits{
+    .max_speed = 1.0, .max_turn_rate = 2.0, .steer_gain = 0.5, .big_turn_angle = 1.0, .big_turn_speed = 0.2};
 inline constexpr Duration kScoutCommandAge = 200ms;
 
 /// A Nomad Scout without a device: sonars, odometry, wheels. Notes every call of the driver's functions, and
@@ -70,8 +66,8 @@ class FakeScout : public hw::HardwareContainer {
   void close() override { (void)act("close"); }
   Status drive(const hw::DriveSetpoint& setpoint) override {
     std::ostringstream line;
-    line << "drive " << setpoint.speed << " " << setpoint.steer_speed;
-    if (wheels_.limits().type == idl::HOLONOMIC) line << " left " << setpoint.side_speed;
+    line << "drive " << setpoint.velocity.forward << " " << setpoint.velocity.turn_rate;
+    if (wheels_.limits().type == idl::HOLONOMIC) line << " left " << setpoint.velocity.left;
     if (wheels_.limits().turret) line << " turret " << setpoint.turret_angle;
     diary_.note(line.str());
     return meet_trouble("drive");

@@ -14,14 +14,15 @@ using Catch::Contains;
 
 namespace {
 
-constexpr DriveLimits kLimits{.max_speed = 1.0,
-                              .max_steer_speed = 2.0,
-                              .steer_gain = 0.5,
-                              .big_turn_angle = 1.0,
-                              .big_turn_speed = 0.2};
+constexpr DriveLimits kLimits{
+    .max_speed = 1.0, .max_turn_rate = 2.0, .steer_gain = 0.5, .big_turn_angle = 1.0, .big_turn_speed = 0.2};
 constexpr Duration kAge = 200ms;
 constexpr TimePoint kStart{1000s};
 constexpr DriveSetpoint kStand{};
+
+DriveSetpoint driving(double speed, double turn_rate) {
+  return {.velocity = {.forward = speed, .turn_rate = turn_rate}};
+}
 
 // What a base with these limits does right after the command.
 DriveSetpoint carried_out(const Loan<idl::MotionCommand>& command, const DriveLimits& limits = kLimits) {
@@ -53,12 +54,12 @@ TEST_CASE("a base stands until the first command", "[hw][motion]") {
 }
 
 TEST_CASE("a command within the limits is carried out as it is", "[hw][motion]") {
-  CHECK(carried_out(turn(-1.5, 0.7)) == DriveSetpoint{0.7, -1.5});
-  CHECK(carried_out(turn(1.5, -0.7)) == DriveSetpoint{-0.7, 1.5});
+  CHECK(carried_out(turn(-1.5, 0.7)) == driving(0.7, -1.5));
+  CHECK(carried_out(turn(1.5, -0.7)) == driving(-0.7, 1.5));
 }
 
 TEST_CASE("a direction is turned to with the base's gain", "[hw][motion]") {
-  CHECK(carried_out(head(0.8, 0.5)) == DriveSetpoint{0.5, 0.4});
+  CHECK(carried_out(head(0.8, 0.5)) == driving(0.5, 0.4));
 }
 
 TEST_CASE("no command makes the base faster than its limits", "[hw][motion]") {
@@ -67,30 +68,30 @@ TEST_CASE("no command makes the base faster than its limits", "[hw][motion]") {
     const double value = random.uniform(-10.0, 10.0);
     const double speed = random.uniform(-5.0, 5.0);
     for (const auto& setpoint : {carried_out(turn(value, speed)), carried_out(head(value, speed))}) {
-      CHECK(std::abs(setpoint.speed) <= kLimits.max_speed);
-      CHECK(std::abs(setpoint.steer_speed) <= kLimits.max_steer_speed);
-      CHECK(setpoint.speed * speed >= 0.0);
-      CHECK(setpoint.steer_speed * value >= 0.0);
+      CHECK(std::abs(setpoint.velocity.forward) <= kLimits.max_speed);
+      CHECK(std::abs(setpoint.velocity.turn_rate) <= kLimits.max_turn_rate);
+      CHECK(setpoint.velocity.forward * speed >= 0.0);
+      CHECK(setpoint.velocity.turn_rate * value >= 0.0);
     }
   }
 }
 
 TEST_CASE("towards directions beyond the big turn angle the base slows down, if it has such an angle",
           "[hw][motion]") {
-  CHECK(carried_out(head(0.99, 0.5)).speed == 0.5);
-  CHECK(carried_out(head(1.01, 0.5)).speed == 0.2);
-  CHECK(carried_out(head(-1.01, 0.5)).speed == 0.2);
-  CHECK(carried_out(head(-1.01, 0.1)).speed == 0.1);
+  CHECK(carried_out(head(0.99, 0.5)).velocity.forward == 0.5);
+  CHECK(carried_out(head(1.01, 0.5)).velocity.forward == 0.2);
+  CHECK(carried_out(head(-1.01, 0.5)).velocity.forward == 0.2);
+  CHECK(carried_out(head(-1.01, 0.1)).velocity.forward == 0.1);
   DriveLimits without = kLimits;
   without.big_turn_angle = 0.0;
-  CHECK(carried_out(head(3.0, 0.5), without).speed == 0.5);
+  CHECK(carried_out(head(3.0, 0.5), without).velocity.forward == 0.5);
 }
 
 TEST_CASE("a command that grows older than max_command_age expires to zero, and is counted", "[hw][motion]") {
   MotionHW motion(kLimits, kAge);
   REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
   CHECK(motion.expiry() == kStart + kAge);
-  CHECK(motion.due(kStart + kAge - 1ns) == DriveSetpoint{0.5, 0.1});
+  CHECK(motion.due(kStart + kAge - 1ns) == driving(0.5, 0.1));
   CHECK(motion.expired_count() == 0);
   CHECK(motion.due(kStart + kAge) == kStand);
   CHECK(motion.expired_count() == 1);
@@ -102,7 +103,7 @@ TEST_CASE("a command that grows older than max_command_age expires to zero, and 
 TEST_CASE("each new command starts its own age", "[hw][motion]") {
   MotionHW motion(kLimits, kAge);
   for (int lap = 0; lap < 10; ++lap) REQUIRE(motion.command(*turn(0.0, 0.5), kStart + lap * 150ms).ok());
-  CHECK(motion.due(kStart + 9 * 150ms + 199ms) == DriveSetpoint{0.5, 0.0});
+  CHECK(motion.due(kStart + 9 * 150ms + 199ms) == driving(0.5, 0.0));
   CHECK(motion.expired_count() == 0);
 }
 
@@ -135,7 +136,7 @@ TEST_CASE("a command without an opinion is refused with what to do, and changes 
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.error().code == Code::invalid_argument);
   CHECK_THAT(refused.error().text(), Contains("DONTCARE") && Contains("MotionCommandFuser"));
-  CHECK(motion.due(kStart + 100ms) == DriveSetpoint{0.5, 0.1});
+  CHECK(motion.due(kStart + 100ms) == driving(0.5, 0.1));
   CHECK(motion.expiry() == kStart + kAge);
 }
 
@@ -164,7 +165,7 @@ TEST_CASE("a command with a number that is not finite, or a negative weight, is 
 TEST_CASE("a holonomic base carries out a velocity with a sideways part", "[hw][motion]") {
   MotionHW motion(omni(), kAge);
   REQUIRE(motion.command(*velocity(0.3, -0.4, 0.5), kStart).ok());
-  CHECK(motion.due(kStart) == DriveSetpoint{.speed = 0.3, .steer_speed = 0.5, .side_speed = -0.4});
+  CHECK(motion.due(kStart) == DriveSetpoint{.velocity = {.forward = 0.3, .left = -0.4, .turn_rate = 0.5}});
   CHECK(motion.due(kStart + kAge) == kStand);
   CHECK(motion.expired_count() == 1);
 }
@@ -173,9 +174,9 @@ TEST_CASE("a velocity faster than a holonomic base keeps its direction", "[hw][m
   MotionHW motion(omni(), kAge);
   REQUIRE(motion.command(*velocity(-3.0, 4.0, -9.0), kStart).ok());
   const DriveSetpoint setpoint = motion.due(kStart);
-  CHECK(setpoint.speed == Approx(-0.6));
-  CHECK(setpoint.side_speed == Approx(0.8));
-  CHECK(setpoint.steer_speed == -2.0);
+  CHECK(setpoint.velocity.forward == Approx(-0.6));
+  CHECK(setpoint.velocity.left == Approx(0.8));
+  CHECK(setpoint.velocity.turn_rate == -2.0);
 }
 
 TEST_CASE("a holonomic base takes motion commands too, and drives them without a sideways part",
@@ -183,7 +184,7 @@ TEST_CASE("a holonomic base takes motion commands too, and drives them without a
   MotionHW motion(omni(), kAge);
   REQUIRE(motion.command(*velocity(0.1, 0.5, 0.0), kStart).ok());
   REQUIRE(motion.command(*turn(0.25, 0.5), kStart).ok());
-  CHECK(motion.due(kStart) == DriveSetpoint{0.5, 0.25});
+  CHECK(motion.due(kStart) == driving(0.5, 0.25));
 }
 
 TEST_CASE("a base that cannot move sideways refuses a holonomic velocity and says what to send",
@@ -197,7 +198,7 @@ TEST_CASE("a base that cannot move sideways refuses a holonomic velocity and say
     REQUIRE_FALSE(refused.ok());
     CHECK(refused.error().code == Code::failed_precondition);
     CHECK_THAT(refused.error().text(), Contains("cannot move sideways") && Contains("MotionCommand"));
-    CHECK(motion.due(kStart) == DriveSetpoint{0.5, 0.1});
+    CHECK(motion.due(kStart) == driving(0.5, 0.1));
   }
 }
 
@@ -224,7 +225,8 @@ TEST_CASE("a turret stays where it was pointed when the base is commanded, halte
   CHECK(motion.due(kStart) == DriveSetpoint{.turret_angle = 1.5});
   CHECK(motion.expiry() == kForever);
   REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
-  CHECK(motion.due(kStart) == DriveSetpoint{.speed = 0.5, .steer_speed = 0.1, .turret_angle = 1.5});
+  CHECK(motion.due(kStart) ==
+        DriveSetpoint{.velocity = {.forward = 0.5, .turn_rate = 0.1}, .turret_angle = 1.5});
   CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5});
   motion.halt();
   CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5});

@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "orca/idl/geometry.hpp"
 #include "orca/idl/motion.hpp"
@@ -17,6 +19,31 @@ TEST_CASE("full_stop stops and dont_care weighs nothing", "[idl][motion]") {
   const ObjectPtr<MotionCommand> idle = orca::dont_care();
   CHECK(idle->kind() == orca::idl::DONTCARE);
   CHECK(idle->weight() == 0.0);
+}
+
+TEST_CASE("a command with a number that is not finite, or with a negative weight, is no command",
+          "[idl][motion]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(orca::check_command(*orca::head(0.5, 0.3)).ok());
+  CHECK(orca::check_command(*orca::dont_care()).ok());
+  for (const auto& wrong : {orca::head(nan, 0.3), orca::head(0.5, nan), orca::turn(INFINITY, 0.3),
+                            orca::head(0.5, 0.3, nan), orca::head(0.5, 0.3, -1.0)})
+    CHECK(orca::check_command(*wrong).error().code == orca::Code::invalid_argument);
+  orca::idl::HolonomicVelocity velocity;
+  CHECK(orca::check_command(velocity).ok());
+  velocity.left(nan);
+  CHECK(orca::check_command(velocity).error().code == orca::Code::invalid_argument);
+  orca::idl::TurretCommand turret;
+  CHECK(orca::check_command(turret).ok());
+  turret.angle(-INFINITY);
+  CHECK(orca::check_command(turret).error().code == orca::Code::invalid_argument);
+}
+
+TEST_CASE("a full stop is never refused, whatever its other fields hold", "[idl][motion]") {
+  auto stop = orca::full_stop();
+  stop->speed(std::numeric_limits<double>::quiet_NaN());
+  stop->weight(-1.0);
+  CHECK(orca::check_command(*stop).ok());
 }
 
 TEST_CASE("head asks for a direction and turn for a turn rate", "[idl][motion]") {

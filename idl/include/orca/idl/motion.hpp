@@ -4,6 +4,7 @@
 /// means, its unit and frame, is said in idl/orca/motion.idl.
 #pragma once
 
+#include "orca/base/result.hpp"
 #include "orca/idl/generated/motion.h"
 #include "orca/idl/generated/motion.types.hpp"
 #include "orca/idl/object.hpp"
@@ -27,5 +28,16 @@ namespace orca {
 /// @param speed [m/s]  forward positive.
 /// @param weight [1]  share when fused with the wishes of others, at least 0.
 [[nodiscard]] Loan<idl::MotionCommand> turn(double rate, double speed, double weight = 1.0);
+
+/// Checks the numbers of a command, the same way for all who take commands. What a base can carry out is another
+/// question (hw::MotionHW).
+/// @errors  invalid_argument for a number that is not finite and for a negative weight. A full stop is never refused,
+///          whatever its numbers are.
+/// @thread  pure function, as the next two; any thread.
+[[nodiscard]] Status check_command(const idl::MotionCommand& command);
+/// @errors  invalid_argument for a number that is not finite.
+[[nodiscard]] Status check_command(const idl::HolonomicVelocity& velocity);
+/// @errors  invalid_argument for an angle that is not finite.
+[[nodiscard]] Status check_command(const idl::TurretCommand& turret);
 
 }  // namespace orca

@@ -21,7 +21,7 @@ const Scene::Moment& at(const Scene::Robot& robot, TimePoint time) {
 
 bool is_near(const Scene::Robot& robot, const Scene::Mark& mark) {
   const Scene::Moment& moment = at(robot, mark.time);
-  return std::hypot(moment.position.x - mark.position.x, moment.position.y - mark.position.y) <
+  return std::hypot(moment.pose.x - mark.position.x, moment.pose.y - mark.position.y) <
          std::max(1.0, 2.0 * robot.radius_m);
 }
 

@@ -35,7 +35,7 @@ void Painter::pen(const Colour& colour, double width_pixels) {
   cairo_set_line_width(cairo_, width_pixels * pixel_);
 }
 
-void Painter::ring(const Scene::Point& centre, double radius) {
+void Painter::ring(Vec2 centre, double radius) {
   cairo_new_sub_path(cairo_);
   cairo_arc(cairo_, centre.x, centre.y, radius, 0, 2 * kPi);
   cairo_stroke(cairo_);
@@ -51,10 +51,10 @@ void Painter::walls(const std::vector<Scene::Line>& lines) {
   cairo_stroke(cairo_);
 }
 
-void Painter::track(const std::vector<Scene::Point>& points) {
+void Painter::track(const std::vector<Vec2>& points) {
   if (!shows(Layer::track) || points.empty()) return;
   pen({0.12, 0.35, 0.75}, 2.0);
-  for (const Scene::Point& p : points) cairo_line_to(cairo_, p.x, p.y);
+  for (const Vec2& p : points) cairo_line_to(cairo_, p.x, p.y);
   cairo_stroke(cairo_);
   ring(points.front(), 4 * pixel_);
 }
@@ -79,8 +79,8 @@ void Painter::mark(const Scene::Mark& mark, const Colour& colour) {
 
 void Painter::robot(const Scene::Robot& robot, const Scene::Moment& moment) {
   cairo_save(cairo_);
-  cairo_translate(cairo_, moment.position.x, moment.position.y);
-  cairo_rotate(cairo_, moment.heading_rad);
+  cairo_translate(cairo_, moment.pose.x, moment.pose.y);
+  cairo_rotate(cairo_, moment.pose.yaw);
   if (shows(Layer::laser))
     for (const Scene::Scan& scan : moment.lasers) this->scan(scan);
   if (shows(Layer::sonar))
@@ -103,27 +103,27 @@ void Painter::body(const Scene::Robot& robot) {
 }
 
 void Painter::cone(const Scene::Cone& cone) {
-  cairo_move_to(cairo_, cone.at.x, cone.at.y);
-  cairo_arc(cairo_, cone.at.x, cone.at.y, cone.range_m, cone.direction_rad - cone.half_lobe_rad,
-            cone.direction_rad + cone.half_lobe_rad);
+  cairo_move_to(cairo_, cone.X_RS.x, cone.X_RS.y);
+  cairo_arc(cairo_, cone.X_RS.x, cone.X_RS.y, cone.range_m, cone.X_RS.yaw - cone.half_lobe_rad,
+            cone.X_RS.yaw + cone.half_lobe_rad);
   cairo_close_path(cairo_);
   pen({1.0, 0.85, 0.0, cone.echo ? 0.35 : 0.07}, 1.0);
   cairo_fill(cairo_);
   if (!cone.echo) return;
   pen({0.85, 0.65, 0.0}, 2.0);
-  cairo_arc(cairo_, cone.at.x, cone.at.y, cone.range_m, cone.direction_rad - cone.half_lobe_rad,
-            cone.direction_rad + cone.half_lobe_rad);
+  cairo_arc(cairo_, cone.X_RS.x, cone.X_RS.y, cone.range_m, cone.X_RS.yaw - cone.half_lobe_rad,
+            cone.X_RS.yaw + cone.half_lobe_rad);
   cairo_stroke(cairo_);
 }
 
 void Painter::scan(const Scene::Scan& scan) {
   cairo_move_to(cairo_, scan.at.x, scan.at.y);
-  for (const Scene::Point& end : scan.ends) cairo_line_to(cairo_, end.x, end.y);
+  for (const Vec2& end : scan.ends) cairo_line_to(cairo_, end.x, end.y);
   cairo_close_path(cairo_);
   pen({0.1, 0.4, 1.0, 0.12}, 1.0);
   cairo_fill(cairo_);
   pen({0.1, 0.3, 0.9}, 3.0);
-  for (const Scene::Point& end : scan.ends) {
+  for (const Vec2& end : scan.ends) {
     cairo_move_to(cairo_, end.x, end.y);
     cairo_close_path(cairo_);
   }
@@ -145,7 +145,7 @@ void Painter::motion(const Scene::Moment& moment) {
   head({kTurnRadius * std::cos(turn), kTurnRadius * std::sin(turn)}, turn + std::copysign(0.5 * kPi, turn));
 }
 
-void Painter::head(const Scene::Point& tip, double direction_rad) {
+void Painter::head(Vec2 tip, double direction_rad) {
   const double length = 9 * pixel_;
   for (const double side : {0.85 * kPi, -0.85 * kPi}) {
     cairo_move_to(cairo_, tip.x, tip.y);

@@ -17,7 +17,7 @@ struct Window {
   double top = 0.0;
   double width = 0.0;
   double height = 0.0;
-  Scene::Point centre;  ///< Shown in the middle.
+  Vec2 centre;          ///< Shown in the middle.
   double up_rad = 0.0;  ///< Direction of the world that points up.
   double scale = 1.0;   ///< [pixels/m]
 };
@@ -31,7 +31,7 @@ class Painter {
   Painter& operator=(const Painter&) = delete;
 
   void walls(const std::vector<Scene::Line>& lines);
-  void track(const std::vector<Scene::Point>& points);
+  void track(const std::vector<Vec2>& points);
   void arrival(const Scene::Mark& mark);
   void contact(const Scene::Mark& mark);
   /// The robot, what it does and what it senses, at a moment of its run.
@@ -44,13 +44,13 @@ class Painter {
   };
   [[nodiscard]] bool shows(Layer layer) const { return !hidden_.contains(layer); }
   void pen(const Colour& colour, double width_pixels);
-  void ring(const Scene::Point& centre, double radius);
+  void ring(Vec2 centre, double radius);
   void mark(const Scene::Mark& mark, const Colour& colour);
   void body(const Scene::Robot& robot);
   void cone(const Scene::Cone& cone);
   void scan(const Scene::Scan& scan);
   void motion(const Scene::Moment& moment);
-  void head(const Scene::Point& tip, double direction_rad);
+  void head(Vec2 tip, double direction_rad);
 
   cairo_t* const cairo_;
   const Window window_;

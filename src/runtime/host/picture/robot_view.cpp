@@ -26,21 +26,21 @@ std::string caption_of(const KeyMoment& key, TimePoint start) {
 }
 
 // The way so far; moments are fewer than the points of the whole track.
-std::vector<Scene::Point> track_until(const Scene::Robot& robot, const Scene::Moment& now) {
+std::vector<Vec2> track_until(const Scene::Robot& robot, const Scene::Moment& now) {
   if (&now == &robot.moments.back()) return robot.track;
-  std::vector<Scene::Point> points;
+  std::vector<Vec2> points;
   for (const Scene::Moment& moment : robot.moments)
-    if (moment.time <= now.time) points.push_back(moment.position);
+    if (moment.time <= now.time) points.push_back(moment.pose.position());
   return points;
 }
 
 // A square with the robot in its middle, looking up, and words below.
 void draw_frame(cairo_t* cairo, const Scene& scene, const std::set<Layer>& hidden, const KeyMoment& key,
-                const Scene::Point& corner, double size) {
+                Vec2 corner, double size) {
   const Scene::Moment& moment = *key.moment;
   {
     Painter painter(
-        cairo, {corner.x, corner.y, size, size, moment.position, moment.heading_rad, size / kShownMetres},
+        cairo, {corner.x, corner.y, size, size, moment.pose.position(), moment.pose.yaw, size / kShownMetres},
         hidden);
     painter.walls(scene.walls);
     painter.track(track_until(*key.robot, moment));

@@ -19,7 +19,7 @@ struct Box {
   double max_x = -std::numeric_limits<double>::infinity();
   double max_y = -std::numeric_limits<double>::infinity();
 
-  void add(const Scene::Point& p) {
+  void add(Vec2 p) {
     min_x = std::min(min_x, p.x - kMarginMetres);
     max_x = std::max(max_x, p.x + kMarginMetres);
     min_y = std::min(min_y, p.y - kMarginMetres);
@@ -34,15 +34,14 @@ Box bounds(const Scene& scene) {
     box.add(wall.a);
     box.add(wall.b);
   }
-  for (const Scene::Robot& robot : scene.robots) box.add(robot.position);
+  for (const Scene::Robot& robot : scene.robots) box.add(robot.pose.position());
   return box;
 }
 
 // Where it is in the end, with what it sensed last.
 Scene::Moment last_moment(const Scene::Robot& robot) {
   Scene::Moment moment = robot.moments.empty() ? Scene::Moment{} : robot.moments.back();
-  moment.position = robot.position;
-  moment.heading_rad = robot.heading_rad;
+  moment.pose = robot.pose;
   return moment;
 }
 
@@ -64,7 +63,7 @@ Result<Drawing> world_view(const Scene& scene, const std::set<Layer>& hidden) {
     return fail(Code::invalid_argument, "there is nothing to draw: the graph has no simulated hardware");
   const double scale = kWidthPixels / (box.max_x - box.min_x);
   const double height = std::ceil(scale * (box.max_y - box.min_y));
-  const Scene::Point centre{0.5 * (box.min_x + box.max_x), 0.5 * (box.min_y + box.max_y)};
+  const Vec2 centre{0.5 * (box.min_x + box.max_x), 0.5 * (box.min_y + box.max_y)};
   const Window window{0, 0, kWidthPixels, height, centre, 0.5 * std::numbers::pi, scale};
   return Drawing{kWidthPixels, height, [&scene, &hidden, window](cairo_t* cairo) {
                    Painter painter(cairo, window, hidden);

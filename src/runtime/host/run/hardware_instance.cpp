@@ -24,6 +24,8 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
       if (const auto value = params.find(param.contract.name); value != params.end())
         param.set(value->second);
     errors = container_->prepare();
+    if (hw::Drawable* const drawable = container_->drawable(); drawable != nullptr && run_.wants_scene)
+      drawable->keep_moments();
   });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, name_);
   if (!errors.empty()) return fail(Code::invalid_argument, errors.front().text, name_);

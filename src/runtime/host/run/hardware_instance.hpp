@@ -39,7 +39,6 @@ class HardwareInstance final : public hw::HardwareHost {
   [[nodiscard]] std::uint64_t run_seed() const override { return run_.seed; }
   void state_changed(hw::HardwareState state) override;
   [[nodiscard]] Executive& executive() override { return run_.executive; }
-  [[nodiscard]] bool wants_scene() const override { return run_.wants_scene; }
 
  private:
   RunContext& run_;

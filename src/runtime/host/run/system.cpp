@@ -224,7 +224,8 @@ hw::HardwareContainer* System::container(const std::string& name) const {
 }
 
 void System::draw(Scene& scene) {
-  for (const auto& hardware : hardware_) hardware->container().draw(scene);
+  for (const auto& hardware : hardware_)
+    if (hw::Drawable* const drawable = hardware->container().drawable()) drawable->draw(scene);
 }
 
 }  // namespace orca::host

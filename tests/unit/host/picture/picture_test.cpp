@@ -20,7 +20,7 @@ namespace {
 Scene::Moment moment_at(double seconds, double x) {
   Scene::Moment moment;
   moment.time = TimePoint(std::chrono::milliseconds(static_cast<int>(1000 * seconds)));
-  moment.position = {x, 0.0};
+  moment.pose = {x, 0.0, 0.0};
   return moment;
 }
 
@@ -32,7 +32,7 @@ Scene drive(double seconds) {
   robot.name = "Dewey";
   robot.radius_m = 0.2;
   for (double t = 0.0; t <= seconds; t += 0.1) robot.moments.push_back(moment_at(t, t));
-  robot.position = robot.moments.back().position;
+  robot.pose = robot.moments.back().pose;
   scene.robots.push_back(robot);
   return scene;
 }
@@ -40,7 +40,7 @@ Scene drive(double seconds) {
 Scene sensing() {
   Scene scene = drive(1.0);
   Scene::Moment& last = scene.robots[0].moments.back();
-  last.sonar = {{{0.2, 0.0}, 0.5, 0.2, 1.5, true}};
+  last.sonar = {{{0.2, 0.0, 0.5}, 0.2, 1.5, true}};
   last.lasers = {{{0.0, 0.0}, {{1.0, -1.0}, {1.2, -0.8}, {1.4, -0.6}}}};
   last.speed = 1.5;
   last.turn_rate = 1.0;
@@ -117,7 +117,7 @@ TEST_CASE("in the robot's view ahead is up, whatever its heading in the world", 
     Scene scene = sensing();
     Scene::Moment& last = scene.robots[0].moments.back();
     last.turn_rate = 0.0;
-    last.heading_rad = heading;
+    last.pose.yaw = heading;
     const Pixels view(scene, {"", View::robot, {}});
     const int middle = view.width() / 2;  // the square is as high as wide
     CHECK(view.count(kRed, middle - 5, middle - 155, middle + 5, middle - 20) > 100);

@@ -10,6 +10,8 @@
 #include "orca/sim/caster.hpp"
 
 using namespace orca::sim;
+using orca::direction;
+using orca::Vec2;
 
 namespace {
 

@@ -9,6 +9,8 @@
 #include "temp_folder.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
+using orca::Vec2;
 using orca::test::TempFolder;
 
 namespace {

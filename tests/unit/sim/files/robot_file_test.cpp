@@ -4,6 +4,7 @@
 #include "orca/sim/robot_file.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include "shipped.hpp"
 
 using namespace orca::sim;
+using orca::Vec2;
 using namespace orca::sim::test;
 using Catch::Contains;
 
@@ -47,7 +48,7 @@ TEST_CASE("the Pioneer 2-DX has the outline and the sonars of the maker's parame
   CHECK(plan.high.y - plan.low.y == Approx(0.425));
   CHECK(std::holds_alternative<Outline>(pioneer.footprint));
   CHECK(pioneer.drive.kind == DriveKind::differential);
-  CHECK(pioneer.drive.max_steer_speed == Approx(500.0 * kDegree));
+  CHECK(pioneer.drive.max_turn_rate == Approx(500.0 * kDegree));
   CHECK(pioneer.drive.track == Approx(2.0 / 0.0056 / 1000.0).epsilon(1e-3));  // DiffConvFactor.
   const SonarRing& ring = pioneer.sonars.at(0);
   REQUIRE(ring.count == 16);

@@ -4,6 +4,7 @@
 #include "orca/sim/world_file.hpp"
 
 using namespace orca::sim;
+using orca::Vec2;
 
 namespace {
 

@@ -11,6 +11,8 @@
 #include "plan.hpp"
 
 using namespace orca::sim;
+using orca::direction;
+using orca::Vec2;
 using orca::sim::test::Plan;
 
 namespace {

@@ -4,6 +4,8 @@
 #include "orca/sim/world_model.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
+using orca::Vec2;
 
 TEST_CASE("an outline is turned counter-clockwise, so the solid lies left of each edge", "[sim][shape]") {
   const Outline clockwise = outline_of({{0, 0}, {0, 1}, {1, 1}, {1, 0}});

@@ -7,6 +7,9 @@
 #include "bases.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
+using orca::Twist2;
+using orca::wrapped;
 using namespace orca::sim::test;
 using Catch::Contains;
 
@@ -16,8 +19,8 @@ constexpr DriveKind kAll[] = {DriveKind::differential, DriveKind::synchro, Drive
 using Complex = std::complex<double>;
 
 // Where a base ends that moves with constant velocity in its own frame: the integral of its turning velocity.
-Complex integrated(const Velocity& velocity, double seconds) {
-  const Complex turn(0.0, velocity.turn * seconds);
+Complex integrated(const Twist2& velocity, double seconds) {
+  const Complex turn(0.0, velocity.turn_rate * seconds);
   const Complex moved = Complex(velocity.forward, velocity.left) * seconds;
   return moved * (std::exp(turn) - 1.0) / turn;
 }
@@ -29,14 +32,14 @@ TEST_CASE("each kind of base answers a small command after the dead time with it
   const DriveKind kind = GENERATE(from_range(std::begin(kAll), std::end(kAll)));
   Bench bench(base_of(kind), Realism::nominal);
   const double left = kind == DriveKind::holonomic ? 0.01 : 0.0;
-  bench.drive({.forward = 0.02, .turn = 0.1, .left = left});
+  bench.drive({.forward = 0.02, .left = left, .turn_rate = 0.1});
   bench.run(0.05);
-  CHECK(bench.velocity() == Velocity{});
+  CHECK(bench.velocity() == Twist2{});
   for (int n = 1; n <= 30; ++n) {
     bench.run(0.01);
     const double share = 1.0 - std::exp(-n * 0.01 / 0.1);
     CHECK(bench.velocity().forward == Approx(0.02 * share).margin(1e-12));
-    CHECK(bench.velocity().turn == Approx(0.1 * share).margin(1e-12));
+    CHECK(bench.velocity().turn_rate == Approx(0.1 * share).margin(1e-12));
     CHECK(bench.velocity().left == Approx(left * share).margin(1e-12));
   }
 }
@@ -53,13 +56,13 @@ TEST_CASE("harsh realism makes lag and dead time half as long again", "[sim][dri
 TEST_CASE("each kind of base keeps to its acceleration and speed limits", "[sim][drive]") {
   const DriveKind kind = GENERATE(from_range(std::begin(kAll), std::end(kAll)));
   Bench bench(base_of(kind), Realism::ideal);
-  bench.drive({.forward = 5.0, .turn = 9.0});
+  bench.drive({.forward = 5.0, .turn_rate = 9.0});
   bench.run(0.2);
   CHECK(bench.velocity().forward == Approx(0.2 * 0.76));
-  CHECK(bench.velocity().turn == Approx(0.2 * 4.0));
+  CHECK(bench.velocity().turn_rate == Approx(0.2 * 4.0));
   bench.run(1.8);
   CHECK(bench.velocity().forward == Approx(1.0));
-  CHECK(bench.velocity().turn == Approx(2.0));
+  CHECK(bench.velocity().turn_rate == Approx(2.0));
 }
 
 TEST_CASE("a holonomic base's limits hold for its speed in whatever direction", "[sim][drive]") {
@@ -85,7 +88,7 @@ TEST_CASE("a holonomic base steps sideways without turning", "[sim][drive]") {
 
 TEST_CASE("each kind of base follows the exact arc of its velocity", "[sim][drive]") {
   const DriveKind kind = GENERATE(from_range(std::begin(kAll), std::end(kAll)));
-  Velocity velocity{.forward = 0.004, .turn = 0.04};
+  Twist2 velocity{.forward = 0.004, .turn_rate = 0.04};
   if (kind == DriveKind::holonomic) velocity.left = 0.005;
   Bench bench(base_of(kind), Realism::ideal);
   bench.drive(velocity);
@@ -98,7 +101,7 @@ TEST_CASE("each kind of base follows the exact arc of its velocity", "[sim][driv
 
 TEST_CASE("the body of a synchro base keeps its direction while the wheels steer", "[sim][drive]") {
   Bench bench(base_of(DriveKind::synchro), Realism::ideal);
-  bench.drive({.turn = 0.04});
+  bench.drive({.turn_rate = 0.04});
   bench.run(10.0);
   CHECK(bench.pose() == Pose2{0.0, 0.0, bench.pose().yaw});
   CHECK(bench.pose().yaw == Approx(0.4).margin(1e-12));
@@ -114,7 +117,7 @@ TEST_CASE("the body of a synchro base keeps its direction while the wheels steer
 TEST_CASE("the bodies of the other bases turn with them", "[sim][drive]") {
   const DriveKind kind = GENERATE(DriveKind::differential, DriveKind::holonomic);
   Bench bench(base_of(kind), Realism::nominal);
-  bench.drive({.forward = 0.1, .turn = 0.3});
+  bench.drive({.forward = 0.1, .turn_rate = 0.3});
   bench.run(3.0);
   CHECK(bench.body() == bench.pose());
 }
@@ -139,7 +142,7 @@ TEST_CASE("a wall stops a synchro base, but not the steering of its wheels", "[s
   bench.run(5.0);
   CHECK(bench.pose().x == Approx(5.0 - 0.205).margin(0.005));
   CHECK(std::fabs(bench.velocity().forward) < 0.01);
-  bench.drive({.turn = 1.0});
+  bench.drive({.turn_rate = 1.0});
   bench.run(3.0);
   CHECK(wrapped(bench.pose().yaw - bench.body().yaw) > 2.5);
   bench.drive({.forward = 0.5});
@@ -161,8 +164,8 @@ TEST_CASE("at ideal realism the odometry of each kind of base is exact", "[sim][
   const Pose2 start{-1.0, 1.0, 0.7};
   Bench bench(base_of(kind), Realism::ideal, start);
   const double left = kind == DriveKind::holonomic ? 0.2 : 0.0;
-  for (const Velocity& velocity :
-       {Velocity{0.4, 0.5, left}, Velocity{-0.1, 1.5, -left}, Velocity{0.3, -0.8, 0.5 * left}}) {
+  for (const Twist2& velocity :
+       {Twist2{0.4, left, 0.5}, Twist2{-0.1, -left, 1.5}, Twist2{0.3, 0.5 * left, -0.8}}) {
     bench.drive(velocity);
     bench.run(4.0);
   }

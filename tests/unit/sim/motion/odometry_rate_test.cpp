@@ -5,6 +5,7 @@
 #include "scout.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
 using namespace orca::sim::test;
 
 TEST_CASE("an odometer of 100 Hz tells every step of the simulation, stamped when it was measured",

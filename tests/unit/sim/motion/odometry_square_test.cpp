@@ -9,9 +9,11 @@
 #include "motion/odometry_model.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
+using orca::Twist2;
 using namespace orca::sim::test;
+using orca::Travel2;
 using orca::sim::detail::OdometryModel;
-using orca::sim::detail::Travel;
 using orca::sim::detail::WheelErrors;
 
 namespace {
@@ -24,7 +26,7 @@ constexpr double kQuarter = 0.5 * std::numbers::pi;
 Drive drive_of(DriveKind kind) { return {.kind = kind, .track = kTrack, .wheel_diameter = 0.15}; }
 
 // Adds a motion in small steps, as a simulation does.
-void add(OdometryModel& odometry, const Travel& whole) {
+void add(OdometryModel& odometry, const Travel2& whole) {
   constexpr int kSteps = 1000;
   for (int i = 0; i < kSteps; ++i)
     odometry.add({whole.forward / kSteps, whole.left / kSteps, whole.turn / kSteps}, 0.01);
@@ -142,10 +144,10 @@ TEST_CASE("one wrong wheel of a holonomic base drags it along its own direction"
                          orca::RandomStream(1, "dewey", "odometry"));
   odometry.add({0.3, -0.2, 0.0}, 1.0);  // The second wheel, at the back, rolls to the right.
   const double rolled = 0.2 * kError;
-  const Velocity believed = odometry.reading({}).velocity;
+  const Twist2 believed = odometry.reading({}).velocity;
   CHECK(believed.forward == Approx(0.3));
   CHECK(believed.left == Approx(-0.2 - 2.0 / 3.0 * rolled));
-  CHECK(believed.turn == Approx(rolled / (1.5 * kTrack)));
+  CHECK(believed.turn_rate == Approx(rolled / (1.5 * kTrack)));
 }
 
 TEST_CASE("a holonomic base that takes its wheel circle for too large believes to turn less",

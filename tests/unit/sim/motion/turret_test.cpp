@@ -72,7 +72,7 @@ TEST_CASE("a turret keeps its angle to the way the wheels point while they steer
   Bench bench(turreted(), Realism::ideal);
   REQUIRE(bench.world.set_turret_command(bench.id, angle));
   bench.run(3.0);
-  bench.drive({.turn = 0.8});
+  bench.drive({.turn_rate = 0.8});
   for (int tick = 0; tick < 300; ++tick) {
     bench.run(0.01);
     REQUIRE(angle_of(bench) == Approx(angle).margin(1e-6));
@@ -82,7 +82,7 @@ TEST_CASE("a turret keeps its angle to the way the wheels point while they steer
 
 TEST_CASE("wheels that steer faster than the turret can turn leave it behind for a while", "[sim][turret]") {
   Bench bench(turreted(), Realism::ideal);
-  bench.drive({.turn = 2.0});
+  bench.drive({.turn_rate = 2.0});
   bench.run(1.0);
   CHECK(angle_of(bench) < -0.5);
   bench.drive({});
@@ -113,7 +113,7 @@ TEST_CASE("sensors on a turret look where it points, and say so in the robot's f
 TEST_CASE("sensors on the body of a synchro base stay behind when the wheels steer, and say so",
           "[sim][turret]") {
   Bench bench(base_of(DriveKind::synchro), Realism::ideal, {-2.0, 3.0, 0.0});
-  bench.drive({.turn = 1.0});
+  bench.drive({.turn_rate = 1.0});
   bench.run(0.5 * std::numbers::pi);
   bench.drive({});
   bench.run(1.0);
@@ -127,7 +127,7 @@ TEST_CASE("sensors on the body of a synchro base stay behind when the wheels ste
 TEST_CASE("a turret on a base that turns points where it is told in the robot's frame", "[sim][turret]") {
   Bench bench(turreted(DriveKind::differential), Realism::ideal);
   REQUIRE(bench.world.set_turret_command(bench.id, -1.0));
-  bench.drive({.turn = 0.5});
+  bench.drive({.turn_rate = 0.5});
   bench.run(3.0);
   CHECK(angle_of(bench) == Approx(-1.0).margin(1e-6));
   CHECK(bench.body() == bench.pose());

@@ -8,6 +8,7 @@
 #include "scout.hpp"
 
 using namespace orca::sim;
+using orca::Vec2;
 using namespace orca::sim::test;
 using std::chrono::seconds;
 
@@ -30,8 +31,8 @@ void run(World& world, double time) {
   for (int i = 0; i < static_cast<int>(time * 100.0 + 0.5); ++i) world.step();
 }
 
-// Where the walker stands: the one circle of the scene that is not the room's post.
-Vec2 place(const World& world) { return world.scene().circles.at(1).center; }
+// Where the walker stands: the one circle of the snapshot that is not the room's post.
+Vec2 place(const World& world) { return world.snapshot().circles.at(1).center; }
 
 Vec2 place_after(const Walker& walker, double time, std::uint64_t seed = 1) {
   World world(room_with(walker), {.seed = seed, .realism = Realism::nominal});

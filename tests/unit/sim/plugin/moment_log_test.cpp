@@ -22,7 +22,7 @@ TEST_CASE("a short run is kept whole", "[sim][picture]") {
   for (int i = 0; i < 100; ++i) log.add(truth_at(i));
   const auto moments = log.moments();
   REQUIRE(moments.size() == 100);
-  CHECK(moments[40].position.x == Approx(4.0));
+  CHECK(moments[40].pose.x == Approx(4.0));
 }
 
 TEST_CASE("of a long run a bounded number of moments is kept, in even steps, with the first and the last",
@@ -70,7 +70,7 @@ TEST_CASE("a moment shows what was sensed last, in the robot's frame", "[sim][pi
   log.add(truth_at(2));
   const orca::Scene::Moment last = log.moments().back();
   REQUIRE(last.sonar.size() == 1);
-  CHECK(last.sonar[0].direction_rad == 0.5);
+  CHECK(last.sonar[0].X_RS.yaw == 0.5);
   CHECK(last.sonar[0].half_lobe_rad == 0.2);
   CHECK(last.sonar[0].range_m == 1.5);
   REQUIRE(last.lasers.size() == 1);

@@ -5,6 +5,10 @@
 #include "orca/sim/caster.hpp"
 
 using namespace orca::sim;
+using orca::direction;
+using orca::Pose2;
+using orca::rotated;
+using orca::Vec2;
 
 namespace {
 

@@ -11,6 +11,9 @@
 #include "orca/sim/caster.hpp"
 
 using namespace orca::sim;
+using orca::direction;
+using orca::rotated;
+using orca::Vec2;
 
 namespace {
 

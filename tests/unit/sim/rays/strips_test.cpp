@@ -9,7 +9,10 @@
 using namespace orca::sim;
 using detail::Cone;
 using detail::Grid;
+using orca::direction;
 using orca::RandomStream;
+using orca::rotated;
+using orca::Vec2;
 
 namespace {
 

@@ -6,7 +6,11 @@
 #include "orca/sim/caster.hpp"
 
 using namespace orca::sim;
+using orca::direction;
+using orca::Pose2;
 using orca::RandomStream;
+using orca::rotated;
+using orca::Vec2;
 
 namespace {
 

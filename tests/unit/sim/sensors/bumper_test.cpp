@@ -5,6 +5,8 @@
 #include "scout.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
+using orca::wrapped;
 using namespace orca::sim::test;
 
 namespace {

@@ -6,6 +6,8 @@
 #include "statistics.hpp"
 
 using namespace orca::sim;
+using orca::direction;
+using orca::Vec2;
 using namespace orca::sim::test;
 
 namespace {

@@ -4,6 +4,7 @@
 #include "laser.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
 using namespace orca::sim::test;
 
 namespace {
@@ -71,7 +72,7 @@ TEST_CASE("each beam of a turning robot looks from where it was at that beam's i
   constexpr double kTurn = 1.5;
   REQUIRE(world.set_velocity_command(id, 0.0, kTurn));
   for (int i = 0; i < 100; ++i) world.step();  // It has come up to speed.
-  REQUIRE(world.velocity(id).turn == Approx(kTurn));
+  REQUIRE(world.velocity(id).turn_rate == Approx(kTurn));
   const LaserScan scan = next_scan(world, id);
   double skew = 0.0;
   int seen = 0;

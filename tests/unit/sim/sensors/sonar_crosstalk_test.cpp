@@ -8,6 +8,7 @@
 #include "sensors/sonar_air.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
 using namespace orca::sim::test;
 using namespace std::chrono_literals;
 

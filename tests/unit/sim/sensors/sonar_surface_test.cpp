@@ -6,6 +6,9 @@
 #include "sensors/sonar_beam.hpp"
 
 using namespace orca::sim;
+using orca::direction;
+using orca::Pose2;
+using orca::Vec2;
 using namespace orca::sim::test;
 
 namespace {

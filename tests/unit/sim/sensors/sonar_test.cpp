@@ -5,6 +5,10 @@
 #include "scout.hpp"
 
 using namespace orca::sim;
+using orca::direction;
+using orca::Pose2;
+using orca::Vec2;
+using orca::wrapped;
 using namespace orca::sim::test;
 
 namespace {

@@ -24,7 +24,7 @@ struct Bench {
     id = *added;
   }
 
-  void drive(const Velocity& velocity) { REQUIRE(world.set_velocity_command(id, velocity)); }
+  void drive(const Twist2& velocity) { REQUIRE(world.set_velocity_command(id, velocity)); }
   void run(double seconds) {
     for (int i = 0; i < static_cast<int>(seconds * 100.0 + 0.5); ++i) {
       world.step();
@@ -33,7 +33,7 @@ struct Bench {
   }
   [[nodiscard]] Pose2 pose() const { return world.pose(id); }
   [[nodiscard]] Pose2 body() const { return world.body_pose(id); }
-  [[nodiscard]] Velocity velocity() const { return world.velocity(id); }
+  [[nodiscard]] Twist2 velocity() const { return world.velocity(id); }
 
   World world;
   RobotId id{};

@@ -21,9 +21,9 @@ inline RobotModel scout() {
   m.bottom = height_range_of(m.parts).first;
   m.top = height_range_of(m.parts).second;
   m.drive = {.max_speed = 1.0,
-             .max_steer_speed = 2.0,
+             .max_turn_rate = 2.0,
              .max_acceleration = 0.76,
-             .max_steer_acceleration = 4.0,
+             .max_turn_acceleration = 4.0,
              .track = 0.3452,
              .wheel_diameter = 0.15,
              .lag = std::chrono::milliseconds{100},

@@ -7,6 +7,7 @@
 #include "scout.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
 using namespace orca::sim::test;
 
 namespace {

@@ -11,6 +11,7 @@
 #include "shipped.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
 using namespace orca::sim::test;
 
 namespace {
@@ -82,7 +83,7 @@ class Crowd {
         add(world_.bumper(id)->stamp, {pressed ? 1.0 : 0.0});
     if (const auto& turret = world_.turret(id)) add(world_.time(), {turret->angle, turret->turn_rate});
     if (const auto& odometry = world_.odometry(id))
-      add(odometry->stamp, {odometry->pose.x, odometry->velocity.forward, odometry->velocity.turn});
+      add(odometry->stamp, {odometry->pose.x, odometry->velocity.forward, odometry->velocity.turn_rate});
   }
   void add(orca::TimePoint stamp, const std::vector<double>& values) {
     seen_.add_u64(static_cast<std::uint64_t>(stamp.time_since_epoch().count()));

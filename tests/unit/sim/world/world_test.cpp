@@ -7,6 +7,7 @@
 #include "scout.hpp"
 
 using namespace orca::sim;
+using orca::Pose2;
 using namespace orca::sim::test;
 
 namespace {
@@ -247,21 +248,21 @@ TEST_CASE("a robot is not set down in a wall, in another robot, without a name o
   CHECK_FALSE(world.find("louie").has_value());
 }
 
-TEST_CASE("a scene holds the world's edges and circles, its places and the way the robot came",
-          "[sim][scene]") {
+TEST_CASE("a snapshot holds the world's edges and circles, its places and the way the robot came",
+          "[sim][snapshot]") {
   RobotId id{};
   World world = world_with(id, Realism::ideal, {-2, -2, 0});
   REQUIRE(world.set_velocity_command(id, 0.5, 0.0));
   run(world, 3.0);
-  const Scene scene = world.scene();
-  CHECK(scene.edges.size() == 16);
-  CHECK(scene.circles.size() == 1);
-  CHECK(scene.bounds.low.x == Approx(-5.2));
-  REQUIRE(scene.robots.size() == 1);
-  const auto& way = scene.robots[0].trajectory;
+  const Snapshot snapshot = world.snapshot();
+  CHECK(snapshot.edges.size() == 16);
+  CHECK(snapshot.circles.size() == 1);
+  CHECK(snapshot.bounds.low.x == Approx(-5.2));
+  REQUIRE(snapshot.robots.size() == 1);
+  const auto& way = snapshot.robots[0].trajectory;
   CHECK(way.front().pose == Pose2{-2, -2, 0});
   CHECK(way.back().pose == world.pose(id));
   for (std::size_t i = 1; i < way.size(); ++i)
     CHECK(norm(way[i].pose.position() - way[i - 1].pose.position()) < 0.06);
-  CHECK(std::get<Circle>(scene.robots[0].footprint).center == world.pose(id).position());
+  CHECK(std::get<Circle>(snapshot.robots[0].footprint).center == world.pose(id).position());
 }

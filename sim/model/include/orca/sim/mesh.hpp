@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/shape.hpp"
 
 namespace orca::sim {

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
-#include "orca/sim/geometry.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/geometry/twist2.hpp"
 
 namespace orca::sim {
 
@@ -53,7 +54,7 @@ struct BumperReading {
 struct OdometryReading {
   TimePoint stamp;
   Pose2 pose;  ///< In the odometry frame.
-  Velocity velocity;
+  Twist2 velocity;
 };
 
 /// Where a turret points.

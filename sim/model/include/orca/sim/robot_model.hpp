@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/mesh.hpp"
 #include "orca/sim/sensors.hpp"
 
@@ -52,14 +53,14 @@ enum class DriveKind {
 /// in whatever direction.
 struct Drive {
   DriveKind kind = DriveKind::differential;
-  double max_speed = 0.0;               ///< [m/s]
-  double max_steer_speed = 0.0;         ///< [rad/s]
-  double max_acceleration = 0.0;        ///< [m/s2]
-  double max_steer_acceleration = 0.0;  ///< [rad/s2]
-  double track = 0.0;                   ///< [m] Diameter of the circle through the wheels' contact points.
-  double wheel_diameter = 0.0;          ///< [m]
-  Duration lag{0};                      ///< Time constant of the first-order answer to a command.
-  Duration dead_time{0};                ///< From a command to the first effect.
+  double max_speed = 0.0;              ///< [m/s]
+  double max_turn_rate = 0.0;          ///< [rad/s]
+  double max_acceleration = 0.0;       ///< [m/s2]
+  double max_turn_acceleration = 0.0;  ///< [rad/s2]
+  double track = 0.0;                  ///< [m] Diameter of the circle through the wheels' contact points.
+  double wheel_diameter = 0.0;         ///< [m]
+  Duration lag{0};                     ///< Time constant of the first-order answer to a command.
+  Duration dead_time{0};               ///< From a command to the first effect.
   // For those who steer the base (thesis 8.4.1); the simulation itself does not use these.
   double steer_gain = 1.0;                         ///< [1/s] Turn rate per heading error.
   double speed_step = 0.0;                         ///< [m/s] Smallest change of speed worth a command.

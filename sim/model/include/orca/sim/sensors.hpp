@@ -5,7 +5,7 @@
 #include <string>
 
 #include "orca/base/time.hpp"
-#include "orca/sim/geometry.hpp"
+#include "orca/geometry/pose2.hpp"
 
 namespace orca::sim {
 

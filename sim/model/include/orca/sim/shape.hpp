@@ -4,7 +4,8 @@
 #include <variant>
 #include <vector>
 
-#include "orca/sim/geometry.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/sim/figures.hpp"
 
 namespace orca::sim {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
-#include "orca/sim/geometry.hpp"
+#include "orca/geometry/vec2.hpp"
 
 namespace orca::sim {
 

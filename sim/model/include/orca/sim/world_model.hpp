@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/mesh.hpp"
 #include "orca/sim/walker.hpp"
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "orca/geometry/vec2.hpp"
 #include "orca/sim/world_model.hpp"
 
 namespace orca::sim {

@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/geometry/twist2.hpp"
 #include "orca/sim/caster.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
-#include "orca/sim/scene.hpp"
+#include "orca/sim/snapshot.hpp"
 #include "orca/sim/world_model.hpp"
 
 namespace orca::sim {
@@ -36,7 +38,8 @@ class World {
   struct Options {
     std::uint64_t seed = 1;
     Realism realism = Realism::nominal;
-    unsigned threads = 1;  ///< That robots sense on; 0: as many as the processor has. It changes no result.
+    unsigned threads =
+        1;  ///< That compute sensor readings; 0: one per processor. Results do not depend on it.
   };
   static constexpr Duration kTick = std::chrono::milliseconds{10};
 
@@ -78,15 +81,15 @@ class World {
 
   /// What the base shall do from now on; the drive's limits, lag and dead time apply.
   ///
-  /// @param forward [m/s]    along the robot's x axis.
-  /// @param turn    [rad/s]  counter-clockwise.
+  /// @param forward [m/s]  along the robot's x axis.
+  /// @param turn_rate [rad/s]  counter-clockwise.
   /// @errors  invalid_argument if a number is not finite; the former command stays.
-  Status set_velocity_command(RobotId robot, double forward, double turn);
+  Status set_velocity_command(RobotId robot, double forward, double turn_rate);
 
   /// The same, with a sideways part.
   /// @errors  also failed_precondition for a sideways part if the base is not holonomic; the former command
   ///          stays.
-  Status set_velocity_command(RobotId robot, const Velocity& wanted);
+  Status set_velocity_command(RobotId robot, const Twist2& wanted);
 
   /// Where the turret shall point from now on; within its limits it goes there by the shorter way and keeps
   /// to it while the robot turns. At first it points ahead.
@@ -108,7 +111,7 @@ class World {
   /// Where the turret points now; nothing without turret.
   [[nodiscard]] std::optional<TurretReading> turret(RobotId robot) const;
   /// True velocity in the last tick, in the robot's frame.
-  [[nodiscard]] Velocity velocity(RobotId robot) const;
+  [[nodiscard]] Twist2 velocity(RobotId robot) const;
 
   /// Contacts that began in the last tick: one for each touch, until the two have come apart again. If two
   /// robots collide both report it.
@@ -136,7 +139,7 @@ class World {
   /// The robot's number among the caster's bodies.
   [[nodiscard]] std::size_t body(RobotId robot) const;
   /// What to draw, with the way each robot has come.
-  [[nodiscard]] Scene scene() const;
+  [[nodiscard]] Snapshot snapshot() const;
 
   /// FNV-1a over time, poses, velocities and odometry, bit by bit: equal for equal runs.
   [[nodiscard]] std::uint64_t state_hash() const;

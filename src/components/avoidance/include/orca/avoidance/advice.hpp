@@ -42,9 +42,9 @@ struct Advice {
 ///
 /// A smooth wall that the robot nears at a flat angle sends back only the sonar beam that meets it squarely:
 /// nothing is heard from where the robot will touch it. So a near echo stands for a wall across its beam.
-[[nodiscard]] double free_way(std::span<const Echo> echoes, double direction, const Limits& limits);
+[[nodiscard]] double free_way(std::span<const Vec2> echoes, double direction, const Limits& limits);
 
 /// Steers to the nearest direction with a long enough free way when the way ahead is blocked.
-[[nodiscard]] Advice avoid(std::span<const Echo> echoes, const Situation& situation, const Limits& limits);
+[[nodiscard]] Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits);
 
 }  // namespace orca::avoid

@@ -6,37 +6,38 @@
 
 #include "orca/avoidance/advice.hpp"
 #include "orca/component.hpp"
+#include "orca/geometry/twist2.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 
 namespace orca::avoid {
 
-/// What all avoid behaviours share (thesis 11.1): no opinion while the way is free, else a direction that is
-/// free, slower the nearer the obstacle. What is heard comes from a behaviour of its own sensor.
+/// The common part of all avoid behaviours (thesis 11.1): no opinion while the way is free, else a direction that is
+/// free, slower the nearer the obstacle. A derived class listens to its sensor.
 ///
-/// With odometry it remembers what it heard and gives advice as often as odometry comes; without, as often as
-/// the sensor speaks and from that alone. With a goal it chooses among free directions the one nearest to the
-/// goal's, with the pose from the localizer or, without one, from the odometry.
+/// With odometry it remembers echoes and gives advice as often as odometry comes. Without odometry it gives advice as
+/// often as the sensor delivers, from those readings alone. With a goal it chooses the free direction nearest to the
+/// goal's; the pose comes from the localizer or, without one, from the odometry.
 ///
 /// Thread contract: as every component.
 class Avoider : public Component {
  protected:
-  /// @param echo_time  [s] the sensor's default for how long what it heard only once counts.
+  /// @param echo_time  [s] default of the sensor: how long an echo counts that was heard once.
   Avoider(ComponentHost& host, double echo_time);
 
-  /// The port of the sensor.
+  /// Returns the port of the sensor.
   [[nodiscard]] virtual PushProxyHandle& sensor() = 0;
-  /// Puts what the sensor has new into the memory.
+  /// Puts the newest readings of the sensor into the memory.
   /// @pre  sensor() has new data.
   virtual void listen(EchoMemory& memory) = 0;
 
-  /// Where what was `age` [s] ago in a place of the robot frame is now, as the robot has moved since.
-  [[nodiscard]] Echo moved_since(const Echo& echo, double age) const;
-  /// How far it has turned in the last `age` [s] [rad].
-  [[nodiscard]] double turned_since(double age) const { return turn_rate_ * age; }
+  /// Moves a point seen `age` [s] ago into the robot's current frame, using odometry.
+  [[nodiscard]] Vec2 moved_since(Vec2 point, double age) const;
+  /// Returns how far the robot has turned in the last `age` [s] [rad].
+  [[nodiscard]] double turned_since(double age) const { return twist_.turn_rate * age; }
   [[nodiscard]] EchoMemory::Limits keep() const;
-  /// [m] from the robot's centre: what is farther away does not change any advice.
+  /// Returns the distance [m] from the robot's centre beyond which nothing changes any advice.
   [[nodiscard]] double farthest() const;
 
  private:
@@ -49,7 +50,7 @@ class Avoider : public Component {
   void advise();
   [[nodiscard]] Limits limits() const;
   [[nodiscard]] std::optional<double> goal_direction() const;
-  [[nodiscard]] std::optional<Motion> pose() const;
+  [[nodiscard]] std::optional<Pose2> pose() const;
 
   PushProxy<idl::Odometry> odometry_;
   PushProxy<idl::GoalPoint> goal_;
@@ -72,9 +73,8 @@ class Avoider : public Component {
   Param<double> goal_max_age_;
 
   EchoMemory memory_;
-  Motion pose_;
-  double speed_ = 0.0;
-  double turn_rate_ = 0.0;
+  Pose2 pose_;    // In the frame of the odometry.
+  Twist2 twist_;  // Without the sideways part.
   std::optional<TimePoint> moved_at_;
   std::optional<TimePoint> heard_at_;
   double last_direction_ = 0.0;

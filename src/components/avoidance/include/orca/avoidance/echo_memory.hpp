@@ -6,44 +6,20 @@
 #include <span>
 #include <vector>
 
+#include "orca/geometry/pose2.hpp"
+
 namespace orca::avoid {
 
-/// A place from which an echo came, robot frame.
-struct Echo {
-  double x = 0.0;  ///< [m] ahead.
-  double y = 0.0;  ///< [m] to the left.
-};
+/// Returns the place from which an echo came, in the robot frame: `range` [m] along the x axis of the sensor at
+/// `X_RS`. Below `min_range` the sensor cannot tell how near something is: it may be at the sensor itself. Returns
+/// nothing at or above `max_range`, and for what is no number.
+[[nodiscard]] std::optional<Vec2> echo_of(double range, double min_range, double max_range,
+                                          const Pose2& X_RS);
 
-/// How the robot has moved: where it is now in the frame in which it was.
-struct Motion {
-  double x = 0.0;    ///< [m] ahead.
-  double y = 0.0;    ///< [m] to the left.
-  double yaw = 0.0;  ///< [rad] counter-clockwise positive.
-};
-
-/// Where the echo of a range reading comes from: on the x axis of a sensor that is mounted at `mount` in the
-/// robot frame, `range` [m] away. Below `min_range` the sensor cannot tell how near something is: it may be
-/// at the sensor itself. Nothing at or above `max_range`, and for what is no number.
-[[nodiscard]] std::optional<Echo> echo_of(double range, double min_range, double max_range,
-                                          const Motion& mount);
-
-/// The same place seen from where the robot is now.
-[[nodiscard]] Echo seen_after(const Echo& echo, const Motion& motion);
-
-/// The motion that leads from one pose to another, both given in one frame.
-[[nodiscard]] Motion between(const Motion& from, const Motion& to);
-
-/// The motion of a robot that drives and turns evenly for some time: an arc.
+/// The echoes of the last seconds, carried along as the robot moves: a corner between two beams, or a smooth wall
+/// that has turned its face away, is still there although nothing is heard of it now.
 ///
-/// @param speed      [m/s] forward positive.
-/// @param turn_rate  [rad/s] counter-clockwise positive.
-/// @param time       [s] negative: where the robot was that long ago.
-[[nodiscard]] Motion arc(double speed, double turn_rate, double time);
-
-/// What was heard in the last seconds, carried along as the robot moves: a corner between two beams, or a
-/// smooth wall that has turned its face away, is still there although nothing is heard of it now.
-///
-/// A single echo counts for a moment only, as a sonar also invents some. One that was heard near the same
+/// A single echo counts for a moment only, because a sonar also invents some. An echo that was heard near the same
 /// place before is kept for longer.
 ///
 /// Thread contract: not synchronised. Takes no memory after construction.
@@ -59,13 +35,15 @@ class EchoMemory {
 
   EchoMemory();
 
-  /// The robot has moved within `time` [s].
-  void advance(const Motion& motion, double time, const Limits& limits);
+  /// Moves the echoes into the robot's new frame, and forgets those that are too old.
+  /// @param X_RN  new robot frame in the former one.
+  /// @param time [s]  between the two.
+  void advance(const Pose2& X_RN, double time, const Limits& limits);
 
-  /// An echo from `echo`, seen from where the robot is now.
-  void hear(const Echo& echo, const Limits& limits);
+  /// Takes an echo, robot frame.
+  void hear(Vec2 echo, const Limits& limits);
 
-  /// Forgets the echoes that `unwanted` names.
+  /// Forgets the echoes for which `unwanted(echo)` is true.
   template <class Predicate>
   void forget_if(Predicate unwanted) {
     for (std::size_t i = echoes_.size(); i-- > 0;)
@@ -74,8 +52,8 @@ class EchoMemory {
 
   void clear();
 
-  /// All that counts now, robot frame. Valid until the next change.
-  [[nodiscard]] std::span<const Echo> echoes() const { return echoes_; }
+  /// Returns all echoes that count now, robot frame. Valid until the next change.
+  [[nodiscard]] std::span<const Vec2> echoes() const { return echoes_; }
 
  private:
   struct Trace {
@@ -85,7 +63,7 @@ class EchoMemory {
   void erase(std::size_t i);
 
   // Side by side, so that the echoes can be handed out as they are.
-  std::vector<Echo> echoes_;
+  std::vector<Vec2> echoes_;
   std::vector<Trace> traces_;
 };
 

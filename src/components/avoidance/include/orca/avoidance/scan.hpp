@@ -14,10 +14,10 @@ struct Scan {
   double max_range = 0.0;          ///< [m] at or above it nothing was seen.
   double angle_start = 0.0;        ///< [rad] of the first beam, sensor frame.
   double angle_increment = 0.0;    ///< [rad] from one beam to the next.
-  Motion mount;                    ///< Of the sensor, robot frame.
+  Pose2 X_RS;                      ///< Of the sensor, robot frame.
 };
 
-/// What a scan sees takes the place of what was remembered in its field of view: it misses nothing there.
+/// Replaces the echoes remembered in the scan's field of view by those that it sees: it misses nothing there.
 ///
 /// Of the beams in each `sector` [rad] only the nearest reading is kept, and only if it is nearer to the
 /// robot's centre than `range` [m]: a scan of many beams then costs no more than a ring of sonars.

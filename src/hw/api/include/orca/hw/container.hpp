@@ -12,8 +12,8 @@
 #include "orca/base/strand.hpp"
 #include "orca/component/host.hpp"
 #include "orca/component/param.hpp"
+#include "orca/hw/drawable.hpp"
 #include "orca/hw/endpoints.hpp"
-#include "orca/hw/scene.hpp"
 #include "orca/idl/hardware.hpp"
 
 namespace orca::hw {
@@ -40,8 +40,6 @@ class HardwareHost : public PluginHost {
   /// For traces: the container's state has changed.
   virtual void state_changed(HardwareState state) = 0;
   [[nodiscard]] virtual Executive& executive() = 0;
-  /// Whether somebody will ask draw() for more than where the robot ended: what is to be drawn must be kept.
-  [[nodiscard]] virtual bool wants_scene() const = 0;
 };
 
 /// All hardware behind one port or bus: it opens, starts, stops and closes the device, and has sensor and
@@ -68,9 +66,8 @@ class HardwareContainer : public Device {
   [[nodiscard]] MotionHW* motion() const { return motion_; }
   /// What this hardware is, for whoever asks by Query.
   [[nodiscard]] virtual idl::Robot description() const = 0;
-  /// Adds what can be drawn of it; nothing for real hardware.
-  /// @pre  the container's strand has ended.
-  virtual void draw(Scene& /*scene*/) {}
+  /// Returns what draws this hardware; null for real hardware.
+  [[nodiscard]] virtual Drawable* drawable() { return nullptr; }
 
   /// Starts the container's strand, which opens the device.
   void run();

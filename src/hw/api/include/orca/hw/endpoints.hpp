@@ -10,6 +10,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
+#include "orca/geometry/twist2.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/object.hpp"
@@ -72,9 +73,9 @@ class SensorHW final : public SensorEndpoint {
 
 /// What a base can do (thesis appendix A, <drive>).
 struct DriveLimits {
-  double max_speed = 0.0;        ///< [m/s]
-  double max_steer_speed = 0.0;  ///< [rad/s]
-  double steer_gain = 0.5;       ///< [1/s] turn rate per radian of direction asked for.
+  double max_speed = 0.0;      ///< [m/s]
+  double max_turn_rate = 0.0;  ///< [rad/s]
+  double steer_gain = 0.5;     ///< [1/s] turn rate per radian of direction asked for.
   double big_turn_angle =
       0.0;  ///< [rad] at larger directions the base drives at most `big_turn_speed`; 0: no such limit.
   double big_turn_speed = 0.0;              ///< [m/s]
@@ -82,14 +83,12 @@ struct DriveLimits {
   bool turret = false;                      ///< Whether there is a turret to be pointed.
 };
 
-/// A crisp set-point for the motors of a base of any kind, robot frame.
+/// A crisp set-point for the motors of a base of any kind.
 struct DriveSetpoint {
-  double speed = 0.0;         ///< [m/s] forward positive.
-  double steer_speed = 0.0;   ///< [rad/s] counter-clockwise positive.
-  double side_speed = 0.0;    ///< [m/s] to the left positive; 0 unless the base is holonomic.
+  Twist2 velocity{};          ///< Of the robot frame; to the left only if the base is holonomic.
   double turret_angle = 0.0;  ///< [rad] where a turret points, counter-clockwise from ahead.
-  /// Whether the base is to stand; a turret may turn meanwhile.
-  [[nodiscard]] bool stands() const { return speed == 0.0 && steer_speed == 0.0 && side_speed == 0.0; }
+  /// Returns whether the base is to stand; a turret may turn meanwhile.
+  [[nodiscard]] bool stands() const { return velocity == Twist2{}; }
   friend bool operator==(const DriveSetpoint&, const DriveSetpoint&) = default;
 };
 
@@ -101,24 +100,21 @@ class MotionHW {
  public:
   MotionHW(const DriveLimits& limits, Duration max_command_age);
 
-  /// Whether any base can carry out the command.
-  /// @errors  invalid_argument for DONTCARE (fuse first), for a negative weight, and for values that are not
-  /// finite. A full stop is never refused.
+  /// Checks whether any base can carry out the command.
+  /// @errors  invalid_argument for DONTCARE (fuse first), and check_command()'s.
   [[nodiscard]] static Status check(const idl::MotionCommand& command);
-  /// @errors  invalid_argument for values that are not finite.
-  [[nodiscard]] static Status check(const idl::HolonomicVelocity& velocity);
 
   /// Takes a command, to be carried out at the container's next turn.
   /// @errors  check()'s.
   Status command(const idl::MotionCommand& command, TimePoint now);
 
-  /// Takes a velocity, to be carried out at the container's next turn. What is faster than the base keeps its
+  /// Takes a velocity, to be carried out at the container's next turn. A velocity beyond the limits keeps its
   /// direction.
-  /// @errors  failed_precondition unless the base is holonomic, and check()'s.
+  /// @errors  failed_precondition unless the base is holonomic, and check_command()'s.
   Status command(const idl::HolonomicVelocity& velocity, TimePoint now);
 
   /// Points the turret, which then stays so: no age, for a turret carries nobody away.
-  /// @errors  failed_precondition without turret, invalid_argument for an angle that is not finite.
+  /// @errors  failed_precondition without turret, and check_command()'s.
   Status command(const idl::TurretCommand& turret, TimePoint now);
 
   /// The set-point that holds now: it stands when the last command is older than max_command_age.
@@ -136,8 +132,10 @@ class MotionHW {
   [[nodiscard]] std::uint64_t expired_count() const;
 
  private:
-  [[nodiscard]] DriveSetpoint within_limits(const idl::MotionCommand& command) const;
-  void move(const DriveSetpoint& wanted, TimePoint now);
+  [[nodiscard]] Twist2 within_limits(const idl::MotionCommand& command) const;
+  [[nodiscard]] Twist2 within_limits(const idl::HolonomicVelocity& velocity) const;
+  [[nodiscard]] double within_limits(double turn_rate) const;
+  void move(const Twist2& wanted, TimePoint now);
   void stand();
 
   const DriveLimits limits_;

@@ -5,40 +5,35 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
+#include "orca/geometry/pose2.hpp"
 
 namespace orca {
 
-/// What there is to draw: plain shapes in the world frame [m], x to the right, y up, unless it says
-/// otherwise.
+/// Plain shapes to draw, in the world frame [m] unless a member says otherwise: x to the right, y up. A Drawable adds
+/// the world and the robots, the host adds what they reported.
 ///
 /// A plain value.
 struct Scene {
-  struct Point {
-    double x = 0.0;  ///< [m]
-    double y = 0.0;  ///< [m]
-  };
   struct Line {
-    Point a;
-    Point b;
+    Vec2 a;
+    Vec2 b;
   };
-  /// One reading of a sonar, in the robot's frame (x ahead, y to the left).
+  /// One reading of a sonar.
   struct Cone {
-    Point at;
-    double direction_rad = 0.0;
+    Pose2 X_RS;  ///< Of the sonar, in the robot's frame.
     double half_lobe_rad = 0.0;
     double range_m = 0.0;
     bool echo = false;  ///< False: nothing came back.
   };
   /// One scan of a laser, in the robot's frame.
   struct Scan {
-    Point at;
-    std::vector<Point> ends;  ///< Of the beams, in their order.
+    Vec2 at;
+    std::vector<Vec2> ends;  ///< Of the beams, in their order.
   };
   /// What a robot did and sensed last at one time.
   struct Moment {
     TimePoint time;  ///< Of the run's clock.
-    Point position;
-    double heading_rad = 0.0;
+    Pose2 pose;
     double speed = 0.0;      ///< [m/s] Ahead.
     double turn_rate = 0.0;  ///< [rad/s] Counter-clockwise.
     std::vector<Cone> sonar;
@@ -46,16 +41,15 @@ struct Scene {
   };
   struct Robot {
     std::string name;
-    Point position;
-    double heading_rad = 0.0;
+    Pose2 pose;
     double radius_m = 0.0;
     std::vector<Line> outline;    ///< Of its plan, in its own frame; empty: a circle.
-    std::vector<Point> track;     ///< Where it has been, oldest first.
+    std::vector<Vec2> track;      ///< Where it has been, oldest first.
     std::vector<Moment> moments;  ///< Oldest first.
   };
   struct Mark {
     std::string label;
-    Point position;
+    Vec2 position;
     TimePoint time;  ///< Of the run's clock.
   };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// Composition and inverse of poses with covariances, to first order: the covariance of a result is J C J^T,
-/// where J has the derivatives of the result for its arguments. This is good while standard deviations of
-/// angles are small against 1 rad. docs/geometry.md has the equations.
+/// Composition and inverse of poses with covariances, to first order: the covariance of a result is J C J^T, where J
+/// has the derivatives of the result for its arguments. This is good while standard deviations of angles are small
+/// against 1 rad. docs/geometry.md has the equations.
 ///
 /// A covariance of zeros counts as exactly known here. Results are symmetric and, up to rounding, positive
 /// semidefinite if the arguments are.
@@ -12,11 +12,6 @@
 #include "orca/idl/geometry.hpp"
 
 namespace orca {
-
-/// @param angle_rad [rad]
-/// @return the same direction in (-pi, pi].
-/// @thread  pure function; any thread.
-[[nodiscard]] double wrapped_angle(double angle_rad);
 
 /// The pose of frame C in A, from those of B in A and of C in B, whose errors are independent of each other.
 /// @return its stamp is the later one of both.

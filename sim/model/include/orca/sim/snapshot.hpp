@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/sim/world_model.hpp"
 
 namespace orca::sim {
 
-/// A robot as it is to be drawn.
-struct SceneRobot {
+/// A robot at one instant, and the way it came.
+struct RobotSnapshot {
   std::string name;
   Pose2 pose;
   Shape footprint;  ///< In the world frame, at `pose`.
@@ -21,17 +22,17 @@ struct SceneRobot {
   std::vector<Sample> trajectory;  ///< True poses: the first, one per 5 cm or 0.2 rad, the last.
 };
 
-/// What a picture of a world shows, in world coordinates [m]. A plain value; the renderer is elsewhere.
-struct Scene {
+/// A world at one instant, in world coordinates [m], for whoever draws it. A plain value.
+struct Snapshot {
   std::string name;
   Bounds bounds;  ///< Holds everything but the trajectories.
   std::vector<Segment> edges;
   std::vector<Circle> circles;
   std::vector<Place> places;
-  std::vector<SceneRobot> robots;
+  std::vector<RobotSnapshot> robots;
 };
 
-/// The static part of a scene.
-[[nodiscard]] Scene scene_of(const WorldModel& world);
+/// Returns the snapshot of a world without robots.
+[[nodiscard]] Snapshot snapshot_of(const WorldModel& world);
 
 }  // namespace orca::sim

@@ -5,8 +5,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "covariance.hpp"
-#include "orca/geometry/pose.hpp"
+#include "matrix.hpp"
+#include "orca/geometry/angle.hpp"
+#include "orca/geometry/objects/covariance.hpp"
 
 namespace orca {
 namespace {
@@ -33,9 +34,9 @@ idl::Rotation3D angles_of(const Matrix3d& R) {
   const double c = std::cos(yaw);
   const double s = std::sin(yaw);
   idl::Rotation3D rotation;
-  rotation.yaw(wrapped_angle(yaw));
+  rotation.yaw(wrapped(yaw));
   rotation.pitch(std::atan2(-R(2, 0), c * R(0, 0) + s * R(1, 0)));
-  rotation.roll(wrapped_angle(std::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1))));
+  rotation.roll(wrapped(std::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1))));
   return rotation;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/sim/scene.hpp"
+#include "orca/sim/snapshot.hpp"
 
 namespace orca::sim {
 namespace {
@@ -15,17 +15,17 @@ std::vector<Segment> drawn_edges(const Obstacle& o) {
 
 }  // namespace
 
-Scene scene_of(const WorldModel& world) {
-  Scene scene;
-  scene.name = world.name;
-  scene.bounds = world.bounds();
-  scene.places = world.places;
+Snapshot snapshot_of(const WorldModel& world) {
+  Snapshot snapshot;
+  snapshot.name = world.name;
+  snapshot.bounds = world.bounds();
+  snapshot.places = world.places;
   for (const Obstacle& o : world.obstacles) {
-    if (const auto* circle = std::get_if<Circle>(&o.shape)) scene.circles.push_back(*circle);
+    if (const auto* circle = std::get_if<Circle>(&o.shape)) snapshot.circles.push_back(*circle);
     const std::vector<Segment> edges = drawn_edges(o);
-    scene.edges.insert(scene.edges.end(), edges.begin(), edges.end());
+    snapshot.edges.insert(snapshot.edges.end(), edges.begin(), edges.end());
   }
-  return scene;
+  return snapshot;
 }
 
 }  // namespace orca::sim

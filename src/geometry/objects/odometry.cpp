@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/geometry/odometry.hpp"
+#include "orca/geometry/objects/odometry.hpp"
 
 #include <cmath>
 
-#include "covariance.hpp"
-#include "orca/geometry/pose.hpp"
+#include "matrix.hpp"
+#include "orca/geometry/arc.hpp"
+#include "orca/geometry/objects/plane.hpp"
 
 namespace orca {
 namespace {
 
-// Below this the series are exact to the last digits, and the quotients are not.
+// Below this [rad] the series is exact to the last digits, and the quotient is not.
 constexpr double kSmall = 0.05;
 
-// Chord per arc that turns by 2 h: sin(h) / h.
-double chord_ratio(double h) {
-  const double q = h * h;
-  return std::abs(h) < kSmall ? 1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0)) : std::sin(h) / h;
-}
-
-// Its derivative.
+// The derivative of sin(h) / h, the chord per arc that turns by 2 h.
 double chord_ratio_slope(double h) {
   const double q = h * h;
   if (std::abs(h) < kSmall) return -h / 3.0 * (1.0 - q / 10.0 * (1.0 - q / 28.0 * (1.0 - q / 54.0)));
@@ -40,25 +35,17 @@ Status check(const WheelTravel& travel, const DifferentialBase& base) {
   return ok();
 }
 
-// The derivatives of (x, y, orientation) for the way and the turn of an arc, and the arc's displacement.
-struct Arc {
-  double dx;
-  double dy;
-  double turn;
+// The derivatives of (x, y, orientation) for the way and the turn of an arc that ends `chord` away.
+Eigen::Matrix<double, 3, 2> slope_of(const Travel2& travel, const Vec2& chord, double start_orientation) {
+  const double h = 0.5 * travel.turn;
+  const Vec2 along = direction(start_orientation + h);
+  const double ratio = chord_ratio(travel.turn);
+  const double lengthening = travel.forward * chord_ratio_slope(h) / 2.0;  // d chord / d turn
   Eigen::Matrix<double, 3, 2> slope;
-};
-
-Arc arc_of(double way, double turn, double start_orientation) {
-  const double h = turn / 2.0;
-  const double chord = way * chord_ratio(h);
-  const double c = std::cos(start_orientation + h);
-  const double s = std::sin(start_orientation + h);
-  const double lengthening = way * chord_ratio_slope(h) / 2.0;  // d chord / d turn
-  Arc arc{.dx = chord * c, .dy = chord * s, .turn = turn, .slope = {}};
-  arc.slope << chord_ratio(h) * c, lengthening * c - arc.dy / 2.0,  //
-      chord_ratio(h) * s, lengthening * s + arc.dx / 2.0,           //
+  slope << ratio * along.x, lengthening * along.x - chord.y / 2.0,  //
+      ratio * along.y, lengthening * along.y + chord.x / 2.0,       //
       0.0, 1.0;
-  return arc;
+  return slope;
 }
 
 }  // namespace
@@ -66,21 +53,23 @@ Arc arc_of(double way, double turn, double start_orientation) {
 Result<idl::Pose2D> integrate_arc(const idl::Pose2D& X_WB, const WheelTravel& travel,
                                   const DifferentialBase& base) {
   if (const Status status = check(travel, base); !status.ok()) return status.error();
-  const double way = (travel.left + travel.right) / 2.0;
-  const Arc arc = arc_of(way, (travel.right - travel.left) / base.track, X_WB.orientation());
+  const Travel2 moved{.forward = (travel.left + travel.right) / 2.0,
+                      .turn = (travel.right - travel.left) / base.track};
+  const Vec2 way = chord(X_WB.orientation(), moved);
+  const Pose2 end = along_arc(plane_pose(X_WB), moved);
 
   Eigen::Matrix3d for_pose;
-  for_pose << 1, 0, -arc.dy, 0, 1, arc.dx, 0, 0, 1;
+  for_pose << 1, 0, -way.y, 0, 1, way.x, 0, 0, 1;
   Eigen::Matrix2d mixing;  // (way, turn) for (left, right)
   mixing << 0.5, 0.5, -1.0 / base.track, 1.0 / base.track;
-  const Eigen::Matrix<double, 3, 2> for_wheels = arc.slope * mixing;
+  const Eigen::Matrix<double, 3, 2> for_wheels = slope_of(moved, way, X_WB.orientation()) * mixing;
   const Eigen::Vector2d variance(base.left_noise * std::abs(travel.left),
                                  base.right_noise * std::abs(travel.right));
 
   idl::Pose2D result;
-  result.x(X_WB.x() + arc.dx);
-  result.y(X_WB.y() + arc.dy);
-  result.orientation(wrapped_angle(X_WB.orientation() + arc.turn));
+  result.x(end.x);
+  result.y(end.y);
+  result.orientation(end.yaw);
   result.stamp(travel.stamp);
   geometry::store<3>(for_pose * geometry::matrix_of<3>(X_WB.covariance()) * for_pose.transpose() +
                          for_wheels * variance.asDiagonal() * for_wheels.transpose(),

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+
+namespace orca {
+
+/// How fast a body moves in the plane, in its own frame.
+///
+/// A plain value.
+struct Twist2 {
+  double forward = 0.0;    ///< [m/s] along the body's x axis.
+  double left = 0.0;       ///< [m/s] along the body's y axis.
+  double turn_rate = 0.0;  ///< [rad/s] about z, positive to the left.
+  friend bool operator==(const Twist2&, const Twist2&) = default;
+};
+
+[[nodiscard]] inline bool is_finite(const Twist2& twist) {
+  return std::isfinite(twist.forward) && std::isfinite(twist.left) && std::isfinite(twist.turn_rate);
+}
+
+/// How far a body goes at a constant twist. The lengths are those of the arc that it follows, not of its chord.
+///
+/// A plain value.
+struct Travel2 {
+  double forward = 0.0;  ///< [m]
+  double left = 0.0;     ///< [m]
+  double turn = 0.0;     ///< [rad] positive to the left; may be more than a whole turn.
+  friend bool operator==(const Travel2&, const Travel2&) = default;
+};
+
+/// @param seconds [s]  negative: how far the body has come in the time before.
+[[nodiscard]] constexpr Travel2 operator*(const Twist2& twist, double seconds) {
+  return {twist.forward * seconds, twist.left * seconds, twist.turn_rate * seconds};
+}
+
+/// @pre  seconds is not 0.
+[[nodiscard]] constexpr Twist2 operator/(const Travel2& travel, double seconds) {
+  return {travel.forward / seconds, travel.left / seconds, travel.turn / seconds};
+}
+
+}  // namespace orca

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+/// @file
+/// Values of the plane from objects that travel, and back. What the plane has no place for (heights, roll, pitch,
+/// stamps, covariances) is left out.
+#pragma once
+
+#include "orca/geometry/pose2.hpp"
+#include "orca/idl/geometry.hpp"
+#include "orca/idl/sensing.hpp"
+
+namespace orca {
+
+/// Returns X_RS, a sensor in the robot frame, seen from above.
+/// @thread  pure function, as all of this file; any thread.
+[[nodiscard]] inline Pose2 plane_pose(const idl::Frame3D& mount) {
+  return {mount.position().x(), mount.position().y(), mount.rotation().yaw()};
+}
+
+/// Returns X_WR, the robot in the world.
+[[nodiscard]] inline Pose2 plane_pose(const idl::RobotPose& pose) {
+  return {pose.x(), pose.y(), pose.orientation()};
+}
+
+/// Returns X_OR, the robot in the frame of its odometry.
+[[nodiscard]] inline Pose2 plane_pose(const idl::Odometry& odometry) {
+  return {odometry.x(), odometry.y(), odometry.steer_angle()};
+}
+
+/// Returns X_AB without its covariance and stamp.
+[[nodiscard]] inline Pose2 plane_pose(const idl::Pose2D& X_AB) {
+  return {X_AB.x(), X_AB.y(), X_AB.orientation()};
+}
+
+/// Returns the frame of something mounted level, `height` [m] above the floor.
+[[nodiscard]] inline idl::Frame3D level_frame(const Pose2& pose, double height) {
+  return make_frame(make_point(pose.x, pose.y, height), pose.yaw);
+}
+
+}  // namespace orca
