@@ -125,8 +125,7 @@ Status System::configure(ComponentInstance& component, Event& changed, TimePoint
                    [&] { return give_up_() || component.state() != ComponentState::init; });
   if (component.state() == ComponentState::init)
     return fail(Code::deadline_exceeded, "configure() did not return in time", component.name());
-  if (component.state() == ComponentState::work_failed)
-    return fail(Code::failed_precondition, component.failure(), component.name());
+  if (component.has_failed()) return fail(Code::failed_precondition, component.failure(), component.name());
   return ok();
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "component_instance.hpp"
+#include "component/component_instance.hpp"
 #include "hardware_instance.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"

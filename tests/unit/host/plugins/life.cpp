@@ -23,6 +23,7 @@ class Life final : public orca::Component {
 
   orca::Status start() override {
     say("start");
+    if (*mode_ == "start waits") goal_.get_update_wait();
     return *mode_ == "start fails" ? orca::Status(orca::fail(orca::Code::unavailable, "no start today"))
                                    : orca::ok();
   }

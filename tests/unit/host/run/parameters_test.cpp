@@ -64,7 +64,7 @@ TEST_CASE("what is thrown at new values fails the component, which keeps the old
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     CHECK_THAT(run.set("life", {{"mode", "params throw"}}).error().text(),
                Contains("params_changed() threw"));
-    CHECK(run.state("life") == ComponentState::work_failed);
+    CHECK(run.state("life") == ComponentState::broken);
     CHECK(std::get<std::string>(run.system().component("life")->params().at("mode")).empty());
   });
 }

@@ -58,11 +58,26 @@ TEST_CASE("after a failure that it reported itself a component is idle again whe
   });
 }
 
+TEST_CASE("a component that waits in start() when the system ends is stopped and ends at once",
+          "[host][states]") {
+  for (const ExecutiveOptions& kind : all_executives()) {
+    LiveSystem live(R"(<component name="life" type="test.Life" autonomous="true">
+        <param name="mode" value="start waits"/></component>
+      <component name="mute" type="test.Life"><param name="mode" value="work fails"/></component>
+      <connect from="mute.out" to="life.in"/>)");
+    live.run(kind, [](LiveSystem& run) {
+      CHECK(eventually(run.executive(), [&] { return run.diary.has("start"); }));
+      CHECK(run.state("life") == ComponentState::connect);
+    });
+    CHECK(live.news().back() == "stop");
+  }
+}
+
 TEST_CASE("a component that threw stays in WORK_FAILED, with the text", "[host][states]") {
   LiveSystem live(life("work throws") + kTwoUsers);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     run.sleep(5s);
-    CHECK(run.state("life") == ComponentState::work_failed);
+    CHECK(run.state("life") == ComponentState::broken);
     CHECK(run.system().component("life")->failure() == "work() threw std::runtime_error: no work today");
   });
 }

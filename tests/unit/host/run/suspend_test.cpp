@@ -22,7 +22,7 @@ TEST_CASE("a suspended component does nothing until it is resumed", "[host][susp
     live.run(kind, [](LiveSystem& run) {
       run.sleep(150ms);
       CHECK(run.suspend("life").ok());
-      CHECK(run.state("life") == ComponentState::suspended);
+      CHECK(run.state("life") == ComponentState::suspended_work);
       CHECK(run.news().back() == "suspend");
       run.sleep(10s);
       CHECK(run.news().empty());
@@ -58,7 +58,7 @@ TEST_CASE("a lap that only waits is given up to suspend the component", "[host][
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     run.sleep(1ms);
     CHECK(run.suspend("life").ok());
-    CHECK(run.state("life") == ComponentState::suspended);
+    CHECK(run.state("life") == ComponentState::suspended_work);
   });
 }
 

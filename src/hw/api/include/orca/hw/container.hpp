@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -14,23 +11,13 @@
 #include "orca/component/param.hpp"
 #include "orca/hw/drawable.hpp"
 #include "orca/hw/endpoints.hpp"
+#include "orca/hw/hardware_state.hpp"
 #include "orca/idl/hardware.hpp"
 
 namespace orca::hw {
 
-/// The states of a container. Fault and Backoff belong to devices that can vanish and come back.
-enum class HardwareState { closed, opening, ready, active, fault };
-
-[[nodiscard]] constexpr const char* to_string(HardwareState state) {
-  switch (state) {
-    case HardwareState::closed: return "Closed";
-    case HardwareState::opening: return "Opening";
-    case HardwareState::ready: return "Ready";
-    case HardwareState::active: return "Active";
-    case HardwareState::fault: return "Fault";
-  }
-  return "?";
-}
+class HardwareLifecycle;
+class HardwareLoop;
 
 /// What a process offers to a hardware container.
 class HardwareHost : public PluginHost {
@@ -53,8 +40,8 @@ class HardwareHost : public PluginHost {
 /// Thread contract: the public functions from any strand.
 class HardwareContainer : public Device {
  public:
-  explicit HardwareContainer(HardwareHost& host) : host_(host) {}
-  ~HardwareContainer() noexcept(false) override {}  // clang 14 takes no "= default" here
+  explicit HardwareContainer(HardwareHost& host);
+  ~HardwareContainer() noexcept(false) override;
 
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 
@@ -73,11 +60,10 @@ class HardwareContainer : public Device {
   void run();
   /// Stops the motors, closes the device and ends the strand.
   void shut_down();
-  [[nodiscard]] bool join_until(TimePoint deadline) {
-    return strand_ == nullptr || strand_->join_until(deadline);
-  }
+  /// @return true if the strand has ended by the deadline, or has never run.
+  [[nodiscard]] bool join_until(TimePoint deadline);
 
-  /// A user more or less: the device is started for the first and stopped after the last.
+  /// Adds or removes a user: the device is started for the first and stopped after the last.
   void acquire();
   void release();
 
@@ -89,11 +75,11 @@ class HardwareContainer : public Device {
   Status command(const Command& command) {
     if (Status able = check_active(); !able.ok()) return able;
     const Status taken = motion_->command(command, host_.now());
-    if (taken.ok()) strand_->wake();
+    if (taken.ok()) wake();
     return taken;
   }
 
-  [[nodiscard]] HardwareState state() const { return state_.load(std::memory_order_acquire); }
+  [[nodiscard]] HardwareState state() const;
   /// Why the state is Fault.
   [[nodiscard]] std::string fault() const;
   /// Wakes `strand` at every change of state.
@@ -118,34 +104,17 @@ class HardwareContainer : public Device {
   [[nodiscard]] HardwareHost& host() const { return host_; }
 
  private:
+  friend class HardwareLifecycle;
+  friend class HardwareLoop;
+
   [[nodiscard]] Status check_active() const;
-  void main();
-  void guarded(void (HardwareContainer::*step)());
-  void open_device();
-  void turn();
-  void follow_users();
-  void start_device();
-  void stop_device();
-  void apply_motion();
-  void drive_to(const DriveSetpoint& setpoint);
-  void set_state(HardwareState state);
-  void fail_with(const std::string& reason);
-  void still_stop();
-  [[nodiscard]] bool works() const;
-  [[nodiscard]] TimePoint next_turn() const;
+  void wake();
 
   HardwareHost& host_;
   std::vector<SensorEndpoint*> sensors_;
   MotionHW* motion_ = nullptr;
-  DriveSetpoint applied_;
-
-  std::unique_ptr<Strand> strand_;
-  std::atomic<HardwareState> state_{HardwareState::closed};
-  std::atomic<int> users_{0};
-  std::atomic<bool> shutting_down_{false};
-  mutable std::mutex mutex_;
-  std::string fault_;
-  std::vector<Strand*> watchers_;
+  // All that changes while the container runs; drivers are compiled without knowing it.
+  const std::unique_ptr<HardwareLoop> loop_;
 };
 
 }  // namespace orca::hw

@@ -9,7 +9,7 @@
 
 namespace orca::host {
 
-/// Something that a component is asked for from outside, to be done on its strand between two laps.
+/// One thing that a component is asked for from outside. It is done on its strand, between two laps.
 ///
 /// Thread contract: done() from anywhere, result() after it; the rest on the component's strand.
 class Order {

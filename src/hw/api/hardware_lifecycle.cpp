@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "hardware_lifecycle.hpp"
+
+namespace orca::hw {
+
+std::string HardwareLifecycle::fault() const {
+  const std::lock_guard lock(mutex_);
+  return fault_;
+}
+
+void HardwareLifecycle::watch(Strand& strand) {
+  const std::lock_guard lock(mutex_);
+  watchers_.push_back(&strand);
+}
+
+void HardwareLifecycle::fail_with(const std::string& reason) {
+  report(reason);
+  handle(HardwareEvent::failed);
+}
+
+void HardwareLifecycle::drive(const DriveSetpoint& setpoint) {
+  if (const FollowUp failed = checked(drive_to(setpoint))) handle(*failed);
+}
+
+void HardwareLifecycle::handle(HardwareEvent event) {
+  for (FollowUp next = event; next;) {
+    const HardwareTransition* const found = transition(state(), *next);
+    next = found != nullptr ? carry_out(*found) : std::nullopt;
+  }
+}
+
+HardwareLifecycle::FollowUp HardwareLifecycle::carry_out(const HardwareTransition& transition) {
+  for (const HardwareAction action : transition.actions)
+    if (const FollowUp next = carry_out(action, transition.to)) return next;
+  return std::nullopt;
+}
+
+HardwareLifecycle::FollowUp HardwareLifecycle::carry_out(HardwareAction action, HardwareState to) {
+  switch (action) {
+    case HardwareAction::enter: enter(to); return std::nullopt;
+    case HardwareAction::open: return checked(container_.open());
+    case HardwareAction::start: return checked(container_.start());
+    case HardwareAction::halt: halt(); return std::nullopt;
+    case HardwareAction::stand: return checked(drive_to(standing()));
+    case HardwareAction::stop: container_.stop(); return std::nullopt;
+    case HardwareAction::try_stop: try_stop(); return std::nullopt;
+    case HardwareAction::forget: forget(); return std::nullopt;
+    case HardwareAction::close: container_.close(); return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void HardwareLifecycle::enter(HardwareState state) {
+  state_.store(state, std::memory_order_release);
+  host_.state_changed(state);
+  const std::lock_guard lock(mutex_);
+  for (Strand* watcher : watchers_) watcher->wake();
+}
+
+void HardwareLifecycle::halt() {
+  if (container_.motion() != nullptr) container_.motion()->halt();
+}
+
+void HardwareLifecycle::forget() {
+  for (SensorEndpoint* sensor : container_.sensors()) sensor->forget();
+}
+
+// The device has failed in some way, but its motors may run and may still listen.
+void HardwareLifecycle::try_stop() {
+  try {
+    applied_ = standing();
+    if (container_.motion() != nullptr && !container_.drive(applied_).ok())
+      host_.write_log(log::Level::error, "the motors did not take the stop command either");
+    container_.stop();
+  } catch (...) {
+    host_.write_log(log::Level::error, "the hardware plugin threw while it was stopped after a fault");
+  }
+}
+
+Status HardwareLifecycle::drive_to(const DriveSetpoint& setpoint) {
+  if (setpoint == applied_) return ok();
+  applied_ = setpoint;
+  return container_.drive(setpoint);
+}
+
+DriveSetpoint HardwareLifecycle::standing() const { return {.turret_angle = applied_.turret_angle}; }
+
+HardwareLifecycle::FollowUp HardwareLifecycle::checked(const Status& outcome) {
+  if (outcome.ok()) return std::nullopt;
+  report(outcome.error().text());
+  return HardwareEvent::failed;
+}
+
+// The one place where a fault is made known. The first one stays.
+void HardwareLifecycle::report(const std::string& reason) {
+  if (state() == HardwareState::fault) return;
+  {
+    const std::lock_guard lock(mutex_);
+    fault_ = reason;
+  }
+  host_.write_log(log::Level::error, reason);
+}
+
+}  // namespace orca::hw

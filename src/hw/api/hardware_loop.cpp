@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "hardware_loop.hpp"
+
+#include <algorithm>
+#include <typeinfo>
+
+#include "orca/base/activity.hpp"
+#include "orca/base/exception_text.hpp"
+
+namespace orca::hw {
+
+HardwareLoop::HardwareLoop(HardwareContainer& container, HardwareHost& host)
+    : container_(container), host_(host), life_(container, host) {}
+
+void HardwareLoop::run() {
+  strand_.emplace(host_.executive(), TaskOptions{host_.name(), 1});
+  life_.handle(HardwareEvent::run);
+  strand_->start([this] { main(); });
+}
+
+void HardwareLoop::shut_down() {
+  shutting_down_.store(true, std::memory_order_release);
+  wake();
+}
+
+bool HardwareLoop::join_until(TimePoint deadline) { return !strand_ || strand_->join_until(deadline); }
+
+void HardwareLoop::acquire() {
+  users_.fetch_add(1);
+  wake();
+}
+
+void HardwareLoop::release() {
+  users_.fetch_sub(1);
+  wake();
+}
+
+void HardwareLoop::wake() {
+  if (strand_) strand_->wake();
+}
+
+void HardwareLoop::main() {
+  const Activity activity(host_.name().c_str(), "its strand", &typeid(container_));
+  guarded([this] { life_.handle(HardwareEvent::begun); });
+  while (!shutting_down_.load(std::memory_order_acquire)) guarded([this] { turn(); });
+  guarded([this] { life_.handle(HardwareEvent::unwanted); });
+  guarded([this] { life_.handle(HardwareEvent::shut_down); });
+}
+
+void HardwareLoop::turn() {
+  life_.handle(users_.load() > 0 ? HardwareEvent::wanted : HardwareEvent::unwanted);
+  apply_motion();
+  if (works() && host_.now() >= container_.next_poll())
+    if (const Status polled = container_.poll(); !polled.ok()) life_.fail_with(polled.error().text());
+  strand_->pause_until(next_turn());
+}
+
+void HardwareLoop::guarded(const std::function<void()>& step) {
+  try {
+    step();
+  } catch (...) {
+    life_.fail_with("the hardware plugin " + describe_current_exception());
+  }
+}
+
+void HardwareLoop::apply_motion() {
+  if (container_.motion() != nullptr && life_.state() == HardwareState::active)
+    life_.drive(container_.motion()->due(host_.now()));
+}
+
+bool HardwareLoop::works() const {
+  return life_.state() == HardwareState::ready || life_.state() == HardwareState::active;
+}
+
+TimePoint HardwareLoop::next_turn() const {
+  if (!works()) return kForever;
+  const bool moves = life_.state() == HardwareState::active && container_.motion() != nullptr;
+  return moves ? std::min(container_.next_poll(), container_.motion()->expiry()) : container_.next_poll();
+}
+
+}  // namespace orca::hw

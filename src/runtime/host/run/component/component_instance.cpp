@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "component_instance.hpp"
+
+#include <utility>
+
+namespace orca::host {
+
+ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings, Residency::Loader loader,
+                                     Residency::Unloader unloader, Device* hardware)
+    : parts_(run, std::move(settings), hardware),
+      residency_(parts_, std::move(loader), std::move(unloader)),
+      life_(parts_, residency_),
+      loop_(parts_, residency_, life_) {}
+
+// The destructor of a component may still use any part.
+ComponentInstance::~ComponentInstance() { residency_.destroy(); }
+
+void ComponentInstance::start() {
+  parts_.strand.start([this] { loop_.run(); });
+}
+
+std::shared_ptr<Order> ComponentInstance::order_suspend() {
+  return parts_.orders.add([this] { return life_.suspend(); });
+}
+
+std::shared_ptr<Order> ComponentInstance::order_resume() {
+  return parts_.orders.add([this] { return life_.resume(); });
+}
+
+std::shared_ptr<Order> ComponentInstance::order_params(ParamValues values) {
+  return parts_.orders.add([this, values = std::move(values)] { return life_.change_params(values); });
+}
+
+bool ComponentInstance::at_rest() const {
+  return state() != ComponentState::connect && state() != ComponentState::work;
+}
+
+}  // namespace orca::host

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "component_loop.hpp"
+#include "component_parts.hpp"
+#include "lifecycle.hpp"
+#include "residency.hpp"
+
+namespace orca::host {
+
+/// One component in this process, as the rest of the process sees it. The state machine is in
+/// component_states.hpp, what runs on the strand in component_loop.hpp.
+///
+/// Thread contract: the constructor, load() and declare() before start(); the rest from anywhere.
+class ComponentInstance final {
+ public:
+  /// @param loader, unloader  bring the type's code into memory and let it go; on the strand once it runs.
+  /// @param hardware  what the graph binds to the component, or null.
+  ComponentInstance(RunContext& run, ComponentSettings settings, Residency::Loader loader,
+                    Residency::Unloader unloader, Device* hardware);
+  ~ComponentInstance();
+  ComponentInstance(const ComponentInstance&) = delete;
+  ComponentInstance& operator=(const ComponentInstance&) = delete;
+
+  /// Residency::load() for a component that is there from the start.
+  Status load() { return residency_.load(); }
+  /// Makes the ports of one that is loaded on demand only.
+  void declare(const Contract& contract) { residency_.declare(contract); }
+
+  [[nodiscard]] const std::string& name() const { return parts_.settings.name; }
+  /// The endpoint of a declared port, or null.
+  [[nodiscard]] Endpoint* endpoint(const std::string& port) const { return parts_.ports.find(port); }
+
+  void start();
+  /// Lets the component leave IDLE: the whole system is up.
+  void open_gate() { loop_.open_gate(); }
+  /// Ends the strand at the next wait or lap boundary.
+  void request_exit() { loop_.request_exit(); }
+  [[nodiscard]] bool join_until(TimePoint deadline) { return parts_.strand.join_until(deadline); }
+
+  /// Orders are carried out between two laps, one after the other. A lap that waits and has not taken or sent
+  /// anything yet is given up for them, and begins anew after.
+  std::shared_ptr<Order> order_suspend();
+  std::shared_ptr<Order> order_resume();
+  /// All values change together, or none does.
+  /// @param values  checked against the contract.
+  std::shared_ptr<Order> order_params(ParamValues values);
+
+  [[nodiscard]] ComponentState state() const { return life_.state(); }
+  [[nodiscard]] bool at_rest() const;
+  /// Whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
+  [[nodiscard]] bool has_failed() const { return life_.has_failed(); }
+  /// Why it is in WORK_FAILED, or why it could not be configured.
+  [[nodiscard]] std::string failure() const { return life_.failure(); }
+  /// The hook that the strand is in now, for people; "" between hooks.
+  [[nodiscard]] const char* current_hook() const { return parts_.hooks.current(); }
+  /// What its parameters may be.
+  [[nodiscard]] const std::vector<ParamContract>& param_contracts() const {
+    return parts_.params.contracts();
+  }
+  /// What they are now.
+  [[nodiscard]] ParamValues params() const { return parts_.params.values(); }
+
+ private:
+  ComponentParts parts_;
+  Residency residency_;
+  Lifecycle life_;
+  ComponentLoop loop_;
+};
+
+}  // namespace orca::host

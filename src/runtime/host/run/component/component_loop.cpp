@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "component_loop.hpp"
+
+#include <algorithm>
+
+namespace orca::host {
+
+ComponentLoop::ComponentLoop(ComponentParts& parts, Residency& residency, Lifecycle& life)
+    : parts_(parts), residency_(residency), life_(life) {
+  parts_.strand.set_leave_condition([this] { return must_leave_lap(); });
+}
+
+void ComponentLoop::open_gate() {
+  gate_open_.store(true, std::memory_order_release);
+  parts_.strand.wake();
+}
+
+void ComponentLoop::request_exit() {
+  exit_requested_.store(true, std::memory_order_release);
+  parts_.strand.wake();
+}
+
+void ComponentLoop::run() {
+  if (life_.state() == ComponentState::unloaded) {
+    parts_.ports.hold();
+    parts_.run.changed();
+  } else {
+    life_.handle(ComponentEvent::loaded);
+  }
+  while (!is_to_exit()) turn();
+  while (life_.state() != ComponentState::exit) life_.handle(ComponentEvent::exit);
+}
+
+void ComponentLoop::turn() {
+  if (parts_.orders.carry_out_next()) return parts_.run.changed();
+  if (handle_one_intake()) return;
+  if (const auto event = look()) return life_.handle(*event);
+  if (life_.state() == ComponentState::work && parts_.laps.is_due(parts_.site.now())) return lap();
+  parts_.strand.pause_until(next_wake_up());
+}
+
+// What there is to be seen that leads out of the present state.
+std::optional<ComponentEvent> ComponentLoop::look() const {
+  const auto leads_on = [this](ComponentEvent event) { return transition(life_.state(), event) != nullptr; };
+  const ComponentEvent clients = wanted() ? ComponentEvent::wanted : ComponentEvent::unwanted;
+  if (leads_on(clients)) return clients;
+  if (leads_on(ComponentEvent::asked_for) && asked_for()) return ComponentEvent::asked_for;
+  if (leads_on(ComponentEvent::unused) && parts_.site.now() >= unload_time()) return ComponentEvent::unused;
+  return std::nullopt;
+}
+
+// --- Laps -------------------------------------------------------------------------------------------------
+
+void ComponentLoop::lap() {
+  parts_.laps.lap_begins(parts_.site.now());
+  Outcome outcome;
+  activity_before_lap_ = parts_.strand.activity();
+  parts_.home.provenance.begin_lap();
+  in_lap_ = true;
+  const auto fault = parts_.hooks.call("work", [&] { outcome = residency_.component()->work(); });
+  in_lap_ = false;
+  if (!fault) {
+    conclude(outcome);
+  } else if (!fault->interrupted) {
+    life_.fail_with(ComponentEvent::threw, "work", fault->text);
+  }
+}
+
+void ComponentLoop::conclude(const Outcome& outcome) {
+  if (outcome.kind == Outcome::Kind::done) {
+    life_.handle(ComponentEvent::done);
+  } else if (outcome.kind == Outcome::Kind::failed) {
+    life_.fail_with(ComponentEvent::failed, "work", "failed: " + outcome.reason);
+  }
+}
+
+// --- What is sent and asked -------------------------------------------------------------------------------
+
+bool ComponentLoop::handle_one_intake() {
+  if (!takes_intake(life_.state())) return false;
+  bool handled = false;
+  for (const auto& intake : parts_.ports.send_servers())
+    if (!handled) handled = handle_sent(*intake.endpoint);
+  for (const auto& intake : parts_.ports.query_servers())
+    if (!handled) handled = handle_asked(*intake.endpoint);
+  if (handled) last_intake_ = parts_.site.now();
+  return handled;
+}
+
+bool ComponentLoop::handle_sent(SendServerEndpoint& endpoint) {
+  const std::string& port = endpoint.contract().name;
+  bool handled = false;
+  Status outcome;
+  const auto fault = parts_.hooks.call(port.c_str(), [&] { handled = endpoint.handle_one(outcome); });
+  contain(endpoint, fault);
+  if (!outcome.ok())
+    parts_.site.write_log(log::Level::warning, port + ": could not handle an object that it had accepted: " +
+                                                   outcome.error().text());
+  return handled || fault;
+}
+
+bool ComponentLoop::handle_asked(QueryServerEndpoint& endpoint) {
+  bool handled = false;
+  const auto fault =
+      parts_.hooks.call(endpoint.contract().name.c_str(), [&] { handled = endpoint.handle_one(); });
+  contain(endpoint, fault);
+  return handled || fault;
+}
+
+void ComponentLoop::contain(const Endpoint& endpoint, const std::optional<PluginFault>& fault) {
+  if (fault && !fault->interrupted)
+    life_.fail_with(ComponentEvent::threw, endpoint.contract().name.c_str(), fault->text);
+}
+
+// --- The world --------------------------------------------------------------------------------------------
+
+bool ComponentLoop::asked_for() const { return wanted() || (is_open() && parts_.ports.has_intake()); }
+
+bool ComponentLoop::wanted() const {
+  return is_open() && (parts_.site.stays_active() || parts_.ports.has_subscribers());
+}
+
+bool ComponentLoop::must_leave_lap() const {
+  pause_plugin_turn();
+  if (is_to_exit()) return true;
+  if (!in_lap_) return false;
+  // Nothing is lost with a lap that has only waited so far.
+  const bool clean = parts_.strand.activity() == activity_before_lap_;
+  return !wanted() || (clean && (parts_.orders.waits() || parts_.ports.has_intake()));
+}
+
+// When an idle component is to be unloaded; kForever if it is to stay.
+TimePoint ComponentLoop::unload_time() const {
+  if (!parts_.settings.on_demand || parts_.settings.stay_warm) return kForever;
+  return saturating_add(std::max(life_.entered(), last_intake_), parts_.settings.idle_time);
+}
+
+TimePoint ComponentLoop::next_wake_up() const {
+  if (life_.state() == ComponentState::work) return parts_.laps.next();
+  return life_.state() == ComponentState::idle ? unload_time() : kForever;
+}
+
+}  // namespace orca::host

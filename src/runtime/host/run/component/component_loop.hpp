@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+#include "component_parts.hpp"
+#include "lifecycle.hpp"
+#include "residency.hpp"
+
+namespace orca::host {
+
+/// The body of one component's strand: looks at the world, turns what it sees into events for the state
+/// machine, and calls laps and handlers between them.
+///
+/// Thread contract: open_gate() and request_exit() from anywhere, the rest on the strand.
+class ComponentLoop {
+ public:
+  /// Makes the strand ask this object whether a wait is to be given up.
+  ComponentLoop(ComponentParts& parts, Residency& residency, Lifecycle& life);
+  ComponentLoop(const ComponentLoop&) = delete;
+  ComponentLoop& operator=(const ComponentLoop&) = delete;
+
+  /// Runs until request_exit().
+  void run();
+  /// Lets the component leave IDLE: the whole system is up.
+  void open_gate();
+  /// Ends the loop at the next wait or lap boundary.
+  void request_exit();
+
+ private:
+  void turn();
+  [[nodiscard]] std::optional<ComponentEvent> look() const;
+  void lap();
+  void conclude(const Outcome& outcome);
+  bool handle_one_intake();
+  bool handle_sent(SendServerEndpoint& endpoint);
+  bool handle_asked(QueryServerEndpoint& endpoint);
+  void contain(const Endpoint& endpoint, const std::optional<PluginFault>& fault);
+
+  [[nodiscard]] bool asked_for() const;
+  [[nodiscard]] bool wanted() const;
+  [[nodiscard]] bool must_leave_lap() const;
+  [[nodiscard]] bool is_open() const { return gate_open_.load(std::memory_order_acquire); }
+  [[nodiscard]] bool is_to_exit() const { return exit_requested_.load(std::memory_order_acquire); }
+  [[nodiscard]] TimePoint unload_time() const;
+  [[nodiscard]] TimePoint next_wake_up() const;
+
+  ComponentParts& parts_;
+  Residency& residency_;
+  Lifecycle& life_;
+  bool in_lap_ = false;
+  std::uint64_t activity_before_lap_ = 0;
+  TimePoint last_intake_{};
+  std::atomic<bool> gate_open_{false};
+  std::atomic<bool> exit_requested_{false};
+};
+
+}  // namespace orca::host

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "component_parts.hpp"
+
+#include <utility>
+
+namespace orca::host {
+
+ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings settings_of_this, Device* hardware)
+    : run(run_of_all),
+      settings(std::move(settings_of_this)),
+      strand(run.executive, {settings.name, settings.priority}),
+      home{strand, settings.name, &run.trace, {}},
+      ports(home),
+      site(run, settings, strand, hardware),
+      hooks(settings.name),
+      params(settings.params),
+      orders(strand) {}
+
+}  // namespace orca::host

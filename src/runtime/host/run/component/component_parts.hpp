@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "component_settings.hpp"
+#include "component_site.hpp"
+#include "hook_caller.hpp"
+#include "lap_trigger.hpp"
+#include "orca/base/strand.hpp"
+#include "order_queue.hpp"
+#include "parameters.hpp"
+#include "port_set.hpp"
+#include "run/run_context.hpp"
+
+namespace orca::host {
+
+/// What one component of this process consists of, apart from its code. Each part has its own thread
+/// contract.
+struct ComponentParts {
+  ComponentParts(RunContext& run_of_all, ComponentSettings settings_of_this, Device* hardware);
+  ComponentParts(const ComponentParts&) = delete;
+  ComponentParts& operator=(const ComponentParts&) = delete;
+
+  RunContext& run;
+  const ComponentSettings settings;
+  Strand strand;
+  PortHome home;
+  PortSet ports;
+  ComponentSite site;
+  HookCaller hooks;
+  Parameters params;
+  LapTrigger laps;
+  OrderQueue orders;
+};
+
+}  // namespace orca::host

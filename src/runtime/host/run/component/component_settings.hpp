@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "orca/base/contract.hpp"
+#include "orca/base/time.hpp"
+
+namespace orca::host {
+
+/// How the graph wants one component to run.
+struct ComponentSettings {
+  std::string name;
+  int priority = 0;
+  std::optional<bool> autonomous;
+  std::optional<Trigger> trigger;  ///< Replaces the author's.
+  bool on_demand = false;          ///< Loaded when first asked for.
+  bool stay_warm = false;          ///< Once loaded it stays.
+  Duration idle_time{0};           ///< An on-demand component that nobody has used for that long is unloaded.
+  std::map<std::string, ParamValue> params;
+  /// What the graph calls a port, by the author's name for it.
+  std::map<std::string, std::string> port_names;
+
+  /// Returns the graph's name for a port of the author's.
+  [[nodiscard]] const std::string& name_in_graph(const std::string& port) const {
+    const auto renamed = port_names.find(port);
+    return renamed == port_names.end() ? port : renamed->second;
+  }
+};
+
+}  // namespace orca::host

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "component_site.hpp"
+
+#include <utility>
+
+namespace orca::host {
+
+ComponentSite::ComponentSite(RunContext& run, const ComponentSettings& settings, Strand& strand,
+                             Device* hardware)
+    : run_(run),
+      settings_(settings),
+      strand_(strand),
+      hardware_(hardware),
+      stays_active_(settings.autonomous.value_or(false)) {}
+
+void ComponentSite::forget_code() {
+  declared_.ports.clear();
+  declared_.params.clear();
+}
+
+void ComponentSite::reset() {
+  declared_ = {};
+  stays_active_ = settings_.autonomous.value_or(false);
+}
+
+void ComponentSite::declare_port(PortDeclaration declaration) {
+  declaration.contract.name = settings_.name_in_graph(declaration.contract.name);
+  declared_.ports.push_back(std::move(declaration));
+}
+
+void ComponentSite::declare_param(ParamDeclaration declaration) {
+  declared_.params.push_back(std::move(declaration));
+}
+
+void ComponentSite::set_default_trigger(const Trigger& trigger) {
+  declared_.trigger = trigger;
+  declared_.trigger.port = settings_.name_in_graph(trigger.port);
+}
+
+RandomStream ComponentSite::random(std::string_view stream) const {
+  return {run_.seed, settings_.name, stream};
+}
+
+void ComponentSite::write_log(log::Level level, std::string_view text) const {
+  log::write(level, settings_.name, text);
+}
+
+}  // namespace orca::host

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "component_settings.hpp"
+#include "orca/component/host.hpp"
+#include "run/run_context.hpp"
+
+namespace orca::host {
+
+/// What a component's object has declared. It may hold the plugin's code, so it must go before that does.
+struct Declarations {
+  std::vector<PortDeclaration> ports;  ///< By their names in the graph.
+  std::vector<ParamDeclaration> params;
+  Trigger trigger;
+};
+
+/// What one component sees of the process around it, and what it declares there.
+///
+/// Thread contract: as ComponentHost; the rest on the component's strand, or before that starts.
+class ComponentSite final : public ComponentHost {
+ public:
+  /// @param hardware  what the graph binds to the component, or null.
+  ComponentSite(RunContext& run, const ComponentSettings& settings, Strand& strand, Device* hardware);
+
+  [[nodiscard]] const Declarations& declared() const { return declared_; }
+  /// Whether the component is to work without clients.
+  [[nodiscard]] bool stays_active() const { return stays_active_; }
+  /// Drops what may lead into the plugin's code.
+  void forget_code();
+  /// Is as it was before a component was constructed here.
+  void reset();
+
+  // ComponentHost
+  void declare_port(PortDeclaration declaration) override;
+  void declare_param(ParamDeclaration declaration) override;
+  void set_default_trigger(const Trigger& trigger) override;
+  [[nodiscard]] const std::string& name() const override { return settings_.name; }
+  [[nodiscard]] TimePoint now() const override { return run_.executive.now(); }
+  [[nodiscard]] RandomStream random(std::string_view stream) const override;
+  void write_log(log::Level level, std::string_view text) const override;
+  void announce(const Announcement& announcement) override { run_.announce(announcement); }
+  [[nodiscard]] Device* hardware() override { return hardware_; }
+  void stay_active(bool active) override { stays_active_ = active; }
+  [[nodiscard]] Strand& strand() override { return strand_; }
+
+ private:
+  RunContext& run_;
+  const ComponentSettings& settings_;
+  Strand& strand_;
+  Device* const hardware_;
+  Declarations declared_;
+  bool stays_active_;
+};
+
+}  // namespace orca::host

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "hook_caller.hpp"
+
+namespace orca::host {
+
+std::optional<PluginFault> HookCaller::call(const char* hook, const std::function<void()>& body) {
+  hook_.store(hook, std::memory_order_release);
+  std::optional<PluginFault> fault = guarded_call({component_.c_str(), hook, code_}, body);
+  hook_.store("", std::memory_order_release);
+  return fault;
+}
+
+}  // namespace orca::host

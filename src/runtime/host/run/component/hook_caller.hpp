@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "containment/guard.hpp"
+
+namespace orca::host {
+
+/// The only way into a component's code once it is constructed: calls one hook or handler at a time, and
+/// nothing that it throws gets further.
+///
+/// Thread contract: current() from anywhere, the rest on the component's strand.
+class HookCaller {
+ public:
+  /// @param component  its name in the graph.
+  explicit HookCaller(std::string component) : component_(std::move(component)) {}
+
+  /// Sets what the called code belongs to: anything in the plugin, or null while none is loaded.
+  void set_code(const void* code) { code_ = code; }
+
+  /// Calls `body` as the hook of this name.
+  /// @param hook  outlives the call.
+  /// @return what it threw.
+  std::optional<PluginFault> call(const char* hook, const std::function<void()>& body);
+
+  /// The hook that the strand is in now, for people; "" between hooks.
+  [[nodiscard]] const char* current() const { return hook_.load(std::memory_order_acquire); }
+
+ private:
+  const std::string component_;
+  const void* code_ = nullptr;
+  std::atomic<const char*> hook_{""};
+};
+
+}  // namespace orca::host

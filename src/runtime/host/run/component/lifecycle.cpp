@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "lifecycle.hpp"
+
+namespace orca::host {
+
+Lifecycle::Lifecycle(ComponentParts& parts, Residency& residency)
+    : parts_(parts),
+      residency_(residency),
+      state_(parts.settings.on_demand ? ComponentState::unloaded : ComponentState::init) {}
+
+std::string Lifecycle::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+void Lifecycle::handle(ComponentEvent event) {
+  for (FollowUp next = event; next;) {
+    const ComponentTransition* const found = transition(state(), *next);
+    next = found != nullptr ? carry_out(*found) : std::nullopt;
+  }
+}
+
+void Lifecycle::fail_with(ComponentEvent event, const char* hook, const std::string& what) {
+  handle(report(event, hook, what));
+}
+
+// The one place where a component's failure is made known.
+ComponentEvent Lifecycle::report(ComponentEvent event, const char* hook, const std::string& what) {
+  const std::string text = std::string(hook) + "() " + what;
+  {
+    const std::lock_guard lock(mutex_);
+    failure_ = text;
+  }
+  parts_.site.write_log(log::Level::error, text);
+  return event;
+}
+
+// --- Actions ----------------------------------------------------------------------------------------------
+
+Lifecycle::FollowUp Lifecycle::carry_out(const ComponentTransition& transition) {
+  for (const ComponentAction action : transition.actions)
+    if (const FollowUp next = carry_out(action, transition.to)) return next;
+  return std::nullopt;
+}
+
+Lifecycle::FollowUp Lifecycle::carry_out(ComponentAction action, ComponentState to) {
+  switch (action) {
+    case ComponentAction::enter: enter(to); return std::nullopt;
+    case ComponentAction::load: return load();
+    case ComponentAction::configure: return configure();
+    case ComponentAction::start: return start();
+    case ComponentAction::stop: return call("stop", &Component::stop);
+    case ComponentAction::try_stop: try_stop(); return std::nullopt;
+    case ComponentAction::suspend: return call("suspend", &Component::suspend);
+    case ComponentAction::resume: return call("resume", &Component::resume);
+    case ComponentAction::unload: residency_.unload(); return std::nullopt;
+    default: arrange(action); return std::nullopt;
+  }
+}
+
+// The actions that call nothing of the component's.
+void Lifecycle::arrange(ComponentAction action) {
+  switch (action) {
+    case ComponentAction::open_intake: return parts_.ports.open();
+    case ComponentAction::hold_intake: return parts_.ports.hold();
+    case ComponentAction::close_intake: return parts_.ports.close("it has failed: " + failure());
+    case ComponentAction::subscribe: return parts_.ports.subscribe();
+    case ComponentAction::begin_laps: return parts_.laps.begin(parts_.site.now());
+    case ComponentAction::unsubscribe: parts_.ports.unsubscribe(); return parts_.home.provenance.end_task();
+    case ComponentAction::end:
+      parts_.orders.refuse_all();
+      return parts_.ports.close("the system is being stopped");
+    default: return;
+  }
+}
+
+void Lifecycle::enter(ComponentState state) {
+  if (is_failed(state)) has_failed_.store(true, std::memory_order_release);
+  entered_ = parts_.site.now();
+  const ComponentState before = state_.exchange(state, std::memory_order_acq_rel);
+  parts_.run.trace.state_changed(parts_.settings.name, to_string(before), to_string(state));
+  parts_.run.changed();
+}
+
+// --- Hooks ------------------------------------------------------------------------------------------------
+
+Lifecycle::FollowUp Lifecycle::load() {
+  Status loaded;
+  if (const auto fault = parts_.hooks.call("load", [&] { loaded = residency_.load(); }))
+    loaded = fail(Code::internal, fault->text);
+  if (loaded.ok()) return ComponentEvent::loaded;
+  return report(ComponentEvent::failed, "load", "said: " + loaded.error().text());
+}
+
+Lifecycle::FollowUp Lifecycle::configure() {
+  Status configured;
+  const auto fault =
+      parts_.hooks.call("configure", [&] { configured = residency_.component()->configure(); });
+  if (fault) return report(ComponentEvent::threw, "configure", fault->text);
+  if (configured.ok())
+    configured =
+        parts_.laps.choose(parts_.settings.trigger.value_or(parts_.site.declared().trigger), parts_.ports);
+  if (configured.ok()) return ComponentEvent::configured;
+  return report(ComponentEvent::failed, "configure", "said: " + configured.error().text());
+}
+
+Lifecycle::FollowUp Lifecycle::start() {
+  Status started;
+  const auto fault = parts_.hooks.call("start", [&] { started = residency_.component()->start(); });
+  if (fault && fault->interrupted) return ComponentEvent::interrupted;
+  if (fault) return report(ComponentEvent::threw, "start", fault->text);
+  if (started.ok()) return ComponentEvent::started;
+  return report(ComponentEvent::failed, "start", "said: " + started.error().text());
+}
+
+void Lifecycle::try_stop() {
+  const auto fault = parts_.hooks.call("stop", [this] { residency_.component()->stop(); });
+  if (fault && !fault->interrupted) parts_.site.write_log(log::Level::error, "stop() " + fault->text);
+}
+
+Lifecycle::FollowUp Lifecycle::call(const char* hook, void (Component::*function)()) {
+  const auto fault = parts_.hooks.call(hook, [&] { (residency_.component()->*function)(); });
+  if (!fault || fault->interrupted) return std::nullopt;
+  return report(ComponentEvent::threw, hook, fault->text);
+}
+
+// --- Orders -----------------------------------------------------------------------------------------------
+
+Status Lifecycle::suspend() {
+  return order(ComponentEvent::suspend, "; only IDLE and WORK can be suspended");
+}
+
+Status Lifecycle::resume() { return order(ComponentEvent::resume, ", not SUSPENDED"); }
+
+Status Lifecycle::order(ComponentEvent event, const std::string& only) {
+  if (transition(state(), event) == nullptr)
+    return fail(Code::failed_precondition, std::string("it is ") + to_string(state()) + only,
+                parts_.settings.name);
+  handle(event);
+  if (is_failed(state())) return fail(Code::internal, failure(), parts_.settings.name);
+  return ok();
+}
+
+Status Lifecycle::change_params(const ParamValues& values) {
+  const ParamValues old = parts_.params.values();
+  ParamValues changed = old;
+  for (const auto& [name, value] : values) changed[name] = value;
+  if (residency_.component() != nullptr)
+    if (Status accepted = offer_params(changed, old); !accepted.ok()) return accepted;
+  parts_.params.keep(std::move(changed));
+  return ok();
+}
+
+// Gives the component the changed values, and the old ones back if it does not accept them.
+Status Lifecycle::offer_params(const ParamValues& changed, const ParamValues& old) {
+  set_params(parts_.site.declared().params, changed);
+  Status accepted;
+  const auto fault =
+      parts_.hooks.call("params_changed", [&] { accepted = residency_.component()->params_changed(); });
+  if (!fault && accepted.ok()) return ok();
+  set_params(parts_.site.declared().params, old);
+  if (!fault) return accepted;
+  if (!fault->interrupted) fail_with(ComponentEvent::threw, "params_changed", fault->text);
+  return fail(Code::internal, "params_changed() " + fault->text, parts_.settings.name);
+}
+
+}  // namespace orca::host

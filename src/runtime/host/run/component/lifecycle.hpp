@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "component_parts.hpp"
+#include "component_states.hpp"
+#include "residency.hpp"
+
+namespace orca::host {
+
+/// The state of one component: asks the table of component_states.hpp what an event means, carries the
+/// actions out, and keeps why the component failed.
+///
+/// Thread contract: state(), has_failed() and failure() from anywhere, the rest on the component's strand.
+class Lifecycle {
+ public:
+  Lifecycle(ComponentParts& parts, Residency& residency);
+  Lifecycle(const Lifecycle&) = delete;
+  Lifecycle& operator=(const Lifecycle&) = delete;
+
+  /// Takes an event, and those that its actions end in.
+  void handle(ComponentEvent event);
+  /// Reports a failure, then takes the event: `failed` or `threw`.
+  /// @param hook  where it happened.
+  /// @param what  "threw ...", "failed: ..."
+  void fail_with(ComponentEvent event, const char* hook, const std::string& what);
+
+  // Orders.
+  Status suspend();
+  Status resume();
+  /// All values change together, or none does.
+  /// @errors  the component's own; internal with what it threw.
+  Status change_params(const ParamValues& values);
+
+  [[nodiscard]] ComponentState state() const { return state_.load(std::memory_order_acquire); }
+  /// When the state was entered.
+  [[nodiscard]] TimePoint entered() const { return entered_; }
+  /// Whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
+  [[nodiscard]] bool has_failed() const { return has_failed_.load(std::memory_order_acquire); }
+  /// Why it is in WORK_FAILED.
+  [[nodiscard]] std::string failure() const;
+
+ private:
+  using FollowUp = std::optional<ComponentEvent>;  // the event that an action ended in
+
+  FollowUp carry_out(const ComponentTransition& transition);
+  FollowUp carry_out(ComponentAction action, ComponentState to);
+  void arrange(ComponentAction action);
+  void enter(ComponentState state);
+
+  FollowUp load();
+  FollowUp configure();
+  FollowUp start();
+  void try_stop();
+  FollowUp call(const char* hook, void (Component::*function)());
+  Status order(ComponentEvent event, const std::string& only);
+  Status offer_params(const ParamValues& changed, const ParamValues& old);
+  ComponentEvent report(ComponentEvent event, const char* hook, const std::string& what);
+
+  ComponentParts& parts_;
+  Residency& residency_;
+  TimePoint entered_{};
+  std::atomic<ComponentState> state_;
+  std::atomic<bool> has_failed_{false};
+  mutable std::mutex mutex_;
+  std::string failure_;
+};
+
+}  // namespace orca::host
