@@ -163,7 +163,13 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
 
   void report(const SharedWorld::Inbox::Contact& contact) {
     host().write_log(orca::log::Level::warning, contact.event.robot + " touches " + contact.event.other);
-    host().announce({"contact", contact.event.robot, contact.robot.x, contact.robot.y, contact.event.time});
+    orca::idl::Contact touched;
+    touched.robot() = contact.event.robot;
+    touched.other() = contact.event.other;
+    touched.x(contact.robot.x);
+    touched.y(contact.robot.y);
+    touched.stamp(orca::to_time_value(contact.event.time));
+    host().report(touched);
   }
 
   orca::Param<std::string> world_file_{

@@ -7,8 +7,8 @@ namespace orca {
 
 [[gnu::tls_model("initial-exec")]] static thread_local const Activity* t_current = nullptr;
 
-Activity::Activity(const char* who, const char* what, const void* code) noexcept
-    : who_(who), what_(what), code_(code), outer_(std::exchange(t_current, this)) {}
+Activity::Activity(const char* who, Hook hook, const void* code, const char* port) noexcept
+    : who_(who), hook_(hook), code_(code), port_(port), outer_(std::exchange(t_current, this)) {}
 
 Activity::~Activity() { t_current = outer_; }
 

@@ -73,7 +73,8 @@ LAYERS = (
     Layer("sim_files", ("sim/files",), ("orca/sim/bitmap.hpp", "orca/sim/robot_file.hpp", "orca/sim/world_file.hpp"),
           SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # of Bullet its transforms
     Layer("sim_plugin", ("sim/plugin",), (), ("geometry_objects", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
-    Layer("host_containment", (f"{HOST}/containment",), ("orca/host/last_words.hpp", "orca/host/stop_signal.hpp"),
+    Layer("host_containment", (f"{HOST}/containment",), ("orca/host/alarm.hpp", "orca/host/last_words.hpp",
+                                                                "orca/host/stop_signal.hpp"),
           ("plugin", *DEVICE), ("fmt",), module=HOST),
     Layer("host_picture", (f"{HOST}/picture",), ("orca/host/picture.hpp",), DEVICE, ("cairo", "fmt"), module=HOST),
     Layer("host_run", (f"{HOST}/run", HOST), ("orca/host/",),

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "console.hpp"
 #include "describe.hpp"
 #include "orca/graph/diff.hpp"
 #include "orca/graph/dot.hpp"
@@ -22,9 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 using Action = Options::Action;
 
-host::ExitCode show(const std::string& text) {
+ExitCode show(const std::string& text) {
   std::fputs(text.c_str(), stdout);
-  return host::ExitCode::finished;
+  return ExitCode::finished;
 }
 
 // Plugins are found beside the program, then where the graph says; no environment variable.
@@ -49,35 +50,35 @@ void load(const std::string& file, const Options& options, Loaded& loaded) {
   if (!as_json) std::fputs(loaded.diagnostics.text().c_str(), stderr);
 }
 
-host::ExitCode describe(const Options& options) {
+ExitCode describe(const Options& options) {
   const Result<PluginDescription> plugin = describe_plugin(options.file);
   if (plugin) return show(options.json ? json(*plugin) : text(*plugin));
   std::fprintf(stderr, "error: %s\n", plugin.error().text().c_str());
-  return host::ExitCode::bad_input;
+  return ExitCode::bad_input;
 }
 
-host::ExitCode check(const Options& options) {
+ExitCode check(const Options& options) {
   Loaded loaded(options);
   load(options.file, options, loaded);
   if (options.json) show(loaded.diagnostics.json());
-  if (!loaded.graph) return host::ExitCode::bad_input;
+  if (!loaded.graph) return ExitCode::bad_input;
   if (!options.json) {
     std::fprintf(stderr, "%s: no errors; %zu components, %zu connections\n", options.file.c_str(),
                  loaded.graph->components.size(), loaded.graph->edges.size());
   }
-  return host::ExitCode::finished;
+  return ExitCode::finished;
 }
 
 // 0: both describe the same system, 1: they do not, 2: one of them describes none.
-host::ExitCode compare(const Options& options) {
+ExitCode compare(const Options& options) {
   Loaded before(options);
   Loaded after(options);
   load(options.file, options, before);
   load(options.other_file, options, after);
-  if (!before.graph || !after.graph) return host::ExitCode::bad_input;
+  if (!before.graph || !after.graph) return ExitCode::bad_input;
   const std::vector<graph::Change> changes = graph::diff(*before.graph, *after.graph);
   show(options.json ? graph::diff_json(changes) : graph::diff_text(changes));
-  return changes.empty() ? host::ExitCode::finished : host::ExitCode::failed_running;
+  return changes.empty() ? ExitCode::finished : ExitCode::failed_running;
 }
 
 std::string names_of_profiles(const Options& options, const graph::Graph& graph) {
@@ -86,10 +87,10 @@ std::string names_of_profiles(const Options& options, const graph::Graph& graph)
   return options.profiles.empty() ? graph.default_profile : names;
 }
 
-host::ExitCode show_graph(const Options& options) {
+ExitCode show_graph(const Options& options) {
   Loaded loaded(options);
   load(options.file, options, loaded);
-  if (!loaded.graph) return host::ExitCode::bad_input;
+  if (!loaded.graph) return ExitCode::bad_input;
   const graph::Graph& graph = *loaded.graph;
   if (options.action == Action::dot) return show(graph::dot(graph, names_of_profiles(options, graph)));
   if (options.action == Action::mermaid)
@@ -100,17 +101,19 @@ host::ExitCode show_graph(const Options& options) {
   return show(options.json ? graph::ports_json(ports) : graph::ports_text(ports));
 }
 
-host::ExitCode run(const Options& options) {
-  host::StopSignal stop;  // first of all, so that a signal at any moment ends the run as it should
+ExitCode run(const Options& options) {
+  host::StopSignal stop(static_cast<int>(
+      ExitCode::finished));  // first of all, so that a signal at any moment ends the run as it should
   Loaded loaded(options);
   load(options.file, options, loaded);
-  if (!loaded.graph) return host::ExitCode::bad_input;
-  return host::run_system(*loaded.graph, loaded.catalogue, options.run, stop);
+  if (!loaded.graph) return ExitCode::bad_input;
+  Console console;
+  return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, options.run, stop, console).outcome);
 }
 
 }  // namespace
 
-host::ExitCode act(const Options& options) {
+ExitCode act(const Options& options) {
   switch (options.action) {
     case Action::help: return show(help_text());
     case Action::version: return show("orca deployer " ORCA_VERSION "\n");

@@ -2,12 +2,13 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
+#include "exit_code.hpp"
 #include "options.hpp"
 
 namespace orca::deployer {
 
 /// Does what the command line asks for.
 /// @return how the program ends.
-host::ExitCode act(const Options& options);
+ExitCode act(const Options& options);
 
 }  // namespace orca::deployer

@@ -11,9 +11,9 @@ int main(int argc, char** argv) {
       orca::deployer::parse_options({argv + 1, argv + argc});
   if (!options) {
     std::fprintf(stderr, "error: %s\n", options.error().text().c_str());
-    return static_cast<int>(orca::host::ExitCode::bad_input);
+    return static_cast<int>(orca::deployer::ExitCode::bad_input);
   }
   orca::log::set_level(options->log_level);
-  const orca::host::LastWords last_words;
+  const orca::host::LastWords last_words(static_cast<int>(orca::deployer::ExitCode::failed_running));
   return static_cast<int>(orca::deployer::act(*options));
 }

@@ -200,6 +200,7 @@ Status check_json(const Options& options) {
 
 Result<Options> parse_options(const std::vector<std::string>& words) {
   Options options;
+  options.run.log_name = "deployer";
   Words executor;
   std::vector<std::string> files;
   const std::map<std::string, Option> table = option_table(executor);

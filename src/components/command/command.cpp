@@ -12,7 +12,6 @@
 #include "orca/component.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/system.hpp"
-#include "orca/idl/time.hpp"
 
 namespace {
 
@@ -49,7 +48,6 @@ class Command final : public orca::Component {
     if (!arrived)
       return orca::failed("goal \"" + route.name + "\" was not reached within " +
                           std::to_string(*goal_timeout_) + " s");
-    announce({"arrived", arrived->name(), arrived->x(), arrived->y(), orca::to_time_point(arrived->stamp())});
     arrived_.unsubscribe();
     if (orca::Status sent = send_clients({}); !sent.ok()) return give_up(sent);
     return orca::again();

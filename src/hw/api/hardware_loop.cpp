@@ -40,7 +40,7 @@ void HardwareLoop::wake() {
 }
 
 void HardwareLoop::main() {
-  const Activity activity(host_.name().c_str(), "its strand", &typeid(container_));
+  const Activity activity(host_.name().c_str(), Hook::strand, &typeid(container_));
   guarded([this] { life_.handle(HardwareEvent::begun); });
   while (!shutting_down_.load(std::memory_order_acquire)) guarded([this] { turn(); });
   guarded([this] { life_.handle(HardwareEvent::unwanted); });
@@ -52,6 +52,7 @@ void HardwareLoop::turn() {
   apply_motion();
   if (works() && host_.now() >= container_.next_poll())
     if (const Status polled = container_.poll(); !polled.ok()) life_.fail_with(polled.error().text());
+  host_.pausing();
   strand_->pause_until(next_turn());
 }
 

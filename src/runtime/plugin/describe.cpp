@@ -18,15 +18,14 @@ Error cannot_describe(const std::string& type, const std::string& what) {
   return fail(Code::internal, "the type " + type + " cannot be described: " + what);
 }
 
-// Runs a plugin's code; what `who` of it throws becomes an error, its text copied before the plugin is
-// unloaded.
+// Runs a plugin's code; what it throws becomes an error, its text copied before the plugin is unloaded.
 template <class Run>
-auto guarded(const std::string& type, const char* who, Run&& run) -> decltype(run()) {
-  const Activity activity(type.c_str(), who, nullptr);
+auto guarded(const std::string& type, Hook hook, Run&& run) -> decltype(run()) {
+  const Activity activity(type.c_str(), hook, nullptr);
   try {
     return run();
   } catch (...) {
-    return cannot_describe(type, std::string(who) + " " + describe_current_exception());
+    return cannot_describe(type, std::string(to_string(hook)) + " " + describe_current_exception());
   }
 }
 
@@ -51,7 +50,6 @@ class Describer : public Base {
     refuse("drew random numbers");
   }
   void write_log(log::Level level, std::string_view text) const override { log::write(level, name_, text); }
-  void announce(const Announcement& /*announcement*/) override { refuse("made an announcement"); }
 
   [[noreturn]] static void refuse(const std::string& what) {
     throw std::logic_error("it " + what + ", but a constructor may only declare ports and parameters");
@@ -103,8 +101,8 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
     for (const auto& [name, value] : params)
       if (const auto setter = setters_.find(name); setter != setters_.end()) setter->second(value);
     using Faults = std::vector<HardwareFault>;
-    const Result<Faults> faults = guarded(contract_.type, "its prepare()",
-                                          [this]() -> Result<Faults> { return container_->prepare(); });
+    const Result<Faults> faults =
+        guarded(contract_.type, Hook::prepare, [this]() -> Result<Faults> { return container_->prepare(); });
     return faults ? *faults : Faults{{"", faults.error().text()}};
   }
   [[nodiscard]] hw::HardwareContainer& container() override { return *container_; }
@@ -112,6 +110,8 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   [[nodiscard]] std::uint64_t run_seed() const override { refuse("asked for the seed"); }
   void state_changed(hw::HardwareState /*state*/) override { refuse("changed its state"); }
   [[nodiscard]] Executive& executive() override { refuse("asked for the executive"); }
+  void report(const idl::Contact& /*contact*/) override { refuse("reported a contact"); }
+  void pausing() override { refuse("waited"); }
 
  private:
   void (*destroy_)(void*);
@@ -123,14 +123,14 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
 Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& type,
                                                              const std::string& library,
                                                              const std::string& name) {
-  return guarded(type.type, "its constructor", [&]() -> Result<std::unique_ptr<DescribedHardware>> {
+  return guarded(type.type, Hook::constructor, [&]() -> Result<std::unique_ptr<DescribedHardware>> {
     return std::unique_ptr<DescribedHardware>(std::make_unique<HardwareDescriber>(type, library, name));
   });
 }
 
 Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
                                     hw::HardwareContainer* hardware) {
-  return guarded(type.type, "its constructor", [&]() -> Result<Contract> {
+  return guarded(type.type, Hook::constructor, [&]() -> Result<Contract> {
     ComponentDescriber describer(type, library, hardware);
     type.destroy(type.create(describer));
     return describer.contract_;

@@ -138,6 +138,7 @@ PluginLibrary::~PluginLibrary() {
 }
 
 void PluginLibrary::tell_pinned(const std::string& why) const {
+  if (on_pinned_) return on_pinned_(why);
   log::error(fs::path(path_).filename().string(), "alarm PLUGIN_PINNED: " + why);
 }
 

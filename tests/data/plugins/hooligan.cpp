@@ -43,6 +43,11 @@ void lower_limit() {
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
+void lower_hard_limit() {
+  const rlimit limit{1000, 1000};  // CPU time [s]
+  setrlimit(RLIMIT_CPU, &limit);
+}
+
 void block_signal() {
   sigset_t set;
   sigemptyset(&set);
@@ -96,6 +101,7 @@ class Hooligan final : public orca::Component {
         {"exit", [] { std::exit(0); }},
         {"folder", [] { (void)!chdir("/"); }},
         {"fork", [] { (void)!fork(); }},
+        {"hard_limit", lower_hard_limit},
         {"handler", [] { signal(SIGTERM, SIG_IGN); }},
         {"leak", [] { open_many(1); }},
         {"leak_all", [] { open_many(1000000); }},

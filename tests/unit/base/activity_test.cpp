@@ -18,11 +18,12 @@ std::string now_doing() { return Activity::current() == nullptr ? "" : Activity:
 TEST_CASE("the innermost activity is the current one, and the outer one comes back", "[base][activity]") {
   CHECK(now_doing().empty());
   {
-    const Activity outer("avoid", "work()", nullptr);
+    const Activity outer("avoid", Hook::work, nullptr);
     {
-      const Activity inner("avoid's sonar", "on_object()", &outer);
+      const Activity inner("avoid's sonar", Hook::handler, &outer, "sonar");
       CHECK(now_doing() == "avoid's sonar");
-      CHECK(std::string(Activity::current()->what()) == "on_object()");
+      CHECK(Activity::current()->hook() == Hook::handler);
+      CHECK(std::string(Activity::current()->port()) == "sonar");
       CHECK(Activity::current()->code() == &outer);
     }
     CHECK(now_doing() == "avoid");
@@ -40,12 +41,12 @@ TEST_CASE("each task has its own activity, also while another one runs, with eve
   executive->run([&] {
     const TimePoint start = executive->now();
     const auto a = executive->spawn({"a", 0}, [&] {
-      const Activity activity("a", "work()", nullptr);
+      const Activity activity("a", Hook::work, nullptr);
       executive->sleep_until(start + 20ms);
       first = now_doing();
     });
     const auto b = executive->spawn({"b", 0}, [&] {
-      const Activity activity("b", "work()", nullptr);
+      const Activity activity("b", Hook::work, nullptr);
       executive->sleep_until(start + 10ms);
       second = now_doing();
       executive->sleep_until(start + 30ms);

@@ -100,7 +100,7 @@ TEST_CASE("what a helper does it does for who called", "[base][team]") {
   Team team(3);
   std::atomic<int> for_sim{0};
   {
-    const Activity activity("sim", "poll()", nullptr);
+    const Activity activity("sim", Hook::strand, nullptr);
     team.for_all(1000, [&](std::size_t) {
       if (Activity::current() != nullptr && Activity::current()->who() == std::string("sim")) ++for_sim;
     });

@@ -37,7 +37,6 @@ class ComponentBench final : public ComponentHost {
   void write_log(log::Level /*level*/, std::string_view text) const override {
     diary_.note("log: " + std::string(text));
   }
-  void announce(const Announcement& /*announcement*/) override {}
   [[nodiscard]] Device* hardware() override { return hardware_; }
   void stay_active(bool active) override { stays_active_ = active; }
   [[nodiscard]] Strand& strand() override { return peer_.strand(); }

@@ -26,9 +26,10 @@ class FakeHardwareHost final : public hw::HardwareHost {
   void write_log(log::Level /*level*/, std::string_view text) const override {
     diary_.note("log: " + std::string(text));
   }
-  void announce(const Announcement& /*announcement*/) override {}
+  void report(const idl::Contact& /*contact*/) override {}
   [[nodiscard]] std::uint64_t run_seed() const override { return 1; }
   void state_changed(hw::HardwareState state) override { diary_.note(std::string("-> ") + to_string(state)); }
+  void pausing() override {}
   [[nodiscard]] Executive& executive() override { return executive_; }
 
  private:

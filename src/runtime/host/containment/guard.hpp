@@ -15,21 +15,22 @@ namespace orca::host {
 
 /// How a call into a plugin went wrong.
 struct PluginFault {
-  bool interrupted = false;  ///< Not a fault: the strand was told to leave.
+  bool interrupted = false;  ///< Not a fault: the strand was asked to leave.
   std::string text;          ///< What was thrown, copied, so that it outlives the plugin.
 };
 
 /// Who is called, for alarms and for the last words of a process that dies of it.
 struct PluginCall {
-  const char* who;   ///< The component or hardware container.
-  const char* hook;  ///< "work"
-  const void* code;  ///< Anything in the plugin.
+  const char* who;  ///< The component or hardware container.
+  Hook hook;
+  const void* code;       ///< Anything in the plugin.
+  const char* port = "";  ///< Whose handler it is.
 };
 
-/// As long as it lives, a plugin's code runs.
+/// The time in which a plugin's code runs: as long as the object lives.
 class PluginTurn {
  public:
-  explicit PluginTurn(const PluginCall& call) : activity_(call.who, call.hook, call.code) {
+  explicit PluginTurn(const PluginCall& call) : activity_(call.who, call.hook, call.code, call.port) {
     LastWords::prepare_thread();
     Environment::of_process().entering(activity_);
   }
@@ -41,8 +42,8 @@ class PluginTurn {
   const Activity activity_;
 };
 
-/// To be called when a plugin's code begins to wait: what it has left behind until now is looked at before
-/// another one's turn comes.
+/// Looks at what a plugin's code has left behind so far. To be called when it begins to wait, before the turn
+/// of another one.
 inline void pause_plugin_turn() {
   if (const Activity* const turn = Activity::current()) Environment::of_process().leaving(*turn);
 }

@@ -17,13 +17,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <mutex>
-#include <set>
 #include <string_view>
 
+#include "containment/environment.hpp"
 #include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
-#include "orca/base/log.hpp"
 #include "orca/plugin/loaded_plugins.hpp"
 
 namespace orca::host {
@@ -36,6 +34,7 @@ constexpr std::uintptr_t kNearStack = 64 * 1024;
 std::atomic<bool> g_armed{false};
 std::atomic<bool> g_said{false};
 int g_stderr = STDERR_FILENO;
+int g_status = EXIT_FAILURE;
 std::array<struct sigaction, kSignals.size()> g_before;
 std::terminate_handler g_terminate_before = nullptr;
 
@@ -69,8 +68,12 @@ void start_line(Line& line, const Activity* activity) {
   if (activity == nullptr) {
     line << "a thread that runs no component ";
   } else {
-    const std::string_view what = activity->what();
-    line << activity->who() << ": " << what << (what.find(' ') == std::string_view::npos ? "() " : " ");
+    line << activity->who() << ": ";
+    if (activity->hook() == Hook::handler) {
+      line << activity->port() << "() ";
+    } else {
+      line << to_string(activity->hook()) << " ";
+    }
   }
 }
 
@@ -156,7 +159,7 @@ void end_instead_of_exit(std::string_view call) {
   add_plugin(line, activity, nullptr);
   line.write();
   std::fflush(nullptr);
-  _exit(1);
+  _exit(g_status);
 }
 
 void on_exit_called(int status, void* /*unused*/) {
@@ -165,15 +168,8 @@ void on_exit_called(int status, void* /*unused*/) {
 void on_quick_exit() { end_instead_of_exit("quick_exit()"); }
 
 void after_fork_here() {
-  static std::mutex mutex;
-  static std::set<std::string> said;
-  if (!g_armed.load() || Activity::current() == nullptr) return;
-  const std::lock_guard lock(mutex);
-  if (!said.insert(Activity::current()->who()).second) return;
-  log::error(Activity::current()->who(), std::string("alarm FORK: ") + Activity::current()->what() +
-                                             "() has called fork(); the copy is ended, because two must not "
-                                             "drive one robot. Start programs with "
-                                             "posix_spawn()");
+  const Activity* const activity = Activity::current();
+  if (g_armed.load() && activity != nullptr) Environment::of_process().forked(*activity);
 }
 void after_fork_in_copy() {
   if (g_armed.exchange(false) && Activity::current() != nullptr)
@@ -216,7 +212,8 @@ class SignalStack {
 
 }  // namespace
 
-LastWords::LastWords() {
+LastWords::LastWords(int exit_status) {
+  g_status = exit_status;
   const int copy = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, kHighDescriptor);
   if (copy >= 0) g_stderr = copy;
   register_once();
@@ -247,7 +244,7 @@ void LastWords::say_and_end(const std::string& line) {
   words << line;
   words.write();
   std::fflush(nullptr);
-  _exit(1);
+  _exit(g_status);
 }
 
 }  // namespace orca::host

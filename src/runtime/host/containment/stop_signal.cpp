@@ -26,7 +26,7 @@ constexpr int kSecondSignalGraceMs = 400;
 
 }  // namespace
 
-StopSignal::StopSignal() : wake_fd_(eventfd(0, EFD_CLOEXEC)) {
+StopSignal::StopSignal(int exit_status) : exit_status_(exit_status), wake_fd_(eventfd(0, EFD_CLOEXEC)) {
   const sigset_t set = stop_signals();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   signal_fd_ = signalfd(-1, &set, SFD_CLOEXEC);
@@ -54,7 +54,7 @@ void StopSignal::watch() {
     if (requested_.exchange(true)) {
       // Second signal: whoever waits for us has lost patience. If this process is still here then, it ends as
       // it is.
-      if (poll(fds + 1, 1, kSecondSignalGraceMs) == 0) std::_Exit(0);
+      if (poll(fds + 1, 1, kSecondSignalGraceMs) == 0) std::_Exit(exit_status_);
       return;
     }
     const std::lock_guard lock(mutex_);

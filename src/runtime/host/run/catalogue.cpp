@@ -25,8 +25,16 @@ Result<std::shared_ptr<plugin::PluginLibrary>> PluginCatalogue::library_of(const
   Result<std::unique_ptr<plugin::PluginLibrary>> loaded = plugin::PluginLibrary::load(*file);
   if (!loaded) return loaded.error();
   std::shared_ptr<plugin::PluginLibrary> library = std::move(loaded).value();
+  library->on_pinned([this, path = *file](const std::string& why) { raise_pinned(path, why); });
   known = library;
   return library;
+}
+
+void PluginCatalogue::raise_pinned(const std::string& file, const std::string& why) const {
+  const std::string name = std::filesystem::path(file).filename().string();
+  const idl::Alarm alarm = make_alarm(AlarmKind::plugin_pinned, name, "", why);
+  if (sink_) return sink_(alarm);
+  log_alarm(alarm, name);
 }
 
 Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& type) {

@@ -3,22 +3,23 @@
 
 #include <utility>
 
-#include "containment/guard.hpp"
-
 namespace orca::host {
 
 HardwareInstance::HardwareInstance(RunContext& run, std::string name, LoadedType type)
     : run_(run), name_(std::move(name)), type_(std::move(type)) {}
 
 HardwareInstance::~HardwareInstance() {
-  if (const auto fault = guarded_call({name_.c_str(), "its destructor", type_.entry},
-                                      [this] { type_.entry->destroy(container_); }))
-    write_log(log::Level::error, "its destructor " + fault->text);
+  if (const auto fault = guarded_call({name_.c_str(), Hook::destructor, type_.entry},
+                                      [this] { type_.entry->destroy(container_); })) {
+    const std::string text = to_string(Hook::destructor) + (" " + fault->text);
+    write_log(log::Level::error, text);
+    run_.reporter.note(make_alarm(AlarmKind::failed, name_, to_string(Hook::destructor), text));
+  }
 }
 
 Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
   std::vector<HardwareFault> errors;
-  const auto fault = guarded_call({name_.c_str(), "its constructor", type_.entry}, [&] {
+  const auto fault = guarded_call({name_.c_str(), Hook::constructor, type_.entry}, [&] {
     container_ = static_cast<hw::HardwareContainer*>(type_.entry->create(*this));
     for (const ParamDeclaration& param : params_)
       if (const auto value = params.find(param.contract.name); value != params.end())
@@ -36,6 +37,9 @@ void HardwareInstance::state_changed(hw::HardwareState state) {
   LastWords::prepare_thread();  // the first that is heard of from its strand
   run_.trace.state_changed(name_, to_string(traced_), to_string(state));
   traced_ = state;
+  if (state == hw::HardwareState::fault)  // the container has written the reason to the log
+    run_.reporter.note(
+        make_alarm(AlarmKind::hardware_fault, name_, to_string(Hook::strand), container_->fault()));
   run_.changed();
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "containment/guard.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/hw/container.hpp"
 #include "run_context.hpp"
@@ -34,10 +35,13 @@ class HardwareInstance final : public hw::HardwareHost {
   [[nodiscard]] RandomStream random(std::string_view stream) const override {
     return {run_.seed, name_, stream};
   }
-  void write_log(log::Level level, std::string_view text) const override { log::write(level, name_, text); }
-  void announce(const Announcement& announcement) override { run_.announce(announcement); }
+  void write_log(log::Level level, std::string_view text) const override {
+    run_.reporter.log(level, name_, text);
+  }
+  void report(const idl::Contact& contact) override { run_.reporter.report(name_, contact); }
   [[nodiscard]] std::uint64_t run_seed() const override { return run_.seed; }
   void state_changed(hw::HardwareState state) override;
+  void pausing() override { pause_plugin_turn(); }
   [[nodiscard]] Executive& executive() override { return run_.executive; }
 
  private:

@@ -5,18 +5,18 @@
 #include <functional>
 
 #include "orca/base/executive.hpp"
-#include "orca/component/host.hpp"
+#include "reporter.hpp"
 #include "trace.hpp"
 
 namespace orca::host {
 
-/// What all instances of one run share.
+/// The surroundings that all instances of one run share.
 struct RunContext {
   Executive& executive;
   Trace& trace;
+  /// Takes what people and programs outside are to know.
+  Reporter& reporter;
   std::uint64_t seed = 1;
-  /// Takes announcements of any instance. Any strand.
-  std::function<void(const Announcement&)> announce;
   /// Called whenever an instance has changed its state. Any strand.
   std::function<void()> changed;
   /// A picture is to be drawn in the end.

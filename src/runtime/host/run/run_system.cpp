@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
+#include "orca/host/run_system.hpp"
+
+#include <atomic>
+#include <memory>
+#include <optional>
 #include <utility>
 
-#include "announcer.hpp"
 #include "containment/environment.hpp"
 #include "containment/stall_monitor.hpp"
-#include "orca/host/run_system.hpp"
-#include "orca/host/stop_signal.hpp"
+#include "counters.hpp"
+#include "orca/base/text.hpp"
+#include "reporter.hpp"
 #include "system.hpp"
 
 namespace orca::host {
@@ -22,64 +24,99 @@ constexpr Duration kTakeDownLimit = 1500ms;
 class Run {
  public:
   Run(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options, Executive& executive,
-      StopSignal& stop)
+      StopSignal& stop, RunListener& listener)
       : graph_(graph),
         catalogue_(catalogue),
         options_(options),
         executive_(executive),
         stop_(stop),
+        listener_(listener),
         trace_(executive),
-        start_(executive.now()),
-        announcer_(start_) {}
+        reporter_(executive, trace_, listener, options.log_name),
+        environment_(executive.tasks_overlap(), [this](const idl::Alarm& alarm) { raise(alarm); }) {
+    catalogue_.on_alarm([this](const idl::Alarm& alarm) { reporter_.raise(alarm); });
+  }
 
-  ExitCode execute() {
-    if (!options_.trace_file.empty())
-      if (const Status opened = trace_.open(options_.trace_file); !opened.ok()) return refuse(opened.error());
-    if (const Status built = system_.build(catalogue_); !built.ok()) return refuse(built.error());
-    executive_.run([this] { main(); });
-    finish_output();
-    return code_;
+  ~Run() { catalogue_.on_alarm(nullptr); }
+
+  /// Runs, reports the end, and destroys all instances.
+  RunResult execute() {
+    run();
+    RunResult result = this->result();
+    listener_.ended(result);  // before destructors of plugins, which may end the process
+    system_.reset();
+    reporter_.fill(result);
+    return result;
   }
 
  private:
-  static ExitCode refuse(const Error& error) {
-    log::error("deployer", error.text());
-    return ExitCode::could_not_start;
+  void run() {
+    if (!options_.trace_file.empty())
+      if (const Status opened = trace_.open(options_.trace_file); !opened.ok()) return refuse(opened.error());
+    if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
+    {
+      const StallMonitor monitor(
+          executive_, [this](const idl::Alarm& alarm) { reporter_.raise(alarm); },
+          [this](const std::string& component, const std::string& text) { stand_still(component, text); });
+      executive_.run([this] { main(); });
+    }
+    if (!options_.picture.file.empty()) draw();
+  }
+
+  void refuse(const Error& error) { fail_with(RunOutcome::not_started, error); }
+
+  void fail_with(RunOutcome outcome, const Error& error) {
+    reporter_.log_error(error.text());
+    conclude(outcome, error);
+  }
+
+  void conclude(RunOutcome outcome, const Error& error) {
+    outcome_ = outcome;
+    error_ = error;
+    if (is_in_graph(error.where)) culprit_ = error.where;
+  }
+
+  [[nodiscard]] bool is_in_graph(const std::string& name) const {
+    return graph_.find_component(name) != nullptr || graph_.find_hardware(name) != nullptr;
   }
 
   void main() {
+    runs_.store(true);
     stop_.on_request([this] { changed_->notify(); });
-    const Status up = system_.bring_up(*changed_, executive_.now() + kStartLimit);
+    const Status up = system_->bring_up(*changed_, executive_.now() + kStartLimit);
     if (!up.ok() && !stop_.requested()) {
-      code_ = refuse(up.error());
-      log::error("deployer", "not everything came up; taking all down again");
+      fail_with(RunOutcome::not_started, up.error());
+      reporter_.log_error("not everything came up; taking all down again");
     } else {
-      system_.open_gates();
+      system_->open_gates();
       supervise();
       if (has_ended() && !stop_.requested()) wait_for_rest();
     }
     take_down();
     stop_.on_request(nullptr);
+    runs_.store(false);
   }
 
   void supervise() {
     const TimePoint end = options_.until ? executive_.now() + *options_.until : kForever;
     while (!stop_.requested() && executive_.now() < end && !has_ended()) {
-      if (!changed_->wait_until(end) && end == kForever && executive_.is_virtual() && !stop_.requested()) {
-        log::error("deployer", "nothing can ever happen again: all components wait for each other");
-        code_ = ExitCode::failed_running;
-        return;
-      }
+      if (!changed_->wait_until(end) && end == kForever && executive_.is_virtual() && !stop_.requested())
+        return fail_with(
+            RunOutcome::failed,
+            fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
     }
+    if (error_ || has_ended()) return;
+    outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
   }
 
-  // Whether the components that the graph names in `ends` have come to an end; decides the exit code.
+  // Whether the components that the graph names in `ends` have come to an end; keeps the reason if one has
+  // failed.
   bool has_ended() {
     bool all_done = !graph_.ends.empty();
     for (const std::string& name : graph_.ends) {
-      const ComponentInstance& component = *system_.component(name);
+      const ComponentInstance& component = *system_->component(name);
       if (component.has_failed()) {
-        code_ = ExitCode::failed_running;
+        conclude(RunOutcome::failed, fail(Code::failed_precondition, component.failure(), name));
         return true;
       }
       all_done = all_done && component.state() == ComponentState::work_done;
@@ -90,32 +127,58 @@ class Run {
   // Lets the closing phase run its course: the last client has gone, connections close down to the hardware.
   void wait_for_rest() {
     const TimePoint limit = executive_.now() + kRestLimit;
-    while (!system_.at_rest() && executive_.now() < limit && !stop_.requested()) changed_->wait_until(limit);
+    while (!system_->at_rest() && executive_.now() < limit && !stop_.requested()) changed_->wait_until(limit);
   }
 
   void take_down() {
-    const std::vector<std::string> stuck = system_.take_down(executive_.now() + kTakeDownLimit);
+    const std::vector<std::string> stuck = system_->take_down(executive_.now() + kTakeDownLimit);
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
-      log::error("deployer", name + " does not end; the process is ended without it");
-    if (executive_.is_virtual()) announcer_.print_trace_hash(trace_.hash());
-    std::fflush(nullptr);
-    std::_Exit(static_cast<int>(ExitCode::failed_running));  // its thread cannot be ended in any other way
+      reporter_.log_error(name + " does not end; the process is ended without it");
+    conclude(RunOutcome::failed,
+             fail(Code::deadline_exceeded,
+                  listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
+    listener_.abandon(result());  // a thread cannot be ended in any other way
   }
 
-  void finish_output() {
-    if (!options_.picture.file.empty()) draw();
-    const bool ran = code_ != ExitCode::could_not_start;  // what never ran is equal to nothing
-    if (ran && executive_.is_virtual()) announcer_.print_trace_hash(trace_.hash());
+  // On a thread of the monitor's own: no strand can run.
+  void stand_still(const std::string& component, const std::string& text) {
+    reporter_.log(log::Level::error, component, text);
+    RunResult ended = result();
+    ended.outcome = RunOutcome::failed;
+    ended.culprit = component;
+    ended.error = fail(Code::deadline_exceeded, text, component);
+    ended.trace_hash.reset();  // it would depend on when this was noticed
+    listener_.abandon(ended);
+  }
+
+  // Alarms of the environment come on the strand of the component that they are about, if it is one.
+  void raise(idl::Alarm alarm) {
+    const Activity* const activity = Activity::current();
+    if (runs_.load() && activity != nullptr && alarm.source() == activity->who())
+      if (const ComponentInstance* component = system_->component(alarm.source())) component->stamp(alarm);
+    reporter_.raise(std::move(alarm));
   }
 
   void draw() {
     Scene scene;
     scene.start = start_;
-    system_.draw(scene);
-    announcer_.draw(scene);
+    system_->draw(scene);
+    reporter_.draw(scene);
     if (const Status drawn = write_picture(scene, options_.picture); !drawn.ok())
-      log::error("deployer", drawn.error().text());
+      reporter_.log_error(drawn.error().text());
+  }
+
+  [[nodiscard]] RunResult result() const {
+    RunResult result;
+    result.outcome = outcome_;
+    result.culprit = culprit_;
+    result.error = error_;
+    const bool ran = outcome_ != RunOutcome::not_started;  // what never ran is equal to nothing
+    if (ran && executive_.is_virtual()) result.trace_hash = trace_.hash();
+    reporter_.fill(result);
+    if (ran) result.counters = collect_counters(graph_, *system_);
+    return result;
   }
 
   const graph::Graph& graph_;
@@ -123,39 +186,44 @@ class Run {
   const RunOptions& options_;
   Executive& executive_;
   StopSignal& stop_;
+  RunListener& listener_;
   Trace trace_;
-  const TimePoint start_;
-  Announcer announcer_;
+  Reporter reporter_;
+  std::atomic<bool> runs_{false};      // there are strands
+  const KeptEnvironment environment_;  // around all that runs a plugin's code
+  const TimePoint start_ = executive_.now();
   std::unique_ptr<Event> changed_ = executive_.make_event();
   RunContext context_{executive_,
                       trace_,
+                      reporter_,
                       options_.seed.value_or(graph_.seed.value_or(1)),
-                      [this](const Announcement& a) { announcer_.announce(a); },
                       [this] { changed_->notify(); },
                       !options_.picture.file.empty()};
-  System system_{graph_, context_, [this] { return stop_.requested(); }};
-  ExitCode code_ = ExitCode::finished;
+  std::optional<System> system_{std::in_place, graph_, context_, [this] { return stop_.requested(); }};
+  RunOutcome outcome_ = RunOutcome::finished;
+  std::string culprit_;
+  std::optional<Error> error_;
 };
+
+RunResult refuse_options(const Error& error, const RunOptions& options) {
+  log::error(options.log_name, error.text());
+  RunResult result;
+  result.outcome = RunOutcome::bad_options;
+  result.error = error;
+  return result;
+}
 
 }  // namespace
 
-ExitCode run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options,
-                    StopSignal& stop) {
+RunResult run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options,
+                     StopSignal& stop, RunListener& listener) {
   Result<std::unique_ptr<Executive>> executive = make_executive(options.executive);
-  if (!executive) {
-    log::error("deployer", executive.error().text());
-    return ExitCode::bad_input;
-  }
+  if (!executive) return refuse_options(executive.error(), options);
   const TimePoint start = (*executive)->now();
   log::set_clock([clock = executive->get(), start] { return TimePoint(clock->now() - start); });
-  ExitCode code = ExitCode::finished;
-  {
-    const StallMonitor monitor(**executive);
-    const KeptEnvironment environment;
-    code = Run(graph, catalogue, options, **executive, stop).execute();
-  }
+  RunResult result = Run(graph, catalogue, options, **executive, stop, listener).execute();
   log::set_clock(nullptr);
-  return code;
+  return result;
 }
 
 }  // namespace orca::host

@@ -163,7 +163,7 @@ std::vector<std::string> System::take_down(TimePoint deadline) {
   for (const auto& component : components_) {
     if (component->join_until(deadline)) continue;
     const std::string hook = component->current_hook();
-    stuck.push_back(component->name() + (hook.empty() ? "" : " (in " + hook + "())"));
+    stuck.push_back(component->name() + (hook.empty() ? "" : " (in " + hook + ")"));
   }
   for (const auto& hardware : hardware_)
     if (!hardware->container().join_until(deadline)) stuck.push_back(hardware->name());
@@ -202,10 +202,9 @@ Status System::carry_out(const std::string& name, Event& changed, TimePoint dead
   if (wait_until_holds(run_.executive, changed, deadline, [&] { return order->done(); }))
     return order->result();
   const std::string hook = component->current_hook();
-  return fail(
-      Code::deadline_exceeded,
-      "it has not come to the end of a lap in time" + (hook.empty() ? "" : "; it is in " + hook + "()"),
-      name);
+  return fail(Code::deadline_exceeded,
+              "it has not come to the end of a lap in time" + (hook.empty() ? "" : "; it is in " + hook),
+              name);
 }
 
 Error System::no_such(const std::string& name) const {

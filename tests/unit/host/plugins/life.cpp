@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Announces each of its hooks, and can be told to misbehave in them.
+/// A component that logs each of its hooks, and misbehaves in them as `mode` says.
 class Life final : public orca::Component {
  public:
   explicit Life(orca::ComponentHost& host) : Component(host) {}
@@ -60,7 +60,7 @@ class Life final : public orca::Component {
   }
 
   [[nodiscard]] std::string number() const { return std::to_string(*low_) + "-" + std::to_string(*high_); }
-  void say(const std::string& what) { announce({"hook", what, 0.0, 0.0, now()}); }
+  void say(const std::string& what) const { log_debug(what); }
 
   orca::PushServer<orca::idl::GoalPoint> out_{*this, "out"};
   orca::PushProxy<orca::idl::GoalPoint> goal_{*this, "in", {.optional = true}};

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Uses another component from `from` to `until` after its start, then lets it go for good.
+/// A component that uses another component from `from` to `until` after its start, then lets it go for good.
 class User final : public orca::Component {
  public:
   explicit User(orca::ComponentHost& host) : Component(host) {}
@@ -40,7 +40,7 @@ class User final : public orca::Component {
     say("answer " + (answer ? std::string((*answer)->name()) : answer.error().text()));
   }
 
-  void say(const std::string& what) { announce({"hook", name() + " " + what, 0.0, 0.0, now()}); }
+  void say(const std::string& what) const { log_debug(name() + " " + what); }
 
   orca::PushProxy<orca::idl::GoalPoint> push_{*this, "push", {.optional = true, .manual = true}};
   orca::SendProxy<orca::idl::GoalPoint> send_{*this, "send", {.optional = true}};

@@ -3,9 +3,28 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
+
 namespace orca::test {
 
 using namespace orca::host;
+
+namespace {
+
+class DiaryListener final : public RunListener {
+ public:
+  explicit DiaryListener(Diary& diary) : diary_(diary) {}
+
+  void logged(log::Level level, std::string_view /*who*/, std::string_view text) override {
+    if (level == log::Level::debug) diary_.note(std::string(text));
+  }
+  [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
+
+ private:
+  Diary& diary_;
+};
+
+}  // namespace
 
 void LiveSystem::run(const ExecutiveOptions& executive, const std::function<void(LiveSystem&)>& body) {
   run_on(executive, [&](Executive& made) { with(made, body); });
@@ -22,8 +41,9 @@ void LiveSystem::with(Executive& executive, const std::function<void(LiveSystem&
   const std::unique_ptr<Event> changed = executive.make_event();  // ends before the executive does
   changed_ = changed.get();
   Trace trace(executive);
-  RunContext context{executive, trace, 1, [this](const Announcement& a) { diary.note(a.name); },
-                     [this] { changed_->notify(); }};
+  DiaryListener listener(diary);
+  Reporter reporter(executive, trace, listener, "live");
+  RunContext context{executive, trace, reporter, 1, [this] { changed_->notify(); }};
   System system(*graph, context, [] { return false; });
   system_ = &system;
   const Status built = system.build(catalogue);

@@ -13,8 +13,8 @@
 
 namespace orca::test {
 
-/// A system of the plugins beside this file, brought up in the test's own process; what its components
-/// announce goes into a diary.
+/// A system of the plugins beside this file, brought up in the test's own process. What its components log
+/// with level debug goes into a diary.
 class LiveSystem {
  public:
   /// @param elements  of the graph.
@@ -38,7 +38,7 @@ class LiveSystem {
   }
   void sleep(Duration time) { orca::test::sleep(*executive_, time); }
 
-  /// The announcements since the last call.
+  /// What the components have logged since the last call.
   std::vector<std::string> news();
   Diary diary;
 

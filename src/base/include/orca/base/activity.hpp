@@ -1,45 +1,50 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "orca/base/hook.hpp"
+
 namespace orca {
 
-/// What a task is doing and for whom, as long as the object lives: for the last words of a process that dies
-/// of it. Activities nest; the innermost is the current one. It moves along when a task on a fiber is
-/// switched to.
+/// What a task is doing and for whom, as long as the object lives: for alarms and for the last words of a
+/// process that dies of it. Activities nest; the innermost is the current one. It moves along when a task on
+/// a fiber is switched to.
 ///
 /// Thread contract: made and destroyed by one task. current() also from a signal handler.
 class Activity {
  public:
-  /// @param who   a component, a hardware container or a type; must outlive this, as `what` must.
-  /// @param what  the hook, for people: "work()".
+  /// @param who   a component, a hardware container or a type; must outlive this, as `port` must.
   /// @param code  an address in the plugin whose code runs; null: none.
-  Activity(const char* who, const char* what, const void* code) noexcept;
+  /// @param port  whose handler runs; "" for other hooks.
+  Activity(const char* who, Hook hook, const void* code, const char* port = "") noexcept;
   ~Activity();
   Activity(const Activity&) = delete;
   Activity& operator=(const Activity&) = delete;
 
-  /// Of the task that asks; null: it runs no plugin's code.
+  /// Returns the activity of the calling task; null: it runs no plugin's code.
   [[nodiscard]] static const Activity* current() noexcept;
 
   [[nodiscard]] const char* who() const { return who_; }
-  [[nodiscard]] const char* what() const { return what_; }
+  [[nodiscard]] Hook hook() const { return hook_; }
   [[nodiscard]] const void* code() const { return code_; }
+  [[nodiscard]] const char* port() const { return port_; }
 
  private:
   friend class ActivityKeeper;
 
   const char* who_;
-  const char* what_;
+  Hook hook_;
   const void* code_;
+  const char* port_;
   const Activity* outer_;
 };
 
-/// Where the current activity stays while its task does not run: for whoever switches tasks on one thread.
+/// The place where the current activity stays while its task does not run: for whoever switches tasks on one
+/// thread.
 class ActivityKeeper {
  public:
-  /// Keeps what is current, of the task that is left.
+  /// Keeps the current activity, of the task that is left.
   void keep() noexcept;
-  /// Makes current what was kept, of the task that is entered; at first: nothing.
+  /// Makes the kept activity current, of the task that is entered; at first there is none.
   void restore() const noexcept;
 
  private:

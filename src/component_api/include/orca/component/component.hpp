@@ -83,9 +83,6 @@ class Component : public PortOwner {
   void log_warning(std::string_view text) const { host_.write_log(log::Level::warning, text); }
   void log_error(std::string_view text) const { host_.write_log(log::Level::error, text); }
 
-  /// A line on stdout for whoever runs the system.
-  void announce(const Announcement& announcement) { host_.announce(announcement); }
-
   /// Work also without subscribers, from now on or no longer.
   void stay_active(bool active) { host_.stay_active(active); }
 

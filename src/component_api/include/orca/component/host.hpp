@@ -21,15 +21,6 @@ struct ParamDeclaration {
   std::function<void(const ParamValue&)> set;
 };
 
-/// Something that happened and that the user of the whole system wants to know: a line on stdout.
-struct Announcement {
-  std::string kind;  ///< "arrived" or "contact".
-  std::string name;  ///< Goal or robot.
-  double x = 0.0;    ///< [m], world frame; "arrived" only.
-  double y = 0.0;    ///< [m]
-  TimePoint time;
-};
-
 /// What a process offers to what it hosts, be it a component or a hardware container.
 ///
 /// Thread contract: declarations from the constructor of the hosted object, the rest from its strand.
@@ -44,7 +35,6 @@ class PluginHost {
   /// A stream that depends on the run's seed, this instance's name and `stream` alone.
   [[nodiscard]] virtual RandomStream random(std::string_view stream) const = 0;
   virtual void write_log(log::Level level, std::string_view text) const = 0;
-  virtual void announce(const Announcement& announcement) = 0;
 };
 
 /// What a process offers to a component. Implemented by the runtime; a component author never sees it.

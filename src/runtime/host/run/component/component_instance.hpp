@@ -56,8 +56,10 @@ class ComponentInstance final {
   [[nodiscard]] bool has_failed() const { return life_.has_failed(); }
   /// Why it is in WORK_FAILED, or why it could not be configured.
   [[nodiscard]] std::string failure() const { return life_.failure(); }
-  /// The hook that the strand is in now, for people; "" between hooks.
+  /// The hook that the strand is in now, for people: "work()"; of a handler its port, "" between hooks.
   [[nodiscard]] const char* current_hook() const { return parts_.hooks.current(); }
+  /// Fills in the mission and cause of what the component works on. On its strand.
+  void stamp(idl::OrcaObject& object) const { parts_.home.provenance.stamp(object); }
   /// What its parameters may be.
   [[nodiscard]] const std::vector<ParamContract>& param_contracts() const {
     return parts_.params.contracts();

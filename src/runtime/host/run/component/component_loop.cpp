@@ -57,12 +57,12 @@ void ComponentLoop::lap() {
   activity_before_lap_ = parts_.strand.activity();
   parts_.home.provenance.begin_lap();
   in_lap_ = true;
-  const auto fault = parts_.hooks.call("work", [&] { outcome = residency_.component()->work(); });
+  const auto fault = parts_.hooks.call(Hook::work, [&] { outcome = residency_.component()->work(); });
   in_lap_ = false;
   if (!fault) {
     conclude(outcome);
   } else if (!fault->interrupted) {
-    life_.fail_with(ComponentEvent::threw, "work", fault->text);
+    life_.fail_with(ComponentEvent::threw, Hook::work, fault->text);
   }
 }
 
@@ -70,7 +70,7 @@ void ComponentLoop::conclude(const Outcome& outcome) {
   if (outcome.kind == Outcome::Kind::done) {
     life_.handle(ComponentEvent::done);
   } else if (outcome.kind == Outcome::Kind::failed) {
-    life_.fail_with(ComponentEvent::failed, "work", "failed: " + outcome.reason);
+    life_.fail_with(ComponentEvent::failed, Hook::work, "failed: " + outcome.reason);
   }
 }
 
@@ -91,7 +91,8 @@ bool ComponentLoop::handle_sent(SendServerEndpoint& endpoint) {
   const std::string& port = endpoint.contract().name;
   bool handled = false;
   Status outcome;
-  const auto fault = parts_.hooks.call(port.c_str(), [&] { handled = endpoint.handle_one(outcome); });
+  const auto fault = parts_.hooks.call(
+      Hook::handler, [&] { handled = endpoint.handle_one(outcome); }, port.c_str());
   contain(endpoint, fault);
   if (!outcome.ok())
     parts_.site.write_log(log::Level::warning, port + ": could not handle an object that it had accepted: " +
@@ -102,14 +103,15 @@ bool ComponentLoop::handle_sent(SendServerEndpoint& endpoint) {
 bool ComponentLoop::handle_asked(QueryServerEndpoint& endpoint) {
   bool handled = false;
   const auto fault =
-      parts_.hooks.call(endpoint.contract().name.c_str(), [&] { handled = endpoint.handle_one(); });
+      parts_.hooks.call(
+      Hook::handler, [&] { handled = endpoint.handle_one(); }, endpoint.contract().name.c_str());
   contain(endpoint, fault);
   return handled || fault;
 }
 
 void ComponentLoop::contain(const Endpoint& endpoint, const std::optional<PluginFault>& fault) {
   if (fault && !fault->interrupted)
-    life_.fail_with(ComponentEvent::threw, endpoint.contract().name.c_str(), fault->text);
+    life_.fail_with(ComponentEvent::threw, Hook::handler, fault->text, endpoint.contract().name.c_str());
 }
 
 // --- The world --------------------------------------------------------------------------------------------

@@ -9,11 +9,18 @@ ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings setting
     : run(run_of_all),
       settings(std::move(settings_of_this)),
       strand(run.executive, {settings.name, settings.priority}),
-      home{strand, settings.name, &run.trace, {}},
+      home{strand, settings.name, &run.reporter, {}},
       ports(home),
       site(run, settings, strand, hardware),
       hooks(settings.name),
       params(settings.params),
       orders(strand) {}
+
+void ComponentParts::report_failure(Hook hook, const std::string& text, const char* port) {
+  site.write_log(log::Level::error, text);
+  idl::Alarm alarm = make_alarm(AlarmKind::failed, settings.name, hook_text(hook, port), text);
+  home.provenance.stamp(alarm);
+  run.reporter.note(std::move(alarm));
+}
 
 }  // namespace orca::host

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "component_settings.hpp"
 #include "component_site.hpp"
+#include "containment/guard.hpp"
 #include "hook_caller.hpp"
 #include "lap_trigger.hpp"
 #include "orca/base/strand.hpp"
@@ -19,6 +22,11 @@ struct ComponentParts {
   ComponentParts(RunContext& run_of_all, ComponentSettings settings_of_this, Device* hardware);
   ComponentParts(const ComponentParts&) = delete;
   ComponentParts& operator=(const ComponentParts&) = delete;
+
+  /// Makes a failure of the component known: a line in the log, and an alarm with the mission and cause of what
+  /// the component works on. On its strand.
+  /// @param port  whose handler it is; "" for other hooks.
+  void report_failure(Hook hook, const std::string& text, const char* port = "");
 
   RunContext& run;
   const ComponentSettings settings;

@@ -42,7 +42,7 @@ RandomStream ComponentSite::random(std::string_view stream) const {
 }
 
 void ComponentSite::write_log(log::Level level, std::string_view text) const {
-  log::write(level, settings_.name, text);
+  run_.reporter.log(level, settings_.name, text);
 }
 
 }  // namespace orca::host

@@ -42,7 +42,6 @@ class ComponentSite final : public ComponentHost {
   [[nodiscard]] TimePoint now() const override { return run_.executive.now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override;
   void write_log(log::Level level, std::string_view text) const override;
-  void announce(const Announcement& announcement) override { run_.announce(announcement); }
   [[nodiscard]] Device* hardware() override { return hardware_; }
   void stay_active(bool active) override { stays_active_ = active; }
   [[nodiscard]] Strand& strand() override { return strand_; }

@@ -3,9 +3,10 @@
 
 namespace orca::host {
 
-std::optional<PluginFault> HookCaller::call(const char* hook, const std::function<void()>& body) {
-  hook_.store(hook, std::memory_order_release);
-  std::optional<PluginFault> fault = guarded_call({component_.c_str(), hook, code_}, body);
+std::optional<PluginFault> HookCaller::call(Hook hook, const std::function<void()>& body,
+                                             const char* port) {
+  hook_.store(hook == Hook::handler ? port : to_string(hook), std::memory_order_release);
+  std::optional<PluginFault> fault = guarded_call({component_.c_str(), hook, code_, port}, body);
   hook_.store("", std::memory_order_release);
   return fault;
 }

@@ -23,12 +23,12 @@ class HookCaller {
   /// Sets what the called code belongs to: anything in the plugin, or null while none is loaded.
   void set_code(const void* code) { code_ = code; }
 
-  /// Calls `body` as the hook of this name.
-  /// @param hook  outlives the call.
+  /// Calls `body` as this hook.
+  /// @param port  whose handler it is; "" for other hooks. Outlives the call.
   /// @return what it threw.
-  std::optional<PluginFault> call(const char* hook, const std::function<void()>& body);
+  std::optional<PluginFault> call(Hook hook, const std::function<void()>& body, const char* port = "");
 
-  /// The hook that the strand is in now, for people; "" between hooks.
+  /// The hook that the strand is in now, for people: "work()"; of a handler its port, "" between hooks.
   [[nodiscard]] const char* current() const { return hook_.load(std::memory_order_acquire); }
 
  private:

@@ -20,18 +20,18 @@ void Lifecycle::handle(ComponentEvent event) {
   }
 }
 
-void Lifecycle::fail_with(ComponentEvent event, const char* hook, const std::string& what) {
-  handle(report(event, hook, what));
+void Lifecycle::fail_with(ComponentEvent event, Hook hook, const std::string& what, const char* port) {
+  handle(report(event, hook, what, port));
 }
 
 // The one place where a component's failure is made known.
-ComponentEvent Lifecycle::report(ComponentEvent event, const char* hook, const std::string& what) {
-  const std::string text = std::string(hook) + "() " + what;
+ComponentEvent Lifecycle::report(ComponentEvent event, Hook hook, const std::string& what, const char* port) {
+  const std::string text = hook_text(hook, port) + " " + what;
   {
     const std::lock_guard lock(mutex_);
     failure_ = text;
   }
-  parts_.site.write_log(log::Level::error, text);
+  parts_.report_failure(hook, text, port);
   return event;
 }
 
@@ -49,10 +49,10 @@ Lifecycle::FollowUp Lifecycle::carry_out(ComponentAction action, ComponentState 
     case ComponentAction::load: return load();
     case ComponentAction::configure: return configure();
     case ComponentAction::start: return start();
-    case ComponentAction::stop: return call("stop", &Component::stop);
+    case ComponentAction::stop: return call(Hook::stop, &Component::stop);
     case ComponentAction::try_stop: try_stop(); return std::nullopt;
-    case ComponentAction::suspend: return call("suspend", &Component::suspend);
-    case ComponentAction::resume: return call("resume", &Component::resume);
+    case ComponentAction::suspend: return call(Hook::suspend, &Component::suspend);
+    case ComponentAction::resume: return call(Hook::resume, &Component::resume);
     case ComponentAction::unload: residency_.unload(); return std::nullopt;
     default: arrange(action); return std::nullopt;
   }
@@ -86,39 +86,39 @@ void Lifecycle::enter(ComponentState state) {
 
 Lifecycle::FollowUp Lifecycle::load() {
   Status loaded;
-  if (const auto fault = parts_.hooks.call("load", [&] { loaded = residency_.load(); }))
+  if (const auto fault = parts_.hooks.call(Hook::load, [&] { loaded = residency_.load(); }))
     loaded = fail(Code::internal, fault->text);
   if (loaded.ok()) return ComponentEvent::loaded;
-  return report(ComponentEvent::failed, "load", "said: " + loaded.error().text());
+  return report(ComponentEvent::failed, Hook::load, "said: " + loaded.error().text());
 }
 
 Lifecycle::FollowUp Lifecycle::configure() {
   Status configured;
   const auto fault =
-      parts_.hooks.call("configure", [&] { configured = residency_.component()->configure(); });
-  if (fault) return report(ComponentEvent::threw, "configure", fault->text);
+      parts_.hooks.call(Hook::configure, [&] { configured = residency_.component()->configure(); });
+  if (fault) return report(ComponentEvent::threw, Hook::configure, fault->text);
   if (configured.ok())
     configured =
         parts_.laps.choose(parts_.settings.trigger.value_or(parts_.site.declared().trigger), parts_.ports);
   if (configured.ok()) return ComponentEvent::configured;
-  return report(ComponentEvent::failed, "configure", "said: " + configured.error().text());
+  return report(ComponentEvent::failed, Hook::configure, "said: " + configured.error().text());
 }
 
 Lifecycle::FollowUp Lifecycle::start() {
   Status started;
-  const auto fault = parts_.hooks.call("start", [&] { started = residency_.component()->start(); });
+  const auto fault = parts_.hooks.call(Hook::start, [&] { started = residency_.component()->start(); });
   if (fault && fault->interrupted) return ComponentEvent::interrupted;
-  if (fault) return report(ComponentEvent::threw, "start", fault->text);
+  if (fault) return report(ComponentEvent::threw, Hook::start, fault->text);
   if (started.ok()) return ComponentEvent::started;
-  return report(ComponentEvent::failed, "start", "said: " + started.error().text());
+  return report(ComponentEvent::failed, Hook::start, "said: " + started.error().text());
 }
 
 void Lifecycle::try_stop() {
-  const auto fault = parts_.hooks.call("stop", [this] { residency_.component()->stop(); });
-  if (fault && !fault->interrupted) parts_.site.write_log(log::Level::error, "stop() " + fault->text);
+  const auto fault = parts_.hooks.call(Hook::stop, [this] { residency_.component()->stop(); });
+  if (fault && !fault->interrupted) parts_.report_failure(Hook::stop, "stop() " + fault->text);
 }
 
-Lifecycle::FollowUp Lifecycle::call(const char* hook, void (Component::*function)()) {
+Lifecycle::FollowUp Lifecycle::call(Hook hook, void (Component::*function)()) {
   const auto fault = parts_.hooks.call(hook, [&] { (residency_.component()->*function)(); });
   if (!fault || fault->interrupted) return std::nullopt;
   return report(ComponentEvent::threw, hook, fault->text);
@@ -156,11 +156,11 @@ Status Lifecycle::offer_params(const ParamValues& changed, const ParamValues& ol
   set_params(parts_.site.declared().params, changed);
   Status accepted;
   const auto fault =
-      parts_.hooks.call("params_changed", [&] { accepted = residency_.component()->params_changed(); });
+      parts_.hooks.call(Hook::params_changed, [&] { accepted = residency_.component()->params_changed(); });
   if (!fault && accepted.ok()) return ok();
   set_params(parts_.site.declared().params, old);
   if (!fault) return accepted;
-  if (!fault->interrupted) fail_with(ComponentEvent::threw, "params_changed", fault->text);
+  if (!fault->interrupted) fail_with(ComponentEvent::threw, Hook::params_changed, fault->text);
   return fail(Code::internal, "params_changed() " + fault->text, parts_.settings.name);
 }
 

@@ -27,7 +27,8 @@ class Lifecycle {
   /// Reports a failure, then takes the event: `failed` or `threw`.
   /// @param hook  where it happened.
   /// @param what  "threw ...", "failed: ..."
-  void fail_with(ComponentEvent event, const char* hook, const std::string& what);
+  /// @param port  whose handler it is; "" for other hooks.
+  void fail_with(ComponentEvent event, Hook hook, const std::string& what, const char* port = "");
 
   // Orders.
   Status suspend();
@@ -56,10 +57,10 @@ class Lifecycle {
   FollowUp configure();
   FollowUp start();
   void try_stop();
-  FollowUp call(const char* hook, void (Component::*function)());
+  FollowUp call(Hook hook, void (Component::*function)());
   Status order(ComponentEvent event, const std::string& only);
   Status offer_params(const ParamValues& changed, const ParamValues& old);
-  ComponentEvent report(ComponentEvent event, const char* hook, const std::string& what);
+  ComponentEvent report(ComponentEvent event, Hook hook, const std::string& what, const char* port = "");
 
   ComponentParts& parts_;
   Residency& residency_;

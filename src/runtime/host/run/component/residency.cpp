@@ -28,7 +28,7 @@ Status Residency::load() {
 }
 
 Status Residency::construct() {
-  const auto fault = guarded_call({parts_.settings.name.c_str(), "its constructor", type_.entry}, [this] {
+  const auto fault = guarded_call({parts_.settings.name.c_str(), Hook::constructor, type_.entry}, [this] {
     component_ = static_cast<Component*>(type_.entry->create(parts_.site));
   });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, parts_.settings.name);
@@ -53,12 +53,12 @@ void Residency::destroy() {
   parts_.ports.unbind();  // handlers are the component's code
   if (type_.entry == nullptr) return;
   Component* const gone = std::exchange(component_, nullptr);
-  const auto fault = guarded_call({parts_.settings.name.c_str(), "its destructor", type_.entry}, [&] {
+  const auto fault = guarded_call({parts_.settings.name.c_str(), Hook::destructor, type_.entry}, [&] {
     if (gone != nullptr) type_.entry->destroy(gone);
   });
   parts_.site.forget_code();
   parts_.hooks.set_code(nullptr);
-  if (fault) parts_.site.write_log(log::Level::error, "its destructor " + fault->text);
+  if (fault) parts_.report_failure(Hook::destructor, "its destructor " + fault->text);
 }
 
 }  // namespace orca::host

@@ -13,6 +13,7 @@
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/hardware_state.hpp"
 #include "orca/idl/hardware.hpp"
+#include "orca/idl/sensing.hpp"
 
 namespace orca::hw {
 
@@ -24,8 +25,12 @@ class HardwareHost : public PluginHost {
  public:
   /// The seed of the run, for what belongs to no single stream: the simulated world.
   [[nodiscard]] virtual std::uint64_t run_seed() const = 0;
+  /// Tells whoever runs the system that a robot has touched something. The framework stamps the header.
+  virtual void report(const idl::Contact& contact) = 0;
   /// For traces: the container's state has changed.
   virtual void state_changed(HardwareState state) = 0;
+  /// The container's strand has done something and is about to wait.
+  virtual void pausing() = 0;
   [[nodiscard]] virtual Executive& executive() = 0;
 };
 

@@ -5,10 +5,12 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "orca/base/executive.hpp"
 #include "orca/graph/loader.hpp"
+#include "orca/host/alarm.hpp"
 #include "orca/plugin/describe.hpp"
 #include "orca/plugin/index.hpp"
 #include "orca/plugin/library.hpp"
@@ -47,6 +49,10 @@ class PluginCatalogue final : public graph::Catalogue {
   /// @errors  failed_precondition if nobody holds the plugin and it is in memory all the same.
   Status release(LoadedType type);
 
+  /// From now on alarms about plugins go to `sink`; null: only to the log, as at first.
+  /// @thread  while nobody uses the catalogue.
+  void on_alarm(AlarmSink sink) { sink_ = std::move(sink); }
+
   /// Lets go of all that was loaded and constructed only to answer questions.
   void forget_answers();
 
@@ -55,8 +61,11 @@ class PluginCatalogue final : public graph::Catalogue {
   Result<LoadedType> find(PluginKind kind, const std::string& type);
   Result<plugin::DescribedHardware*> described(const graph::HardwareUse& use);
 
+  void raise_pinned(const std::string& file, const std::string& why) const;
+
   plugin::PluginIndex index_;
   const ClockKind clock_;
+  AlarmSink sink_;
   mutable std::mutex mutex_;
   std::map<std::string, std::weak_ptr<plugin::PluginLibrary>> libraries_;  // by file
   std::map<std::string, LoadedType> held_;                                 // by type: what answers came from

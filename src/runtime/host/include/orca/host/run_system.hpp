@@ -9,6 +9,8 @@
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/picture.hpp"
+#include "orca/host/run_listener.hpp"
+#include "orca/host/run_result.hpp"
 #include "orca/host/stop_signal.hpp"
 
 namespace orca::host {
@@ -20,18 +22,16 @@ struct RunOptions {
   std::optional<Duration> until;      ///< End then [s of the run's clock]; none: no such limit.
   std::string trace_file;             ///< Empty: none.
   PictureOptions picture;
+  std::string log_name = "orca";  ///< The name in the log for what concerns the run as a whole.
 };
 
-/// Exit codes of the deployer (DESIGN 15).
-enum class ExitCode { finished = 0, failed_running = 1, bad_input = 2, could_not_start = 3 };
-
 /// Runs a checked graph in this process: brings everything up or takes everything down again, watches, stops
-/// the robot, takes down. Prints announcements and, in virtual time, the trace hash on stdout; the rest on
-/// stderr.
+/// the robot, takes down. Writes to the log, and to the files that the options name.
 ///
-/// @param stop  a request ends the run with `finished`.
+/// @param stop      a request ends the run.
+/// @param listener  hears what happens meanwhile.
 /// @thread  the main thread.
-ExitCode run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options,
-                    StopSignal& stop);
+[[nodiscard]] RunResult run_system(const graph::Graph& graph, PluginCatalogue& catalogue,
+                                   const RunOptions& options, StopSignal& stop, RunListener& listener);
 
 }  // namespace orca::host

@@ -8,14 +8,15 @@
 
 namespace orca::host {
 
-/// Turns SIGINT and SIGTERM into a request to stop. A second signal ends the process after 0.4 s, whatever it
-/// is doing.
+/// A request to stop, made by SIGINT or SIGTERM. A second signal ends the process after 0.4 s, whatever it is
+/// doing.
 ///
 /// Thread contract: construct before any other thread exists, so that all inherit the blocked signals;
 /// requested() and on_request() from anywhere.
 class StopSignal {
  public:
-  StopSignal();
+  /// @param exit_status  of a process that is ended by the second signal.
+  explicit StopSignal(int exit_status);
   ~StopSignal();
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
@@ -31,6 +32,7 @@ class StopSignal {
   std::atomic<bool> requested_{false};
   std::mutex mutex_;
   std::function<void()> action_;
+  const int exit_status_;
   int wake_fd_;
   int signal_fd_;
   std::thread watcher_;

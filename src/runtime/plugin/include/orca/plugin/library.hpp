@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "orca/base/result.hpp"
@@ -14,8 +16,7 @@ namespace orca::plugin {
 class LoadedPlugin;
 
 /// A plugin in memory, from load() until the object is destroyed. Whatever was made from its types must be
-/// gone by then. A plugin that does not go, or whose threads still run, is told by an alarm PLUGIN_PINNED in
-/// the log.
+/// gone by then. A plugin that does not go, or whose threads still run, is reported as pinned.
 ///
 /// Thread contract: one thread.
 class PluginLibrary {
@@ -41,6 +42,8 @@ class PluginLibrary {
   [[nodiscard]] std::vector<const TypeEntry*> types() const;
   /// What it uses that has no place in virtual time, each with what to use instead.
   [[nodiscard]] const std::vector<std::string>& virtual_time_faults() const { return virtual_time_faults_; }
+  /// From now on `sink` takes the reason if the plugin stays in memory; without a sink the log does.
+  void on_pinned(std::function<void(const std::string& why)> sink) { on_pinned_ = std::move(sink); }
   /// Null if the plugin holds no such type.
   [[nodiscard]] const TypeEntry* find(PluginKind kind, std::string_view type) const;
 
@@ -53,11 +56,12 @@ class PluginLibrary {
   const Manifest* manifest_;
   std::unique_ptr<LoadedPlugin> entry_;
   std::vector<std::string> virtual_time_faults_;
+  std::function<void(const std::string&)> on_pinned_;
   bool may_start_threads_ = false;
 };
 
-/// Whether any part of the file is still mapped into this process, be it that the file itself has been
-/// removed or exchanged meanwhile: the proof after unloading.
+/// Whether any part of the file is still mapped into this process, even if the file itself has been removed
+/// or exchanged meanwhile: the proof after unloading.
 [[nodiscard]] bool is_mapped(const std::string& path);
 
 }  // namespace orca::plugin

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include "orca/host/run_listener.hpp"
+
+namespace orca::deployer {
+
+/// Standard output during a run, one line per event, each at once: `arrived NAME x y t`, `contact NAME t`,
+/// and last, in virtual time, `trace-hash <16 hex digits>`. Lengths are in metres, times in seconds since the
+/// start of the run.
+///
+/// Thread contract: as RunListener.
+class Console final : public host::RunListener {
+ public:
+  void started(TimePoint now) override { start_ = now; }
+  void arrived(const idl::Arrived& arrived) override;
+  void contact(const idl::Contact& contact) override;
+  void ended(const host::RunResult& result) override;
+  [[noreturn]] void abandon(const host::RunResult& result) override;
+
+ private:
+  [[nodiscard]] double seconds(const idl::TimeValue& stamp) const;
+
+  TimePoint start_;
+};
+
+}  // namespace orca::deployer

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include "watch.hpp"
+
+namespace orca::host {
+
+/// The locale of the process. A look costs some ten nanoseconds.
+class LocaleWatch final : public Watch {
+ public:
+  void keep() override;
+  std::optional<Finding> look() override;
+
+ private:
+  std::string reference_;
+};
+
+/// What happens at SIGINT, SIGTERM and SIGSEGV.
+class SignalHandlerWatch final : public Watch {
+ public:
+  void keep() override;
+  std::optional<Finding> look() override;
+
+ private:
+  struct Handler {
+    int signal;
+    struct sigaction action;
+  };
+  std::vector<Handler> reference_;
+};
+
+/// The working folder.
+class FolderWatch final : public Watch {
+ public:
+  void keep() override;
+  std::optional<Finding> look() override;
+
+ private:
+  std::string reference_;
+};
+
+/// The permissions that new files do not get.
+class UmaskWatch final : public Watch {
+ public:
+  void keep() override;
+  std::optional<Finding> look() override;
+
+ private:
+  mode_t reference_ = 0;
+};
+
+/// The soft and hard limits of memory, CPU time, size of files and number of descriptors.
+class LimitWatch final : public Watch {
+ public:
+  void keep() override;
+  std::optional<Finding> look() override;
+
+ private:
+  struct Limit {
+    int resource;
+    const char* name;
+    rlimit value;
+  };
+  std::vector<Limit> reference_;
+};
+
+}  // namespace orca::host

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "counters.hpp"
+
+namespace orca::host {
+namespace {
+
+// Adds the Push edge between two ports.
+void add_edge(const Endpoint& from, const PushClientEndpoint& to, RunCounters& counters) {
+  for (const auto& edge : to.edges())
+    if (edge->source_path() == from.path())
+      counters.edges.push_back({from.path(), to.path(), edge->counters()});
+}
+
+void add_client(const Endpoint& port, RunCounters& counters) {
+  if (const auto* sender = dynamic_cast<const SendClientEndpoint*>(&port))
+    counters.clients[port.path()] = sender->counters();
+  if (const auto* asker = dynamic_cast<const QueryClientEndpoint*>(&port))
+    counters.clients[port.path()] = asker->counters();
+}
+
+void add_server(const Endpoint& port, RunCounters& counters) {
+  if (const auto* taker = dynamic_cast<const SendServerEndpoint*>(&port))
+    counters.servers[port.path()] = taker->counters();
+  if (const auto* answerer = dynamic_cast<const QueryServerEndpoint*>(&port))
+    counters.servers[port.path()] = answerer->counters();
+}
+
+}  // namespace
+
+RunCounters collect_counters(const graph::Graph& graph, const System& system) {
+  RunCounters counters;
+  for (const graph::Edge& edge : graph.edges) {
+    const Endpoint* const from = system.component(edge.from.component)->endpoint(edge.from.port);
+    const Endpoint* const to = system.component(edge.to.component)->endpoint(edge.to.port);
+    if (const auto* subscriber = dynamic_cast<const PushClientEndpoint*>(to))
+      add_edge(*from, *subscriber, counters);
+    add_client(*from, counters);
+    add_server(*to, counters);
+  }
+  return counters;
+}
+
+}  // namespace orca::host

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "reporter.hpp"
+
+#include <utility>
+
+#include "orca/host/alarm.hpp"
+#include "orca/idl/time.hpp"
+
+namespace orca::host {
+
+Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listener, std::string log_name)
+    : executive_(executive),
+      trace_(trace),
+      listener_(listener),
+      log_name_(std::move(log_name)),
+      start_(executive.now()) {
+  listener_.started(start_);
+}
+
+void Reporter::delivered(std::string_view component, std::string_view port, const ObjectRef& object) {
+  trace_.delivered(component, port, object);
+  if (&object.type() == &object_type<idl::Arrived>()) hear(object);
+}
+
+void Reporter::hear(const ObjectRef& object) {
+  const auto& arrived = *static_cast<const idl::Arrived*>(object.get());
+  const std::lock_guard lock(mutex_);
+  ObjectRef& last = last_arrived_[arrived.origin()];
+  if (last == object) return;
+  last = object;
+  arrivals_.push_back(arrived);
+  listener_.arrived(arrived);
+}
+
+void Reporter::report(const std::string& origin, const idl::Contact& contact) {
+  const std::lock_guard lock(mutex_);
+  idl::Contact& reported = contacts_.emplace_back(contact);
+  reported.creation_time(to_time_value(executive_.now()));
+  reported.origin() = origin;
+  reported.seq(contacts_.size());
+  listener_.contact(reported);
+}
+
+void Reporter::raise(idl::Alarm alarm) {
+  log_alarm(alarm, log_name_);
+  note(std::move(alarm));
+}
+
+void Reporter::note(idl::Alarm alarm) {
+  alarm.creation_time(to_time_value(executive_.now()));
+  alarm.stamp(alarm.creation_time());
+  const std::lock_guard lock(mutex_);
+  alarm.seq(alarms_.size() + 1);
+  alarms_.push_back(std::move(alarm));
+  listener_.alarm(alarms_.back());
+}
+
+void Reporter::log(log::Level level, const std::string& who, std::string_view text) {
+  log::write(level, who, text);
+  const std::lock_guard lock(mutex_);
+  listener_.logged(level, who, text);
+}
+
+void Reporter::draw(Scene& scene) const {
+  const std::lock_guard lock(mutex_);
+  for (const idl::Arrived& arrived : arrivals_)
+    scene.arrivals.push_back({arrived.name(), {arrived.x(), arrived.y()}, to_time_point(arrived.stamp())});
+  for (const idl::Contact& contact : contacts_)
+    scene.contacts.push_back({contact.robot(), {contact.x(), contact.y()}, to_time_point(contact.stamp())});
+}
+
+void Reporter::fill(RunResult& result) const {
+  const std::lock_guard lock(mutex_);
+  result.start = start_;
+  result.arrivals = arrivals_;
+  result.contacts = contacts_;
+  result.alarms = alarms_;
+}
+
+}  // namespace orca::host

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/host/run_listener.hpp"
+#include "orca/hw/scene.hpp"
+#include "orca/patterns/endpoint.hpp"
+#include "trace.hpp"
+
+namespace orca::host {
+
+/// The place where everything of a run comes together that is for people and programs outside: arrivals,
+/// contacts, alarms, log lines. It passes each on to the listener and keeps it for the result. Deliveries it
+/// hands to the trace first.
+///
+/// Thread contract: any strand or thread.
+class Reporter final : public LinkObserver {
+ public:
+  /// @param log_name  the name in the log for what concerns no component alone.
+  Reporter(const Executive& executive, Trace& trace, RunListener& listener, std::string log_name);
+
+  void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
+  void link_changed(std::string_view client, std::string_view server, bool connected) override {
+    trace_.link_changed(client, server, connected);
+  }
+
+  /// @param origin  the hardware container that reports it.
+  void report(const std::string& origin, const idl::Contact& contact);
+  /// Writes an alarm to the log and reports it.
+  void raise(idl::Alarm alarm);
+  /// Reports an alarm whose text is in the log already, from whoever it is about.
+  void note(idl::Alarm alarm);
+  void log(log::Level level, const std::string& who, std::string_view text);
+  /// Writes an error of the run as a whole to the log.
+  void log_error(std::string_view text) const { log::error(log_name_, text); }
+
+  /// Adds arrivals and contacts to a picture.
+  void draw(Scene& scene) const;
+  /// Fills in what was reported so far, and the start of the run.
+  void fill(RunResult& result) const;
+
+ private:
+  void hear(const ObjectRef& object);
+
+  const Executive& executive_;
+  Trace& trace_;
+  RunListener& listener_;
+  const std::string log_name_;
+  const TimePoint start_;
+  mutable std::mutex mutex_;
+  std::map<std::string, ObjectRef> last_arrived_;  // by origin: what has several readers is heard once
+  std::vector<idl::Arrived> arrivals_;
+  std::vector<idl::Contact> contacts_;
+  std::vector<idl::Alarm> alarms_;
+};
+
+}  // namespace orca::host

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orca/host/run_system.hpp"
+
+namespace orca::test {
+
+/// What came of a run in the test's own process, and what its listener heard.
+struct RecordedRun {
+  host::RunResult result;
+  std::vector<std::string> heard;  ///< "started", "arrived home", "contact Dewey", "alarm UMASK", "ended"
+  std::vector<idl::Alarm> alarms;  ///< As the listener heard them.
+};
+
+/// Runs a graph whose plugins are those of the tests and the shipped ones.
+/// @param attributes  of the graph: ends="...".
+[[nodiscard]] RecordedRun record_run(const std::string& attributes, const std::string& elements,
+                                     const host::RunOptions& options);
+
+/// Virtual time, on fibers unless the build cannot have them.
+[[nodiscard]] host::RunOptions virtual_run();
+
+}  // namespace orca::test

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an application is given after a run, and what it hears meanwhile.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "executives.hpp"
+#include "orca/idl/time.hpp"
+#include "recorded_run.hpp"
+
+using namespace orca;
+using namespace orca::host;
+using namespace orca::test;
+using Catch::Contains;
+using Lines = std::vector<std::string>;
+
+namespace {
+
+const std::string kArrivals = R"x(
+    <component name="arriver" type="test.Arriver"/>
+    <component name="host" type="test.Welcomer"/>
+    <component name="hostess" type="test.Welcomer"/>
+    <connect from="arriver.out" to="host.in"/>
+    <connect from="arriver.out" to="hostess.in"/>)x";
+
+const std::string kBrittle = R"x(
+    <hardware name="scout" type="test.Brittle"/>
+    <component name="base" type="orca.RobotBaseServer" hardware="scout"/>)x";
+
+std::string slow_starter(const std::string& param) {
+  return R"x(<component name="late" type="test.SlowStarter"><param )x" + param + "/></component>";
+}
+
+}  // namespace
+
+TEST_CASE("a run that ends as the graph says is finished, without culprit or error", "[host][result]") {
+  const RecordedRun run = record_run("ends=\"host\"", kArrivals, virtual_run());
+  CHECK(run.result.outcome == RunOutcome::finished);
+  CHECK(run.result.culprit.empty());
+  CHECK_FALSE(run.result.error);
+  CHECK(run.result.alarms.empty());
+  CHECK(run.heard == Lines{"started", "arrived home", "arrived home", "ended"});
+}
+
+TEST_CASE("arrivals are objects, each heard once however many take it, with their stamps on the run's clock",
+          "[host][result]") {
+  const RecordedRun run = record_run("ends=\"host\"", kArrivals, virtual_run());
+  REQUIRE(run.result.arrivals.size() == 2);
+  const idl::Arrived& second = run.result.arrivals[1];
+  CHECK(second.name() == "home");
+  CHECK(second.x() == 2.0);
+  CHECK(second.y() == -1.0);
+  CHECK(second.origin() == "arriver");
+  CHECK(second.seq() == 2);
+  CHECK(to_time_point(second.stamp()) - run.result.start == 100ms);
+}
+
+TEST_CASE("contacts are objects from the hardware that reports them", "[host][result]") {
+  RunOptions options = virtual_run();
+  options.until = 700ms;
+  const RecordedRun run = record_run("", kBrittle, options);
+  CHECK(run.heard == Lines{"started", "contact Dewey", "ended"});
+  REQUIRE(run.result.contacts.size() == 1);
+  const idl::Contact& contact = run.result.contacts[0];
+  CHECK(contact.robot() == "Dewey");
+  CHECK(contact.other() == "wall");
+  CHECK(contact.x() == 2.0);
+  CHECK(contact.origin() == "scout");
+  CHECK(to_time_point(contact.stamp()) - run.result.start == 500ms);
+}
+
+TEST_CASE("the result counts what went over each connection", "[host][result]") {
+  const RecordedRun run = record_run("ends=\"host\"", kArrivals, virtual_run());
+  const auto& edges = run.result.counters.edges;
+  REQUIRE(edges.size() == 2);
+  CHECK(edges[0].from == "arriver.out");
+  CHECK(edges[0].to == "host.in");
+  CHECK(edges[0].counters.delivered == 2);
+  CHECK(edges[0].counters.dropped == 0);
+  CHECK(edges[1].to == "hostess.in");
+  CHECK(run.result.counters.clients.empty());
+
+  const RecordedRun asked = record_run("ends=\"user\"", R"x(
+    <component name="life" type="test.Life"/>
+    <component name="user" type="test.User"/>
+    <connect from="user.send" to="life.poke"/>
+    <connect from="user.query" to="life.ask"/>)x",
+                                       virtual_run());
+  const RunCounters& counters = asked.result.counters;
+  CHECK(counters.edges.empty());
+  REQUIRE(counters.clients.contains("user.send"));
+  REQUIRE(counters.servers.contains("life.ask"));
+  CHECK(counters.clients.at("user.send").answered == 1);
+  CHECK(counters.clients.at("user.query").answered == 1);
+  CHECK(counters.servers.at("life.poke").accepted == 1);
+  CHECK(counters.servers.at("life.ask").accepted == 1);
+}
+
+TEST_CASE("in virtual time the result has the trace hash, which is the same each time and on each executive",
+          "[host][result]") {
+  const auto hash = record_run("ends=\"host\"", kArrivals, virtual_run()).result.trace_hash;
+  REQUIRE(hash);
+  for (const ExecutiveOptions& executive : virtual_executives()) {
+    RunOptions options;
+    options.executive = executive;
+    CHECK(record_run("ends=\"host\"", kArrivals, options).result.trace_hash == hash);
+  }
+  RunOptions steady;
+  steady.until = 10ms;
+  CHECK_FALSE(record_run("", kArrivals, steady).result.trace_hash);
+}
+
+TEST_CASE("a run whose time is up says so", "[host][result]") {
+  RunOptions options = virtual_run();
+  options.until = 150ms;
+  CHECK(record_run("", kArrivals, options).result.outcome == RunOutcome::time_is_up);
+}
+
+TEST_CASE("a run that can never go on has failed without one culprit", "[host][result]") {
+  const RunResult result =
+      record_run("", R"x(<component name="idle" type="test.Life"/>)x", virtual_run()).result;
+  CHECK(result.outcome == RunOutcome::failed);
+  CHECK(result.culprit.empty());
+  REQUIRE(result.error);
+  CHECK_THAT(result.error->message, Contains("nothing can ever happen again"));
+  CHECK(result.trace_hash);
+}
+
+TEST_CASE("a component that fails and that the graph waits for is the culprit, with its reason",
+          "[host][result]") {
+  const RunResult result = record_run("ends=\"host\"", R"x(
+    <component name="arriver" type="test.Arriver"/>
+    <component name="host" type="test.Welcomer"><param name="deed" value="fail"/></component>
+    <connect from="arriver.out" to="host.in"/>)x",
+                                      virtual_run())
+                               .result;
+  CHECK(result.outcome == RunOutcome::failed);
+  CHECK(result.culprit == "host");
+  REQUIRE(result.error);
+  CHECK(result.error->message == "work() failed: nobody is at home");
+}
+
+TEST_CASE("whoever keeps the system from starting is the culprit, and there is no hash", "[host][result]") {
+  const RunResult result =
+      record_run("", slow_starter(R"(name="refuses" value="true")"), virtual_run()).result;
+  CHECK(result.outcome == RunOutcome::not_started);
+  CHECK(result.culprit == "late");
+  REQUIRE(result.error);
+  CHECK_THAT(result.error->message, Contains("the moon is in the wrong phase"));
+  CHECK_FALSE(result.trace_hash);
+}
+
+TEST_CASE("options that contradict each other are an outcome, too", "[host][result]") {
+  RunOptions options;
+  options.executive = {ClockKind::virtual_time, Backend::thread};
+  const RecordedRun run = record_run("", kArrivals, options);
+  CHECK(run.result.outcome == RunOutcome::bad_options);
+  CHECK(run.result.error);
+  CHECK(run.heard.empty());
+}
