@@ -9,7 +9,7 @@ namespace {
 constexpr int kWarmUp = 4;
 
 void connect(test::Peer& from, test::Peer& to) {
-  const Status connected = connect_locally(from.endpoint("out"), to.endpoint("in"));
+  const Status connected = LocalLinks().connect(from.endpoint("out"), to.endpoint("in"));
   if (!connected.ok()) throw std::runtime_error(connected.error().text());
 }
 

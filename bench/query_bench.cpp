@@ -27,7 +27,7 @@ struct Answerer : test::Peer {
 class QueryPair {
  public:
   explicit QueryPair(Executive& executive) : asker_(executive), answerer_(executive) {
-    const Status connected = connect_locally(asker_.endpoint("question"), answerer_.endpoint("server"));
+    const Status connected = LocalLinks().connect(asker_.endpoint("question"), answerer_.endpoint("server"));
     if (!connected.ok()) throw std::runtime_error(connected.error().text());
     service_.emplace(answerer_);
   }

@@ -20,7 +20,7 @@ std::vector<Loan<Scan>> make_scans(int count, std::size_t ranges) {
 }
 
 void subscribe(Publisher& publisher, Subscriber& subscriber, const QueuePolicy& policy) {
-  const Status connected = connect_locally(publisher.endpoint("out"), subscriber.endpoint("in"), policy);
+  const Status connected = LocalLinks().connect(publisher.endpoint("out"), subscriber.endpoint("in"), policy);
   if (!connected.ok()) throw std::runtime_error(connected.error().text());
   subscriber.in.subscribe();
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "orca/idl/sensing.hpp"
-#include "orca/patterns/local/local_link.hpp"
+#include "orca/patterns/local/local_links.hpp"
 #include "peer.hpp"
 
 namespace orca::bench {

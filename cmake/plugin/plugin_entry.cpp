@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Added to every plugin by orca_add_component(): exports the table of the types that the plugin holds, and
-// keeps the layouts of the objects that it was built with, so that a loader with other layouts can tell what
-// has changed.
+// keeps the layouts that it was built with, of the objects and of all else that crosses the plugin boundary, so
+// that a loader with other layouts can tell what has changed.
+#include "orca/component/generated/plugin_layouts.hpp"
 #include "orca/component/manifest.hpp"
 #include "orca/idl/generated/object_layouts.hpp"
 
@@ -12,13 +13,16 @@ extern "C" {
 [[gnu::visibility("hidden")]] extern const orca::TypeEntry* const __stop_orca_types[];
 
 [[gnu::visibility("default")]] extern const orca::Manifest orca_plugin_manifest;
-const orca::Manifest orca_plugin_manifest{orca::kAbiVersion, sizeof(orca::Manifest), ORCA_BUILD_ID,
-                                          __start_orca_types, __stop_orca_types};
+const orca::Manifest orca_plugin_manifest{
+    orca::kAbiVersion, sizeof(orca::Manifest), orca::detail::plugin_layouts_hash,
+    ORCA_BUILD_ID,     __start_orca_types,     __stop_orca_types};
 }
 
 namespace {
 
 [[gnu::section("orca_layouts"), gnu::used, gnu::retain]] constexpr auto layouts =
     orca::detail::object_layouts;
+[[gnu::section("orca_plugin_layouts"), gnu::used, gnu::retain]] constexpr auto plugin_layouts =
+    orca::detail::plugin_layouts;
 
 }  // namespace

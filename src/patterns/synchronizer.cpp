@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "orca/base/strand.hpp"
+
 namespace orca {
 
 void Synchronizer::add(PushProxyHandle& subject) {
@@ -60,7 +62,7 @@ void Synchronizer::wait_for_tick(Duration period) {
 
 Strand& Synchronizer::strand() const {
   assert(!subjects_.empty());
-  return subjects_.front()->endpoint().home().strand;
+  return subjects_.front()->strand();
 }
 
 TimePoint Synchronizer::deadline_in(Duration limit) const {

@@ -23,6 +23,7 @@ class Layer:
 
 
 COMPONENT = ("component_api", "patterns", "idl", "base")
+ENDPOINTS = ("patterns_endpoints", "idl", "base")
 DEVICE = ("hw_api", "geometry", *COMPONENT)
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
 SIM_MODEL = ("geometry", "xml", "base")
@@ -42,14 +43,18 @@ LAYERS = (
     Layer("geometry", ("src/geometry",), ("orca/geometry/",)),
     Layer("geometry_objects", ("src/geometry/objects",), ("orca/geometry/objects/",), ("geometry", "idl", "base"),
           ("eigen",)),
-    Layer("patterns", ("src/patterns",), ("orca/patterns/",), ("idl", "base"), ("fmt",)),
-    Layer("patterns_local", ("src/patterns/local",), ("orca/patterns/local/",), ("patterns", "idl", "base"), ("fmt",)),
-    Layer("patterns_dds", ("src/patterns/dds",), ("orca/patterns/dds/",), ("patterns", "idl", "base"),
-          ("fastdds", "fastcdr", "fmt")),
+    Layer("patterns", ("src/patterns",), ("orca/patterns/",), ENDPOINTS, ("fmt",)),  # its handles need them inside only
+    Layer("patterns_endpoints", ("src/patterns/endpoints", *(f"src/patterns/include/orca/patterns/{name}" for name in (
+        "endpoints", "counters", "request_id", "update_rate"))),
+          ("orca/patterns/endpoints/", "orca/patterns/counters.hpp", "orca/patterns/request_id.hpp",
+           "orca/patterns/update_rate.hpp"), ("idl", "base"), ("fmt",)),
+    Layer("patterns_local", ("src/patterns/local",), ("orca/patterns/local/",), ENDPOINTS, ("fmt",)),
+    Layer("patterns_bytes", ("src/patterns/bytes",), ("orca/patterns/bytes/",), ENDPOINTS, ("fmt",)),
+    Layer("patterns_dds", ("src/patterns/dds",), ("orca/patterns/dds/",), ENDPOINTS, ("fastdds", "fastcdr", "fmt")),
     Layer("component_api", ("src/component_api", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
           ("patterns", "idl", "base"), ("fmt",)),
-    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), ("geometry", *COMPONENT),
-          ("fmt",)),
+    Layer("layout_probe", ("cmake/plugin/layout_probe",), (), DEVICE),  # sees what any plugin can see
+    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), ("geometry", *COMPONENT), ("fmt",)),
     Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_reading", (f"{GRAPH}/reading",), (), ("graph", "xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_checking", (f"{GRAPH}/checking",), (), ("graph_reading", "graph", "xml", "base"), ("fmt",), module=GRAPH),
@@ -78,7 +83,8 @@ LAYERS = (
           ("plugin", *DEVICE), ("fmt",), module=HOST),
     Layer("host_picture", (f"{HOST}/picture",), ("orca/host/picture.hpp",), DEVICE, ("cairo", "fmt"), module=HOST),
     Layer("host_run", (f"{HOST}/run", HOST), ("orca/host/",),
-          ("host_containment", "host_picture", "graph", "plugin", "text", "xml", "patterns_local", "patterns_dds", *DEVICE),
+          ("host_containment", "host_picture", "graph", "plugin", "text", "xml", "patterns_endpoints", "patterns_local",
+           "patterns_dds", *DEVICE),
           ("fmt",), module=HOST),
     Layer("apps", ("src/apps",), (),
           ("host_run", "host_containment", "host_picture", "graph", "plugin", "text", "xml", *DEVICE), ("fmt",)),

@@ -41,6 +41,12 @@ std::vector<ExecutiveOptions> virtual_executives() {
   return kinds;
 }
 
+std::vector<ExecutiveOptions> steady_executives() {
+  std::vector<ExecutiveOptions> kinds = all_executives();
+  std::erase_if(kinds, [](const ExecutiveOptions& kind) { return kind.clock != ClockKind::steady; });
+  return kinds;
+}
+
 std::string name_of(const ExecutiveOptions& options) {
   const char* const backend = options.backend == Backend::thread  ? "thread"
                               : options.backend == Backend::fiber ? "fiber"

@@ -16,6 +16,9 @@ namespace orca::test {
 /// Those of them with a virtual clock.
 [[nodiscard]] std::vector<ExecutiveOptions> virtual_executives();
 
+/// Those of them with the steady clock.
+[[nodiscard]] std::vector<ExecutiveOptions> steady_executives();
+
 /// For people: "fiber, virtual".
 [[nodiscard]] std::string name_of(const ExecutiveOptions& options);
 

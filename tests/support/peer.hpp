@@ -7,6 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "orca/patterns/endpoints/push_client_endpoint.hpp"
+#include "orca/patterns/endpoints/push_server_endpoint.hpp"
+#include "orca/patterns/endpoints/query_client_endpoint.hpp"
+#include "orca/patterns/endpoints/query_server_endpoint.hpp"
+#include "orca/patterns/endpoints/send_client_endpoint.hpp"
+#include "orca/patterns/endpoints/send_server_endpoint.hpp"
 #include "orca/patterns/port_owner.hpp"
 #include "orca/patterns/push.hpp"
 #include "orca/patterns/query.hpp"
@@ -24,6 +30,10 @@ class Peer : public PortOwner {
 
   void declare_port(PortDeclaration declaration) override;
   [[nodiscard]] Endpoint& endpoint(const std::string& port) const;
+  /// The edges of a PushProxy or a port array.
+  [[nodiscard]] const std::vector<std::unique_ptr<PushEdge>>& edges(const std::string& port) const {
+    return static_cast<const PushClientEndpoint&>(endpoint(port)).edges();
+  }
 
   /// Opens or closes all Send and Query servers.
   void open();

@@ -68,7 +68,7 @@ Status Avoider::configure() {
   if (goal_.connected() && !localizer_.connected() && !odometry_.connected())
     return fail(Code::failed_precondition,
                 "with a goal, connect its port localizer or odometry too: it must know where it is");
-  lap_on(odometry_.connected() ? "odometry" : sensor().endpoint().contract().name);
+  lap_on(odometry_.connected() ? odometry_ : sensor());
   return ok();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,17 +14,17 @@
 namespace {
 
 using orca::ObjectPtr;
-using orca::PushEdge;
 using orca::Status;
 using orca::fuse::Decision;
 using orca::fuse::Verdict;
 using orca::fuse::Voice;
 using orca::fuse::Wish;
 using MotionPort = orca::PushProxyArray<orca::idl::MotionCommand>;
+using Source = MotionPort::Source;
 
 // A behaviour that is listened to, and what it said.
 struct Listened {
-  PushEdge* edge = nullptr;
+  Source source;
   std::string name;
   ObjectPtr<orca::idl::MotionCommand> last;
   ObjectPtr<orca::idl::MotionCommand> last_wish;  // opinions only
@@ -54,18 +55,18 @@ class MotionCommandFuser final : public orca::Component {
     if (Status read = read_nodes(*inhibit_, rules.wiring.inhibit); !read.ok()) return read;
     // One that is not there would keep the robot standing for good.
     for (const std::string& name : rules.required)
-      if (edge_of(name) == nullptr) return not_connected(name);
+      if (!source_of(name)) return not_connected(name);
     rules_ = std::move(rules);
     return orca::ok();
   }
 
   Status start() override {
-    for (const Listened& behaviour : listened_) behaviour.edge->subscribe();
+    for (const Listened& behaviour : listened_) behaviour.source.subscribe();
     return orca::ok();
   }
 
   void stop() override {
-    for (Listened& behaviour : listened_) behaviour = {behaviour.edge, behaviour.name, {}, {}};
+    for (Listened& behaviour : listened_) behaviour = {behaviour.source, behaviour.name, {}, {}};
     decision_ = {};
     voices_.clear();
     refused_ = true;  // at the very end the base takes nothing any more
@@ -74,11 +75,10 @@ class MotionCommandFuser final : public orca::Component {
 
   Status on_client_list(const ObjectPtr<orca::idl::ClientList>& list) {
     if (Status chosen = choose(list->clients()); !chosen.ok()) return chosen;
-    for (const auto& edge : motion_.edges()) {
-      const bool listed = std::any_of(listened_.begin(), listened_.end(), [&](const Listened& behaviour) {
-        return behaviour.edge == edge.get();
-      });
-      listed ? edge->subscribe() : edge->unsubscribe();
+    for (const Source& source : motion_.sources()) {
+      const bool listed = std::any_of(listened_.begin(), listened_.end(),
+                                      [&](const Listened& behaviour) { return behaviour.source == source; });
+      listed ? source.subscribe() : source.unsubscribe();
     }
     return orca::ok();
   }
@@ -87,10 +87,10 @@ class MotionCommandFuser final : public orca::Component {
   Status choose(const std::vector<std::string>& names) {
     std::vector<Listened> chosen;
     for (const std::string& name : names) {
-      PushEdge* edge = edge_of(name);
-      if (edge == nullptr) return not_connected(name);
-      const auto same = [&](const Listened& behaviour) { return behaviour.edge == edge; };
-      if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back({edge, name, {}, {}});
+      const std::optional<Source> source = source_of(name);
+      if (!source) return not_connected(name);
+      const auto same = [&](const Listened& behaviour) { return behaviour.source == *source; };
+      if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back({*source, name, {}, {}});
     }
     listened_ = std::move(chosen);
     stay_active(!listened_.empty());
@@ -115,20 +115,20 @@ class MotionCommandFuser final : public orca::Component {
   void wait_for_all() {
     const auto settled = [&] {
       return stop_is_waiting() || std::all_of(listened_.begin(), listened_.end(),
-                                              [](const Listened& b) { return b.edge->has_new(); });
+                                              [](const Listened& b) { return b.source.new_data_arrived(); });
     };
-    host().strand().wait_for(orca::saturating_add(now(), orca::from_seconds(*all_wait_)), settled);
+    wait_until(settled, orca::from_seconds(*all_wait_));
   }
 
   [[nodiscard]] bool stop_is_waiting() const {
     return std::any_of(listened_.begin(), listened_.end(), [](const Listened& behaviour) {
-      const auto newest = orca::object_cast<orca::idl::MotionCommand>(behaviour.edge->latest());
-      return newest && behaviour.edge->has_new() && newest->kind() == orca::idl::FULLSTOP;
+      const auto newest = behaviour.source.latest();
+      return newest && behaviour.source.new_data_arrived() && newest->kind() == orca::idl::FULLSTOP;
     });
   }
 
   Voice hear(Listened& behaviour) {
-    const auto newest = MotionPort::take_latest(*behaviour.edge);
+    const auto newest = behaviour.source.take_latest();
     if (newest && orca::check_command(*newest).ok()) {  // else it is as if it had not been said
       behaviour.last = newest;
       if (newest->kind() == orca::idl::NORMAL) behaviour.last_wish = newest;
@@ -230,30 +230,29 @@ class MotionCommandFuser final : public orca::Component {
             .required_max_age = *required_max_age_};
   }
 
-  // Whether the edge comes from the behaviour or port `name`, seen from the fuser's own context or from the
-  // top: a Command beside it in a sub-graph "left" says "goto" for "left/goto".
-  [[nodiscard]] bool is_called(const PushEdge& edge, const std::string& name) const {
-    const std::string path = edge.source_path();
+  // Whether the source is the behaviour or port `name`, seen from the fuser's own context or from the top: a
+  // Command beside it in a sub-graph "left" says "goto" for "left/goto".
+  [[nodiscard]] bool is_called(const Source& source, const std::string& name) const {
+    const std::string path = source.path();
     const std::string behaviour = path.substr(0, path.rfind('.'));
     const std::string here = this->name().substr(0, this->name().rfind('/') + 1) + name;
     return path == here || behaviour == here || path == name || behaviour == name;
   }
 
-  [[nodiscard]] PushEdge* edge_of(const std::string& name) const {
-    for (const auto& edge : motion_.edges())
-      if (is_called(*edge, name)) return edge.get();
-    return nullptr;
+  [[nodiscard]] std::optional<Source> source_of(const std::string& name) const {
+    for (const Source& source : motion_.sources())
+      if (is_called(source, name)) return source;
+    return std::nullopt;
   }
 
   [[nodiscard]] Status not_connected(const std::string& name) const {
     return orca::fail(orca::Code::not_found, "no behaviour \"" + name + "\" is connected to " +
-                                                 motion_.endpoint().path() +
-                                                 "; connected are: " + connected_names());
+                                                 motion_.path() + "; connected are: " + connected_names());
   }
 
   [[nodiscard]] std::string connected_names() const {
     std::string names;
-    for (const auto& edge : motion_.edges()) names += (names.empty() ? "" : ", ") + edge->source_path();
+    for (const Source& source : motion_.sources()) names += (names.empty() ? "" : ", ") + source.path();
     return names.empty() ? "none" : names;
   }
 
@@ -327,9 +326,12 @@ class MotionCommandFuser final : public orca::Component {
       0.2,
       {.min = 0.0, .max = 1.0, .text = "Mode vote: share of the votes that its last choice has."}};
   orca::Param<std::vector<std::string>> order_{
-      *this, "order", {}, {.text = "Mode priority: the behaviours, the one that goes first first."}};
+      *this, "order", {}, {.text = "Mode priority: behaviours in order of priority, highest first."}};
   orca::Param<std::vector<std::string>> suppress_{
-      *this, "suppress", {}, {.text = "Mode subsumption: \"avoid > goto\" puts avoid's wish for goto's."}};
+      *this,
+      "suppress",
+      {},
+      {.text = "Mode subsumption: with \"avoid > goto\" a wish of avoid replaces the wish of goto."}};
   orca::Param<std::vector<std::string>> inhibit_{
       *this, "inhibit", {}, {.text = "Mode subsumption: \"arm > goto\" silences goto while arm has a wish."}};
   orca::Param<double> hold_{

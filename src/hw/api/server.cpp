@@ -55,11 +55,7 @@ class HardwareServer::SensorPorts {
         : PushServerHandle(owner, std::move(name), type_id(sensor.type()),
                            {.period = sensor.period(), .from_device = true}) {}
     // From the container's strand, so without the provenance of what the component handles at the moment.
-    ObjectRef push(ObjectLoan reading) {
-      ObjectRef object = endpoint().seal(std::move(reading), nullptr);
-      endpoint().publish(object);
-      return object;
-    }
+    ObjectRef push(ObjectLoan reading) { return push_reading(std::move(reading)); }
   };
 
   // The latest reading; of idle hardware, the first after starting it.

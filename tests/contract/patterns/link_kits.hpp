@@ -12,38 +12,61 @@
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
-#include "orca/patterns/local/local_link.hpp"
+#include "orca/patterns/bytes/byte_links.hpp"
+#include "orca/patterns/local/local_links.hpp"
 #include "orca/patterns/synchronizer.hpp"
 #include "peer.hpp"
 
 namespace orca::test {
 
-/// How to connect two ports of one process.
-struct LocalKit {
+/// The means to connect two ports of one process by some kind of Links.
+template <class Kind>
+class Kit {
+ public:
+  /// Connects a port to another.
+  /// @return once objects go from one end to the other.
+  void connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy) {
+    must(links_.connect(from, to, policy));
+  }
+  /// Does the same with the policy that the author of `to` gave it.
+  void connect(Endpoint& from, Endpoint& to) { must(links_.connect(from, to)); }
+
+  Executive& executive;
+
+ protected:
+  template <class... Arguments>
+  explicit Kit(Executive& used, Arguments&... arguments) : executive(used), links_(arguments...) {}
+
+ private:
+  static void must(const Status& connected) {
+    if (!connected.ok()) FAIL("cannot connect: " << connected.error().text());
+  }
+
+  Kind links_;
+};
+
+/// The links within a process.
+struct LocalKit : Kit<LocalLinks> {
   /// Whether client and server see the same object, not two equal ones.
   static constexpr bool kSharesObjects = true;
 
   /// Where this link works.
   static std::vector<ExecutiveOptions> executives() { return all_executives(); }
 
-  explicit LocalKit(Executive& used) : executive(used) {}
-
-  /// @return once objects go from one end to the other.
-  void connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy) const {
-    must(connect_locally(from, to, policy));
-  }
-  /// The same with the policy that the author of `to` gave it.
-  void connect(Endpoint& from, Endpoint& to) const { must(connect_locally(from, to)); }
-
-  Executive& executive;
-
- private:
-  static void must(const Status& connected) {
-    if (!connected.ok()) FAIL("cannot connect: " << connected.error().text());
-  }
+  explicit LocalKit(Executive& used) : Kit(used) {}
 };
 
-using LinkKits = std::tuple<LocalKit>;
+/// The links that share nothing but bytes.
+struct ByteKit : Kit<ByteLinks> {
+  static constexpr bool kSharesObjects = false;
+
+  // Virtual time does not wait for the thread that carries the bytes.
+  static std::vector<ExecutiveOptions> executives() { return steady_executives(); }
+
+  explicit ByteKit(Executive& used) : Kit(used, used) {}
+};
+
+using LinkKits = std::tuple<LocalKit, ByteKit>;
 
 /// Runs `body` with a fresh kit on each executive where the kit works.
 template <class Kit>
@@ -81,13 +104,14 @@ struct Listener : Peer {
   /// Connects and subscribes.
   template <class Kit>
   PushEdge& listen(Kit& kit, Source& source, const QueuePolicy& policy = {}) {
+    const std::size_t before = source.out.subscriber_count();
     kit.connect(source.endpoint("out"), endpoint("in"), policy);
     in.subscribe();
-    CHECK(eventually(executive(), [&] { return source.out.subscriber_count() > 0; }));
+    CHECK(eventually(executive(), [&] { return source.out.subscriber_count() == before + 1; }));
     return edge();
   }
 
-  [[nodiscard]] PushEdge& edge() const { return *in.endpoint().edges().front(); }
+  [[nodiscard]] PushEdge& edge() const { return *edges("in").front(); }
 
   /// All that waits, oldest first.
   std::vector<int> take_all() {

@@ -64,13 +64,13 @@ TEMPLATE_LIST_TEST_CASE("a server that is full or closed refuses the question wi
   on_each_executive<TestType>([](TestType& kit) {
     Counter counter(kit, 1);
     auto& question = counter.asker.question;
-    const auto early = question.query_request(counter.asker.about("early"));
+    const auto early = counter.asker.ask_in_vain("early");
     REQUIRE_FALSE(early.has_value());
     CHECK(early.error().code == Code::unavailable);
     CHECK_THAT(early.error().text(), Contains("has not been started yet"));
     counter.answerer.open();
     CHECK(question.query_request(counter.asker.about("first")).has_value());
-    const auto full = question.query_request(counter.asker.about("second"));
+    const auto full = counter.asker.ask_in_vain("second");
     REQUIRE_FALSE(full.has_value());
     CHECK(full.error().code == Code::unavailable);
     CHECK_THAT(full.error().text(), Contains("answerer.server is full: 1 questions"));

@@ -17,6 +17,13 @@ struct Asker : Peer {
     return request;
   }
 
+  /// Asks what the server refuses. Within a process it does so at once; another process answers with it.
+  [[nodiscard]] Result<ObjectPtr<MotionCommand>> ask_in_vain(const std::string& text) {
+    const Result<QueryId> id = question.query_request(about(text));
+    if (!id) return id.error();
+    return question.query_receive_wait(*id, 5s);
+  }
+
   QueryProxy<Ask, MotionCommand> question{*this, "question"};
 };
 

@@ -40,10 +40,9 @@ struct Behaviours {
 
  private:
   static void push(Source& from, const PushProxy<MotionCommand>& to, int number) {
-    const std::uint64_t before = to.endpoint().edges().front()->counters().delivered;
+    const std::uint64_t before = to.counters().delivered;
     from.push_numbers(number, number);
-    CHECK(eventually(from.executive(),
-                     [&] { return to.endpoint().edges().front()->counters().delivered == before + 1; }));
+    CHECK(eventually(from.executive(), [&] { return to.counters().delivered == before + 1; }));
   }
 };
 

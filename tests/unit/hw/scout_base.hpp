@@ -5,7 +5,7 @@
 #include "fake_scout.hpp"
 #include "orca/hw/server.hpp"
 #include "orca/idl/system.hpp"
-#include "orca/patterns/local/local_link.hpp"
+#include "orca/patterns/local/local_links.hpp"
 
 namespace orca::test {
 
@@ -60,7 +60,7 @@ struct ScoutBase {
     const bool pushed = from.ends_with("Push");
     Endpoint& first = pushed ? bench.peer().endpoint(from) : client.endpoint(from);
     Endpoint& second = pushed ? client.endpoint(to) : bench.peer().endpoint(to);
-    CHECK(connect_locally(first, second).ok());
+    CHECK(LocalLinks().connect(first, second).ok());
   }
 
   [[nodiscard]] bool gets(hw::HardwareState state) { return robot.gets(state); }

@@ -13,7 +13,7 @@
 #include "executives.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
-#include "orca/patterns/local/local_link.hpp"
+#include "orca/patterns/local/local_links.hpp"
 #include "peer.hpp"
 
 using namespace orca;
@@ -65,7 +65,7 @@ class Bench {
       : executive_(executive), taken_(executive.make_event()), source_(executive) {
     for (int i = 0; i < subscribers; ++i) {
       Sink<T>& sink = sinks_.emplace_back(executive, *taken_);
-      CHECK(connect_locally(source_.endpoint("out"), sink.endpoint("in"), {}).ok());
+      CHECK(LocalLinks().connect(source_.endpoint("out"), sink.endpoint("in"), {}).ok());
       sink.in.subscribe();
       scripts_.push_back(std::make_unique<Script>(sink, [&sink] { sink.take_all(); }));
     }

@@ -9,7 +9,7 @@
 
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
-#include "orca/patterns/endpoint.hpp"
+#include "orca/patterns/endpoints/link_observer.hpp"
 #include "trace.hpp"
 
 namespace orca::host {

@@ -135,9 +135,8 @@ class Run {
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
       reporter_.log_error(name + " does not end; the process is ended without it");
-    conclude(RunOutcome::failed,
-             fail(Code::deadline_exceeded,
-                  listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
+    conclude(RunOutcome::failed, fail(Code::deadline_exceeded,
+                                      listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
     listener_.abandon(result());  // a thread cannot be ended in any other way
   }
 

@@ -6,7 +6,7 @@
 
 #include "orca/base/text.hpp"
 #include "orca/graph/settings.hpp"
-#include "orca/patterns/local/local_link.hpp"
+#include "orca/patterns/local/local_links.hpp"
 
 namespace orca::host {
 namespace {
@@ -42,7 +42,8 @@ Status System::build(PluginCatalogue& catalogue) {
   if (Status built = build_hardware(catalogue); !built.ok()) return built;
   if (Status built = build_components(catalogue); !built.ok()) return built;
   catalogue.forget_answers();
-  return connect();
+  LocalLinks within_this_process;
+  return connect(within_this_process);
 }
 
 Status System::build_hardware(PluginCatalogue& catalogue) {
@@ -82,7 +83,7 @@ Status System::declare(const graph::ComponentNode& node, ComponentInstance& inst
   return ok();
 }
 
-Status System::connect() {
+Status System::connect(Links& links) {
   for (const graph::Edge& edge : graph_.edges) {
     Endpoint* const from = find(edge.from.component)->endpoint(edge.from.port);
     Endpoint* const to = find(edge.to.component)->endpoint(edge.to.port);
@@ -91,7 +92,7 @@ Status System::connect() {
                   edge.position.text());
     QueuePolicy policy = edge.queue;
     policy.min_interval = edge.interval;
-    if (Status connected = connect_locally(*from, *to, policy); !connected.ok()) return connected;
+    if (Status connected = links.connect(*from, *to, policy); !connected.ok()) return connected;
   }
   return ok();
 }

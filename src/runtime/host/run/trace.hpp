@@ -12,7 +12,7 @@
 #include "orca/base/executive.hpp"
 #include "orca/base/hash.hpp"
 #include "orca/base/result.hpp"
-#include "orca/patterns/endpoint.hpp"
+#include "orca/patterns/endpoints/link_observer.hpp"
 
 namespace orca::host {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "orca/base/text.hpp"
 #include "orca/component/manifest.hpp"
 #include "orca/idl/object_type.hpp"
+#include "plugin_layouts.hpp"
 #include "virtual_time.hpp"
 
 namespace orca::plugin {
@@ -97,6 +99,7 @@ std::vector<std::string> PluginFile::faults(const KnownType& known) const {
     return {"is not an Orca plugin: it exports no " + std::string(kManifest) + kRecipe};
   check_manifest(faults);
   if (!faults.empty()) return faults;  // what else it holds follows other rules
+  check_layouts(faults);
   check_recipe(faults);
   check_types(known, faults);
   return faults;
@@ -123,6 +126,18 @@ void PluginFile::check_manifest(std::vector<std::string>& faults) const {
     faults.push_back(versions +
                      ": its headers were changed without a new version; build it again with this Orca");
   }
+}
+
+void PluginFile::check_layouts(std::vector<std::string>& faults) const {
+  const auto section = elf_.section("orca_plugin_layouts");
+  const std::string_view theirs =
+      section ? std::string_view(reinterpret_cast<const char*>(section->data()), section->size()) : "";
+  std::uint64_t hash = 0;
+  const auto bytes = elf_.at_address(manifest()->address + offsetof(Manifest, layout_hash), sizeof hash);
+  if (!bytes) return faults.push_back("is damaged: its manifest is not in the file");
+  std::memcpy(&hash, bytes->data(), sizeof hash);
+  if (std::optional<std::string> fault = layout_fault(theirs, hash, our_layouts()))
+    faults.push_back(*std::move(fault));
 }
 
 void PluginFile::check_recipe(std::vector<std::string>& faults) const {

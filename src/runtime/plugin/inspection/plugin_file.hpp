@@ -43,6 +43,7 @@ class PluginFile {
 
   void check_manifest(std::vector<std::string>& faults) const;
   void check_recipe(std::vector<std::string>& faults) const;
+  void check_layouts(std::vector<std::string>& faults) const;
   void check_types(const KnownType& known, std::vector<std::string>& faults) const;
   [[nodiscard]] std::string layout_of(const std::string& type) const;
   [[nodiscard]] const ElfSymbol* manifest() const;

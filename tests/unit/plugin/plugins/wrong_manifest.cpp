@@ -4,5 +4,5 @@
 
 extern "C" {
 [[gnu::visibility("default")]] extern const orca::Manifest orca_plugin_manifest;
-const orca::Manifest orca_plugin_manifest{TEST_ABI_VERSION, TEST_MANIFEST_SIZE, "test", nullptr, nullptr};
+const orca::Manifest orca_plugin_manifest{TEST_ABI_VERSION, TEST_MANIFEST_SIZE, 0, "test", nullptr, nullptr};
 }

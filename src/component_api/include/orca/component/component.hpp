@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,7 @@
 #include "orca/component/outcome.hpp"
 #include "orca/component/param.hpp"
 #include "orca/patterns/port_owner.hpp"
+#include "orca/patterns/push.hpp"
 
 namespace orca {
 
@@ -63,12 +65,14 @@ class Component : public PortOwner {
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 
  protected:
-  /// What starts a lap unless the graph says otherwise; without these, the next lap follows at once.
+  /// Says what starts a lap unless the graph says otherwise: a period [s], or a new object on a port. Without
+  /// these, the next lap follows at once.
   /// @pre  called from the constructor or from configure().
   void lap_every(Duration period) { host_.set_default_trigger({Trigger::Kind::period, period, {}}); }
   void lap_on(std::string port) {
     host_.set_default_trigger({Trigger::Kind::on_port, Duration{0}, std::move(port)});
   }
+  void lap_on(const PushProxyHandle& port) { lap_on(port.name()); }
 
   [[nodiscard]] const std::string& name() const { return host_.name(); }
   [[nodiscard]] TimePoint now() const { return host_.now(); }
@@ -77,6 +81,12 @@ class Component : public PortOwner {
   /// Blocks this component for a while.
   /// @errors  throws Interrupted.
   void sleep(Duration time);
+
+  /// Blocks until the condition holds, at most `limit` [s]. The condition is asked whenever something arrives
+  /// at a port of this component.
+  /// @return whether it holds.
+  /// @errors  throws Interrupted when the component must leave its lap; let it pass.
+  bool wait_until(const std::function<bool()>& condition, Duration limit);
 
   void log_debug(std::string_view text) const { host_.write_log(log::Level::debug, text); }
   void log_info(std::string_view text) const { host_.write_log(log::Level::info, text); }

@@ -14,6 +14,8 @@
 
 namespace orca {
 
+class Strand;
+
 /// A parameter as declared by a member of a component or a hardware container.
 struct ParamDeclaration {
   ParamContract contract;
@@ -21,7 +23,7 @@ struct ParamDeclaration {
   std::function<void(const ParamValue&)> set;
 };
 
-/// What a process offers to what it hosts, be it a component or a hardware container.
+/// What a process offers to the components and hardware containers that it hosts.
 ///
 /// Thread contract: declarations from the constructor of the hosted object, the rest from its strand.
 class PluginHost {
@@ -37,7 +39,7 @@ class PluginHost {
   virtual void write_log(log::Level level, std::string_view text) const = 0;
 };
 
-/// What a process offers to a component. Implemented by the runtime; a component author never sees it.
+/// What a process offers to a component. Implemented by the runtime; a component author does not need it.
 class ComponentHost : public PluginHost {
  public:
   virtual void declare_port(PortDeclaration declaration) = 0;
@@ -48,6 +50,7 @@ class ComponentHost : public PluginHost {
   [[nodiscard]] virtual Device* hardware() = 0;
 
   virtual void stay_active(bool active) = 0;
+  /// The strand on which the component runs.
   [[nodiscard]] virtual Strand& strand() = 0;
 };
 

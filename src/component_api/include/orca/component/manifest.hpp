@@ -10,8 +10,9 @@ namespace orca {
 
 class PluginHost;
 
-/// Counts up whenever the layout or meaning of anything that crosses the plugin boundary changes.
-inline constexpr std::uint32_t kAbiVersion = 1;
+/// Counts up whenever the manifest, or the meaning of anything that crosses the plugin boundary, changes. Changes
+/// of layout are found by the build: see Manifest::layout_hash.
+inline constexpr std::uint32_t kAbiVersion = 2;
 
 /// One type that a plugin holds.
 struct TypeEntry {
@@ -24,11 +25,14 @@ struct TypeEntry {
 };
 
 /// The one symbol that a plugin exports, `orca_plugin_manifest`. Plain data: it can be checked before any of
-/// the plugin's code has run. Compatibility is decided by abi_version, size and the objects' type hashes;
-/// build_id is for people.
+/// the plugin's code has run. Compatibility is decided by abi_version, size, layout_hash and the objects' type
+/// hashes; build_id is for people.
 struct Manifest {
   std::uint32_t abi_version;
   std::uint32_t size;  ///< sizeof(Manifest) when the plugin was built.
+  /// Of sizes, offsets and virtual functions of every type that a plugin compiles in, computed by the build
+  /// (cmake/plugin/list_layouts.py). The section "orca_plugin_layouts" of a plugin has it type by type.
+  std::uint64_t layout_hash;
   const char* build_id;
   const TypeEntry* const* first_type;
   const TypeEntry* const* end_of_types;

@@ -1,29 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 
 namespace orca {
-
-/// A number that one thread at a time writes, at the price of a plain one, and that any may read.
-template <class T>
-class Published {
- public:
-  Published(T value = T{}) : value_(value) {}  // NOLINT(google-explicit-constructor)
-  Published& operator=(T value) {
-    value_.store(value, std::memory_order_relaxed);
-    return *this;
-  }
-  Published& operator+=(T more) { return *this = *this + more; }
-  Published& operator++() { return *this += T{1}; }
-  operator T() const {
-    return value_.load(std::memory_order_relaxed);
-  }  // NOLINT(google-explicit-constructor)
-
- private:
-  std::atomic<T> value_;
-};
 
 /// What has happened on one Push edge so far. A plain value.
 struct EdgeCounters {
@@ -33,6 +13,7 @@ struct EdgeCounters {
   std::uint64_t dropped_oldest = 0;    ///< They made room for a newer one.
   std::uint64_t dropped_newest = 0;    ///< They found the queue full.
   std::uint64_t dropped_blocked = 0;   ///< Their publisher waited for room in vain, or had waited before.
+  std::uint64_t dropped_by_link = 0;   ///< The link between two processes had no room for them.
   std::uint64_t left_behind = 0;       ///< They were still in the queue at unsubscribe().
   std::uint64_t waits = 0;             ///< Times that the publisher had to wait for room.
   std::uint64_t missed_deadlines = 0;  ///< Deadlines that passed without an object.

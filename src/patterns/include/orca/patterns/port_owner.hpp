@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 
-#include "orca/patterns/push_endpoint.hpp"
-#include "orca/patterns/query_endpoint.hpp"
-#include "orca/patterns/send_endpoint.hpp"
+#include "orca/base/contract.hpp"
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+#include "orca/idl/object.hpp"
 
 namespace orca {
 
-/// What an author may say about a port when declaring it.
+class Endpoint;
+
+/// Handles an object that was sent; an error is counted and logged.
+using SendHandler = std::function<Status(const ObjectRef&)>;
+/// Answers a question.
+using QueryHandler = std::function<Result<ObjectLoan>(const ObjectRef&)>;
+
+/// The properties that an author may give a port when declaring it.
 struct PortOptions {
   std::string text{};     ///< One sentence for people.
   bool optional = false;  ///< A proxy that may stay unconnected.
@@ -25,22 +35,22 @@ struct PortOptions {
   bool from_device = false;
 };
 
-/// A port as declared by a member of a component.
+/// A port as a member of a component declares it.
 struct PortDeclaration {
   PortContract contract;
   bool manual = false;
-  /// Where the handle wants the address of its endpoint; filled by the host before configure().
+  /// Where the handle keeps the address of its endpoint; filled by the host before configure().
   Endpoint** slot = nullptr;
-  SendServerEndpoint::Handler on_object;    ///< Send servers only.
-  QueryServerEndpoint::Handler on_request;  ///< Query servers only.
+  SendHandler on_object;    ///< Send servers only.
+  QueryHandler on_request;  ///< Query servers only.
 };
 
-/// Whoever has ports: a component.
+/// The owner of ports: a component.
 ///
 /// Thread contract: the thread that constructs it.
 class PortOwner {
  public:
-  /// May throw, because an author's may: the runtime contains it.
+  /// May throw, because an author's destructor may: the runtime contains it.
   virtual ~PortOwner() noexcept(false) = default;
   /// @pre  called from the owner's constructor.
   virtual void declare_port(PortDeclaration declaration) = 0;

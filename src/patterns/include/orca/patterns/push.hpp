@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "orca/patterns/counters.hpp"
 #include "orca/patterns/port_owner.hpp"
+#include "orca/patterns/update_rate.hpp"
 
 namespace orca {
+
+class PushClientEndpoint;
+class PushEdge;
+class PushServerEndpoint;
+class Strand;
 
 /// The untyped part of PushServer.
 class PushServerHandle {
@@ -16,19 +25,24 @@ class PushServerHandle {
   PushServerHandle(const PushServerHandle&) = delete;
   PushServerHandle& operator=(const PushServerHandle&) = delete;
 
-  /// Announces the base period (thesis: start): from now on an object comes each `base_period`; 0:
+  /// Announces the base period (thesis: start): from now on an object comes each `base_period` [s]; 0:
   /// irregularly, as if start() had never been called. Subscribers are granted multiples of it.
-  void start(Duration base_period) { endpoint().announce(base_period); }
-  [[nodiscard]] Duration base_period() const { return endpoint().base_period(); }
+  void start(Duration base_period);
+  [[nodiscard]] Duration base_period() const;
 
-  /// How many clients are subscribed now.
-  [[nodiscard]] std::size_t subscriber_count() const { return endpoint().subscriber_count(); }
+  /// Returns how many clients are subscribed now.
+  [[nodiscard]] std::size_t subscriber_count() const;
 
  protected:
+  /// Stamps the object as an answer to what the component handles, and pushes it.
   void push_loan(ObjectLoan loan);
-  [[nodiscard]] PushServerEndpoint& endpoint() const { return static_cast<PushServerEndpoint&>(*endpoint_); }
+  /// Stamps an object that answers nothing, pushes it, and returns it.
+  /// @thread  the device's strand, for a port that is declared with from_device.
+  ObjectRef push_reading(ObjectLoan reading);
 
  private:
+  [[nodiscard]] PushServerEndpoint& endpoint() const;
+
   Endpoint* endpoint_ = nullptr;
 };
 
@@ -63,31 +77,31 @@ class PushProxyHandle {
   PushProxyHandle(const PushProxyHandle&) = delete;
   PushProxyHandle& operator=(const PushProxyHandle&) = delete;
 
-  /// For a `manual` port; otherwise the runtime subscribes while the component works.
-  void subscribe() { endpoint().subscribe_all(); }
-  void unsubscribe() { endpoint().unsubscribe_all(); }
+  /// Subscribes a `manual` port; the runtime subscribes all others while the component works.
+  void subscribe();
+  void unsubscribe();
 
+  /// The name by which the component declares this port; the graph may call it otherwise.
+  [[nodiscard]] const std::string& name() const { return name_; }
   /// Whether the graph connects this port at all.
-  [[nodiscard]] bool connected() const { return endpoint().connected(); }
+  [[nodiscard]] bool connected() const;
   /// Whether an object has arrived that no get_update has returned yet (thesis: newDataArrived).
-  [[nodiscard]] bool new_data_arrived() const { return endpoint().has_new(); }
+  [[nodiscard]] bool new_data_arrived() const;
   /// Whether the deadline that the graph sets for the edge has passed without a new object; true until one
   /// comes.
-  [[nodiscard]] bool deadline_missed() const { return connected() && edge().deadline_missed(); }
+  [[nodiscard]] bool deadline_missed() const;
 
-  /// Asks for another update rate (thesis 7.3), before or while subscribed: at most one object per interval,
-  /// only every n-th object. The graph's interval is the limit. Without effect on a port that is not
+  /// Asks for another update rate (thesis 7.3), before or while subscribed: at most one object per interval
+  /// [s], only every n-th object. The graph's interval is the limit. Without effect on a port that is not
   /// connected.
   void set_interval(Duration interval) { ask({interval, 1}); }
   void set_multiple(std::uint32_t multiple) { ask({Duration{0}, multiple}); }
-  /// What the server granted; all zero for a port that is not connected.
-  [[nodiscard]] UpdateGrant granted() const { return connected() ? edge().grant() : UpdateGrant{}; }
-  /// Time between two objects that the server announces [s]; 0: none.
-  [[nodiscard]] Duration base_period() const { return connected() ? edge().base_period() : Duration{0}; }
+  /// Returns what the server granted; all zero for a port that is not connected.
+  [[nodiscard]] UpdateGrant granted() const;
+  /// Returns the time between two objects that the server announces [s]; 0: none.
+  [[nodiscard]] Duration base_period() const;
 
-  [[nodiscard]] EdgeCounters counters() const { return connected() ? edge().counters() : EdgeCounters{}; }
-
-  [[nodiscard]] PushClientEndpoint& endpoint() const { return static_cast<PushClientEndpoint&>(*endpoint_); }
+  [[nodiscard]] EdgeCounters counters() const;
 
  protected:
   /// Takes the oldest new object, or null.
@@ -98,11 +112,14 @@ class PushProxyHandle {
   [[nodiscard]] TimePoint deadline_in(Duration limit) const;
 
  private:
-  [[nodiscard]] PushEdge& edge() const { return *endpoint().edges().front(); }
-  void ask(const UpdateRate& rate) {
-    if (connected()) edge().ask(rate);
-  }
+  friend class Synchronizer;
 
+  [[nodiscard]] Strand& strand() const;
+  [[nodiscard]] PushClientEndpoint& endpoint() const;
+  [[nodiscard]] PushEdge& edge() const;
+  void ask(const UpdateRate& rate);
+
+  std::string name_;
   Endpoint* endpoint_ = nullptr;
 };
 
@@ -132,39 +149,82 @@ class PushProxy : public PushProxyHandle {
   [[nodiscard]] ObjectPtr<T> latest() const { return object_cast<T>(latest_ref()); }
 };
 
-/// A port array: objects of one type from any number of PushServers, told apart by the servers' names.
-/// Subscriptions are made by the component, by name, at run time.
+/// The untyped part of a source of a port array.
+class PushSourceHandle {
+ public:
+  /// "component.port" of the server.
+  [[nodiscard]] std::string path() const;
+
+  void subscribe() const;
+  void unsubscribe() const;
+  /// Whether an object has arrived that take_latest() has not returned yet.
+  [[nodiscard]] bool new_data_arrived() const;
+
+  /// Whether both are the same source of the same port.
+  friend bool operator==(const PushSourceHandle&, const PushSourceHandle&) = default;
+
+ protected:
+  explicit PushSourceHandle(PushEdge& edge) : edge_(&edge) {}
+  [[nodiscard]] ObjectRef latest_ref() const;
+  [[nodiscard]] ObjectRef take_latest_ref() const;
+
+ private:
+  PushEdge* edge_;
+};
+
+/// One PushServer that the graph connects to a port array.
+///
+/// A value that refers to the port. Thread contract: the component's strand.
+template <class T>
+class PushSourceOf : public PushSourceHandle {
+ public:
+  explicit PushSourceOf(PushEdge& edge) : PushSourceHandle(edge) {}
+
+  /// Returns the newest object, without taking it; null before the first of this subscription.
+  [[nodiscard]] ObjectPtr<T> latest() const { return object_cast<T>(latest_ref()); }
+  /// Takes everything that waits, and returns the newest object, new or not; null before the first.
+  [[nodiscard]] ObjectPtr<T> take_latest() const { return object_cast<T>(take_latest_ref()); }
+};
+
+/// The untyped part of PushProxyArray.
+class PushProxyArrayHandle {
+ public:
+  PushProxyArrayHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options);
+  PushProxyArrayHandle(const PushProxyArrayHandle&) = delete;
+  PushProxyArrayHandle& operator=(const PushProxyArrayHandle&) = delete;
+
+  /// "component.port" of this port.
+  [[nodiscard]] std::string path() const;
+  void unsubscribe_all();
+
+ protected:
+  [[nodiscard]] std::size_t edge_count() const;
+  [[nodiscard]] PushEdge& edge(std::size_t index) const;
+
+ private:
+  [[nodiscard]] PushClientEndpoint& endpoint() const;
+
+  Endpoint* endpoint_ = nullptr;
+};
+
+/// A port array: objects of one type from any number of PushServers, told apart by the servers' names. The
+/// component subscribes to them itself, by name, at run time.
 ///
 /// Thread contract: the component's strand.
 template <class T>
-class PushProxyArray {
+class PushProxyArray : public PushProxyArrayHandle {
  public:
-  PushProxyArray(PortOwner& owner, std::string name, const PortOptions& options = {}) {
-    PortDeclaration declaration =
-        make_declaration(std::move(name), Pattern::push, Role::proxy, type_id(object_type<T>()), options);
-    declaration.contract.many = true;
-    declaration.manual = true;
-    declaration.slot = &endpoint_;
-    owner.declare_port(std::move(declaration));
+  using Source = PushSourceOf<T>;
+
+  PushProxyArray(PortOwner& owner, std::string name, const PortOptions& options = {})
+      : PushProxyArrayHandle(owner, std::move(name), type_id(object_type<T>()), options) {}
+
+  /// Returns the servers that the graph connects here, subscribed to or not, in the graph's order.
+  [[nodiscard]] std::vector<Source> sources() const {
+    std::vector<Source> all;
+    for (std::size_t i = 0; i < edge_count(); ++i) all.emplace_back(edge(i));
+    return all;
   }
-  PushProxyArray(const PushProxyArray&) = delete;
-  PushProxyArray& operator=(const PushProxyArray&) = delete;
-
-  /// The edges that the graph connects here, subscribed or not.
-  [[nodiscard]] const std::vector<std::unique_ptr<PushEdge>>& edges() const { return endpoint().edges(); }
-
-  /// The newest object of an edge, or null; takes everything that waits on it.
-  [[nodiscard]] static ObjectPtr<T> take_latest(PushEdge& edge) {
-    while (edge.take()) {
-    }
-    return object_cast<T>(edge.latest());
-  }
-
-  void unsubscribe_all() { endpoint().unsubscribe_all(); }
-  [[nodiscard]] PushClientEndpoint& endpoint() const { return static_cast<PushClientEndpoint&>(*endpoint_); }
-
- private:
-  Endpoint* endpoint_ = nullptr;
 };
 
 }  // namespace orca

@@ -5,15 +5,19 @@
 #include <string>
 #include <utility>
 
+#include "orca/patterns/counters.hpp"
 #include "orca/patterns/port_owner.hpp"
+#include "orca/patterns/request_id.hpp"
 
 namespace orca {
+
+class QueryClientEndpoint;
 
 /// The untyped part of QueryServer.
 class QueryServerHandle {
  public:
-  QueryServerHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply,
-                    QueryServerEndpoint::Handler handler, const PortOptions& options);
+  QueryServerHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply, QueryHandler handler,
+                    const PortOptions& options);
   QueryServerHandle(const QueryServerHandle&) = delete;
   QueryServerHandle& operator=(const QueryServerHandle&) = delete;
 
@@ -47,17 +51,18 @@ class QueryProxyHandle {
   QueryProxyHandle(const QueryProxyHandle&) = delete;
   QueryProxyHandle& operator=(const QueryProxyHandle&) = delete;
 
-  [[nodiscard]] bool connected() const { return endpoint().connected(); }
-  [[nodiscard]] RequestCounters counters() const { return endpoint().counters(); }
+  [[nodiscard]] bool connected() const;
+  [[nodiscard]] RequestCounters counters() const;
 
  protected:
+  Result<ObjectRef> ask_loan(ObjectLoan loan, Duration timeout);
   Result<QueryId> request_loan(ObjectLoan loan);
-  [[nodiscard]] TimePoint deadline_in(Duration limit) const;
-  [[nodiscard]] QueryClientEndpoint& endpoint() const {
-    return static_cast<QueryClientEndpoint&>(*endpoint_);
-  }
+  std::optional<Result<ObjectRef>> receive_ref(QueryId id);
+  Result<ObjectRef> receive_wait_ref(QueryId id, Duration timeout);
 
  private:
+  [[nodiscard]] QueryClientEndpoint& endpoint() const;
+
   Endpoint* endpoint_ = nullptr;
 };
 
@@ -78,27 +83,24 @@ class QueryProxy : public QueryProxyHandle {
   /// @errors  failed_precondition if not connected, unavailable if refused, deadline_exceeded, or the
   /// server's own.
   Result<ObjectPtr<A>> query(Loan<Q> request, Duration timeout = 1s) {
-    const Result<QueryId> id = query_request(std::move(request));
-    if (!id) return id.error();
-    try {
-      return query_receive_wait(*id, timeout);
-    } catch (const Interrupted&) {
-      endpoint().forget(*id);  // the caller never saw the id
-      throw;
-    }
+    return typed(ask_loan(std::move(request), timeout));
   }
 
+  /// Asks without waiting for the answer.
+  /// @errors  failed_precondition if not connected; unavailable if refused within this process. Another
+  /// process refuses by its answer.
   Result<QueryId> query_request(Loan<Q> request) { return request_loan(std::move(request)); }
 
-  /// The answer if it is there; nothing while it is not.
+  /// Returns the answer if it is there; nothing while it is not.
   std::optional<Result<ObjectPtr<A>>> query_receive(QueryId id) {
-    std::optional<Result<ObjectRef>> answer = endpoint().receive(id);
+    std::optional<Result<ObjectRef>> answer = receive_ref(id);
     if (!answer) return std::nullopt;
     return typed(std::move(*answer));
   }
 
+  /// Waits for the answer, at most `timeout`; then the question is forgotten.
   Result<ObjectPtr<A>> query_receive_wait(QueryId id, Duration timeout = 1s) {
-    return typed(endpoint().receive_until(id, deadline_in(timeout)));
+    return typed(receive_wait_ref(id, timeout));
   }
 
  private:

@@ -5,14 +5,18 @@
 #include <string>
 #include <utility>
 
+#include "orca/patterns/counters.hpp"
 #include "orca/patterns/port_owner.hpp"
+#include "orca/patterns/request_id.hpp"
 
 namespace orca {
+
+class SendClientEndpoint;
 
 /// The untyped part of SendServer.
 class SendServerHandle {
  public:
-  SendServerHandle(PortOwner& owner, std::string name, TypeId type, SendServerEndpoint::Handler handler,
+  SendServerHandle(PortOwner& owner, std::string name, TypeId type, SendHandler handler,
                    const PortOptions& options);
   SendServerHandle(const SendServerHandle&) = delete;
   SendServerHandle& operator=(const SendServerHandle&) = delete;
@@ -42,13 +46,13 @@ class SendProxyHandle {
   SendProxyHandle(const SendProxyHandle&) = delete;
   SendProxyHandle& operator=(const SendProxyHandle&) = delete;
 
-  [[nodiscard]] bool connected() const { return endpoint().connected(); }
-  [[nodiscard]] RequestCounters counters() const { return endpoint().counters(); }
+  [[nodiscard]] bool connected() const;
+  [[nodiscard]] RequestCounters counters() const;
 
-  /// Whether an object sent by send_request() was accepted or refused; nothing while that is open.
+  /// Tells whether an object sent by send_request() was accepted or refused; nothing while that is open.
   /// @errors  not_found for an id that was never given or whose outcome has been taken.
-  std::optional<Status> send_receive(SendId id) { return endpoint().receive(id); }
-  /// The same, waiting at most `timeout`; then the object is withdrawn.
+  std::optional<Status> send_receive(SendId id);
+  /// Does the same, waiting at most `timeout` [s]; then the object is withdrawn.
   /// @errors  deadline_exceeded; throws Interrupted.
   Status send_receive_wait(SendId id, Duration timeout = 1s);
 
@@ -58,7 +62,8 @@ class SendProxyHandle {
   Result<SendId> request_loan(ObjectLoan loan);
 
  private:
-  [[nodiscard]] SendClientEndpoint& endpoint() const { return static_cast<SendClientEndpoint&>(*endpoint_); }
+  [[nodiscard]] SendClientEndpoint& endpoint() const;
+
   Endpoint* endpoint_ = nullptr;
 };
 

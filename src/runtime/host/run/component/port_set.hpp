@@ -5,6 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "orca/patterns/endpoints/push_client_endpoint.hpp"
+#include "orca/patterns/endpoints/push_server_endpoint.hpp"
+#include "orca/patterns/endpoints/query_client_endpoint.hpp"
+#include "orca/patterns/endpoints/query_server_endpoint.hpp"
+#include "orca/patterns/endpoints/send_client_endpoint.hpp"
+#include "orca/patterns/endpoints/send_server_endpoint.hpp"
 #include "orca/patterns/port_owner.hpp"
 
 namespace orca::host {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace orca::bytes {
+
+/// A bounded queue of bytes, without locks.
+///
+/// Thread contract: write() from one thread at a time, read() from one thread at a time.
+class ByteQueue {
+ public:
+  explicit ByteQueue(std::size_t capacity) : ring_(capacity) {}
+
+  /// Appends as many of the bytes as there is room for.
+  /// @return how many.
+  std::size_t write(std::span<const std::byte> bytes);
+  /// Takes the oldest bytes, as many as there are and as `to` has room for.
+  /// @return how many.
+  std::size_t read(std::span<std::byte> to);
+
+ private:
+  std::vector<std::byte> ring_;
+  // Bytes ever written and ever read; the difference is in the queue.
+  std::atomic<std::size_t> written_{0};
+  std::atomic<std::size_t> read_{0};
+};
+
+}  // namespace orca::bytes

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "byte_end.hpp"
+#include "orca/patterns/endpoints/endpoint.hpp"
+#include "orca/patterns/endpoints/push_link.hpp"
+
+namespace orca::bytes {
+
+/// The client's end of a Push edge: stands for the server's source.
+///
+/// Thread contract: as PushSource.
+class PushSourceOverBytes final : public PushSource, public LinkEnd {
+ public:
+  /// @param path         of the server.
+  /// @param base_period  of the server at present [s]; later ones come with what it grants.
+  PushSourceOverBytes(Connection connection, const ObjectType& type, std::string path, Duration base_period);
+  ~PushSourceOverBytes() override { end_.stop(); }
+
+  void attach(PushSink& sink, const UpdateRate& rate) override;
+  void detach() override;
+  void change(const UpdateRate& rate) override;
+  void room() override;
+  [[nodiscard]] Duration base_period() const override;
+  [[nodiscard]] std::string path() const override { return path_; }
+
+ private:
+  // An object that did not fit in, and for which its publisher waits.
+  struct Held {
+    ObjectRef object;
+    std::uint64_t ticket;
+  };
+
+  Status receive(FrameReader& frame);
+  Status receive_object(FrameReader& frame);
+  void receive_grant(const UpdateGrant& grant);
+  void deliver(ObjectRef object, std::uint64_t ticket);
+
+  const ObjectType& type_;
+  const std::string path_;
+
+  mutable std::mutex mutex_;
+  // Below: guarded by mutex_.
+  PushSink* sink_ = nullptr;        // null: not subscribed
+  std::uint64_t subscription_ = 0;  // counts them, so that nothing of an earlier one is delivered
+  Duration base_period_;
+  std::optional<Held> held_;
+
+  ByteEnd end_;  // the last member: its task uses the others
+};
+
+/// The server's end of a Push edge: stands for the client's sink. Where the edge's policy is `block`, a publisher
+/// waits for each object until the client has taken it in, which costs a round trip.
+///
+/// Thread contract: as PushSink.
+class PushSinkOverBytes final : public PushSink, public LinkEnd {
+ public:
+  PushSinkOverBytes(Connection connection, PushSource& source, const QueuePolicy& policy);
+  ~PushSinkOverBytes() override;
+
+  std::optional<Duration> deliver(ObjectRef&& object) override;
+  void give_up(const ObjectRef& object) override;
+  void granted(const UpdateGrant& grant) override;
+  void lost(std::uint64_t objects) override;
+
+ private:
+  Status receive(FrameReader& frame);
+  void push(const ObjectRef& object);
+  std::optional<Duration> push_and_wait(const ObjectRef& object);
+  [[nodiscard]] std::uint64_t subscription() const;
+
+  PushSource& source_;
+  const bool waits_;  // for room
+  const Duration limit_;
+  std::uint64_t losses_ = 0;  // not yet told; the publisher's strand
+
+  mutable std::mutex mutex_;
+  // Below: guarded by mutex_.
+  std::uint64_t subscription_ = 0;
+  ObjectRef in_flight_;  // sent, and not yet taken
+  std::uint64_t ticket_ = 0;
+  bool taken_ = false;
+
+  ByteEnd end_;  // the last member: its task uses the others
+};
+
+}  // namespace orca::bytes

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/patterns/endpoints/links.hpp"
+
+#include <string>
+
+namespace orca {
+namespace {
+
+Error mismatch(const Endpoint& from, const Endpoint& to) {
+  const auto describe = [](const Endpoint& end) {
+    return end.path() + " (" + to_string(end.contract().pattern) + to_string(end.contract().role) + " of " +
+           end.contract().type.name + ")";
+  };
+  return fail(Code::invalid_argument, "cannot connect " + describe(from) + " to " + describe(to));
+}
+
+bool fits(const PortContract& from, const PortContract& to) {
+  const Role starts = from.pattern == Pattern::push ? Role::server : Role::proxy;
+  return from.pattern == to.pattern && from.role == starts && to.role != starts && from.type == to.type &&
+         from.reply == to.reply;
+}
+
+template <class Client>
+Status check_free(const Client& client) {
+  if (!client.connected() || client.contract().many) return ok();
+  return fail(Code::already_exists, client.path() + " is connected already");
+}
+
+Status check_push(const PushServerEndpoint& server, const PushClientEndpoint& client,
+                  const QueuePolicy& policy) {
+  if (Status free = check_free(client); !free.ok()) return free;
+  if (policy.overflow == QueuePolicy::Overflow::block && server.contract().from_device)
+    return fail(Code::invalid_argument,
+                "an edge from " + server.path() +
+                    " cannot block, because a device pushes there and waits for nobody");
+  return ok();
+}
+
+}  // namespace
+
+Status Links::connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy) {
+  if (!fits(from.contract(), to.contract())) return mismatch(from, to);
+  Status possible;
+  if (from.contract().pattern == Pattern::push) {
+    auto& server = static_cast<PushServerEndpoint&>(from);
+    auto& client = static_cast<PushClientEndpoint&>(to);
+    possible = check_push(server, client, policy);
+    if (possible.ok()) push(server, client, policy);
+  } else if (from.contract().pattern == Pattern::send) {
+    auto& client = static_cast<SendClientEndpoint&>(from);
+    possible = check_free(client);
+    if (possible.ok()) send(client, static_cast<SendServerEndpoint&>(to), policy);
+  } else {
+    auto& client = static_cast<QueryClientEndpoint&>(from);
+    possible = check_free(client);
+    if (possible.ok()) query(client, static_cast<QueryServerEndpoint&>(to));
+  }
+  return possible;
+}
+
+}  // namespace orca

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/patterns/endpoints/provenance.hpp"
+
+namespace orca {
+
+void Provenance::begin_handling(const idl::OrcaObject& object) {
+  mission_ = object.mission();
+  note(object);
+}
+
+void Provenance::begin_task(const idl::OrcaObject& object) {
+  task_mission_ = object.mission();
+  begin_handling(object);
+}
+
+void Provenance::note(const idl::OrcaObject& received) {
+  if (const std::uint64_t mission = received.mission(); mission != 0) mission_ = mission;
+  if (const std::string& origin = received.origin(); origin_ != origin) origin_ = origin;
+  seq_ = received.seq();
+}
+
+void Provenance::stamp(idl::OrcaObject& sent) const {
+  if (mission_ != 0 && sent.mission() == 0) sent.mission(mission_);
+  if (seq_ == 0) return;  // nothing was received yet
+  idl::Cause& cause = sent.cause();
+  cause.origin() = origin_;
+  cause.seq(seq_);
+}
+
+}  // namespace orca

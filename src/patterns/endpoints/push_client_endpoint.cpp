@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/patterns/endpoints/push_client_endpoint.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace orca {
+
+PushClientEndpoint::PushClientEndpoint(PortHome& home, PortContract contract)
+    : Endpoint(home, std::move(contract)) {}
+
+PushEdge& PushClientEndpoint::connect(PushSource& source, const QueuePolicy& policy) {
+  assert(contract().many || edges_.empty());
+  edges_.push_back(std::make_unique<PushEdge>(*this, source, policy));
+  return *edges_.back();
+}
+
+bool PushClientEndpoint::has_new() const {
+  return std::any_of(edges_.begin(), edges_.end(), [](const auto& edge) { return edge->has_new(); });
+}
+
+void PushClientEndpoint::subscribe_all() {
+  for (const auto& edge : edges_) edge->subscribe();
+}
+
+void PushClientEndpoint::unsubscribe_all() {
+  for (const auto& edge : edges_) edge->unsubscribe();
+}
+
+}  // namespace orca

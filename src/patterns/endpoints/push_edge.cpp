@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/patterns/endpoints/push_edge.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace orca {
+
+PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy)
+    : client_(client),
+      source_(source),
+      policy_(policy),
+      mutex_(client.home().strand.executive()),
+      ring_(policy.depth) {
+  assert(policy.depth > 0);
+}
+
+void PushEdge::subscribe() {
+  if (subscribed()) return;
+  if (policy_.deadline > Duration{0}) last_arrival_ = now().time_since_epoch().count();
+  subscribed_.store(true, std::memory_order_release);
+  if (LinkObserver* observer = client_.home().observer)
+    observer->link_changed(client_.path(), source_.path(), true);
+  source_.attach(*this, rate());
+}
+
+void PushEdge::unsubscribe() {
+  if (!subscribed()) return;
+  source_.detach();
+  if (LinkObserver* observer = client_.home().observer)
+    observer->link_changed(client_.path(), source_.path(), false);
+  if (policy_.deadline > Duration{0}) counts_.missed_deadlines = missed_until(now());
+  subscribed_.store(false, std::memory_order_release);
+  const std::lock_guard lock(mutex_);
+  counts_.left_behind += count_;
+  count_.store(0, std::memory_order_release);
+  std::fill(ring_.begin(), ring_.end(), ObjectRef{});
+  newest_ = ObjectRef{};  // what was true before is not news to the next subscription
+  publisher_waits_ = subscriber_stuck_ = false;
+}
+
+void PushEdge::ask(const UpdateRate& rate) {
+  asked_ = rate;
+  if (subscribed()) source_.change(this->rate());
+}
+
+UpdateRate PushEdge::rate() const {
+  return {std::max(asked_.interval, policy_.min_interval), asked_.multiple};
+}
+
+UpdateGrant PushEdge::grant() const {
+  const std::lock_guard lock(grant_mutex_);
+  return grant_;
+}
+
+void PushEdge::granted(const UpdateGrant& grant) {
+  const std::lock_guard lock(grant_mutex_);
+  grant_ = grant;
+}
+
+std::optional<Duration> PushEdge::deliver(ObjectRef&& object) {
+  const ObjectRef seen = client_.observed() ? object : ObjectRef{};
+  {
+    const std::lock_guard lock(mutex_);
+    std::uint32_t count = count_.load(std::memory_order_relaxed);
+    if (count == policy_.depth) {
+      if (!make_room()) return publisher_waits_ ? std::optional(policy_.block_limit) : std::nullopt;
+      --count;
+    }
+    put(std::move(object), count);
+  }
+  if (seen) client_.observe(seen);
+  client_.home().strand.wake();
+  return std::nullopt;
+}
+
+// False if the new object cannot go in; it is counted, or its publisher waits.
+bool PushEdge::make_room() {
+  switch (policy_.overflow) {
+    case QueuePolicy::Overflow::drop_oldest:
+      ++counts_.dropped_oldest;
+      if (++first_ == policy_.depth) first_ = 0;
+      return true;
+    case QueuePolicy::Overflow::block:
+      if (subscriber_stuck_) {
+        ++counts_.dropped_blocked;
+      } else if (!std::exchange(publisher_waits_, true)) {
+        ++counts_.waits;
+      }
+      return false;
+    default: ++counts_.dropped_newest; return false;
+  }
+}
+
+// Into the queue, which holds `count` objects.
+void PushEdge::put(ObjectRef&& object, std::uint32_t count) {
+  std::uint32_t last = first_ + count;
+  if (last >= policy_.depth) last -= policy_.depth;
+  ring_[last] = std::move(object);
+  if (newest_) newest_ = ObjectRef{};
+  publisher_waits_ = false;
+  count_.store(count + 1, std::memory_order_release);
+  if (count + 1 > counts_.high_water) counts_.high_water = count + 1;
+  ++counts_.delivered;
+  if (policy_.deadline > Duration{0}) arrive(now());
+}
+
+void PushEdge::arrive(TimePoint time) {
+  const std::uint64_t missed = missed_until(time);
+  last_arrival_ = time.time_since_epoch().count();
+  counts_.missed_deadlines = missed;
+}
+
+void PushEdge::give_up(const ObjectRef& /*object*/) {
+  const std::lock_guard lock(mutex_);
+  ++counts_.dropped_blocked;
+  publisher_waits_ = false;
+  subscriber_stuck_ = true;
+}
+
+void PushEdge::lost(std::uint64_t objects) {
+  const std::lock_guard lock(mutex_);
+  counts_.dropped_by_link += objects;
+}
+
+ObjectRef PushEdge::take() {
+  if (!has_new()) return {};
+  client_.home().strand.note_activity();
+  ObjectRef object;
+  bool waited_for = false;
+  {
+    const std::lock_guard lock(mutex_);
+    const std::uint32_t count = count_.load(std::memory_order_relaxed);
+    object = std::move(ring_[first_]);
+    if (count == 1) newest_ = object;
+    if (++first_ == policy_.depth) first_ = 0;
+    count_.store(count - 1, std::memory_order_release);
+    subscriber_stuck_ = false;
+    waited_for = std::exchange(publisher_waits_, false);
+  }
+  if (waited_for) source_.room();
+  client_.home().strand.note_activity();
+  return object;
+}
+
+ObjectRef PushEdge::latest() const {
+  const std::lock_guard lock(mutex_);
+  const std::uint32_t count = count_.load(std::memory_order_relaxed);
+  return count == 0 ? newest_ : ring_[(first_ + count - 1) % policy_.depth];
+}
+
+// With a deadline only.
+std::uint64_t PushEdge::missed_until(TimePoint time) const {
+  const Duration since = time.time_since_epoch() - Duration(last_arrival_);
+  if (since <= Duration{0}) return counts_.missed_deadlines;
+  return counts_.missed_deadlines + static_cast<std::uint64_t>((since - Duration{1}) / policy_.deadline);
+}
+
+bool PushEdge::deadline_missed() const {
+  if (policy_.deadline <= Duration{0} || !subscribed()) return false;
+  return now().time_since_epoch() - Duration(last_arrival_) > policy_.deadline;
+}
+
+EdgeCounters PushEdge::counters() const {
+  EdgeCounters counted;
+  counted.delivered = counts_.delivered;
+  counted.dropped_oldest = counts_.dropped_oldest;
+  counted.dropped_newest = counts_.dropped_newest;
+  counted.dropped_blocked = counts_.dropped_blocked;
+  counted.dropped_by_link = counts_.dropped_by_link;
+  counted.left_behind = counts_.left_behind;
+  counted.dropped = counted.dropped_oldest + counted.dropped_newest + counted.dropped_blocked +
+                    counted.dropped_by_link + counted.left_behind;
+  counted.waits = counts_.waits;
+  const bool due = policy_.deadline > Duration{0} && subscribed();
+  counted.missed_deadlines = due ? missed_until(now()) : std::uint64_t{counts_.missed_deadlines};
+  counted.queued = count_.load(std::memory_order_relaxed);
+  counted.high_water = counts_.high_water;
+  return counted;
+}
+
+}  // namespace orca

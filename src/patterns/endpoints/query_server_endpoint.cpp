@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/patterns/endpoints/query_server_endpoint.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace orca {
+
+// One client's part of the intake.
+class QueryServerEndpoint::Edge final : public QueryTarget {
+ public:
+  explicit Edge(QueryServerEndpoint& server) : server_(server) {}
+
+  std::optional<Result<ObjectRef>> offer(const ObjectRef& request, QueryReplySink& reply_to, QueryId id,
+                                         bool may_wait) override;
+  void withdraw(QueryId /*id*/) override {}  // no question is held: it was accepted or refused at once
+  [[nodiscard]] Duration patience() const override { return Duration{0}; }
+  [[nodiscard]] std::string path() const override { return server_.path(); }
+
+  std::uint32_t waiting = 0;  // guarded by the server's lock
+
+ private:
+  QueryServerEndpoint& server_;
+};
+
+std::optional<Result<ObjectRef>> QueryServerEndpoint::Edge::offer(const ObjectRef& request,
+                                                                  QueryReplySink& reply_to, QueryId id,
+                                                                  bool /*may_wait*/) {
+  {
+    const std::lock_guard lock(server_.mutex_);
+    IntakeCounters& counters = server_.counters_;
+    if (!server_.handler_) {
+      ++counters.refused_closed;
+      return fail(Code::unavailable, path() + " answers nothing, because " + server_.closed_because_);
+    }
+    if (waiting >= server_.contract().queue.depth) {
+      ++counters.refused_full;
+      return fail(Code::unavailable, path() + " is full: " + std::to_string(waiting) +
+                                         " questions of this client wait to be answered; ask again later");
+    }
+    server_.waiting_.push_back({this, request, &reply_to, id});
+    ++waiting;
+    ++counters.accepted;
+    counters.high_water = std::max(counters.high_water, static_cast<std::uint32_t>(server_.waiting_.size()));
+  }
+  server_.observe(request);
+  server_.home().strand.wake();
+  return std::nullopt;
+}
+
+QueryServerEndpoint::QueryServerEndpoint(PortHome& home, PortContract contract)
+    : Endpoint(home, std::move(contract)) {}
+
+QueryServerEndpoint::~QueryServerEndpoint() { cut_links(); }
+
+QueryTarget& QueryServerEndpoint::connect() {
+  edges_.push_back(std::make_unique<Edge>(*this));
+  return *edges_.back();
+}
+
+void QueryServerEndpoint::open(Handler handler) {
+  const std::lock_guard lock(mutex_);
+  handler_ = std::make_shared<const Handler>(std::move(handler));
+}
+
+void QueryServerEndpoint::close(const std::string& reason) {
+  std::deque<Question> left;
+  {
+    const std::lock_guard lock(mutex_);
+    handler_ = nullptr;
+    closed_because_ = reason;
+    left.swap(waiting_);
+    for (const auto& edge : edges_) edge->waiting = 0;
+  }
+  for (const Question& question : left)
+    question.reply_to->reply(question.id,
+                             fail(Code::unavailable, path() + " answers nothing, because " + reason));
+}
+
+std::optional<QueryServerEndpoint::Question> QueryServerEndpoint::next(
+    std::shared_ptr<const Handler>& handler) {
+  const std::lock_guard lock(mutex_);
+  if (waiting_.empty() || !handler_) return std::nullopt;
+  handler = handler_;
+  Question question = std::move(waiting_.front());
+  waiting_.pop_front();
+  --question.edge->waiting;
+  return question;
+}
+
+bool QueryServerEndpoint::handle_one() {
+  std::shared_ptr<const Handler> handler;
+  const std::optional<Question> question = next(handler);
+  if (!question) return false;
+  home().provenance.begin_handling(question->request.header());
+  try {
+    answer(*question, (*handler)(question->request));
+  } catch (...) {
+    answer(*question, fail(Code::internal, path() + " threw while it answered"));
+    throw;
+  }
+  return true;
+}
+
+void QueryServerEndpoint::answer(const Question& question, Result<ObjectLoan> answer) {
+  if (answer) {
+    ObjectLoan loan = std::move(answer).value();
+    Provenance of_question;  // not home().provenance: the handler may have taken other objects meanwhile
+    of_question.begin_handling(question.request.header());
+    stamp(loan, &of_question);
+    question.reply_to->reply(question.id, std::move(loan).seal());
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    ++counters_.failed;
+  }
+  question.reply_to->reply(question.id, answer.error());
+}
+
+bool QueryServerEndpoint::has_waiting() const {
+  const std::lock_guard lock(mutex_);
+  return !waiting_.empty();
+}
+
+IntakeCounters QueryServerEndpoint::counters() const {
+  const std::lock_guard lock(mutex_);
+  IntakeCounters now_counted = counters_;
+  now_counted.refused = counters_.refused_full + counters_.refused_closed;
+  now_counted.queued = static_cast<std::uint32_t>(waiting_.size());
+  return now_counted;
+}
+
+}  // namespace orca

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/patterns/endpoints/request_client.hpp"
+
+#include <string>
+#include <utility>
+
+namespace orca {
+namespace {
+
+// The object that an answer brings; null if it brings none.
+ObjectRef object_of(const Result<ObjectRef>& answer) { return answer ? *answer : ObjectRef{}; }
+ObjectRef object_of(const Status& /*outcome*/) { return {}; }
+
+}  // namespace
+
+template <class Answer>
+RequestClient<Answer>::RequestClient(PortHome& home, PortContract contract, const Words& words)
+    : Endpoint(home, std::move(contract)), words_(words) {}
+
+template <class Answer>
+Result<typename RequestClient<Answer>::Offered> RequestClient<Answer>::offer(ObjectLoan loan,
+                                                                             const Provenance* provenance,
+                                                                             bool may_wait) {
+  if (target_ == nullptr)
+    return fail(Code::failed_precondition, "port " + path() + " is not connected; add <connect from=\"" +
+                                               path() + "\" to=\"...\"/> to the graph");
+  stamp(loan, provenance);
+  const RequestId id = pending_.add();
+  ++sent_;
+  std::optional<Answer> at_once = target_->offer(std::move(loan).seal(), *this, id, may_wait);
+  if (!at_once) return Offered{id, false};
+  pending_.answer(id, std::move(*at_once));
+  return Offered{id, true};
+}
+
+template <class Answer>
+std::optional<Answer> RequestClient<Answer>::receive(RequestId id) {
+  std::optional<Answer> answer = pending_.take(id);
+  if (!answer) {
+    if (pending_.state(id) != Pending::State::unknown) return std::nullopt;
+    return Answer(fail(Code::not_found, path() + " has " + words_.unknown + " " + std::to_string(id)));
+  }
+  if (const ObjectRef object = object_of(*answer)) home().provenance.note(object.header());
+  ++(*answer ? answered_ : failed_);
+  return answer;
+}
+
+template <class Answer>
+Answer RequestClient<Answer>::receive_until(RequestId id, TimePoint deadline) {
+  home().strand.wait_for(deadline, [&] { return pending_.state(id) != Pending::State::waiting; });
+  if (std::optional<Answer> answer = receive(id)) return std::move(*answer);
+  target_->withdraw(id);
+  if (std::optional<Answer> answer = receive(id)) return std::move(*answer);  // it came at the last moment
+  pending_.forget(id);
+  ++timed_out_;
+  return fail(Code::deadline_exceeded,
+              target_->path() + " " + words_.late + " " + path() + " " + words_.late_ending);
+}
+
+template <class Answer>
+void RequestClient<Answer>::withdraw(RequestId id) {
+  if (target_ != nullptr) target_->withdraw(id);
+  pending_.forget(id);
+}
+
+template <class Answer>
+void RequestClient<Answer>::reply(RequestId id, Answer answer) {
+  const ObjectRef object = object_of(answer);
+  if (!pending_.answer(id, std::move(answer))) return;  // the client gave up waiting
+  if (object) observe(object);
+  home().strand.wake();
+}
+
+template <class Answer>
+RequestCounters RequestClient<Answer>::counters() const {
+  return {sent_, answered_, failed_, timed_out_};
+}
+
+template class RequestClient<Result<ObjectRef>>;
+template class RequestClient<Status>;
+
+}  // namespace orca

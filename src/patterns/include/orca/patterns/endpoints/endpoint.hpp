@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "orca/base/contract.hpp"
+#include "orca/base/strand.hpp"
+#include "orca/idl/object.hpp"
+#include "orca/patterns/endpoints/link_observer.hpp"
+#include "orca/patterns/endpoints/provenance.hpp"
+
+namespace orca {
+
+/// What all ports of one component share.
+struct PortHome {
+  Strand& strand;
+  std::string component;
+  LinkObserver* observer = nullptr;  ///< May be null.
+  Provenance provenance{};           ///< Touched by the component's strand only.
+};
+
+/// One end of a link, as long as it serves a port. Its destructor cuts the link at this end: afterwards
+/// nothing of the link touches the port any more.
+class LinkEnd {
+ public:
+  virtual ~LinkEnd() = default;
+};
+
+/// The part of a port that belongs to the host process and survives a swap of the plugin behind it. The
+/// handles that an author sees (PushProxy and friends) only point here.
+class Endpoint {
+ public:
+  Endpoint(PortHome& home, PortContract contract);
+  virtual ~Endpoint();
+  Endpoint(const Endpoint&) = delete;
+  Endpoint& operator=(const Endpoint&) = delete;
+
+  [[nodiscard]] const PortContract& contract() const { return contract_; }
+  [[nodiscard]] const std::string& component() const { return home_.component; }
+  [[nodiscard]] std::string path() const { return home_.component + "." + contract_.name; }
+  [[nodiscard]] PortHome& home() const { return home_; }
+
+  /// Whether there is an observer.
+  [[nodiscard]] bool observed() const { return home_.observer != nullptr; }
+  /// Tells the observer, if there is one, that an object has come to this port.
+  void observe(const ObjectRef& object) const {
+    if (home_.observer != nullptr) home_.observer->delivered(home_.component, contract_.name, object);
+  }
+
+  /// Keeps the end of a link that serves this port; the port ends it before it ends itself.
+  /// @thread  before the component runs.
+  void adopt(std::unique_ptr<LinkEnd> end) { link_ends_.push_back(std::move(end)); }
+
+ protected:
+  /// Fills the header of an object that leaves through this port.
+  void stamp(ObjectLoan& loan, const Provenance* provenance);
+
+  /// Ends all links of this port. Each final class calls it in its destructor, before its members go.
+  void cut_links() { link_ends_.clear(); }
+
+ private:
+  PortHome& home_;
+  PortContract contract_;
+  std::uint64_t next_seq_ = 1;
+  std::vector<std::unique_ptr<LinkEnd>> link_ends_;
+};
+
+}  // namespace orca

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "orca/patterns/endpoints/endpoint.hpp"
+#include "orca/patterns/endpoints/push_edge.hpp"
+
+namespace orca {
+
+/// The client side of Push: the edges that end at one PushProxy; at most one unless the port is an array.
+class PushClientEndpoint final : public Endpoint {
+ public:
+  PushClientEndpoint(PortHome& home, PortContract contract);
+  ~PushClientEndpoint() override { cut_links(); }
+
+  /// Adds an edge, not yet subscribed.
+  PushEdge& connect(PushSource& source, const QueuePolicy& policy);
+
+  [[nodiscard]] bool connected() const { return !edges_.empty(); }
+  [[nodiscard]] const std::vector<std::unique_ptr<PushEdge>>& edges() const { return edges_; }
+  [[nodiscard]] bool has_new() const;
+
+  void subscribe_all();
+  void unsubscribe_all();
+
+ private:
+  std::vector<std::unique_ptr<PushEdge>> edges_;
+};
+
+}  // namespace orca

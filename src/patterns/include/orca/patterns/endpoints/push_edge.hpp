@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/base/task_mutex.hpp"
+#include "orca/patterns/counters.hpp"
+#include "orca/patterns/endpoints/endpoint.hpp"
+#include "orca/patterns/endpoints/published.hpp"
+#include "orca/patterns/endpoints/push_link.hpp"
+
+namespace orca {
+
+/// The client side of one Push edge: the subscription and its queue.
+///
+/// Thread contract: deliver(), give_up(), granted() and lost() from the server's side; counters(), grant() and the
+/// paths from anywhere; the rest from the client's strand.
+class PushEdge final : public PushSink {
+ public:
+  PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy);
+
+  void subscribe();
+  void unsubscribe();
+  [[nodiscard]] bool subscribed() const { return subscribed_.load(std::memory_order_acquire); }
+
+  /// Asks to be updated at another rate, now or from the next subscription on. The rate that the graph gives
+  /// the edge is the limit.
+  void ask(const UpdateRate& rate);
+  /// Returns the rate that the server granted in this subscription, or in the last one.
+  [[nodiscard]] UpdateGrant grant() const;
+
+  std::optional<Duration> deliver(ObjectRef&& object) override;
+  void give_up(const ObjectRef& object) override;
+  void granted(const UpdateGrant& grant) override;
+  void lost(std::uint64_t objects) override;
+
+  /// Takes the oldest object not yet taken; null if there is none.
+  [[nodiscard]] ObjectRef take();
+  /// Returns the newest object, taken or not; null before the first.
+  [[nodiscard]] ObjectRef latest() const;
+  [[nodiscard]] bool has_new() const { return count_.load(std::memory_order_acquire) > 0; }
+
+  /// Whether the edge's deadline has passed since the last object, or since the subscription; true until the
+  /// next object comes. Always false without a deadline.
+  [[nodiscard]] bool deadline_missed() const;
+
+  [[nodiscard]] EdgeCounters counters() const;
+  [[nodiscard]] const QueuePolicy& policy() const { return policy_; }
+  [[nodiscard]] std::string source_path() const { return source_.path(); }
+  [[nodiscard]] Duration base_period() const { return source_.base_period(); }
+
+ private:
+  // The numbers of EdgeCounters, each readable at any time.
+  struct Counts {
+    Published<std::uint64_t> delivered;
+    Published<std::uint64_t> dropped_oldest;
+    Published<std::uint64_t> dropped_newest;
+    Published<std::uint64_t> dropped_blocked;
+    Published<std::uint64_t> dropped_by_link;
+    Published<std::uint64_t> left_behind;
+    Published<std::uint64_t> waits;
+    Published<std::uint64_t> missed_deadlines;
+    Published<std::uint32_t> high_water;
+  };
+
+  bool make_room();
+  void put(ObjectRef&& object, std::uint32_t count);
+  void arrive(TimePoint time);
+  [[nodiscard]] UpdateRate rate() const;
+  [[nodiscard]] TimePoint now() const { return client_.home().strand.executive().now(); }
+  [[nodiscard]] std::uint64_t missed_until(TimePoint time) const;
+
+  Endpoint& client_;
+  PushSource& source_;
+  const QueuePolicy policy_;
+  UpdateRate asked_;
+  std::atomic<bool> subscribed_{false};
+  Counts counts_;
+  Published<Duration::rep> last_arrival_;  // of an object, or of the subscription; only kept with a deadline
+
+  mutable std::mutex grant_mutex_;
+  UpdateGrant grant_;  // guarded by grant_mutex_
+
+  mutable TaskMutex mutex_;
+  // Below: guarded by mutex_. The count may be read at any time.
+  std::atomic<std::uint32_t> count_{0};
+  std::uint32_t first_ = 0;
+  std::vector<ObjectRef> ring_;    // never grows: no allocation per object
+  ObjectRef newest_;               // as long as it is not in the ring
+  bool publisher_waits_ = false;   // for room
+  bool subscriber_stuck_ = false;  // it took nothing during a whole wait: nobody waits for it until it does
+};
+
+}  // namespace orca

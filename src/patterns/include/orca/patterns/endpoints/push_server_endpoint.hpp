@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "orca/base/task_mutex.hpp"
+#include "orca/patterns/endpoints/endpoint.hpp"
+#include "orca/patterns/endpoints/published.hpp"
+#include "orca/patterns/endpoints/push_link.hpp"
+
+namespace orca {
+
+/// The server side of Push: hands every object to all subscribers, each of which has a queue of its own.
+///
+/// Thread contract: connect() before the component runs; seal() and publish() from one task at a time;
+/// announce() and the sources from any task; the rest from any thread.
+class PushServerEndpoint final : public Endpoint {
+ public:
+  PushServerEndpoint(PortHome& home, PortContract contract);
+  ~PushServerEndpoint() override;
+
+  /// Adds an edge, not yet subscribed.
+  PushSource& connect();
+
+  /// Announces how often objects come from now on; 0: irregularly. All subscribers are granted their rates anew.
+  void announce(Duration base_period);
+  [[nodiscard]] Duration base_period() const { return Duration(base_period_); }
+
+  /// Stamps an object that is to be published: from now on nobody can change it.
+  /// @param provenance  what the object answers; null: nothing.
+  /// @thread  the component's strand; any other only if the contract says from_device.
+  [[nodiscard]] ObjectRef seal(ObjectLoan loan, const Provenance* provenance);
+
+  /// Hands a sealed object to all subscribers. Only edges whose policy is `block` can make it wait, after all
+  /// others have the object; that wait ends early when the component must leave its lap, and the object is
+  /// dropped there.
+  /// @thread  as seal(), which it follows.
+  void publish(ObjectRef object);
+
+  [[nodiscard]] std::size_t subscriber_count() const { return subscribers_.load(std::memory_order_acquire); }
+  /// Objects pushed so far, with or without subscribers.
+  [[nodiscard]] std::uint64_t pushed_count() const { return pushed_; }
+
+ private:
+  class Edge;
+
+  bool hand_out(ObjectRef& object);
+  void wait_for_room(const ObjectRef& object);
+  bool settle(const ObjectRef& object);
+  void give_up(const ObjectRef& object);
+  [[nodiscard]] TimePoint next_limit() const;
+
+  std::vector<std::unique_ptr<Edge>> edges_;  // all that are connected
+  std::atomic<std::size_t> subscribers_{0};
+  Published<std::uint64_t> pushed_;
+  Published<Duration::rep> base_period_;
+
+  mutable TaskMutex mutex_;
+  std::vector<Edge*> subscribed_;  // in order of subscription; guarded by mutex_, as the edges' content is
+};
+
+}  // namespace orca

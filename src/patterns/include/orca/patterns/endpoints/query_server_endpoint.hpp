@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/patterns/counters.hpp"
+#include "orca/patterns/endpoints/endpoint.hpp"
+#include "orca/patterns/endpoints/request_link.hpp"
+
+namespace orca {
+
+/// The server side of Query: questions wait here until the component's strand answers them between two laps.
+/// Each edge has room for as many as the port's depth says.
+///
+/// Thread contract: connect() before the components run; the targets from any task; the rest from the server's
+/// strand.
+class QueryServerEndpoint final : public Endpoint {
+ public:
+  using Handler = std::function<Result<ObjectLoan>(const ObjectRef&)>;
+
+  QueryServerEndpoint(PortHome& home, PortContract contract);
+  ~QueryServerEndpoint() override;
+
+  /// Adds an edge.
+  QueryTarget& connect();
+
+  void open(Handler handler);
+  /// Closes the intake and answers what still waits with `reason` as the error.
+  void close(const std::string& reason);
+
+  /// Answers one waiting question.
+  /// @return false if none was waiting. An exception of the handler is passed on after the client has got an
+  /// error as its answer.
+  bool handle_one();
+
+  /// Whether something waits to be handled.
+  [[nodiscard]] bool has_waiting() const;
+  /// Of all edges together.
+  [[nodiscard]] IntakeCounters counters() const;
+
+ private:
+  class Edge;
+  struct Question {
+    Edge* edge = nullptr;
+    ObjectRef request;
+    QueryReplySink* reply_to = nullptr;
+    QueryId id = 0;
+  };
+
+  std::optional<Question> next(std::shared_ptr<const Handler>& handler);
+  void answer(const Question& question, Result<ObjectLoan> answer);
+
+  std::vector<std::unique_ptr<Edge>> edges_;
+
+  mutable std::mutex mutex_;
+  // Below, and the edges' content: guarded by mutex_.
+  std::deque<Question> waiting_;
+  std::shared_ptr<const Handler> handler_;
+  std::string closed_because_ = "it has not been started yet";
+  IntakeCounters counters_;
+};
+
+}  // namespace orca

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "orca/patterns/counters.hpp"
+#include "orca/patterns/endpoints/endpoint.hpp"
+#include "orca/patterns/endpoints/pending_answers.hpp"
+#include "orca/patterns/endpoints/published.hpp"
+#include "orca/patterns/endpoints/request_link.hpp"
+
+namespace orca {
+
+/// What the clients of Query and Send have in common: an object is offered to the server under an id, and its
+/// answer is waited for.
+///
+/// @tparam Answer  as of ReplySink.
+/// Thread contract: reply() from the server's side of the link, counters() from anywhere, the rest from the
+/// client's strand.
+template <class Answer>
+class RequestClient : public Endpoint, public ReplySink<Answer> {
+ public:
+  void connect(RequestTarget<Answer>& target) { target_ = &target; }
+  [[nodiscard]] bool connected() const { return target_ != nullptr; }
+
+  /// Returns the answer, or nothing while there is none yet.
+  /// @errors  not_found for an id that was never given or whose answer has been taken.
+  std::optional<Answer> receive(RequestId id);
+
+  /// Blocks until the answer is there; at the deadline the object is withdrawn and its answer forgotten.
+  /// @errors  deadline_exceeded; throws Interrupted.
+  Answer receive_until(RequestId id, TimePoint deadline);
+
+  /// Withdraws the object: nobody waits for its answer any more, which is thrown away, now or when it comes.
+  void withdraw(RequestId id);
+
+  void reply(RequestId id, Answer answer) override;
+
+  [[nodiscard]] RequestCounters counters() const;
+
+ protected:
+  /// The parts of the error texts in which the patterns differ.
+  struct Words {
+    const char* unknown;      ///< "PATH has ... 7"
+    const char* late;         ///< "SERVER ... PATH"
+    const char* late_ending;  ///< "PATH ..."
+  };
+  struct Offered {
+    RequestId id;
+    bool answered;  ///< receive() has something.
+  };
+
+  RequestClient(PortHome& home, PortContract contract, const Words& words);
+  /// Stamps the object and offers it to the server.
+  /// @errors  failed_precondition if not connected.
+  Result<Offered> offer(ObjectLoan loan, const Provenance* provenance, bool may_wait);
+  /// @pre  connected()
+  [[nodiscard]] RequestTarget<Answer>& target() const { return *target_; }
+
+ private:
+  using Pending = PendingAnswers<Answer>;
+
+  const Words words_;
+  RequestTarget<Answer>* target_ = nullptr;
+  Pending pending_;
+  Published<std::uint64_t> sent_;
+  Published<std::uint64_t> answered_;
+  Published<std::uint64_t> failed_;
+  Published<std::uint64_t> timed_out_;
+};
+
+extern template class RequestClient<Result<ObjectRef>>;
+extern template class RequestClient<Status>;
+
+}  // namespace orca

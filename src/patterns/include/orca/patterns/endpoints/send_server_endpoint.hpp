@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/patterns/counters.hpp"
+#include "orca/patterns/endpoints/endpoint.hpp"
+#include "orca/patterns/endpoints/request_link.hpp"
+
+namespace orca {
+
+/// The server side of Send: accepted objects wait here until the component's strand handles them between two
+/// laps. Each edge has room of its own, so a sender that floods the server costs the others nothing.
+///
+/// Thread contract: connect() before the components run; handle_one() from the server's strand; the rest from
+/// any.
+class SendServerEndpoint final : public Endpoint {
+ public:
+  using Handler = std::function<Status(const ObjectRef&)>;
+
+  SendServerEndpoint(PortHome& home, PortContract contract);
+  ~SendServerEndpoint() override;
+
+  /// Adds an edge.
+  /// @param client  path of the SendProxy, for messages.
+  SendTarget& connect(std::string client, const QueuePolicy& policy);
+
+  /// Opens or closes the intake. Closed, everything is refused with `reason`; what was accepted stays.
+  void open(Handler handler);
+  void close(const std::string& reason);
+
+  /// Handles one waiting object.
+  /// @return false if none was waiting. The handler's own error is counted and returned through `outcome`;
+  /// an exception of the handler is counted and passed on.
+  bool handle_one(Status& outcome);
+
+  /// Whether something waits to be handled.
+  [[nodiscard]] bool has_waiting() const;
+  /// Of all edges together.
+  [[nodiscard]] IntakeCounters counters() const;
+  /// Of one edge, in the order of connect().
+  [[nodiscard]] IntakeCounters counters(std::size_t edge) const;
+  [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
+
+ private:
+  class Edge;
+  struct Accepted {
+    ObjectRef object;
+    Edge* edge;
+  };
+
+  bool next(Accepted& accepted, std::shared_ptr<const Handler>& handler);
+  void count_failure(Edge& edge);
+
+  std::vector<std::unique_ptr<Edge>> edges_;
+
+  mutable std::mutex mutex_;
+  // Below, and the edges' content: guarded by mutex_.
+  std::deque<Accepted> waiting_;
+  std::shared_ptr<const Handler> handler_;
+  std::string closed_because_ = "it has not been started yet";
+};
+
+}  // namespace orca

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/patterns/push.hpp"
+
+#include "orca/patterns/endpoints/push_client_endpoint.hpp"
+#include "orca/patterns/endpoints/push_server_endpoint.hpp"
+
+namespace orca {
+
+PushServerHandle::PushServerHandle(PortOwner& owner, std::string name, TypeId type,
+                                   const PortOptions& options) {
+  PortDeclaration declaration =
+      make_declaration(std::move(name), Pattern::push, Role::server, std::move(type), options);
+  declaration.slot = &endpoint_;
+  owner.declare_port(std::move(declaration));
+}
+
+PushServerEndpoint& PushServerHandle::endpoint() const {
+  return static_cast<PushServerEndpoint&>(*endpoint_);
+}
+
+void PushServerHandle::start(Duration base_period) { endpoint().announce(base_period); }
+
+Duration PushServerHandle::base_period() const { return endpoint().base_period(); }
+
+std::size_t PushServerHandle::subscriber_count() const { return endpoint().subscriber_count(); }
+
+void PushServerHandle::push_loan(ObjectLoan loan) {
+  PushServerEndpoint& server = endpoint();
+  server.publish(server.seal(std::move(loan), &server.home().provenance));
+}
+
+ObjectRef PushServerHandle::push_reading(ObjectLoan reading) {
+  ObjectRef object = endpoint().seal(std::move(reading), nullptr);
+  endpoint().publish(object);
+  return object;
+}
+
+PushProxyHandle::PushProxyHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options)
+    : name_(std::move(name)) {
+  PortDeclaration declaration = make_declaration(name_, Pattern::push, Role::proxy, std::move(type), options);
+  declaration.slot = &endpoint_;
+  owner.declare_port(std::move(declaration));
+}
+
+PushClientEndpoint& PushProxyHandle::endpoint() const { return static_cast<PushClientEndpoint&>(*endpoint_); }
+
+PushEdge& PushProxyHandle::edge() const { return *endpoint().edges().front(); }
+
+Strand& PushProxyHandle::strand() const { return endpoint_->home().strand; }
+
+void PushProxyHandle::subscribe() { endpoint().subscribe_all(); }
+
+void PushProxyHandle::unsubscribe() { endpoint().unsubscribe_all(); }
+
+bool PushProxyHandle::connected() const { return endpoint().connected(); }
+
+bool PushProxyHandle::new_data_arrived() const { return endpoint().has_new(); }
+
+bool PushProxyHandle::deadline_missed() const { return connected() && edge().deadline_missed(); }
+
+UpdateGrant PushProxyHandle::granted() const { return connected() ? edge().grant() : UpdateGrant{}; }
+
+Duration PushProxyHandle::base_period() const { return connected() ? edge().base_period() : Duration{0}; }
+
+EdgeCounters PushProxyHandle::counters() const { return connected() ? edge().counters() : EdgeCounters{}; }
+
+void PushProxyHandle::ask(const UpdateRate& rate) {
+  if (connected()) edge().ask(rate);
+}
+
+ObjectRef PushProxyHandle::take() {
+  if (!connected()) return {};
+  ObjectRef object = edge().take();
+  if (object) endpoint_->home().provenance.note(object.header());
+  return object;
+}
+
+ObjectRef PushProxyHandle::get_update_ref() {
+  if (ObjectRef next = take()) return next;
+  if (ObjectRef last = latest_ref()) return last;
+  return get_update_wait_ref(kForever);
+}
+
+ObjectRef PushProxyHandle::get_update_wait_ref(TimePoint deadline) {
+  ObjectRef object;
+  strand().wait_for(deadline, [&] {
+    object = take();
+    return static_cast<bool>(object);
+  });
+  return object;
+}
+
+ObjectRef PushProxyHandle::latest_ref() const { return connected() ? edge().latest() : ObjectRef{}; }
+
+TimePoint PushProxyHandle::deadline_in(Duration limit) const {
+  return saturating_add(strand().executive().now(), limit);
+}
+
+std::string PushSourceHandle::path() const { return edge_->source_path(); }
+
+void PushSourceHandle::subscribe() const { edge_->subscribe(); }
+
+void PushSourceHandle::unsubscribe() const { edge_->unsubscribe(); }
+
+bool PushSourceHandle::new_data_arrived() const { return edge_->has_new(); }
+
+ObjectRef PushSourceHandle::latest_ref() const { return edge_->latest(); }
+
+ObjectRef PushSourceHandle::take_latest_ref() const {
+  while (edge_->take()) {
+  }
+  return edge_->latest();
+}
+
+PushProxyArrayHandle::PushProxyArrayHandle(PortOwner& owner, std::string name, TypeId type,
+                                           const PortOptions& options) {
+  PortDeclaration declaration =
+      make_declaration(std::move(name), Pattern::push, Role::proxy, std::move(type), options);
+  declaration.contract.many = true;
+  declaration.manual = true;
+  declaration.slot = &endpoint_;
+  owner.declare_port(std::move(declaration));
+}
+
+PushClientEndpoint& PushProxyArrayHandle::endpoint() const {
+  return static_cast<PushClientEndpoint&>(*endpoint_);
+}
+
+std::string PushProxyArrayHandle::path() const { return endpoint_->path(); }
+
+void PushProxyArrayHandle::unsubscribe_all() { endpoint().unsubscribe_all(); }
+
+std::size_t PushProxyArrayHandle::edge_count() const { return endpoint().edges().size(); }
+
+PushEdge& PushProxyArrayHandle::edge(std::size_t index) const { return *endpoint().edges().at(index); }
+
+}  // namespace orca

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the base class offers an author, seen through a host that does nothing else.
+#include "orca/component.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "executives.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/patterns/local/local_links.hpp"
+#include "peer.hpp"
+
+using namespace orca;
+using namespace orca::test;
+using idl::MotionCommand;
+
+namespace {
+
+// A host that keeps the trigger.
+class Host final : public ComponentHost {
+ public:
+  ~Host() noexcept override {}  // the destructors of these components do not throw
+  Host(Executive& executive, std::string name) : peer_(executive, std::move(name)) {}
+
+  [[nodiscard]] Peer& peer() { return peer_; }
+  [[nodiscard]] const Trigger& trigger() const { return trigger_; }
+
+  void declare_port(PortDeclaration declaration) override { peer_.declare_port(std::move(declaration)); }
+  void declare_param(ParamDeclaration /*declaration*/) override {}
+  void set_default_trigger(const Trigger& trigger) override { trigger_ = trigger; }
+  [[nodiscard]] const std::string& name() const override { return peer_.strand().name(); }
+  [[nodiscard]] TimePoint now() const override { return peer_.executive().now(); }
+  [[nodiscard]] RandomStream random(std::string_view stream) const override { return {1, name(), stream}; }
+  void write_log(log::Level /*level*/, std::string_view /*text*/) const override {}
+  void announce(const Announcement& /*announcement*/) override {}
+  [[nodiscard]] Device* hardware() override { return nullptr; }
+  void stay_active(bool /*active*/) override {}
+  [[nodiscard]] Strand& strand() override { return peer_.strand(); }
+
+ private:
+  mutable Peer peer_;
+  Trigger trigger_;
+};
+
+struct Both final : Component {
+  explicit Both(ComponentHost& host) : Component(host) { lap_on(right); }
+  Outcome work() override { return done(); }
+  using Component::wait_until;
+
+  PushProxy<MotionCommand> left{*this, "left"};
+  PushProxy<MotionCommand> right{*this, "right"};
+};
+
+struct Source : Peer {
+  explicit Source(Executive& executive) : Peer(executive, "source") {}
+  PushServer<MotionCommand> out{*this, "out"};
+};
+
+}  // namespace
+
+TEST_CASE("a component may name the port that starts its laps by the port itself", "[component]") {
+  run_on({}, [](Executive& executive) {
+    Host host(executive, "both");
+    const Both both(host);
+    CHECK(both.right.name() == "right");
+    CHECK(host.trigger() == Trigger{Trigger::Kind::on_port, Duration{0}, "right"});
+  });
+}
+
+TEST_CASE("wait_until ends as soon as what arrives makes its condition true", "[component]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    Host host(executive, "both");
+    Both both(host);
+    Source source(executive);
+    REQUIRE(LocalLinks().connect(source.endpoint("out"), host.peer().endpoint("left")).ok());
+    both.left.subscribe();
+    bool holds = false;
+    Script script(host.peer(),
+                  [&] { holds = both.wait_until([&] { return both.left.new_data_arrived(); }, 1h); });
+    CHECK_FALSE(script.ends_within(10ms));
+    source.out.push(full_stop());
+    REQUIRE(script.ends_within(5s));
+    CHECK(holds);
+  });
+}
+
+TEST_CASE("wait_until gives up at its limit", "[component]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    Host host(executive, "both");
+    Both both(host);
+    const TimePoint before = executive.now();
+    CHECK_FALSE(both.wait_until([] { return false; }, 20ms));
+    const Duration waited = executive.now() - before;
+    CHECK(waited >= 20ms);
+    if (executive.is_virtual()) CHECK(waited == 20ms);
+  });
+}
+
+TEST_CASE("a component that must leave its lap is not held by wait_until", "[component]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    Host host(executive, "both");
+    Both both(host);
+    Script script(host.peer(), [&] { both.wait_until([] { return false; }, 1h); });
+    host.peer().leave();
+    REQUIRE(script.ends_within(5s));
+    CHECK(script.interrupted());
+  });
+}

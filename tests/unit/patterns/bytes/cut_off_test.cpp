@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an end of a byte link does about a peer that sends what cannot be, does not read, or goes.
+#include <catch2/catch.hpp>
+
+#include "courier.hpp"
+#include "executives.hpp"
+#include "orca/base/log.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/patterns/bytes/byte_links.hpp"
+#include "peer.hpp"
+#include "push_over_bytes.hpp"
+#include "request_over_bytes.hpp"
+
+using namespace orca;
+using namespace orca::bytes;
+using namespace orca::test;
+using Catch::Contains;
+using idl::MotionCommand;
+
+namespace {
+
+struct Source : Peer {
+  explicit Source(Executive& executive) : Peer(executive, "source") {}
+  PushServer<MotionCommand> out{*this, "out"};
+};
+
+struct Listener : Peer {
+  explicit Listener(Executive& executive) : Peer(executive, "listener") {}
+  PushProxy<MotionCommand> in{*this, "in"};
+};
+
+struct Sender : Peer {
+  explicit Sender(Executive& executive) : Peer(executive, "sender") {}
+  SendProxy<MotionCommand> out{*this, "out"};
+};
+
+struct Taker : Peer {
+  explicit Taker(Executive& executive) : Peer(executive, "taker") {}
+  Status on_command(const ObjectPtr<MotionCommand>&) { return ok(); }
+  SendServer<MotionCommand> in{*this, "in", &Taker::on_command, {.depth = 1}};
+};
+
+// Two wires whose other ends are in the test's hands.
+class Wires {
+ public:
+  explicit Wires(Executive& executive, std::size_t capacity = 4096)
+      : executive_(executive), capacity_(capacity) {
+    log::set_level(log::Level::error);  // being cut off is a warning
+    courier_.serve(to_peer_);
+    courier_.serve(from_peer_);
+  }
+  ~Wires() { log::set_level(log::Level::info); }
+  Wires(const Wires&) = delete;
+  Wires& operator=(const Wires&) = delete;
+
+  Connection connection() { return {executive_, traffic_, "a to b", to_peer_, from_peer_}; }
+
+  void say(std::span<const std::byte> bytes) { CHECK(from_peer_->write(bytes) == bytes.size()); }
+  void say(FrameWriter frame) { say(frame.bytes()); }
+  void hang_up() { from_peer_->close(); }
+
+  [[nodiscard]] bool cuts_off() {
+    return eventually(executive_, [&] { return traffic_.peers_cut_off == 1; });
+  }
+  [[nodiscard]] std::uint64_t frames_received() const { return traffic_.frames_received; }
+
+ private:
+  Executive& executive_;
+  const std::size_t capacity_;
+  Courier courier_;
+  Traffic traffic_;
+  std::shared_ptr<ByteWire> to_peer_ = std::make_shared<ByteWire>(courier_, capacity_);
+  std::shared_ptr<ByteWire> from_peer_ = std::make_shared<ByteWire>(courier_, capacity_);
+};
+
+std::vector<std::byte> rubbish() { return std::vector<std::byte>(100, std::byte{0xee}); }
+
+FrameWriter attach_frame() {
+  FrameWriter frame(FrameKind::attach, 1);
+  frame.add(std::uint64_t{0});
+  frame.add(std::uint64_t{1});
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("a subscriber that sends rubbish is cut off, counted, and costs the publisher nothing",
+          "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    Wires wires(executive);
+    Source source(executive);
+    auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
+    server.adopt(std::make_unique<PushSinkOverBytes>(
+        wires.connection(), server.connect(),
+        QueuePolicy{.overflow = QueuePolicy::Overflow::block, .block_limit = 1h}));
+    wires.say(attach_frame());
+    REQUIRE(eventually(executive, [&] { return source.out.subscriber_count() == 1; }));
+    wires.say(rubbish());
+    REQUIRE(wires.cuts_off());
+    CHECK(eventually(executive, [&] { return source.out.subscriber_count() == 0; }));
+    source.out.push(full_stop());  // does not wait
+  });
+}
+
+TEST_CASE("a publisher that sends an object of no sense is cut off, and the subscriber keeps what it had",
+          "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    Wires wires(executive);
+    Listener listener(executive);
+    auto& client = static_cast<PushClientEndpoint&>(listener.endpoint("in"));
+    auto end = std::make_unique<PushSourceOverBytes>(wires.connection(), object_type<MotionCommand>(),
+                                                     "source.out", Duration{0});
+    client.connect(*end, {.depth = 4});
+    client.adopt(std::move(end));
+    listener.in.subscribe();
+    FrameWriter good(FrameKind::object, 1);
+    good.add(std::uint64_t{0});
+    good.add(ObjectRef(head(0.0, 3.0).seal()));
+    wires.say(std::move(good));
+    REQUIRE(listener.in.get_update_wait_max(5s));
+    FrameWriter bad(FrameKind::object, 1);
+    bad.add(std::uint64_t{0});
+    bad.add(std::string("no motion command"));
+    wires.say(std::move(bad));
+    REQUIRE(wires.cuts_off());
+    CHECK_FALSE(listener.in.new_data_arrived());
+    CHECK(listener.in.latest()->speed() == 3.0);
+  });
+}
+
+TEST_CASE("a frame that does not belong to the pattern cuts its sender off", "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    Wires wires(executive);
+    Taker taker(executive);
+    auto& server = static_cast<SendServerEndpoint&>(taker.endpoint("in"));
+    server.adopt(std::make_unique<CallerOverBytes<Status>>(
+        wires.connection(), RequestTypes{object_type<MotionCommand>(), nullptr},
+        server.connect("a.out", {})));
+    wires.say(attach_frame());
+    REQUIRE(wires.cuts_off());
+    CHECK(wires.frames_received() == 1);
+  });
+}
+
+TEST_CASE("a sender whose link is cut is told so, at once and from then on", "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    const bool rubbish_first = GENERATE(true, false);
+    Wires wires(executive);
+    Sender sender(executive);
+    auto& client = static_cast<SendClientEndpoint&>(sender.endpoint("out"));
+    auto end = std::make_unique<TargetOverBytes<Status>>(
+        wires.connection(), RequestTypes{object_type<MotionCommand>(), nullptr}, "taker.in", Duration{0});
+    client.connect(*end);
+    client.adopt(std::move(end));
+    const Result<SendId> id = sender.out.send_request(full_stop());
+    REQUIRE(id.has_value());
+    rubbish_first ? wires.say(rubbish()) : wires.hang_up();
+    for (const Status& refused : {sender.out.send_receive_wait(*id, 5s), sender.out.send(full_stop())}) {
+      REQUIRE_FALSE(refused.ok());
+      CHECK(refused.error().code == Code::unavailable);
+      CHECK_THAT(refused.error().text(), Contains("taker.in cannot be reached: the link was cut"));
+    }
+  });
+}
+
+TEST_CASE("objects for which a link has no room are counted at the subscriber", "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    ByteLinks links(executive, 256);
+    Source source(executive);
+    Listener listener(executive);
+    REQUIRE(links.connect(source.endpoint("out"), listener.endpoint("in"), {.depth = 1000}).ok());
+    listener.in.subscribe();
+    REQUIRE(eventually(executive, [&] { return source.out.subscriber_count() == 1; }));
+    constexpr std::uint64_t kPushed = 500;
+    for (std::uint64_t i = 0; i < kPushed; ++i) source.out.push(full_stop());
+    CHECK(links.counters().objects_lost > 0);
+    CHECK(eventually(executive, [&] {
+      source.out.push(full_stop());  // losses are told with the next object that finds room
+      sleep(executive, 1ms);
+      return listener.in.counters().dropped_by_link == links.counters().objects_lost;
+    }));
+    CHECK(listener.in.counters().dropped == links.counters().objects_lost);
+    CHECK(links.counters().peers_cut_off == 0);
+  });
+}
+
+TEST_CASE("an object larger than the link's queues arrives all the same", "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    ByteLinks links(executive, 64);
+    struct Out : Peer {
+      using Peer::Peer;
+      PushServer<idl::ClientList> out{*this, "out"};
+    };
+    struct In : Peer {
+      using Peer::Peer;
+      PushProxy<idl::ClientList> in{*this, "in"};
+    };
+    Out out(executive, "out");
+    In in(executive, "in");
+    REQUIRE(links.connect(out.endpoint("out"), in.endpoint("in")).ok());
+    in.in.subscribe();
+    REQUIRE(eventually(executive, [&] { return out.out.subscriber_count() == 1; }));
+    auto list = out.out.loan();
+    list->clients() = {std::string(10'000, 'x'), "y"};
+    out.out.push(std::move(list));
+    const auto got = in.in.get_update_wait_max(5s);
+    REQUIRE(got);
+    CHECK(got->clients() == std::vector<std::string>{std::string(10'000, 'x'), "y"});
+  });
+}
+
+TEST_CASE("a publisher notices that its subscriber's end has gone", "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    ByteLinks links(executive);
+    Source source(executive);
+    {
+      Listener listener(executive);
+      REQUIRE(links.connect(source.endpoint("out"), listener.endpoint("in")).ok());
+      listener.in.subscribe();
+      REQUIRE(eventually(executive, [&] { return source.out.subscriber_count() == 1; }));
+    }
+    CHECK(eventually(executive, [&] { return source.out.subscriber_count() == 0; }));
+    source.out.push(full_stop());
+    CHECK(links.counters().peers_cut_off == 0);
+  });
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "executives.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/patterns/local/local_links.hpp"
+#include "peer.hpp"
+
+using namespace orca;
+using namespace orca::test;
+using Catch::Contains;
+using idl::MotionCommand;
+
+namespace {
+
+struct Ends : Peer {
+  explicit Ends(Executive& executive, const std::string& name) : Peer(executive, name) {}
+  Status on_command(const ObjectPtr<MotionCommand>&) { return ok(); }
+  Result<Loan<MotionCommand>> on_ask(const ObjectPtr<idl::Ask>&) { return full_stop(); }
+
+  PushServer<MotionCommand> push_out{*this, "push_out"};
+  PushProxy<MotionCommand> push_in{*this, "push_in"};
+  PushProxy<idl::Odometry> odometry{*this, "odometry"};
+  PushProxyArray<MotionCommand> many{*this, "many"};
+  SendServer<MotionCommand> send_in{*this, "send_in", &Ends::on_command};
+  SendProxy<MotionCommand> send_out{*this, "send_out"};
+  QueryServer<idl::Ask, MotionCommand> answers{*this, "answers", &Ends::on_ask};
+  QueryProxy<idl::Ask, MotionCommand> asks{*this, "asks"};
+  QueryProxy<idl::Ask, idl::Odometry> asks_odometry{*this, "asks_odometry"};
+};
+
+// Runs `check` with two unconnected peers, `a` and `b`.
+void with_ends(const std::function<void(Ends&, Ends&)>& check) {
+  run_on({}, [&](Executive& executive) {
+    Ends a(executive, "a");
+    Ends b(executive, "b");
+    check(a, b);
+  });
+}
+
+Status connect(const Peer& a, const std::string& from, const Peer& b, const std::string& to) {
+  return LocalLinks().connect(a.endpoint(from), b.endpoint(to), {});
+}
+
+}  // namespace
+
+TEST_CASE("ends of one pattern and one type are connected from the side that starts the flow",
+          "[patterns][local]") {
+  with_ends([](Ends& a, Ends& b) {
+    CHECK(connect(a, "push_out", b, "push_in").ok());
+    CHECK(connect(a, "send_out", b, "send_in").ok());
+    CHECK(connect(a, "asks", b, "answers").ok());
+    CHECK(b.push_in.connected());
+    CHECK(a.send_out.connected());
+    CHECK(a.asks.connected());
+  });
+}
+
+TEST_CASE("ends of different type, pattern or side are refused, and both are described",
+          "[patterns][local]") {
+  with_ends([](Ends& a, Ends& b) {
+    const Status wrong_type = connect(a, "push_out", b, "odometry");
+    REQUIRE_FALSE(wrong_type.ok());
+    CHECK(wrong_type.error().code == Code::invalid_argument);
+    CHECK_THAT(wrong_type.error().text(), Contains("a.push_out (PushServer of MotionCommand)") &&
+                                              Contains("b.odometry (PushProxy of Odometry)"));
+    CHECK_FALSE(connect(b, "push_in", a, "push_out").ok());
+    CHECK_FALSE(connect(a, "push_out", b, "push_out").ok());
+    CHECK_FALSE(connect(a, "push_out", b, "send_in").ok());
+    CHECK_FALSE(connect(a, "send_out", b, "send_out").ok());
+    CHECK_FALSE(connect(a, "answers", b, "asks").ok());
+    CHECK_FALSE(connect(a, "asks_odometry", b, "answers").ok());
+    CHECK_FALSE(b.push_in.connected());
+  });
+}
+
+TEST_CASE("within a process a server refuses a question at once", "[patterns][local]") {
+  with_ends([](Ends& a, Ends& b) {
+    REQUIRE(connect(a, "asks", b, "answers").ok());
+    const Result<QueryId> refused = a.asks.query_request(a.asks.loan());
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().code == Code::unavailable);
+    CHECK_THAT(refused.error().text(), Contains("b.answers") && Contains("has not been started yet"));
+    CHECK(a.asks.counters().sent == 1);
+    CHECK(a.asks.counters().failed == 1);
+  });
+}
+
+TEST_CASE("a proxy that is connected already is not connected again, but a port array takes any number",
+          "[patterns][local]") {
+  with_ends([](Ends& a, Ends& b) {
+    for (const auto& [from, to] :
+         {std::pair{"push_out", "push_in"}, std::pair{"send_out", "send_in"}, std::pair{"asks", "answers"}}) {
+      REQUIRE(connect(a, from, b, to).ok());
+      const Status again = connect(a, from, b, to);
+      REQUIRE_FALSE(again.ok());
+      CHECK(again.error().code == Code::already_exists);
+    }
+    REQUIRE(connect(a, "push_out", b, "many").ok());
+    REQUIRE(connect(b, "push_out", b, "many").ok());
+    CHECK(b.many.sources().size() == 2);
+  });
+}
+
+TEST_CASE("the edges of a port array are told apart by their sources and subscribed one by one",
+          "[patterns][local]") {
+  with_ends([](Ends& a, Ends& b) {
+    REQUIRE(connect(a, "push_out", b, "many").ok());
+    REQUIRE(connect(b, "push_out", b, "many").ok());
+    const auto from_a = b.many.sources()[0];
+    const auto from_b = b.many.sources()[1];
+    CHECK(from_a.path() == "a.push_out");
+    CHECK(from_b.path() == "b.push_out");
+    CHECK_FALSE(from_a == from_b);
+    from_a.subscribe();
+    a.push_out.push(head(0.0, 1.0));
+    a.push_out.push(head(0.0, 2.0));
+    b.push_out.push(head(0.0, 3.0));
+    CHECK(from_a.latest()->speed() == 2.0);
+    CHECK(from_a.new_data_arrived());
+    const auto newest = from_a.take_latest();
+    REQUIRE(newest);
+    CHECK(newest->speed() == 2.0);
+    CHECK_FALSE(from_a.new_data_arrived());
+    CHECK(from_b.take_latest() == nullptr);
+    b.many.unsubscribe_all();
+    CHECK(a.push_out.subscriber_count() == 0);
+  });
+}
+
+TEST_CASE("no edge can make a device wait", "[patterns][local]") {
+  run_on({}, [](Executive& executive) {
+    struct Driver : Peer {
+      using Peer::Peer;
+      PushServer<MotionCommand> out{*this, "out", {.from_device = true}};
+    };
+    Driver driver(executive, "driver");
+    Ends b(executive, "b");
+    const Status refused = LocalLinks().connect(driver.endpoint("out"), b.endpoint("push_in"),
+                                                {.depth = 2, .overflow = QueuePolicy::Overflow::block});
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == Code::invalid_argument);
+    CHECK_THAT(refused.error().text(), Contains("driver.out") && Contains("a device"));
+    CHECK(connect(driver, "out", b, "push_in").ok());
+  });
+}
+
+TEST_CASE("without a policy an edge has that of the author of the receiving port", "[patterns][local]") {
+  run_on({}, [](Executive& executive) {
+    struct In : Peer {
+      using Peer::Peer;
+      PushProxy<MotionCommand> in{*this, "in", {.depth = 5}};
+    };
+    Ends a(executive, "a");
+    In in(executive, "b");
+    REQUIRE(LocalLinks().connect(a.endpoint("push_out"), in.endpoint("in")).ok());
+    CHECK(in.edges("in").front()->policy().depth == 5);
+  });
+}
+
+namespace {
+
+struct Notes : LinkObserver {
+  void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override {
+    lines.push_back(std::string(component) + "." + std::string(port) + " got " +
+                    std::string(object.type().name) + " " + std::to_string(object.header().seq()));
+  }
+  void link_changed(std::string_view client, std::string_view server, bool connected) override {
+    lines.push_back(std::string(client) + (connected ? " uses " : " leaves ") + std::string(server));
+  }
+  std::vector<std::string> lines;
+};
+
+}  // namespace
+
+TEST_CASE("an observer sees subscriptions and every object that gets into a queue, and no dropped one",
+          "[patterns][local]") {
+  run_on({}, [](Executive& executive) {
+    struct Out : Peer {
+      using Peer::Peer;
+      PushServer<MotionCommand> out{*this, "out"};
+    };
+    struct In : Peer {
+      using Peer::Peer;
+      PushProxy<MotionCommand> in{*this, "in"};
+    };
+    Notes notes;
+    Out out(executive, "a");
+    In in(executive, "b", &notes);
+    REQUIRE(LocalLinks()
+                .connect(out.endpoint("out"), in.endpoint("in"),
+                         {.depth = 1, .overflow = QueuePolicy::Overflow::drop_newest})
+                .ok());
+    in.in.subscribe();
+    out.out.push(full_stop());
+    out.out.push(full_stop());
+    in.in.unsubscribe();
+    CHECK(notes.lines ==
+          std::vector<std::string>{"b.in uses a.out", "b.in got MotionCommand 1", "b.in leaves a.out"});
+  });
+}
