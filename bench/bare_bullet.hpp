@@ -7,14 +7,14 @@
 
 namespace orca::bench {
 
-/// What a range sensor costs with Bullet's own rays: all obstacles as one static triangle mesh in a world of
-/// its own, which is its fastest and its only sound way.
+/// A range sensor with Bullet's own rays, to measure their cost. All obstacles are one static triangle mesh
+/// in a separate world: the fastest way that Bullet has, and the only reliable one.
 class BulletMesh {
  public:
   /// @pre  all obstacles are boxes.
   explicit BulletMesh(const sim::WorldModel& world);
   ~BulletMesh();
-  /// The distance to the first triangle on the ray [m], or its maximum range.
+  /// Returns the distance to the first triangle on the ray [m], or the ray's maximum range.
   [[nodiscard]] double cast(const sim::Ray& ray) const;
 
  private:

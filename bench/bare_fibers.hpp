@@ -12,15 +12,15 @@
 
 namespace orca::bench {
 
-/// Two words that the C++ runtime keeps per thread and that each fiber needs for itself.
+/// The two words that the C++ runtime keeps per thread and that each fiber needs for itself.
 struct ExceptionWords {
   void* caught = nullptr;
   unsigned int uncaught = 0;
   void exchange() { std::swap(reinterpret_cast<ExceptionWords&>(*abi::__cxa_get_globals()), *this); }
 };
 
-/// Bare fibers that hand over to each other by way of a scheduler, by the rules of DESIGN 4: in the order of
-/// the time at which they became ready, and each keeps its exception words. No events, no timers, no other
+/// Bare fibers that hand over to each other through a scheduler. They run in the order of the time at which
+/// they became ready, and each keeps its exception words. There are no events, no timers and no other
 /// threads.
 class BareFibers {
  public:
@@ -31,7 +31,7 @@ class BareFibers {
     std::chrono::steady_clock::time_point ready_since;
   };
 
-  /// Adds a fiber, not ready yet.
+  /// Adds a fiber, which is not ready yet.
   Fiber& add(std::function<void()> body);
   void make_ready(Fiber& fiber);
   /// Leaves the running fiber until it is made ready and its turn comes.
@@ -59,7 +59,7 @@ class BareFiberPair {
   int left_ = 0;
 };
 
-/// A jump of Boost.Context into a fiber and back, without anything else.
+/// A jump of Boost.Context into a fiber and back, and nothing else.
 class BareJump {
  public:
   BareJump();

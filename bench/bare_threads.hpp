@@ -10,7 +10,7 @@
 
 namespace orca::bench {
 
-/// A ring of pointers from one thread to one other, which sleeps on a futex while the ring is empty.
+/// A ring of pointers from one thread to another, which sleeps on a futex while the ring is empty.
 class FutexRing {
  public:
   void put(void* object);
@@ -19,12 +19,12 @@ class FutexRing {
  private:
   static constexpr std::uint32_t kPlaces = 64;
   std::array<void*, kPlaces> places_{};
-  std::atomic<std::uint32_t> put_{0};    // also what the reader sleeps on
+  std::atomic<std::uint32_t> put_{0};    // the reader sleeps on it
   std::atomic<std::uint32_t> taken_{0};  // by the reader
-  std::atomic<bool> asleep_{false};      // the reader's own: the writer only reads it
+  std::atomic<bool> asleep_{false};      // written by the reader only
 };
 
-/// Two threads that throw a pointer to each other through two rings.
+/// Two threads that pass a pointer to each other through two rings.
 class FutexRingPair {
  public:
   FutexRingPair();

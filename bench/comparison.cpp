@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kBlock = 1000;
 
-// Of the samples, which it reorders.
+// Returns a quantile of the samples, which it reorders.
 Nanoseconds quantile(std::span<Nanoseconds> samples, double share) {
   const auto place = static_cast<std::size_t>(share * static_cast<double>(samples.size() - 1));
   std::ranges::nth_element(samples, samples.begin() + static_cast<std::ptrdiff_t>(place));
@@ -55,7 +55,8 @@ void alternate(benchmark::State& state, Row& row, int operations, const Side& su
                const Side& reference) {
   subject(operations);  // warm-up
   reference(operations);
-  bool first = true;  // each goes first half of the time: what one leaves in the caches meets the other
+  // Each side goes first half of the time, so that each meets what the other leaves in the caches.
+  bool first = true;
   for (auto _ : state) {
     if (!first) row.reference.add(reference(operations));
     const Nanoseconds taken = subject(operations);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One push to many components on the same executor, per subscriber: until all of them have taken the object.
+// Time of one push to many components on the same executor, until all of them have taken the object, per
+// subscriber.
 #include <memory>
 
 #include "benchmarks.hpp"
@@ -10,7 +11,7 @@
 namespace orca::bench {
 namespace {
 
-// A component that takes whatever comes.
+// A component that takes every object.
 struct Taker : Subscriber {
   using Subscriber::Subscriber;
   void take_all() {
@@ -47,7 +48,7 @@ class FanOut {
     return time_per_operation(pushes * static_cast<int>(takers_.size()), [&] {
       for (Loan<Scan>& scan : scans) {
         publisher_.out.push(std::move(scan));
-        last_turn_->notify();  // behind all takers, which are ready before it
+        last_turn_->notify();  // runs after all takers, which are ready before it
         all_done_->wait_until(kForever);
       }
     });

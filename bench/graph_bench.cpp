@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reading and checking a system graph, per component: what deployer --check does without loading plugins.
+// Time to read and check a system graph, per component, as deployer --check does, but without loading
+// plugins.
 #include <stdexcept>
 
 #include "benchmarks.hpp"
@@ -9,7 +10,7 @@
 namespace orca::bench {
 namespace {
 
-// So many avoiders on one base, each with a parameter and a connection.
+// Returns a graph of avoiders on one base, each with a parameter and a connection.
 std::string graph_of(int avoiders) {
   std::string text =
       "<graph name='big'><hardware name='robot' type='orca.hw.Sim'><param name='world' "

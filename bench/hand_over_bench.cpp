@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From one task to another by an Event, nothing else: what each back end of the executive costs.
+// Time from one task to another by an Event alone: the cost of each back end of the executive.
 #include "bare_fibers.hpp"
 #include "bare_threads.hpp"
 #include "benchmarks.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a subscriber that has got stuck costs its publisher and its siblings: the same without it.
+// The cost of a stuck subscriber to its publisher and its siblings, compared with the same group without it.
 #include <memory>
 #include <semaphore>
 
@@ -11,8 +11,8 @@
 namespace orca::bench {
 namespace {
 
-// A publisher with two subscribers that take what comes, and perhaps one that is stuck, all on threads. The
-// first is the sibling that is watched.
+// A publisher with two subscribers that take every object and, if wanted, a stuck one; all on threads. The
+// first subscriber is the sibling that is measured.
 class Group {
  public:
   Group(Executive& executive, bool with_stuck) : publisher_(executive), reached_(executive.make_event()) {
@@ -28,7 +28,7 @@ class Group {
 
   ~Group() { let_go_.release(); }
 
-  /// Of push().
+  /// Returns the time of push().
   Nanoseconds publish() {
     Loan<Scan> scan = std::move(make_scans(1, kLaser).front());
     const Nanoseconds taken = time_per_operation(1, [&] { publisher_.out.push(std::move(scan)); });
@@ -36,7 +36,7 @@ class Group {
     return taken;
   }
 
-  /// From push() until the sibling has the object.
+  /// Returns the time from push() until the sibling has the object.
   Nanoseconds reach_sibling() {
     Loan<Scan> scan = std::move(make_scans(1, kLaser).front());
     return time_per_operation(1, [&] {
@@ -55,7 +55,7 @@ class Group {
 
   Publisher publisher_;
   std::unique_ptr<Event> reached_;
-  std::binary_semaphore let_go_{0};  // where the stuck one stands, deaf to its own port
+  std::binary_semaphore let_go_{0};  // the stuck subscriber waits here and ignores its port
   std::vector<std::unique_ptr<Subscriber>> subscribers_;
   std::vector<std::unique_ptr<test::Script>> scripts_;
 };

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs the benchmarks on one core and prints one table. Everything measured stands beside the barest thing
-// that does the like, measured in the same run, sample by sample in turn. Options are Google Benchmark's, for
-// instance
-// --benchmark_filter=push and --benchmark_out=FILE, and --gate: then the exit status is 1 when a target is
-// missed.
+// Runs the benchmarks on one core and prints one table. Each row compares an operation of Orca with the barest
+// reference that does the same, measured in the same run, in alternating samples. The options are those of
+// Google Benchmark, e.g. --benchmark_filter=push and --benchmark_out=FILE. With --gate the exit status is 1 if
+// a target is missed.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

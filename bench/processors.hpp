@@ -5,26 +5,27 @@
 
 namespace orca::bench {
 
-/// The processors that this thread, and those it starts, may use.
+/// A set of processors that a thread, and the threads that it starts, may use.
 class Processors {
  public:
-  /// Those of the calling thread.
+  /// Returns the processors that the calling thread may use.
   static Processors usable();
 
   [[nodiscard]] int count() const { return CPU_COUNT(&set_); }
-  /// The first of them alone: what runs there meets no other core's caches, and needs none woken.
+  /// Returns the first of them alone. A program that runs on it needs no other core's cache and wakes no
+  /// other core.
   [[nodiscard]] Processors one() const;
-  /// Restricts the calling thread to these.
+  /// Restricts the calling thread to these processors.
   void use() const;
 
  private:
   cpu_set_t set_{};
 };
 
-/// All that the program was started with.
+/// Returns all processors that the program was started with.
 Processors& at_start();
 
-/// Allows the calling thread all processors as long as this lives; then one again.
+/// A scope in which the calling thread may use all processors; afterwards it is restricted to one again.
 class AllProcessors {
  public:
   AllProcessors() { at_start().use(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One push to a component that waits for it: from the call of push() until the component has the object.
+// Time of one push to a waiting component: from the call of push() until the component has the object.
 #include "bare_fibers.hpp"
 #include "bare_threads.hpp"
 #include "benchmarks.hpp"

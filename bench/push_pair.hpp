@@ -15,7 +15,7 @@ class PushPair {
  public:
   PushPair(Executive& executive, std::size_t ranges);
 
-  /// @return time from the call of push() until the other component has the object in hand [ns].
+  /// @return time from the call of push() until the other component has the object [ns].
   Nanoseconds time(int round_trips);
 
  private:

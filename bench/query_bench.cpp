@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One question and its answer.
+// Time of one question and its answer.
 #include "bare_threads.hpp"
 #include "benchmarks.hpp"
 #include "comparison.hpp"

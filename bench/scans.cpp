@@ -11,8 +11,8 @@ std::vector<Loan<Scan>> make_scans(int count, std::size_t ranges) {
     scans.push_back(make_object<Scan>());
     scans.back()->ranges().resize(ranges);
   }
-  for (Loan<Scan>& scan :
-       scans) {  // filling large scans has driven the headers of the first out of the caches
+  // Filling large scans has driven the headers of the first ones out of the caches.
+  for (Loan<Scan>& scan : scans) {
     scan->origin() = "publisher";
     scan->stamp().ns(1);
   }

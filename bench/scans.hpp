@@ -12,13 +12,13 @@ namespace orca::bench {
 
 using Scan = idl::LaserRangeReadings;
 
-/// Sizes of a scan's ranges [number of doubles].
+/// Sizes of a scan: its number of ranges.
 constexpr std::size_t kSmall = 2;       // 16 B
 constexpr std::size_t kLaser = 361;     // 3 KB: half a degree over a half circle
 constexpr std::size_t kImage = 131072;  // 1 MB
 
-/// Scans as their driver has just left them: filled in, with the header at hand. Making them takes no part in
-/// what is measured.
+/// Returns scans as a driver has just filled them, with the header still in the caches. The time to make them
+/// is not measured.
 std::vector<Loan<Scan>> make_scans(int count, std::size_t ranges);
 
 struct Publisher : test::Peer {
@@ -31,7 +31,7 @@ struct Subscriber : test::Peer {
   PushProxy<Scan> in{*this, "in"};
 };
 
-/// Connects and subscribes.
+/// Connects the two and subscribes.
 void subscribe(Publisher& publisher, Subscriber& subscriber, const QueuePolicy& policy = {});
 
 }  // namespace orca::bench

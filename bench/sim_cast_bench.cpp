@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rays of a laser fan in the scene of 200 turned boxes, beside Bullet's own rays against one triangle mesh.
-// A thousand divided by the nanoseconds per ray is millions of rays per second.
+// Time of the rays of a laser fan in the scene of 200 turned boxes, compared with Bullet's own rays against
+// one triangle mesh. A thousand divided by the nanoseconds per ray is millions of rays per second.
 #include <memory>
 #include <vector>
 
@@ -14,9 +14,9 @@ namespace orca::bench {
 namespace {
 
 constexpr Nanoseconds kSixMillionPerSecond = 1e3 / 6.0;
-constexpr int kFans = 20;  // Per sample; a sample of them takes some milliseconds at most.
+constexpr int kFans = 20;  // Per sample, which takes a few milliseconds at most.
 
-/// A scene, and poses from which it is looked at, in turn.
+/// A scene, and the poses from which rays are cast, in turn.
 struct Views {
   Views() {
     RandomStream random(2, "bench", "views");
@@ -60,7 +60,7 @@ void add_in_boxes(const char* name, const Row::Target& target) {
   });
 }
 
-// A hundred robots about: what moves must not cost much more than what stands.
+// Compares with a hundred robots: moving bodies must not cost much more than obstacles.
 void add_among_robots() {
   add_row({"ray among 200 boxes and 100 robots", "without the robots"}, 200, [](auto& state, Row& row) {
     Views views;

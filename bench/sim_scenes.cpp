@@ -59,7 +59,7 @@ std::optional<WorldModel> cave() {
   const std::filesystem::path file = data_folder() / "stage_maps" / "cave.png";
   Result<WorldModel> world = read_bitmap_world(file.string(), {.map_width = 16.0, .resolution = {}});
   if (world) return std::move(*world);
-  std::cerr << "bench: the cave is left out, its picture is not at hand: " << world.error().text()
+  std::cerr << "bench: the cave is left out, because its picture cannot be read: " << world.error().text()
             << "; set ORCA_DATA to the folder that holds stage_maps\n";
   return std::nullopt;
 }
@@ -87,7 +87,7 @@ RobotModel scout() {
   return m;
 }
 
-// Beams that look about one way.
+// The number of adjacent beams that share one view.
 constexpr std::size_t kTogether = 19;
 static_assert(Fan::kBeams % kTogether == 0);
 

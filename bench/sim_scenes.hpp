@@ -11,30 +11,31 @@
 
 namespace orca::bench {
 
-/// 200 turned boxes and four walls in 30 x 20 m.
+/// Returns a world of 200 turned boxes and four walls in 30 x 20 m.
 sim::WorldModel two_hundred_boxes();
 
-/// The cave of the Stage simulator, 16 m wide, where its picture is at hand: in ORCA_DATA or ../shared/data.
+/// Returns the cave of the Stage simulator, 16 m wide, if its picture is there: in ORCA_DATA or
+/// ../shared/data.
 std::optional<sim::WorldModel> cave();
 
-/// Like the Nomad Scout, its 16 sonars fired within 100 ms.
+/// Returns a robot like the Nomad Scout, whose 16 sonars fire within 100 ms.
 sim::RobotModel scout();
 
-/// 361 laser beams over 180 degrees, up to 8 m.
+/// A fan of 361 laser beams over 180 degrees, up to 8 m.
 class Fan {
  public:
   static constexpr std::size_t kBeams = 361;
   static constexpr double kRange = 8.0;   // [m]
   static constexpr double kHeight = 0.3;  // [m]
   Fan();
-  /// The ranges of all beams from `X_WS`, not seeing `own_body`.
+  /// Returns the ranges [m] of all beams from `X_WS`; they pass through `own_body`.
   [[nodiscard]] std::array<double, kBeams> cast(const sim::Caster& caster, const Pose2& X_WS,
                                                 std::size_t own_body = static_cast<std::size_t>(-1)) const;
-  /// The rays themselves.
+  /// Returns the ray of one beam.
   [[nodiscard]] sim::Ray ray(std::size_t beam, const Pose2& X_WS) const;
 
  private:
-  std::array<Vec2, kBeams> directions_;  // Of the sensor's frame.
+  std::array<Vec2, kBeams> directions_;  // In the sensor's frame.
 };
 
 }  // namespace orca::bench

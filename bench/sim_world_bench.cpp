@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a second of simulated time costs: physics at 100 Hz, 16 sonars and 361 laser beams at 10 Hz for each
-// robot. A second divided by that is how many times faster than real time it runs.
+// Time of one simulated second: physics at 100 Hz, 16 sonars and 361 laser beams at 10 Hz for each robot. The
+// factor over real time is one second divided by this time.
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -24,11 +24,11 @@ constexpr int kTicksPerSecond = 100;
 struct Setting {
   std::size_t robots = 1;
   sim::Realism realism = sim::Realism::nominal;
-  unsigned threads = 1;  // That sense.
+  unsigned threads = 1;  // Threads that compute sensor readings.
 };
 
-/// Robots that wander about a world: ahead while there is room, else turning on the spot. Without sensors
-/// they stand still.
+/// Robots that wander about a world. They drive ahead while there is room, and otherwise turn on the spot.
+/// Without sensors they stand still.
 class Wanderers {
  public:
   Wanderers(const sim::WorldModel& model, const Setting& setting, bool sensing)
@@ -75,7 +75,7 @@ class Wanderers {
   bool sensing_;
   Fan fan_;
   std::vector<sim::RobotId> robots_;
-  std::vector<char> free_;  // Of each robot: there is room ahead.
+  std::vector<char> free_;  // Per robot: whether there is room ahead.
 };
 
 Nanoseconds seconds_of(Wanderers& wanderers, int seconds) {

@@ -9,7 +9,7 @@
 namespace orca::bench {
 namespace {
 
-// Three significant digits with a unit.
+// Returns a time with three significant digits and a unit.
 std::string time_text(Nanoseconds time) {
   const char* const units[] = {"ns", "us", "ms", "s"};
   int unit = 0;
@@ -47,7 +47,7 @@ Line line_of(const Row& row) {
   return line;
 }
 
-// Texts to the left, numbers to the right.
+// Texts are aligned left, numbers right.
 bool is_text_column(std::size_t column) { return column == 0 || column == 3 || column == 7; }
 
 void print(std::ostream& out, const Line& line, const std::vector<std::size_t>& widths) {

@@ -9,7 +9,7 @@
 namespace orca::bench {
 
 /// Prints every row that was measured: medians, p99, ratios, and whether targets are met.
-/// @return how many targets were missed.
+/// @return the number of missed targets.
 int print_table(std::ostream& out, const std::vector<Row*>& rows);
 
 }  // namespace orca::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Many scans one after the other through a queue: taken from the pool, filled, pushed, taken, given back.
+// Time per scan through a queue: taken from the pool, filled, pushed, received, and returned to the pool.
 #include <algorithm>
 
 #include "benchmarks.hpp"

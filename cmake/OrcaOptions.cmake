@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# Compiler settings that hold for everything in the tree.
+# Compiler settings for everything in the tree.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -23,14 +23,15 @@ target_compile_options(orca_options INTERFACE
 
 if(ORCA_SANITIZE)
   add_compile_options(-fsanitize=${ORCA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  # g++ 12 sees uninitialised members inside std::regex once the sanitizers have rewritten it.
+  # With sanitizers, g++ 12 warns wrongly of uninitialised members inside std::regex.
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${ORCA_SANITIZE})
 endif()
 
 find_program(ORCA_CCACHE ccache)
 if(ORCA_CCACHE)
-  # It can only keep what uses a precompiled header (the tests) if it may disregard macros and times that are in there.
+  # ccache can keep objects that use a precompiled header only if it may ignore the macros and times in that
+  # header.
   set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${ORCA_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${ORCA_CCACHE})
 endif()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# The build recipe for plugins. Anything less pins a library in memory or runs stale code after a swap:
-# see docs/adr/0004-plugin-recipe.md.
+# The build recipe for plugins. Without any part of it a library can be pinned in memory, or stale code can
+# run after a swap: see docs/adr/0004-plugin-recipe.md.
 set(ORCA_BUILD_ID ${PROJECT_VERSION})
 set(ORCA_PLUGIN_SUPPORT_DIR ${CMAKE_CURRENT_LIST_DIR}/plugin)
 set(ORCA_PLUGIN_OPTIONS -fvisibility=hidden -fvisibility-inlines-hidden $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
@@ -33,8 +33,8 @@ endfunction()
 
 # orca_add_component(NAME SOURCES... [LINK targets...])
 #
-# Builds plugins/NAME.so from SOURCES, and plugins/NAME.types, which tells the loader which types it holds. A plugin may
-# hold any number of ORCA_COMPONENT and ORCA_HARDWARE types.
+# Builds plugins/NAME.so from SOURCES, and plugins/NAME.types, which lists its types for the loader. A plugin
+# may hold any number of ORCA_COMPONENT and ORCA_HARDWARE types.
 function(orca_add_component name)
   cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
   add_library(${name} MODULE ${arg_UNPARSED_ARGUMENTS} ${ORCA_PLUGIN_SUPPORT_DIR}/plugin_entry.cpp)

@@ -1,23 +1,24 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 
-# What most sources include of the standard library, parsed once for all libraries and once for all plugins, whose flags
-# differ: more than a third of a source's time in the compiler went there. No header of Orca's, so that a change compiles
-# nothing anew that does not include it. The preset "dev" compiles without: there a forgotten #include shows. Nor has it
-# <filesystem>: that brings std::quoted to wherever a std::string is an argument.
+# The headers of the standard library that most sources include. They are parsed once for all libraries and once for
+# all plugins, whose flags differ; they took more than a third of the time to compile a source. Headers of Orca are
+# not among them, so that a changed header recompiles only its users. Nor is <filesystem>, which makes std::quoted
+# visible wherever a std::string is an argument. Preset "dev" has no precompiled headers; there a forgotten #include
+# shows.
 set(ORCA_STANDARD_HEADERS
   <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstdlib> <deque> <functional> <limits> <map>
   <memory> <mutex> <numbers> <optional> <set> <span> <sstream> <stdexcept> <string> <string_view> <thread> <tuple>
   <type_traits> <utility> <variant> <vector>)
 set(ORCA_LIBRARY_OPTIONS
-  # Nobody replaces functions of our libraries at load time; knowing that makes calls within them cheaper.
+  # Functions of these libraries are not replaced at load time, which makes calls within them cheaper.
   $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition -fno-plt>)
 
-# ccache sees through a precompiled header with -fpch-preprocess only. Then g++ 12 no longer sees that these headers are the
-# system's, and when it optimises it warns of overruns inside std::string that are none.
+# ccache needs -fpch-preprocess to see through a precompiled header. With this option g++ 12 does not know that these
+# are system headers, and when it optimises it warns wrongly of overruns inside std::string.
 set(ORCA_PRECOMPILED_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess -Wno-array-bounds -Wno-restrict
     -Wno-stringop-overflow -Wno-stringop-overread>)
 
-# orca_add_precompiled_headers(NAME [options...]): for targets with those options.
+# orca_add_precompiled_headers(NAME [options...]): precompiles the headers for targets with those options.
 function(orca_add_precompiled_headers name)
   add_library(${name} OBJECT ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/standard_headers.cpp)
   target_compile_options(${name} PRIVATE ${ARGN} ${ORCA_PRECOMPILED_OPTIONS})
@@ -26,7 +27,7 @@ function(orca_add_precompiled_headers name)
 endfunction()
 orca_add_precompiled_headers(orca_library_headers ${ORCA_LIBRARY_OPTIONS})
 
-# orca_use_precompiled_headers(TARGET HEADERS)
+# orca_use_precompiled_headers(TARGET HEADERS): lets TARGET use the headers that were precompiled as HEADERS.
 function(orca_use_precompiled_headers target headers)
   target_compile_options(${target} PRIVATE ${ORCA_PRECOMPILED_OPTIONS})
   target_precompile_headers(${target} REUSE_FROM ${headers})
@@ -34,7 +35,8 @@ endfunction()
 
 # orca_add_library(NAME [SHARED|STATIC] SOURCES ... [PUBLIC deps] [PRIVATE deps] [HEADERS dir])
 #
-# One library per layer. Public headers live in <folder>/include; each is compiled alone when ORCA_VERIFY_HEADERS is on.
+# Adds the library of one layer. Public headers live in <folder>/include; the target
+# all_verify_interface_header_sets compiles each alone.
 function(orca_add_library name kind)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(orca_${name} ${kind} ${arg_SOURCES})

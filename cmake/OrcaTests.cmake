@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 
-# Tests are compiled once and run for a second: the compiler saves itself the optimisation in the release build, too. The
-# second option lets ccache see through the precompiled header, through which g++ 12 no longer sees that the headers in it
-# are the system's: when it optimises, as for the sanitizers, it warns of overruns inside std::string that are none.
+# Tests are compiled once and run for a second, so they are not optimised, even in the release build. The second option
+# lets ccache see through the precompiled header. With it g++ 12 does not know that these are system headers: when it
+# optimises, as for the sanitizers, it warns wrongly of overruns inside std::string.
 set(ORCA_TEST_OPTIONS $<$<CONFIG:Release>:-O0> $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "RelWithDebInfo")
   list(APPEND ORCA_TEST_OPTIONS -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
@@ -10,15 +10,15 @@ endif()
 
 # orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [OPTIMISED])
 #
-# A Catch2 binary, one ctest entry. TIMEOUT is a bound on hangs, for the release build; the default is 60 s. OPTIMISED is
-# for tests that compute much themselves.
+# Adds a Catch2 program with one ctest entry. TIMEOUT [s] is a bound on hangs in the release build; the default is 60 s.
+# OPTIMISED is for tests that compute much themselves.
 function(orca_add_test name)
   cmake_parse_arguments(arg "OPTIMISED" "TIMEOUT" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 60)
   endif()
   if(ORCA_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
-    math(EXPR arg_TIMEOUT "5 * ${arg_TIMEOUT}")  # that code is many times slower
+    math(EXPR arg_TIMEOUT "5 * ${arg_TIMEOUT}")  # code of these builds is many times slower
   endif()
   if(NOT arg_LABELS)
     set(arg_LABELS unit)

@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The source file that a precompiled header needs to hang on; see OrcaTargets.cmake.
+// The source file that a target with a precompiled header needs; see OrcaTargets.cmake.

@@ -16,7 +16,8 @@
 
 namespace orca::detail {
 
-/// The fewest bytes that a value takes in XCDR1. It bounds what a damaged length can make us allocate.
+/// Returns the fewest bytes that a value takes in XCDR1. It bounds the memory that a damaged length can make
+/// the reader allocate.
 template <class T>
 constexpr std::size_t min_wire_size() {
   if constexpr (ReflectedStruct<T>) {
@@ -28,8 +29,8 @@ constexpr std::size_t min_wire_size() {
   }
 }
 
-/// Reads what CdrWriter wrote. The bytes are not trusted: the first thing that cannot be ends the reading,
-/// and status() says which field it was.
+/// A reader of the bytes that CdrWriter wrote. The bytes are not trusted: the first invalid value ends the
+/// reading, and status() names its field.
 ///
 /// Thread contract: one thread.
 class CdrReader {
@@ -77,7 +78,7 @@ class CdrReader {
     read_elements(std::span<T>(values));
   }
 
-  /// How the reading went, once all fields are read.
+  /// Returns the result of the reading. Call after all fields.
   [[nodiscard]] Status status(std::string_view type_name) const;
 
  private:
@@ -101,7 +102,7 @@ class CdrReader {
 
   [[nodiscard]] bool failed() const { return !problem_.empty(); }
   [[nodiscard]] std::size_t remaining() const { return at_ < payload_.size() ? payload_.size() - at_ : 0; }
-  /// The length of a sequence, not more than the payload can hold.
+  /// Reads the length of a sequence; fails if the payload cannot hold as many elements.
   std::size_t read_count(std::size_t element_size);
   void copy_out(std::span<std::byte> to);
   void note_field(std::string_view name);

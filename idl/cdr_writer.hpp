@@ -17,11 +17,12 @@ namespace orca::detail {
 
 static_assert(std::endian::native == std::endian::little, "CDR is written as the machine holds it");
 
-/// A number as it stands on the wire: aligned to its own size, little-endian.
+/// A number on the wire: aligned to its own size, little-endian.
 template <class T>
 concept WireNumber = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
-/// Appends values in XCDR version 1, the encoding that Fast DDS uses; alignment counts from the first byte.
+/// A writer of values in XCDR version 1, the encoding that Fast DDS uses. Alignment counts from the first
+/// byte.
 ///
 /// Thread contract: one thread.
 /// @source  OMG DDS-XTypes 1.3, 7.4.3 (plain CDR, version 1); CORBA 3.3 part 2, 9.3.
@@ -40,7 +41,7 @@ class CdrWriter {
   }
   void write(bool value) { out_.push_back(static_cast<std::byte>(value)); }
   void write(const std::string& text) {
-    const std::string_view visible(text.c_str());  // An IDL string holds no zero.
+    const std::string_view visible(text.c_str());  // An IDL string contains no zero.
     write(static_cast<std::uint32_t>(visible.size() + 1));
     append(std::as_bytes(std::span(visible)));
     out_.push_back(std::byte{0});

@@ -14,8 +14,8 @@
 
 namespace orca::detail {
 
-/// Writes objects for people: a line per field, nested structs in braces on that line, each number followed
-/// by its unit. Numbers are written with the fewest digits that read back as the same number.
+/// A writer of objects for people: a line per field, nested structs in braces on that line, each number
+/// followed by its unit. Numbers are written with the fewest digits that read back as the same number.
 ///
 /// Thread contract: one thread.
 class DumpWriter {
@@ -24,7 +24,7 @@ class DumpWriter {
 
   template <class T>
   void field(const FieldInfo& info, const T& value) {
-    if (info.header && depth_ > 0) return;  // Only the outermost object was ever stamped.
+    if (info.header && depth_ > 0) return;  // Only the outermost object carries a time stamp.
     start_field(info.name);
     write(value);
     if (!info.unit.empty() && info.unit != "1") add_unit(info.unit);

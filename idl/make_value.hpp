@@ -66,7 +66,7 @@ Value make_value(std::vector<T>& list) {
   return {value};
 }
 
-/// Passes the fields of a struct on without their C++ types.
+/// A visitor that passes on the fields of a struct without their C++ types.
 class TypeEraser {
  public:
   explicit TypeEraser(FieldVisitor& visitor) : visitor_(visitor) {}

@@ -27,7 +27,7 @@ std::size_t object_offset(const ObjectType& type) { return round_up(sizeof(Slot)
 std::size_t Pool::stride() const { return round_up(object_offset(type_) + type_.size, slot_align(type_)); }
 
 void Pool::grow() {
-  // The first slab has one place more, for the blank object.
+  // The first slab has one more place, for the blank object.
   const bool first = slabs_ == nullptr;
   const std::size_t places = std::clamp(capacity_, kFirstSlab, kLargestSlab);
   const std::size_t head = round_up(sizeof(Slab), slot_align(type_));
@@ -63,15 +63,16 @@ Slot* Pool::acquire() noexcept {
   return slot;
 }
 
-// What was given back last comes first: it may still be in the caches.
+// The slots returned last come first, because they may still be in the caches.
 void Pool::take_back() {
   if (returned_.load(std::memory_order_relaxed) == nullptr) return;
   Slot* slot = returned_.exchange(nullptr, std::memory_order_acquire);
   while (slot != nullptr) slot = std::exchange(slot->next_free, std::exchange(free_, slot));
 }
 
-// Without the lock: whoever drops the last view of an object never waits. Only take_back() takes slots off
-// the list, and all at once, so it does not matter whether the first slot has been away since it was read.
+// Takes no lock, so that dropping the last view of an object never waits. Only take_back() removes slots from
+// the list, and all at once. So it does not matter whether the first slot has left the list and come back
+// since it was read.
 void Pool::recycle(Slot* slot) noexcept {
   slot->next_free = returned_.load(std::memory_order_relaxed);
   while (!returned_.compare_exchange_weak(slot->next_free, slot, std::memory_order_release,
@@ -90,9 +91,9 @@ PoolStatistics Pool::statistics() {
 Slot* acquire_slot(const ObjectType& type) noexcept { return type.pool.acquire(); }
 
 void release_slot(Slot* slot) noexcept {
-  // Release: what this view's owner read is done before the object can be reused; acquire: the last one waits
-  // for that of all others.
-  // The last view needs no atomic subtraction: nobody else can copy it or drop one.
+  // Release: the reads through this view are complete before the object can be reused. Acquire: the last view
+  // sees the same for all others. The last view needs no atomic subtraction, because no other view exists to
+  // be copied or dropped.
   if (slot->references.load(std::memory_order_acquire) == 1 ||
       slot->references.fetch_sub(1, std::memory_order_acq_rel) == 1)
     slot->type->pool.recycle(slot);

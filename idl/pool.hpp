@@ -10,8 +10,8 @@
 
 namespace orca::detail {
 
-/// The memory of all objects of one type: slabs of slots, each larger than the one before, never given back.
-/// A recycled slot keeps its object constructed, so that texts and sequences keep their capacity.
+/// The memory of all objects of one type: slabs of slots, which grow in size and are never freed. A recycled
+/// slot keeps its object constructed, so that texts and sequences keep their capacity.
 ///
 /// Thread contract: any thread.
 class Pool {
@@ -20,7 +20,7 @@ class Pool {
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
-  /// A slot with one reference, whose object has its default value.
+  /// Returns a slot with one reference, whose object has its default value.
   [[nodiscard]] Slot* acquire() noexcept;
   void recycle(Slot* slot) noexcept;
   [[nodiscard]] PoolStatistics statistics();
@@ -35,11 +35,11 @@ class Pool {
   [[nodiscard]] std::size_t stride() const;
 
   const ObjectType& type_;
-  std::atomic<Slot*> returned_{nullptr};  // recycled and not yet among the free ones
+  std::atomic<Slot*> returned_{nullptr};  // recycled, but not yet among the free slots
   std::mutex mutex_;
   // Below: guarded by mutex_.
   Slot* free_ = nullptr;
-  Slab* slabs_ = nullptr;        // Keeps the memory reachable, for leak checkers.
+  Slab* slabs_ = nullptr;        // Keeps the memory reachable for leak checkers.
   const void* blank_ = nullptr;  // A default object; constant once made.
   std::size_t capacity_ = 0;
 };

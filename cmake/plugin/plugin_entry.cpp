@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Added to every plugin by orca_add_component(): exports the table of the types that the plugin holds, and
-// keeps the layouts that it was built with, of the objects and of all else that crosses the plugin boundary, so
-// that a loader with other layouts can tell what has changed.
+// Added to every plugin by orca_add_component(). It exports the table of the plugin's types. It also keeps
+// the layouts that the plugin was built with, of the objects and of all else that crosses the plugin boundary,
+// so that a loader with other layouts can report what has changed.
 #include "orca/component/generated/plugin_layouts.hpp"
 #include "orca/component/manifest.hpp"
 #include "orca/idl/generated/object_layouts.hpp"
 
 extern "C" {
-// Set by the linker: the bounds of the section in which ORCA_COMPONENT and ORCA_HARDWARE gather their
+// Set by the linker: the bounds of the section in which ORCA_COMPONENT and ORCA_HARDWARE collect their
 // entries.
 [[gnu::visibility("hidden")]] extern const orca::TypeEntry* const __start_orca_types[];
 [[gnu::visibility("hidden")]] extern const orca::TypeEntry* const __stop_orca_types[];

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# Lists the types that ORCA_COMPONENT and ORCA_HARDWARE declare in SOURCES, one a line, in OUT: "component NAME" or
-# "hardware NAME".
+# Writes the types that ORCA_COMPONENT and ORCA_HARDWARE declare in SOURCES to OUT, one per line: "component
+# NAME" or "hardware NAME".
 set(types "")
 foreach(source ${SOURCES})
   file(STRINGS ${source} lines REGEX "^ORCA_(COMPONENT|HARDWARE)\\(")

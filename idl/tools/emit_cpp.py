@@ -60,7 +60,7 @@ def type_key(struct: Struct) -> str:
 
 
 def type_declaration(struct: Struct) -> str:
-    """The hash is part of the symbol that users of the type refer to: built for another layout, they do not load."""
+    """Declares a type. Its symbol contains the hash of its layout: users built for another layout do not load."""
     return (
         f"template <>\nconst ObjectType& {type_key(struct)};\n"
         f"template <>\ninline const ObjectType& object_type<idl::{struct.name}>() {{ return {type_key(struct)}; }}\n"
@@ -86,7 +86,7 @@ def type_definition(struct: Struct) -> str:
 
 
 def type_table(files: list[IdlFile]) -> str:
-    """The one source file that defines every object type. Sorted by name, so that it can be searched."""
+    """Returns the one source file that defines every object type, sorted by name for searching."""
     stems = [Path(f.name).stem for f in files]
     structs = sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name)
     parts = [HEAD, '#include "make_object_type.hpp"\n', '#include "pool.hpp"\n']
@@ -104,7 +104,7 @@ def type_table(files: list[IdlFile]) -> str:
 
 
 def layouts_header(files: list[IdlFile]) -> str:
-    """What a plugin carries, so that it can be told what has changed in a type since it was built."""
+    """Returns the layouts that a plugin carries, so that an error can say what changed in a type since it was built."""
     structs = sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name)
     texts = "\n".join(f"    {quoted(s.layout)} \"\\0\"" for s in structs)
     return (

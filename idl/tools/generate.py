@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Turns all IDL files into C++: runs fastddsgen, then writes the reflection of every type beside its output.
+"""Generates C++ from all IDL files: runs fastddsgen and writes the reflection of every type beside its output.
 
 generate.py --fastddsgen PROGRAM --out DIR FILE.idl...
-Files whose text did not change keep their time stamp, so that editing one IDL file rebuilds only what it concerns.
+Files whose text did not change keep their time stamp, so that an edit of one IDL file rebuilds only its users.
 """
 
 import argparse
@@ -25,7 +25,7 @@ def write_if_changed(path: Path, text: str):
 
 
 def run_fastddsgen(program: str, sources: list[Path], out: Path):
-    """All files in one run: fastddsgen writes included files again, so separate runs would race."""
+    """Runs fastddsgen once for all files: it writes included files again, so separate runs would race."""
     with tempfile.TemporaryDirectory(dir=out) as scratch:
         command = [program, "-replace", "-cs", "-d", scratch, *(s.name for s in sources)]
         run = subprocess.run(command, cwd=sources[0].parent, capture_output=True, text=True)
@@ -35,7 +35,8 @@ def run_fastddsgen(program: str, sources: list[Path], out: Path):
             if run.returncode != 0 or len(generated) != 4:
                 raise IdlError(f"{source.name}:1: fastddsgen failed:\n{run.stdout}{run.stderr}")
             for path in generated:
-                # fastddsgen writes the hash codes of its own Java objects into comments; they differ in each run.
+                # fastddsgen writes the hash codes of its own Java objects into comments, and they differ in
+                # each run.
                 stable = re.sub(r"[ \t]*// m_\w+ com\.eprosima\.\S+\n", "", path.read_text())
                 write_if_changed(out / path.name, stable)
 

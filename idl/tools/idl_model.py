@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What an IDL file means: types, fields, units, and the layout text that identifies an object type."""
+"""The content of an IDL file: types, fields, units, and the layout text that identifies an object type."""
 
 from dataclasses import dataclass, field
 from typing import Optional, Union
@@ -14,7 +14,7 @@ class IdlError(Exception):
 
 @dataclass(frozen=True)
 class Primitive:
-    """A type of the language itself, and the fewest bytes that a value takes on the wire (XCDR1)."""
+    """A built-in type of IDL, and the fewest bytes that a value takes on the wire (XCDR1)."""
 
     idl: str
     layout: str
@@ -87,7 +87,7 @@ class Struct:
 
     @property
     def layout(self) -> str:
-        """Everything that two programs must agree on to exchange this type; base first, nested types in full."""
+        """All that two programs must agree on to exchange this type: base first, nested types in full."""
         return f"{self.name}{{{','.join(f.layout for f in self.all_fields)}}}"
 
     @property
@@ -96,7 +96,7 @@ class Struct:
 
     @property
     def is_object(self) -> bool:
-        """Whether it travels on its own: OrcaObject and what derives from it."""
+        """Whether it can be sent on its own: OrcaObject and the structs derived from it."""
         return self.name == "OrcaObject" or (self.base is not None and self.base.is_object)
 
 
@@ -109,7 +109,7 @@ class IdlFile:
 
 
 def layout_hash(layout: str) -> int:
-    """FNV-1a, 64 bits, over the text and a zero: the same value as orca::Fnv1a::add_text."""
+    """Returns FNV-1a, 64 bits, over the text and a zero: the same value as orca::Fnv1a::add_text."""
     value = FNV_OFFSET
     for byte in layout.encode("ascii") + b"\0":
         value = ((value ^ byte) * FNV_PRIME) & 0xFFFFFFFFFFFFFFFF

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Reads the part of IDL that Orca uses, and refuses the rest with the line and the remedy.
+"""Reads the part of IDL that Orca uses, and rejects the rest with the line and the remedy.
 
 Allowed: include guards, #include "x.idl", module orca { module idl { ... }; };, enum, struct with single inheritance,
 and fields of the types in idl_model.PRIMITIVES, of enums and structs declared before, as sequence<T> or T name[N].
-Every type needs a `///` comment before it, every field a `///<` comment behind it; that of a double starts with its
-unit in brackets: `double speed;  ///< [m/s] forward positive`.
+Every type needs a `///` comment before it, every field a `///<` comment after it. The comment of a double starts with
+its unit in brackets: `double speed;  ///< [m/s] forward positive`.
 """
 
 import difflib
@@ -53,7 +53,7 @@ def tokenize(text: str, name: str) -> list[Token]:
 
 
 class Parser:
-    """One file. `known` maps the names of types declared before to the types, and is extended."""
+    """The parser of one file. `known` maps the names of types declared before to the types, and is extended."""
 
     def __init__(self, text: str, name: str, known: dict, load):
         self.name, self.known, self.load = name, known, load
@@ -263,7 +263,7 @@ class Parser:
 
 
 def load_files(paths: list[Path]) -> list[IdlFile]:
-    """Parses the files and what they include, which lies beside them; each file comes once, after its includes."""
+    """Parses the files and their includes in the same folder; each file comes once, after its includes."""
     loaded: dict[str, IdlFile] = {}
     known: dict = {}
     open_files: list[str] = []

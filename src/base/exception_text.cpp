@@ -30,7 +30,7 @@ std::string describe_current_exception() {
     return "threw " + type + ": " + error.what();
   } catch (int value) {
     return "threw the int " + std::to_string(value);
-  } catch (const char* text) {  // also nullptr, which is caught by any pointer
+  } catch (const char* text) {  // a thrown nullptr lands here too
     return text != nullptr ? std::string("threw the text \"") + text + "\""
                            : "threw an object of type " + type;
   } catch (const std::string& text) {

@@ -19,8 +19,8 @@ Field field(std::string_view text) {
   return {text.substr(0, colon), text.substr(colon + 1)};
 }
 
-// The fields of a layout that holds any: what is between its outermost braces, cut at the commas that no
-// bracket encloses. A unit's braces hold no colon.
+// Returns the fields of a layout: the text between its outermost braces, cut at the commas that no bracket
+// encloses. None if it has no fields; the braces of a unit hold no colon.
 std::vector<Field> fields_of(std::string_view layout) {
   std::vector<Field> fields;
   const std::size_t open = layout.find('{');
@@ -41,7 +41,7 @@ std::vector<Field> fields_of(std::string_view layout) {
   return fields;
 }
 
-// Walks both layouts until the first difference.
+// A walk through both layouts up to the first difference.
 class Comparison {
  public:
   explicit Comparison(const LayoutEnds& ends) : from_(ends.from), to_(ends.to) {}

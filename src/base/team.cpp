@@ -16,12 +16,12 @@ namespace {
 
 using detail::useful_spin;
 
-// Loops often come one soon after the other, and a thread that sleeps is woken late.
+// Loops often follow each other closely, and a sleeping thread wakes late.
 constexpr Duration kSpin = std::chrono::microseconds{300};
 
 }  // namespace
 
-// On the caller's stack, which outlives it: the caller waits for all who have joined.
+// One loop in progress. It lives on the caller's stack: the caller waits for all helpers that have joined.
 class Team::Loop {
  public:
   Loop(std::size_t count, const std::function<void(std::size_t)>& work) : count_(count), work_(work) {
@@ -45,7 +45,7 @@ class Team::Loop {
     if (failure_) std::rethrow_exception(failure_);
   }
 
-  int helpers = 0;  // Who have joined and not left; guarded by the team.
+  int helpers = 0;  // Helpers that have joined and not left; guarded by the team.
 
  private:
   void fail(std::size_t i) {
@@ -57,10 +57,11 @@ class Team::Loop {
 
   std::size_t count_;
   const std::function<void(std::size_t)>& work_;
-  ActivityKeeper caller_;  // What a helper does it does for the caller.
+  ActivityKeeper caller_;  // A helper works in the name of the caller.
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
-  std::exception_ptr failure_;  // Guarded, as the next.
+  // Guarded by mutex_.
+  std::exception_ptr failure_;
   std::size_t failed_ = 0;
 };
 
@@ -71,7 +72,7 @@ struct Team::Helper {
 
 Team::Team(unsigned threads) : helpers_left_(std::make_unique<detail::FutexEvent>(useful_spin(kSpin))) {
   const unsigned wanted = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-  helpers_.reserve(wanted - 1);  // So that nothing can fail between a thread's start and its place here.
+  helpers_.reserve(wanted - 1);  // Nothing can fail between a thread's start and its place here.
   try {
     while (helpers_.size() + 1 < wanted) {
       auto helper = std::make_unique<Helper>();
@@ -79,9 +80,9 @@ Team::Team(unsigned threads) : helpers_left_(std::make_unique<detail::FutexEvent
       helpers_.push_back(std::move(helper));
     }
   } catch (const std::system_error&) {
-    // There are as many as the system allows,
+    // The team has as many threads as the system allows.
   } catch (const std::bad_alloc&) {
-    // or as there is memory for.
+    // The team has as many threads as there is memory for.
   }
 }
 
@@ -116,7 +117,7 @@ void Team::wait_for_helpers(const Loop& loop) {
   for (;;) {
     {
       const std::lock_guard lock(mutex_);
-      loop_ = nullptr;  // Who comes late need not join.
+      loop_ = nullptr;  // A late helper need not join.
       if (loop.helpers == 0) return;
     }
     helpers_left_->wait_until(kForever);

@@ -17,7 +17,7 @@ std::string as_byte(char c) {
   return {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 0xFU]};
 }
 
-// The byte that the two digits behind "\x" mean.
+// Returns the byte that two hexadecimal digits mean.
 std::optional<char> hexadecimal(std::string_view digits) {
   std::uint8_t byte = 0;
   const char* end = digits.data() + digits.size();

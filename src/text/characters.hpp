@@ -8,11 +8,11 @@
 
 namespace orca::text {
 
-// Any bytes as characters that XML can hold: a backslash becomes \\, each byte that is part of no character
-// of XML (control characters, broken UTF-8) becomes \x and two hexadecimal digits.
+// Returns any bytes as characters that XML can hold. A backslash becomes \\. A byte that is part of no XML
+// character (control characters, broken UTF-8) becomes \x and two hexadecimal digits.
 [[nodiscard]] std::string with_backslashes(std::string_view bytes);
 
-// The way back.
+// Reads the bytes back from what with_backslashes() wrote.
 [[nodiscard]] Verdict without_backslashes(std::string_view text, std::string& bytes);
 
 }  // namespace orca::text

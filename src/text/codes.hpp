@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The codes of everything that can be wrong with the text form of an object. docs/errors.md explains them to
-// people; a test compares the two. A code keeps its meaning for ever.
+// Codes of the errors in the text form of an object. docs/errors.md explains them, and a test compares the
+// two lists. A code never changes its meaning.
 #pragma once
 
 namespace orca::text::codes {

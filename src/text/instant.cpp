@@ -19,7 +19,7 @@ bool all_digits(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// The nanoseconds in "12" or "12.05", at most nine digits behind the point.
+// Reads the nanoseconds of "12" or "12.05"; at most nine digits after the point.
 std::optional<std::uint64_t> nanoseconds(std::string_view seconds) {
   const std::size_t point = std::min(seconds.find('.'), seconds.size());
   const std::string_view whole = seconds.substr(0, point);
@@ -64,7 +64,7 @@ Verdict read_instant(std::string_view text, std::int64_t& ns) {
   }
   double seconds = 0.0;
   if (const Verdict wrong = read_number(text, "s", seconds)) return wrong;
-  constexpr double kLimit = 9.2e9;  // 2^63 ns are a little more.
+  constexpr double kLimit = 9.2e9;  // 2^63 ns is a little more.
   if (!(std::abs(seconds) <= kLimit)) {
     return Problem{codes::kRange,
                    "\"" + std::string(text) + "\" is not within 292 years of the clock's zero"};

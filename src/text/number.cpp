@@ -25,7 +25,7 @@ std::string nan_text(std::uint64_t bits) {
   return "nan(" + std::string(digits.data(), end) + ")";
 }
 
-// "nan(BITS)"
+// Reads "nan(BITS)".
 std::optional<double> nan_of_bits(std::string_view word) {
   if (!word.starts_with("nan(") || !word.ends_with(')')) return std::nullopt;
   const char* end = word.data() + word.size() - 1;
@@ -72,7 +72,7 @@ Verdict read_number(std::string_view text, std::string_view unit, double& value)
     return Problem{codes::kUnit,
                    shown + ": write numbers alone here, their units differ: " + std::string(unit)};
   }
-  // What is not finite has a unit that can be wrong, and nothing to convert.
+  // The unit of an infinite value or NaN is checked as well, but there is nothing to convert.
   const bool finite = std::isfinite(number->value);
   const Result<double> si = xml::to_si(finite ? number->value : 0.0, number->rest, unit == "1" ? "" : unit);
   if (!si) return Problem{codes::kUnit, shown + ": " + si.error().message};

@@ -8,15 +8,15 @@
 
 namespace orca::text {
 
-// The fewest digits that read_number() takes for the same value. "inf" and "-inf" for the infinite ones.
-// "nan" for the NaN that std::numeric_limits has, "nan(7ff8000000000001)", its bits, for any other.
+// Returns the fewest digits that read_number() reads as the same value. Infinite values are "inf" and "-inf".
+// The NaN of std::numeric_limits is "nan"; any other is shown with its bits: "nan(7ff8000000000001)".
 [[nodiscard]] std::string number_text(double value);
 
-// Whether `word` starts as a number does, "nan" and "inf" included.
+// Returns whether `word` starts like a number, including "nan" and "inf".
 [[nodiscard]] bool starts_number(std::string_view word);
 
-// A number, with or without a unit behind it.
-// `unit`: the SI unit of the field, "1" for a plain number.
+// Reads a number, with or without a unit after it. `unit` is the SI unit of the field, or "1" for a plain
+// number.
 [[nodiscard]] Verdict read_number(std::string_view text, std::string_view unit, double& value);
 
 }  // namespace orca::text

@@ -159,11 +159,11 @@ struct ReadPlain {
   Verdict operator()(const ListValue& list) const;
 };
 
-// "150 200 mm": the unit at the end holds for all numbers.
+// Takes the unit off "150 200 mm": the unit at the end holds for all numbers.
 std::string take_common_unit(std::vector<std::string_view>& words, std::string_view unit) {
   if (unit.empty() || words.size() < 2) return {};
   const std::string_view last = words.back();
-  const bool is_unit = last == unit && unit != "1";  // "1/s" starts as a number does.
+  const bool is_unit = last == unit && unit != "1";  // "1/s" starts like a number.
   if (starts_number(last) && !is_unit) return {};
   words.pop_back();
   return " " + std::string(last);

@@ -9,18 +9,18 @@
 
 namespace orca::text {
 
-// Whether a value is one attribute in XML (true) or an element or several of them (false).
+// Returns whether a value is one attribute in XML (true), or one or more elements (false).
 [[nodiscard]] bool is_attribute(const Value& value);
 
-// Whether a value is the default: 0 (not -0), false, empty, the first enumerator, an array or struct of
-// these.
+// Returns whether a value is the default: 0 (not -0), false, empty, the first enumerator, or an array or
+// struct of these.
 [[nodiscard]] bool is_default(const Value& value);
 
-// A value that is an attribute, as text that XML can hold once its special characters are escaped.
+// Returns the text of a value that is an attribute. XML can hold it once its special characters are escaped.
 [[nodiscard]] std::string plain_text(const Value& value);
 
-// The way back. `unit`: that of the field. A value that is wrong leaves the object's as it was, a wrong list
-// leaves it anyhow.
+// Reads a value from its text. `unit` is the unit of the field. A wrong value leaves the object's value as it
+// was; a wrong list leaves it in any state.
 [[nodiscard]] Verdict read_plain(std::string_view text, std::string_view unit, const Value& value);
 
 }  // namespace orca::text

@@ -6,12 +6,12 @@
 
 namespace orca::text {
 
-// What is wrong with a value that was read.
+// An error in a value that was read.
 struct Problem {
   const char* code;
   std::string message;
 };
 
-using Verdict = std::optional<Problem>;  // Nothing: the value is good.
+using Verdict = std::optional<Problem>;  // Empty: the value is good.
 
 }  // namespace orca::text

@@ -7,9 +7,8 @@
 
 namespace orca::text {
 
-// What an element of a list is to XML: a struct is itself, and a text, which has no fields, is shown as a
-// struct whose one field is called "value".
-// `element`: a struct or a text.
+// Returns an element of a list, a struct or a text, as the struct that XML shows. A text has no fields, so it
+// becomes a struct with the one field "value".
 [[nodiscard]] inline StructValue as_struct(const Value& element) {
   if (const auto* part = std::get_if<StructValue>(&element.of)) return *part;
   const auto show = [](void* text, FieldVisitor& visitor) {

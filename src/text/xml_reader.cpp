@@ -23,7 +23,7 @@ bool contains(const Names& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// Fills one struct from an element, and reports what the element has and the struct has not.
+// A reader that fills one struct from an element, and reports what the element has and the struct has not.
 class ElementReader final : public FieldVisitor {
  public:
   ElementReader(const xml::Element& element, xml::Diagnostics& diagnostics)
@@ -121,8 +121,8 @@ class ElementReader final : public FieldVisitor {
   }
 
   void unknown(const std::string& name, const xml::Position& position) {
-    if (diagnostics_.error_count() > xml::Diagnostics::kKept)
-      return;  // Nobody reads it, and hints take time.
+    // The error would not be shown, and hints take time.
+    if (diagnostics_.error_count() > xml::Diagnostics::kKept) return;
     Names all = attributes_;
     all.insert(all.end(), elements_.begin(), elements_.end());
     report(codes::kUnknownField, position,
@@ -144,7 +144,7 @@ Names all_type_names() {
   return names;
 }
 
-// The type that the root element names, if it is one that may come here.
+// Returns the type that the root element names, or null with an error if it may not stand here.
 const ObjectType* type_of(const xml::Element& root, const ObjectType* expected,
                           xml::Diagnostics& diagnostics) {
   const ObjectType* found = find_object_type(root.name());

@@ -10,7 +10,7 @@
 namespace orca {
 namespace {
 
-// Writes one struct as an element.
+// A writer of one struct as an element.
 class ElementWriter final : public FieldVisitor {
  public:
   enum class Place { outermost, inside };
@@ -36,7 +36,7 @@ class ElementWriter final : public FieldVisitor {
   }
 
  private:
-  // Only the outermost object was ever stamped.
+  // Only the outermost object carries a time stamp.
   [[nodiscard]] bool is_left_out(const FieldInfo& info, const Value& value) const {
     const bool composed = !text::is_attribute(value) || std::holds_alternative<ListValue>(value.of);
     const bool unstamped = info.header && place_ == Place::inside;
@@ -68,7 +68,7 @@ class ElementWriter final : public FieldVisitor {
 }  // namespace
 
 std::string to_xml(const ObjectType& type, const void* object) {
-  // Values are seen through references that could change them; the writer does not.
+  // Values are seen through references that could change them, but the writer does not change them.
   const StructValue whole{.type = type.name, .object = const_cast<void*>(object), .fields = type.fields};
   return ElementWriter(ElementWriter::Place::outermost).write(type.name, whole);
 }

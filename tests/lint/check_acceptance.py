@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/acceptance.md: one line per claim, which ends with the one command, in single back-ticks, that shows it."""
+"""docs/acceptance.md has one line per claim. Each ends with the one command, in single back-ticks, that proves it."""
 import re
 
 PAGE = "docs/acceptance.md"
@@ -22,7 +22,7 @@ def fault(claim):
 
 def find(tree):
     if not tree.exists(PAGE):
-        return [f"{PAGE}:1: there is no such page; each claim that Orca makes needs a line there"]
+        return [f"{PAGE}:1: there is no such page; each claim about Orca needs a line there"]
     text = REMARK.sub(lambda m: re.sub(r"[^\n]", "", m[0]), tree.text(PAGE))
     claims = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
     return [f"{PAGE}:{n}: {wrong}: {line}" for n, line in claims for wrong in [fault(line)] if wrong]

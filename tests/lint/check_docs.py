@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What documents point to exists: links and their anchors, graphs that README.md names, pages that sources name."""
+"""The targets of documents exist: links and their anchors, graphs that README.md names, pages that sources name."""
 import posixpath
 import re
 
@@ -17,12 +17,12 @@ def _blanked(match):
 
 
 def prose(text):
-    """The text with code blanked out; lines keep their numbers."""
+    """Returns the text with code blanked out; lines keep their numbers."""
     return CODE.sub(_blanked, FENCE.sub(_blanked, text))
 
 
 def anchors(text):
-    """The anchors that the headings of a page make: lower case, no punctuation, blanks to hyphens."""
+    """Returns the anchors of a page's headings: lower case, no punctuation, hyphens for blanks."""
     heads = HEADING.findall(FENCE.sub(_blanked, text))
     plain = (re.sub(r"[`*]|\[([^\]]*)\]\([^)]*\)", lambda m: m[1] or "", h) for h in heads)
     return {re.sub(r"[^\w\- ]", "", h.lower()).strip().replace(" ", "-") for h in plain}
@@ -63,7 +63,7 @@ def _named(tree, paths, pattern, kind):
 
 
 def find(tree):
-    """A name in capitals (docs/adr/NNNN-title.md, graphs/NAME.xml) stands for any name and is left alone."""
+    """Finds missing targets, except names in capitals (docs/adr/NNNN-title.md, graphs/NAME.xml): they stand for any."""
     sources = [p for p in tree.with_suffix(*SOURCES) if not p.startswith(("tests/lint/", "tests/data/"))]
     graph = re.compile(GRAPH.pattern.replace("graphs/", "graphs/(?![A-Z]{3})"))
     page = re.compile(PAGE.pattern.replace("docs/", "docs/(?!(?:adr/)?[A-Z]{3})"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""C++ files are laid out as clang-format 14 lays them out; the tree's .clang-format has the rules."""
+"""C++ files have the layout that clang-format 14 gives them by the rules in the tree's .clang-format."""
 import re
 import shutil
 import subprocess
@@ -14,13 +14,13 @@ def missing_tool():
 
 
 def _first_fault(path, text):
-    """path:line of the first place that clang-format would change, or None. The path also tells it the own header."""
+    """Returns path:line of the first place that clang-format would change, or None. The path shows the own header."""
     command = [TOOL, f"--style=file:{STYLE}", f"--assume-filename={path}", "--dry-run", "-Werror"]
     run = subprocess.run(command, input=text, text=True, capture_output=True)
     if run.returncode == 0:
         return None
     place = re.match(r".*?:\d+:", run.stderr)
-    return f"{place[0] if place else path + ':'} not laid out by the rules; {TOOL} -i {path} puts it right"
+    return f"{place[0] if place else path + ':'} not laid out by the rules; {TOOL} -i {path} corrects it"
 
 
 def find(tree):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small functions and small files: the figures that CONTRIBUTING.md gives, for C++ and, by length, for Python."""
+"""Functions and files are small, by the figures in CONTRIBUTING.md: for C++ and, by length alone, for Python."""
 import ast
 
 from cpp_functions import Function, functions_of
@@ -11,13 +11,13 @@ WORST_SHOWN = 10
 
 
 def _python_functions(text):
-    """Their length in lines; complexity is not counted."""
+    """Measures length in lines; complexity is not counted."""
     nodes = [n for n in ast.walk(ast.parse(text)) if isinstance(n, (ast.FunctionDef, ast.AsyncFunctionDef))]
     return [Function(n.name, n.lineno, n.end_lineno - n.lineno + 1, 1) for n in nodes]
 
 
 def measured(tree):
-    """(path, Function) of every function in the tree."""
+    """Yields (path, Function) of every function in the tree."""
     for path in tree.with_suffix(".cpp", ".hpp", ".h"):
         yield from ((path, f) for f in functions_of(tree.text(path)))
     for path in tree.with_suffix(".py"):
@@ -25,7 +25,7 @@ def measured(tree):
 
 
 def percentile(lengths, share):
-    """The smallest length that at least this share of the functions does not exceed."""
+    """Returns the smallest length that at least this share of the functions does not exceed."""
     ordered = sorted(lengths)
     return ordered[max(0, -(-len(ordered) * share // 100) - 1)] if ordered else 0
 
@@ -40,7 +40,7 @@ def _print_figures(functions):
 
 def _faults_of_one(path, f):
     if f.length > MAX_LINES:
-        yield f"{path}:{f.line}: {f.name} has {f.length} lines, at most {MAX_LINES}; give its parts names of their own"
+        yield f"{path}:{f.line}: {f.name} has {f.length} lines, at most {MAX_LINES}; move parts of it to functions"
     if f.complexity > MAX_COMPLEXITY:
         yield f"{path}:{f.line}: {f.name} has complexity {f.complexity}, at most {MAX_COMPLEXITY}"
 
@@ -56,7 +56,7 @@ def _faults_of_files(tree):
     for path in tree.with_suffix(".cpp", ".hpp", ".h", ".py", ".idl", ".cmake", "CMakeLists.txt", "dev"):
         lines = tree.text(path).count("\n")
         if lines > MAX_FILE_LINES:
-            yield f"{path}:1: {lines} lines, at most {MAX_FILE_LINES}; cut it by subject"
+            yield f"{path}:1: {lines} lines, at most {MAX_FILE_LINES}; split it by subject"
 
 
 def find(tree):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Public headers begin with #pragma once and lie where CMake compiles each one alone (<module>/include/orca/)."""
+"""Headers begin with #pragma once; public ones lie in <module>/include/orca/, where CMake compiles each one alone."""
 import re
 
 USING = re.compile(r"\busing namespace (?![\w:]*literals;)")
@@ -15,7 +15,7 @@ def find(tree):
         if "/include/" in path and not PUBLIC.search(path):
             findings.append(f"{path}:1: public headers lie in <module>/include/orca/")
         if PUBLIC.search(path) and USING.search(code):
-            findings.append(f"{path}:1: a public header must not say using namespace: it would say so for its users")
+            findings.append(f"{path}:1: a public header must not say using namespace: that affects all its users")
     return findings
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Includes point down only (layers.py), and each third-party library shows in the layers that may know it."""
+"""Includes point down only (layers.py), and each third-party library is used only in the layers that may use it."""
 import collections
 import posixpath
 import re
@@ -9,14 +9,14 @@ from layers import LAYERS, LIBRARY_HEADERS
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 SOURCES = (".cpp", ".hpp", ".h", ".c")
 MOST_FILES = 30
-# What opens and closes a namespace, and classes at the start of a line: Orca's sources do not indent namespaces.
+# The beginnings and ends of namespaces, and classes at the start of a line: Orca's sources do not indent namespaces.
 SCOPE = re.compile(
     r"^namespace (?P<open>[\w:]+) \{$|^(?P<close>\}  // namespace [\w:]+)$"
     r"|^(?:enum )?(?:class|struct) (?:alignas\(\w+\) )?(?P<name>\w+)(?: final)?[^;{\n]*(?P<end>[;{]?)", re.MULTILINE)
 
 
 def layer_of_file(path):
-    """The layer whose folder is the longest beginning of the path; src/base/log means log.cpp and log/ alike."""
+    """Returns the layer whose folder is the longest prefix of the path; src/base/log means both log.cpp and log/."""
     def match(layer):
         return max((len(f) for f in layer.folders if re.match(re.escape(f) + r"[/.]", path)), default=0)
     best = max(LAYERS, key=match)
@@ -35,7 +35,7 @@ def library_of(header):
 
 
 def unit_of(layer, path):
-    """The folder that a file of a layer without siblings must stay in: src/components/NAME."""
+    """Returns the folder that a file of a layer without siblings must stay in: src/components/NAME."""
     folder = max((f for f in layer.folders if path.startswith(f)), key=len)
     return "/".join(path.split("/")[: folder.count("/") + 2])
 
@@ -59,14 +59,14 @@ def fault_of_library(layer, path, header, library):
 
 
 def target_of_private_include(layer, path, header, tree):
-    """Beside the file that includes it, or in another room of its module."""
+    """Returns the path of a private header: beside the file that includes it, or in another room of its module."""
     starts = [posixpath.dirname(path)] + ([layer.module] if layer.module else [])
     candidates = [posixpath.normpath(posixpath.join(start, header)) for start in starts]
     return next((c for c in candidates if tree.exists(c)), None)
 
 
 def may_include_private(layer, owner):
-    """Rooms of one module see each other's private headers, as far as the arrows point down."""
+    """Returns whether a layer may see the owner's private headers: a lower room of its module, or a part of base."""
     base_parts = {"base", "log", "executive"}
     if owner is layer or {layer.name, owner.name} <= base_parts:
         return True
@@ -74,7 +74,7 @@ def may_include_private(layer, owner):
 
 
 def fault_of_private_include(layer, path, header, tree):
-    """A private header lies in the same layer, or in a lower room of the same module."""
+    """Reports a private header that is neither in the same layer nor in a lower room of the same module."""
     target = target_of_private_include(layer, path, header, tree)
     if target is None:
         return None
@@ -96,7 +96,7 @@ def fault(layer, path, quote, header, tree):
 
 
 def declared_names(text):
-    """(qualified name, offset, whether it is defined) of each class, struct and enum at namespace level."""
+    """Yields (qualified name, offset, whether it is defined) of each class, struct and enum at namespace level."""
     namespaces = []
     for match in SCOPE.finditer(text):
         if match["open"] is not None:
@@ -108,7 +108,7 @@ def declared_names(text):
 
 
 def owners_of_names(tree):
-    """Qualified name -> the layer that defines it, of all headers in the table."""
+    """Maps each qualified name to the layer that defines it, for all headers in the table."""
     owners = {}
     for path in tree.with_suffix(".hpp", ".h"):
         layer = layer_of_file(path)
@@ -118,7 +118,7 @@ def owners_of_names(tree):
 
 
 def faults_of_declarations(layer, text, owners):
-    """(offset, fault) of each name of a layer above that the file declares: it depends on that layer like an include."""
+    """Yields (offset, fault) of each declared name of a layer above: a declaration depends on it as an include does."""
     for name, offset, defined in declared_names(text):
         owner = owners.get(name)
         if not defined and owner is not None and owner is not layer and owner.name not in layer.may:
@@ -132,7 +132,7 @@ def faults_of_file(layer, path, text, owners, tree):
 
 
 def crowded_folders(tree):
-    """Folders that hold more source files than a reader can keep in mind."""
+    """Reports folders with more source files than a reader can keep in mind."""
     folders = collections.Counter(posixpath.dirname(path) for path in tree.with_suffix(*SOURCES) if layer_of_file(path))
     return [f"{folder}:1: {count} source files, at most {MOST_FILES}; give its rooms folders of their own"
             for folder, count in sorted(folders.items()) if count > MOST_FILES]
@@ -180,7 +180,7 @@ BAD = [
     ({"src/components/a/a.cpp": '#include "../b/b.hpp"\n', "src/components/b/b.hpp": "\n"}, "belongs to a sibling"),
     ({"src/hw/a/a.cpp": '#include "../b/codec.hpp"\n', "src/hw/b/codec.hpp": "\n"}, "belongs to a sibling"),
     ({"src/patterns/a.cpp": '#include "../base/b.hpp"\n', "src/base/b.hpp": "\n"}, "private header of base"),
-    # From room to room of one module.
+    # Between rooms of one module.
     ({"src/runtime/graph/reading/a.cpp": '#include "checking/b.hpp"\n', "src/runtime/graph/checking/b.hpp": "\n"},
      "private header of graph_checking"),
     ({"src/runtime/host/containment/a.cpp": '#include "run/b.hpp"\n', "src/runtime/host/run/b.hpp": "\n"},
@@ -188,7 +188,7 @@ BAD = [
     ({"sim/model/a.hpp": '#include "rays/b.hpp"\n', "sim/rays/b.hpp": "\n"}, "private header of sim_rays"),
     ({"src/runtime/plugin/inspection/a.cpp": '#include "../b.hpp"\n', "src/runtime/plugin/b.hpp": "\n"},
      "private header of plugin"),
-    # A forward declaration names a layer above as an include does.
+    # A forward declaration depends on a layer above as an include does.
     (_declared("src/component_api/include/orca/component/x.hpp", "namespace orca::hw {\nclass Container;\n}  // namespace orca::hw",
                "src/hw/api/include/orca/hw/c.hpp", "namespace orca::hw {\n\nclass Container : public Base {"),
      'must not declare "orca::hw::Container" of layer hw_api'),
@@ -209,7 +209,7 @@ GOOD = [
     {"sim/world/a.cpp": '#include "rays/b.hpp"\n', "sim/rays/b.hpp": "\n"},
     _declared("src/component_api/include/orca/component/x.hpp", "namespace orca {\nclass Strand;\n}  // namespace orca",
               "src/base/include/orca/base/strand.hpp", "namespace orca {\n\nclass Strand final {"),
-    # Another class of that name.
+    # Another class with that name.
     _declared("sim/model/x.hpp", "namespace orca::sim {\nclass Layer;\n}  // namespace orca::sim",
               "src/runtime/host/picture/l.hpp", "namespace orca::host {\nclass Layer {\n"),
     {f"src/xml/f{i}.cpp": "\n" for i in range(30)},

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each source file says its licence on top, and it is the one that LICENSE.md gives to its folder."""
+"""Each source file names its licence on top, and it is the one that LICENSE.md gives to its folder."""
 import posixpath
 import re
 
 LGPL, GPL = "LGPL-3.0-or-later", "GPL-3.0-or-later"
 EXCEPTION = "LICENSES/Orca-plugin-exception.txt"
 
-# The longest matching beginning decides.
+# The longest matching prefix decides.
 LICENCE_OF_FOLDER = {
     "": LGPL, "dev": GPL, ".ci/": GPL, "src/apps/": GPL, "tests/": GPL, "bench/": GPL,
 }

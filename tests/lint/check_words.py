@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""No marks of unfinished work and no path of one person's machine in the tree."""
+"""The tree has no marks of unfinished work and no path of one person's machine."""
 import re
 
 # Written in pieces so that this file does not find itself.
@@ -18,7 +18,7 @@ def find(tree):
         for number, line in enumerate(tree.text(path).splitlines(), 1):
             mark = UNFINISHED.search(line)
             if mark:
-                findings.append(f"{path}:{number}: {mark[0]}: finish it, or write an issue and leave no mark in the code")
+                findings.append(f"{path}:{number}: {mark[0]}: finish it, or write an issue and remove the mark")
             place = MACHINE_PATH.search(line)
             if place:
                 findings.append(f"{path}:{number}: {place[0]} is a path of one machine; use one that starts in the tree")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds the functions of a C++ text with their length and complexity; no compiler, one pass over the tokens.
+"""Finds the functions of a C++ text with their length and complexity, in one pass over the tokens.
 
 Length is the number of lines that hold code, from the head to the closing brace. Complexity is one more than the number
-of decisions (McCabe). A lambda counts as part of the function around it, a TEST_CASE as a function. Good enough for
-statistics: code that only a preprocessor can read is skipped, never guessed.
+of decisions (McCabe). A lambda counts as part of the function around it, a TEST_CASE as a function. This is enough
+for statistics: code that only a preprocessor can read is skipped, not guessed.
 """
 import re
 from dataclasses import dataclass
@@ -46,7 +46,7 @@ def tokens_of(text):
 
 
 def closing(tokens, start):
-    """Index of the bracket that closes the one at start (or the end of a broken text)."""
+    """Returns the index of the bracket that closes the one at start (or the last index of a broken text)."""
     pairs = {"{": "}", "(": ")", "[": "]"}
     opens, closes, depth = tokens[start].text, pairs[tokens[start].text], 0
     for i in range(start, len(tokens)):
@@ -57,7 +57,7 @@ def closing(tokens, start):
 
 
 def _outside_brackets(head):
-    """The head's tokens at depth 0; a bracketed group leaves its two brackets."""
+    """Returns the head's tokens at depth 0; a bracketed group leaves its two brackets."""
     kept, depth = [], 0
     for token in head:
         if token.text in (")", "]", "}"):
@@ -70,7 +70,7 @@ def _outside_brackets(head):
 
 
 def _without_template(words):
-    """Drops "template <...>" in front, whose parameters may say class."""
+    """Removes a leading "template <...>", whose parameters may contain the word class."""
     while words[:2] == ["template", "<"]:
         depth, i = 0, 1
         for i in range(1, len(words)):
@@ -82,14 +82,14 @@ def _without_template(words):
 
 
 def _is_member_initialiser(words, head):
-    """Is the brace after this head "member_{", as in A() : member_{1} {?"""
+    """Returns whether the brace after this head is that of "member_{", as in A() : member_{1} {."""
     if ")" not in words or ":" not in words[words.index(")"):]:
         return False
     return bool(re.match(r"[A-Za-z_>]", head[-1].text)) and head[-1].text not in ("const", "noexcept", "override", "try")
 
 
 def kind_of(head):
-    """What the brace after the head opens: scope, function, initialiser (part of a longer statement) or enum."""
+    """Returns what the brace after the head opens: scope, function, initialiser (part of a longer statement) or enum."""
     words = _without_template(_outside_brackets(head))
     if not words or "namespace" in words or words[0] == "extern":
         return "scope"
@@ -103,7 +103,7 @@ def kind_of(head):
 
 
 def _names_a_function(words):
-    """"struct stat read(...)" is a function although it begins like a type; "class A : public B<int()>" is none."""
+    """Tells functions from types: "struct stat read(...)" is a function, "class A : public B<int()>" is a type."""
     before = words[: words.index(":")] if ":" in words else words
     return "(" in before and not any(w in ("alignas", "__attribute__", "final") for w in before)
 
@@ -129,7 +129,7 @@ def _function(head, tokens, opening, end):
 
 
 def functions_of(text):
-    """All functions with a body, in their order. Never fails: what it cannot read it leaves out."""
+    """Returns all functions with a body, in their order. It never fails, but leaves out code that it cannot read."""
     tokens, head, found, i = tokens_of(text), [], [], 0
     while i < len(tokens):
         word = tokens[i].text

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The parts of ./dev that need no build: its help, its exit codes, its speed when all packages are there."""
+"""Tests the parts of ./dev that need no build: its help, its exit codes, its speed when all packages are there."""
 import subprocess
 import sys
 import time

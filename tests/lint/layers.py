@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which folder may include what. This table is the law; check_layers.py carries it out.
+"""The table of layers: which folder may include what. check_layers.py enforces it.
 
 A layer owns `folders` (the longest match decides) and the public headers under `headers`. It may include its own headers
 and those of the layers that `may` names; a forward declaration of a name in another layer's `namespaces` or of one of its
@@ -18,8 +18,8 @@ class Layer:
     may: tuple = ()
     libraries: tuple = ()
     public_libraries: tuple = ()
-    siblings: bool = True  # may its subfolders see each other?
-    module: str = ""  # the folder that its rooms' includes start from
+    siblings: bool = True  # whether its subfolders may see each other
+    module: str = ""  # the folder that includes of its rooms start from
 
 
 COMPONENT = ("component_api", "patterns", "idl", "base")
@@ -76,7 +76,7 @@ LAYERS = (
     Layer("sim_motion", ("sim/motion",), (), SIM_MOTION, ("bullet", "eigen", "fmt"), module="sim"),
     Layer("sim_world", ("sim/world",), ("orca/sim/world.hpp",), SIM_WORLD, ("eigen", "fmt"), module="sim"),
     Layer("sim_files", ("sim/files",), ("orca/sim/bitmap.hpp", "orca/sim/robot_file.hpp", "orca/sim/world_file.hpp"),
-          SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # of Bullet its transforms
+          SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # Bullet: transforms
     Layer("sim_plugin", ("sim/plugin",), (), ("geometry_objects", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
     Layer("host_containment", (f"{HOST}/containment",), ("orca/host/alarm.hpp", "orca/host/last_words.hpp",
                                                                 "orca/host/stop_signal.hpp"),
@@ -90,7 +90,7 @@ LAYERS = (
           ("host_run", "host_containment", "host_picture", "graph", "plugin", "text", "xml", *DEVICE), ("fmt",)),
 )
 
-# Library -> how its headers begin. A header that no line names (the standard library, POSIX) is free for all.
+# Library -> prefixes of its headers. All layers may use headers that no line names (the standard library, POSIX).
 LIBRARY_HEADERS = {
     "spdlog": ("spdlog/",),
     "fmt": ("fmt/",),

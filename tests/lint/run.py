@@ -3,10 +3,10 @@
 """run.py CHECK ROOT: proves that the check CHECK can fail, then looks for its findings in the tree at ROOT.
 
 A check is a module check_CHECK.py with
-  find(tree) -> [text]       what is wrong, each with path:line
-  BAD   [(files, text)]      made up trees in which find() must report something that contains text
-  GOOD  [files]              made up trees in which it must report nothing
-  missing_tool() -> text     optional: why the check cannot run on this machine
+  find(tree) -> [text]       the findings, each with path:line
+  BAD   [(files, text)]      made-up trees for which find() must report a finding that contains text
+  GOOD  [files]              made-up trees for which it must report nothing
+  missing_tool() -> text     optional: the reason why the check cannot run on this machine
 Exit status: 0 clean, 1 findings or a check that does not work, 77 skipped.
 """
 import importlib
@@ -18,7 +18,7 @@ SKIPPED = 77
 
 
 def faults_of_check(check):
-    """What is wrong with the check itself, seen on its own examples."""
+    """Reports errors of the check itself, found with its own examples."""
     faults = []
     for files, expected in check.BAD:
         findings = check.find(MadeUpTree(files))

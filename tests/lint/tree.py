@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The files that a check looks at: those of the repository, or a few made up ones that show what the check finds."""
+"""The files that a check looks at: those of the repository, or a few made-up ones that show what the check finds."""
 import os
 import subprocess
 from pathlib import Path
 
 
 class Tree:
-    """Paths from the root (with /) and their text. Not thread safe; reads each file when it is asked for."""
+    """Paths from the root (with /) and their text, read on demand. Not thread-safe."""
 
     def __init__(self, root):
         self.root = Path(root)
         self.paths = sorted(_listed_by_git(self.root) or _walked(self.root))
 
     def text(self, path):
-        """The text of a file; bytes that are no UTF-8 are replaced, so binary files do no harm."""
+        """Returns the text of a file. Bytes that are not UTF-8 are replaced, so binary files do no harm."""
         return (self.root / path).read_text(encoding="utf-8", errors="replace")
 
     def exists(self, path):
-        """True for files and for folders."""
+        """Returns whether there is a file or a folder with this path."""
         return (self.root / path).exists()
 
     def with_suffix(self, *suffixes):
@@ -25,7 +25,7 @@ class Tree:
 
 
 class MadeUpTree(Tree):
-    """Files that exist only here: {path: text}."""
+    """A tree of files that exist only in memory: {path: text}."""
 
     def __init__(self, files):
         self.files = files
@@ -39,7 +39,7 @@ class MadeUpTree(Tree):
 
 
 def _listed_by_git(root):
-    """Tracked files and new ones that are not ignored; empty outside a git work tree (a source archive)."""
+    """Returns tracked files and new ones that are not ignored; empty outside a git work tree (a source archive)."""
     command = ["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     try:
         listing = subprocess.run(command, capture_output=True, check=True).stdout.decode()

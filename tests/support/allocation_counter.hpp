@@ -3,8 +3,8 @@
 
 namespace orca::test {
 
-/// How often this process has taken memory from the heap with operator new, in any thread and library. Links
-/// in its own operator new and delete.
+/// Returns how often this process has taken memory from the heap with operator new, in any thread and
+/// library. It links in its own operator new and delete.
 [[nodiscard]] long allocations();
 
 }  // namespace orca::test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texts that people have read and found good: what Orca says must equal them, byte for byte.
+// Approval tests: texts that people have read and approved. The output of Orca must equal them, byte for
+// byte.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +11,17 @@
 namespace orca::test {
 
 /// Compares `found` with the approved text in `expected`. With ORCA_APPROVE=1 in the environment it becomes
-/// the approved one, to be read in git's difference.
+/// the approved text, to be reviewed in git's difference.
 void check_approved(const std::filesystem::path& expected, const std::string& found);
 
-/// The files of a folder with this ending, sorted, without those of its subfolders.
+/// Returns the files of a folder with this ending, sorted, without those of its subfolders.
 [[nodiscard]] std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
                                                           std::string_view ending);
 
-/// `path` with ".expected" in place of its ending.
+/// Returns `path` with ".expected" in place of its ending.
 [[nodiscard]] std::filesystem::path approved_text_of(std::filesystem::path path);
 
-/// The bytes of a file; fails the test if it cannot be read.
+/// Returns the bytes of a file; fails the test if it cannot be read.
 [[nodiscard]] std::string bytes_of(const std::filesystem::path& path);
 
 }  // namespace orca::test

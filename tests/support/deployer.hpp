@@ -23,10 +23,10 @@ inline constexpr bool kThreadSanitizer = true;
 inline constexpr bool kThreadSanitizer = false;
 #endif
 
-/// Upper bounds are for the optimised program; sanitizers make it many times slower.
+/// Factor on upper bounds of time, which are for the optimised program; sanitizers make it many times slower.
 inline constexpr double kSlowdown = kSanitized ? 20.0 : 1.0;
 
-/// "arrived NAME x y t"
+/// A line "arrived NAME x y t".
 struct Arrival {
   std::string name;
   double x = 0.0;  ///< [m]
@@ -34,39 +34,39 @@ struct Arrival {
   double t = 0.0;  ///< [s] since the start of the run.
 };
 
-/// What a run of the deployer left behind.
+/// The result of a run of the deployer.
 struct Run {
-  bool ended = false;  ///< Else it was killed when its time was over.
+  bool ended = false;  ///< False: it was killed when its time was over.
   Ending ending;
   std::string out;
   std::string err;
 
   [[nodiscard]] int exit_code() const { return ending.exit_code; }
-  [[nodiscard]] std::vector<std::string> lines() const;         ///< Of stdout.
+  [[nodiscard]] std::vector<std::string> lines() const;         ///< Lines of stdout.
   [[nodiscard]] std::vector<Arrival> arrivals() const;          ///< In order.
   [[nodiscard]] std::vector<std::string> contacts() const;      ///< Whole lines.
   [[nodiscard]] std::optional<std::string> trace_hash() const;  ///< If it is the last line.
-  [[nodiscard]] bool says(std::string_view text) const;         ///< On stderr.
+  [[nodiscard]] bool says(std::string_view text) const;         ///< Whether stderr contains it.
 };
 
-/// build/PRESET/bin/deployer, then the words.
+/// Returns the command build/PRESET/bin/deployer with the words as arguments.
 [[nodiscard]] Words deployer(const Words& words);
 
-/// `--clock virtual`, with the executor that the sanitizer of this build can follow.
+/// Returns `--clock virtual`, with an executor that works with the sanitizer of this build.
 [[nodiscard]] Words virtual_clock();
 [[nodiscard]] Words operator+(Words a, const Words& b);
 
-/// Runs the deployer to its end, at most `limit` (stretched under sanitizers).
+/// Runs the deployer to its end, for at most `limit` (longer under sanitizers).
 [[nodiscard]] Run run_deployer(const Words& words, Seconds limit = Seconds(30));
 
-/// What is left of a program after `limit`, as a Run.
+/// Waits for the end of a program, for at most `limit` (longer under sanitizers), and returns its result.
 [[nodiscard]] Run finish(Subprocess& program, Seconds limit);
 
-/// A file of the source tree.
+/// Returns the path of a file of the source tree.
 [[nodiscard]] std::string source_file(std::string_view path);
-/// Where the plugins of the tests are, and the `--set` that tells a test graph.
+/// Returns the `--set` option that tells a test graph where the plugins of the tests are.
 [[nodiscard]] Words with_test_plugins();
-/// A graph of tests/data/graphs/system.
+/// Returns the path of a graph in tests/data/graphs/system.
 [[nodiscard]] std::string system_graph(std::string_view name);
 
 [[nodiscard]] std::vector<std::string> split_lines(std::string_view text);

@@ -8,7 +8,7 @@
 
 namespace orca::test {
 
-/// What happened, in order, a line each.
+/// A record of events, in order, one per line.
 ///
 /// Thread contract: any thread.
 class Diary {

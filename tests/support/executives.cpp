@@ -18,7 +18,7 @@ void say_what_is_left_out() {
   static bool said = false;
   if (kFibersWork || said) return;
   said = true;
-  WARN("fibers are left out: ThreadSanitizer does not follow them; batons, which are scheduled alike, run");
+  WARN("fibers are left out: ThreadSanitizer does not support them; batons run, which are scheduled alike");
 }
 
 }  // namespace
@@ -56,7 +56,8 @@ std::string name_of(const ExecutiveOptions& options) {
 
 void run_on(const ExecutiveOptions& options, const std::function<void(Executive&)>& body) {
   const auto executive = make_executive(options).value();
-  std::exception_ptr thrown;  // A task must not throw: what a REQUIRE throws is carried out of it.
+  // A task must not throw, so the exception of a REQUIRE is carried out of it.
+  std::exception_ptr thrown;
   executive->run([&] {
     try {
       body(*executive);

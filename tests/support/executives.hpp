@@ -9,26 +9,26 @@
 
 namespace orca::test {
 
-/// Every executive that works in this build: under ThreadSanitizer those on fibers are left out, and the
-/// reason is printed once.
+/// Returns every kind of executive that works in this build. Under ThreadSanitizer those on fibers are left
+/// out, and the reason is printed once.
 [[nodiscard]] std::vector<ExecutiveOptions> all_executives();
 
-/// Those of them with a virtual clock.
+/// Returns those of them with a virtual clock.
 [[nodiscard]] std::vector<ExecutiveOptions> virtual_executives();
 
-/// Those of them with the steady clock.
+/// Returns those of them with the steady clock.
 [[nodiscard]] std::vector<ExecutiveOptions> steady_executives();
 
-/// For people: "fiber, virtual".
+/// Returns a name for people: "fiber, virtual".
 [[nodiscard]] std::string name_of(const ExecutiveOptions& options);
 
 /// Runs `body` as the main task of a new executive. A failed REQUIRE inside ends the test as usual.
 void run_on(const ExecutiveOptions& options, const std::function<void(Executive&)>& body);
 
-/// The same on each of them, one after the other; a failure names the executive.
+/// Runs `body` on each kind of executive, one after the other; a failure names the executive.
 void run_on_each(const std::vector<ExecutiveOptions>& kinds, const std::function<void(Executive&)>& body);
 
-/// Waits until `condition` holds, at most 5 s: for what another strand will do soon.
+/// Waits until `condition` holds, for at most 5 s. Serves to wait for what another strand will do soon.
 ///
 /// @return whether it holds.
 [[nodiscard]] bool eventually(Executive& executive, const std::function<bool()>& condition);

@@ -10,9 +10,9 @@
 
 namespace orca::test {
 
-/// The floor plan of a real hospital, which is not part of this repository: in the folder that the environment variable
-/// ORCA_DATA names, else in shared/data beside the source tree. Empty if it is not there, after a line
-/// that makes ctest show the test as skipped.
+/// Returns the floor plan of a real hospital, which is not part of this repository. It is looked up in the
+/// folder that the environment variable ORCA_DATA names, else in shared/data beside the source tree. If it is
+/// not there, returns an empty path and prints a line that makes ctest show the test as skipped.
 inline std::string hospital_map() {
   const char* const named = std::getenv("ORCA_DATA");
   const std::filesystem::path folder = named != nullptr ? named : source_file("../shared/data");

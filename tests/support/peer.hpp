@@ -20,10 +20,10 @@
 
 namespace orca::test {
 
-/// The least that ports need around them: a name, a strand, endpoints. What a component is in a system.
+/// A minimal owner of ports: a name, a strand and endpoints. It stands for a component of a system.
 ///
-/// The strand has no task of its own until a Script or a Service gives it one; without it, the task that runs
-/// the test acts for the peer and may call the blocking functions of its ports.
+/// The strand has no task of its own until a Script or a Service gives it one. Without one, the task of the
+/// test acts for the peer and may call the blocking functions of its ports.
 class Peer : public PortOwner {
  public:
   Peer(Executive& executive, std::string name, LinkObserver* observer = nullptr);
@@ -38,11 +38,11 @@ class Peer : public PortOwner {
   /// Opens or closes all Send and Query servers.
   void open();
   void close(const std::string& reason);
-  /// Handles one object or question that waits at a server.
-  /// @return false if there was none. What a handler throws passes.
+  /// Handles one object or question that waits at a server. The exception of a handler passes through.
+  /// @return false if there was none.
   bool handle_one();
 
-  /// Whether somebody subscribes to one of its PushServers.
+  /// Returns whether one of its PushServers has a subscriber.
   [[nodiscard]] bool has_subscribers() const;
   [[nodiscard]] const std::vector<std::unique_ptr<Endpoint>>& endpoints() const { return endpoints_; }
 
@@ -70,7 +70,7 @@ class Peer : public PortOwner {
   std::atomic<bool> leaving_{false};
 };
 
-/// Runs a function on a peer's strand. The end of the object interrupts and joins it.
+/// A function that runs on a peer's strand. The destructor interrupts and joins it.
 class Script {
  public:
   Script(Peer& peer, std::function<void()> body);
@@ -78,10 +78,10 @@ class Script {
   Script(const Script&) = delete;
   Script& operator=(const Script&) = delete;
 
-  /// @return whether it has come to its end within `limit`.
+  /// @return whether it has ended within `limit`.
   [[nodiscard]] bool ends_within(Duration limit);
   [[nodiscard]] bool ended() const { return ended_; }
-  /// Whether it left a wait because it was told to.
+  /// Returns whether it was interrupted in a wait.
   [[nodiscard]] bool interrupted() const { return interrupted_; }
 
  private:
@@ -90,7 +90,8 @@ class Script {
   std::atomic<bool> interrupted_{false};
 };
 
-/// Opens a peer's servers and handles on its strand whatever comes, until the object's end.
+/// A service that opens a peer's servers and handles, on its strand, everything that arrives, until it is
+/// destroyed.
 class Service {
  public:
   explicit Service(Peer& peer);

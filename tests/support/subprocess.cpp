@@ -49,8 +49,8 @@ Subprocess::Subprocess(const std::vector<std::string>& command, const Options& o
       start_(Clock::now()) {
   std::array<int, 2> input{};
   checked(pipe2(input.data(), O_CLOEXEC), "pipe2");
-  // A signal sent at once must not meet the test program's own handlers in the child: it waits until exec is
-  // near.
+  // A signal that is sent at once must not reach the test program's own handlers in the child. It is blocked
+  // until just before exec.
   sigset_t all;
   sigset_t before;
   sigfillset(&all);
@@ -63,7 +63,7 @@ Subprocess::Subprocess(const std::vector<std::string>& command, const Options& o
     become(command, options.folder, input[0]);
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  // Both sides set the group, so that it is there whoever comes first; the child may have called exec by now.
+  // Both sides set the group, so that it exists whichever comes first. The child may have called exec by now.
   if (setpgid(pid_, pid_) != 0 && errno != EACCES) throw std::runtime_error("setpgid");
   close(input[0]);
   input_fd_ = input[1];
@@ -73,7 +73,7 @@ Subprocess::Subprocess(const std::vector<std::string>& command, const Options& o
   if (!options.keep_input_open) close_input();
 }
 
-// In the child, between fork and exec.
+// Runs in the child, between fork and exec.
 void Subprocess::become(const std::vector<std::string>& command, const std::string& folder, int input) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -12,24 +12,25 @@ namespace orca::test {
 
 using Seconds = std::chrono::duration<double>;
 
-/// How a program ended.
+/// The way in which a program ended.
 struct Ending {
   int exit_code = -1;  ///< -1 if a signal ended it.
   int signal = 0;      ///< 0 if it ended by itself.
   Seconds wall{0};     ///< From its start to its end.
-  Seconds cpu{0};      ///< User and system time, its reaped children's included.
+  Seconds cpu{0};      ///< User and system time, including its reaped children.
 };
 
-/// A program under test: in a process group of its own, stdout and stderr captured apart. What is left of the
-/// group is killed on destruction, also when this process dies.
+/// A program under test, in a process group of its own. Its stdout and stderr are captured separately. The
+/// destructor kills the processes of the group that are left. If this process dies, the program is killed
+/// too.
 ///
-/// Not synchronised: one thread, and it has to live as long as the program.
+/// Thread contract: not synchronised; one thread, which must live as long as the program.
 class Subprocess {
  public:
   struct Options {
     std::string input{};           ///< Fed to stdin.
-    bool keep_input_open = false;  ///< Else stdin ends after `input`.
-    std::string folder{};          ///< To start in; empty: this process's.
+    bool keep_input_open = false;  ///< False: stdin ends after `input`.
+    std::string folder{};          ///< Working folder; empty: that of this process.
   };
 
   /// @param command  the program's path and its arguments.
@@ -39,26 +40,26 @@ class Subprocess {
   Subprocess(const Subprocess&) = delete;
   Subprocess& operator=(const Subprocess&) = delete;
 
-  /// Waits until the program has ended, at most `limit`; nothing if it runs on.
+  /// Waits until the program has ended, for at most `limit`; nothing if it still runs.
   std::optional<Ending> wait(Seconds limit);
 
-  /// Waits until its stdout or stderr contains `text`; false if `limit` passes or it ends before.
+  /// Waits until its stdout or stderr contains `text`; false if `limit` passes or the program ends before.
   bool wait_for_output(const std::string& text, Seconds limit);
 
-  /// To the program alone; as from a terminal, send_to_group().
+  /// Sends a signal to the program alone. A terminal signals the whole group, as send_to_group() does.
   void send(int signal) const;
   void send_to_group(int signal) const;
 
-  /// More for stdin.
+  /// Writes more text to its stdin.
   /// @pre  keep_input_open, and the program still reads.
   void write_input(const std::string& text) const;
   void close_input();
 
-  /// What it has written so far.
+  /// Return what it has written so far.
   [[nodiscard]] std::string out() const { return captured(out_fd_); }
   [[nodiscard]] std::string err() const { return captured(err_fd_); }
 
-  /// Whether any process of its group is there still, the program or what it has started.
+  /// Returns whether any process of its group still exists: the program, or one that it has started.
   [[nodiscard]] bool group_lives() const;
 
  private:

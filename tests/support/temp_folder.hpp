@@ -7,7 +7,7 @@
 
 namespace orca::test {
 
-/// A folder of its own for one test; gone with everything in it when the test ends.
+/// A temporary folder of one test. It is deleted with its content when the object is destroyed.
 class TempFolder {
  public:
   TempFolder();
@@ -16,16 +16,16 @@ class TempFolder {
   TempFolder& operator=(const TempFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// The path of a file in it, which need not exist.
+  /// Returns the path of a file in it, which need not exist.
   [[nodiscard]] std::string file(std::string_view name) const { return (path_ / name).string(); }
-  /// Writes a file; returns its path.
+  /// Writes a file and returns its path.
   std::string write(std::string_view name, std::string_view text) const;
 
  private:
   std::filesystem::path path_;
 };
 
-/// The whole text of a file; fails the test if it cannot be read.
+/// Returns the whole text of a file; fails the test if it cannot be read.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 
 }  // namespace orca::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// STYLE P6: a component of 22 lines, compiled by one line of CMake, works in a graph.
+// The example component: a few lines of code, compiled by one line of CMake, work in a graph.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -50,7 +50,7 @@ TEST_CASE("the example component has no opinion while nothing is near", "[system
   CHECK_FALSE(run.says("got a full stop"));
 }
 
-TEST_CASE("--describe tells the ports and the parameter of the example component", "[system][avoid]") {
+TEST_CASE("--describe lists the ports and the parameter of the example component", "[system][avoid]") {
   const Run run = run_deployer({"--describe", ORCA_BINARY_DIR "/tests/plugins/avoid.so"});
   INFO(run.err);
   CHECK(run.exit_code() == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A wrong command line: exit 2, nothing started, nothing on stdout, and what would have been right.
+// A wrong command line: exit 2, nothing is started, nothing on stdout, and the error says what would be right.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
@@ -26,7 +26,7 @@ void check_refused(const Words& words, const std::vector<std::string>& hints) {
 
 }  // namespace
 
-TEST_CASE("without a graph the deployer says what it wants", "[system][bad]") {
+TEST_CASE("without a graph the deployer says what it needs", "[system][bad]") {
   check_refused({}, {"graph"});
   check_refused({"--check"}, {"graph"});
   check_refused({kGraph, kGraph}, {"one file"});
@@ -74,7 +74,7 @@ TEST_CASE("goals that cannot be read are refused with what a goal looks like, an
   }
 }
 
-TEST_CASE("a trace or picture that cannot be written is told with the reason", "[system][bad]") {
+TEST_CASE("a trace or picture that cannot be written is reported with the reason", "[system][bad]") {
   const TempFolder folder;
   const Run run = run_deployer(
       Words{kGraph, "--until", "1s", "--trace", folder.file("no/such/folder/trace")} + virtual_clock());

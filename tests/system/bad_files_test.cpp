@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bad graphs, worlds and robots: exit 2, nothing started, and errors that help.
+// Bad graphs, worlds and robots: exit 2, nothing is started, and the errors help.
 #include <catch2/catch.hpp>
 
 #include "damaged_file.hpp"
@@ -10,7 +10,7 @@ using namespace orca::test;
 
 namespace {
 
-// scout_goto.xml in a folder of its own, with the world and the robot still where they are.
+// Returns scout_goto.xml for use in another folder: its paths to the world and the robot are absolute.
 std::string scout_graph() {
   std::string text = read_text(source_file("graphs/scout_goto.xml"));
   const std::string path = "\"../sim/";
@@ -27,7 +27,7 @@ Run start(const std::string& graph, const Words& more = {}) {
   return run_deployer(Words{graph} + virtual_clock() + more);
 }
 
-// The line of stderr that begins with "FILE:LINE:COLUMN: error".
+// Returns the line of stderr that begins with "FILE:LINE:COLUMN: error".
 std::string error_at(const std::string& place, const Run& run) {
   for (const std::string& line : split_lines(run.err))
     if (line.starts_with(place + ": error")) return line;
@@ -63,7 +63,7 @@ void check_graph(const Damage& damage) {
   check_error(file, bad, damage, start(file));
 }
 
-// A damaged copy of a world or a robot, named by the good graph.
+// Checks a damaged copy of a world or a robot that the good graph names.
 void check_part(const std::string& part, const Damage& damage) {
   const TempFolder folder;
   const Damaged bad = damaged(read_text(source_file(part)), damage);
@@ -126,8 +126,7 @@ TEST_CASE("a wire that does not fit is refused with both of its ends", "[system]
                "<connect from=\"avoid.sonar\" to=\"base.SonarRangeReadingsPush\"/>",
                "<connect",
                {"avoid.sonar", "base.SonarRangeReadingsPush"}});
-  // Written with two spaces, the second of two equal connections can be told from the first: it is the one
-  // too many.
+  // The second of two equal connections is the one to refuse. Two spaces distinguish it from the first.
   check_graph({good,
                good + "\n  <connect  from=\"base.SonarRangeReadingsPush\" to=\"avoid.sonar\"/>",
                "<connect  from",
@@ -159,7 +158,7 @@ TEST_CASE("all faults of a graph are reported at once, in the order of the file"
   }
 }
 
-TEST_CASE("a file that is no graph is refused with what it is", "[system][bad]") {
+TEST_CASE("a file that is not a graph is refused, and the error says what it is", "[system][bad]") {
   const TempFolder folder;
   const std::string good = scout_graph();
   const auto refuses = [&](const std::string& file, const std::string& hint) {
@@ -236,7 +235,7 @@ TEST_CASE("a start inside a wall is refused before anything starts", "[system][b
   CHECK(run.says(graph + ":"));
 }
 
-TEST_CASE("two robots of one name are refused, and a picture that was wanted does no harm", "[system][bad]") {
+TEST_CASE("two robots with one name are refused, and a requested picture does no harm", "[system][bad]") {
   const TempFolder folder;
   const Run run =
       start(system_graph("two_deweys.xml"), {"--picture", folder.file("run.svg"), "--until", "1 s"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A plugin that throws fails alone, with its text; one that never lets go is named.
+// A plugin that throws fails alone, with its text. One that never waits is named.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 struct Thrown {
   std::string what;
-  std::string text;  ///< What the user is told.
+  std::string text;  ///< What the error says.
 };
 
 const std::vector<Thrown> kThings{{"exception", "the wheels came off"},
@@ -62,7 +62,7 @@ TEST_CASE("a component that throws in a hook or a handler fails alone, with its 
   check_fails_alone("query", "robot", virtual_clock());
 }
 
-TEST_CASE("it fails alone with a thread per component, too", "[system][plugins]") {
+TEST_CASE("a component that throws fails alone with a thread per component as well", "[system][plugins]") {
   check_fails_alone("work", "work()", {"--clock", "steady"});
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("a component whose destructor throws is named, and the run ends as if 
   }
 }
 
-TEST_CASE("whoever sends to or asks a component that has failed gets an answer that says why",
+TEST_CASE("a component that sends to or asks a failed component gets an answer that says why",
           "[system][plugins]") {
   const Run asked = misbehave("query", "exception");
   INFO(asked.err);
@@ -175,7 +175,7 @@ TEST_CASE("a type that no plugin holds is reported with the places searched", "[
   CHECK(run.says(ORCA_BINARY_DIR "/tests/plugins"));
 }
 
-TEST_CASE("--describe of something that is no plugin says what it is not", "[system][plugins]") {
+TEST_CASE("--describe of a file that is not a plugin is refused with its name", "[system][plugins]") {
   const TempFolder folder;
   for (const std::string& file : {folder.write("text.so", "no library"), folder.file("missing.so"),
                                   std::string(ORCA_BINARY_DIR "/lib/liborca_idl.so")}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A world from an occupancy bitmap, drawn by the test itself: 20 m wide and 12 m high.
+// A world from an occupancy bitmap that the test draws: 20 m wide and 12 m high.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
@@ -12,7 +12,7 @@ namespace {
 constexpr int kWidth = 200;
 constexpr int kHeight = 120;
 
-// A PGM whose upper rows are occupied, all others free.
+// Returns a PGM whose upper rows are occupied and all others free.
 std::string map_with_occupied_rows(int rows) {
   std::string text = "P5\n" + std::to_string(kWidth) + " " + std::to_string(kHeight) + "\n255\n";
   text.append(static_cast<std::size_t>(kWidth * rows), '\0');
@@ -28,8 +28,7 @@ Run drive(const std::string& map, const Words& more) {
 
 }  // namespace
 
-TEST_CASE("the first row of a bitmap is the top of the world, and what is white is free",
-          "[system][bitmap]") {
+TEST_CASE("the first row of a bitmap is the top of the world, and white is free", "[system][bitmap]") {
   const TempFolder folder;
   const std::string map = folder.write("map.pgm", map_with_occupied_rows(kHeight / 2));
   const Run below = drive(map, {"--set", "y=3 m", "--set", "goals=there: 6 3"});
@@ -54,7 +53,7 @@ TEST_CASE("map_width gives a bitmap its size", "[system][bitmap]") {
   CHECK(doubled.exit_code() == 0);
 }
 
-TEST_CASE("a bitmap that is none is refused with its name and what is wrong", "[system][bitmap]") {
+TEST_CASE("a file that is not a bitmap is refused with its name and what is wrong", "[system][bitmap]") {
   const TempFolder folder;
   const std::string good = map_with_occupied_rows(1);
   for (const std::string& map :

@@ -10,21 +10,21 @@
 
 namespace orca::test {
 
-/// One edit that makes a good file a bad one.
+/// An edit that turns a good file into a bad one.
 struct Damage {
-  std::string from;                ///< Occurs in the good file; the first occurrence is replaced.
-  std::string to;                  ///<
+  std::string from;                ///< Text of the good file; its first occurrence is replaced.
+  std::string to;                  ///< Replacement.
   std::string at;                  ///< Text whose first character the error must point at, within `to`.
-  std::vector<std::string> hints;  ///< What the error must say.
+  std::vector<std::string> hints;  ///< Words that the error must contain.
 };
 
-/// A good text after an edit.
+/// A text after an edit.
 struct Damaged {
   std::string text;
   std::size_t place = 0;  ///< Where the edit begins.
 };
 
-/// Throws if there is nothing to replace.
+/// Returns the text after the edit. Throws if there is nothing to replace.
 inline Damaged damaged(std::string text, const Damage& damage) {
   const auto place = text.find(damage.from);
   if (place == std::string::npos) throw std::runtime_error("the good file does not contain " + damage.from);
@@ -32,7 +32,7 @@ inline Damaged damaged(std::string text, const Damage& damage) {
   return {std::move(text), place};
 }
 
-/// "12:7" for the first `at` from `from` on. Lines and columns count from 1.
+/// Returns the position of the first `at` from `from` on, as "12:7". Lines and columns count from 1.
 inline std::string line_and_column(std::string_view text, std::size_t from, std::string_view at) {
   const auto place = text.find(at, from);
   if (place == std::string_view::npos) throw std::runtime_error("no " + std::string(at) + " in the text");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// DESIGN 4: the same seed, graph and binaries give the same run, whatever the load and the back end.
+// The same seed, graph and binaries give the same run, whatever the load and the back end.
 #include <catch2/catch.hpp>
 #include <map>
 #include <memory>
@@ -25,11 +25,11 @@ std::string hash_of(const Words& more) {
 }
 
 std::vector<std::string> executors() {
-  if (kThreadSanitizer) return {"baton"};  // it cannot follow fibers
+  if (kThreadSanitizer) return {"baton"};  // ThreadSanitizer does not support fibers
   return {"fiber", "baton"};
 }
 
-// A busy program per core.
+// Starts a busy program per core.
 std::vector<std::unique_ptr<Subprocess>> cpu_hogs() {
   std::vector<std::unique_ptr<Subprocess>> hogs;
   for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
@@ -91,7 +91,7 @@ TEST_CASE("where the run starts and whether it is traced does not change its has
   CHECK(plain.trace_hash() == other.trace_hash());
 }
 
-TEST_CASE("on how many threads two robots sense changes nothing, and no thread is left behind",
+TEST_CASE("the number of threads that compute sensor readings changes nothing, and no thread is left behind",
           "[system][determinism]") {
   std::map<std::string, int> hashes;
   for (const char* threads : {"1", "2", "3"}) {

@@ -20,7 +20,7 @@ Run two_voices(const std::string& mode, const std::string& sync, const std::stri
                       with_test_plugins() + virtual_clock());
 }
 
-// When the sink first told of something; negative if never.
+// Returns when the sink first reported something [s]; negative if never.
 double told_at(const Run& run, const std::string& what) {
   for (const std::string& line : split_lines(run.err)) {
     const auto time = line.find("t=");
@@ -79,7 +79,7 @@ TEST_CASE("a full stop stops the robot within one period, in every mode, wheneve
       CHECK(told_at(run, mode + " FUSED by driver speed 0.30") < 1.0);
       const double stopped = told_at(run, mode + " TOLD_TO_STOP by guard speed 0.00");
       CHECK(stopped >= 2.0);
-      CHECK(stopped <= 2.0 + 0.1 + kPeriod);  // the guard speaks every 100 ms
+      CHECK(stopped <= 2.0 + 0.1 + kPeriod);  // the guard sends every 100 ms
     }
   }
 }
@@ -117,7 +117,7 @@ TEST_CASE("a behaviour that is not required may fall silent", "[system][fuser]")
       with_test_plugins() + virtual_clock());
   INFO(run.err);
   CHECK(told_at(run, "FUSED by driver speed 0.30") >= 0.0);
-  CHECK(told_at(run, "speed 0.00") >= 4.0);  // when all is being stopped
+  CHECK(told_at(run, "speed 0.00") >= 4.0);  // at the end of the run
 }
 
 TEST_CASE(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Goto's pose comes from wherever it is wired to, and its goals lie in space.
+// Goto takes its pose from any source that it is connected to, and its goals may lie above the floor.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a graph can say beyond components and connections, shown by running it.
+// Features of graphs beyond components and connections, shown by runs.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
@@ -13,7 +13,7 @@ using Replacements = std::vector<std::pair<std::string, std::string>>;
 
 const std::string kOneGoal = "kitchen: 3.6 6 &gt; 3.6 7.6 &gt; 4.2 9.8";
 
-// scout_goto.xml with one goal, the world and the robot still where they are.
+// Returns scout_goto.xml with one goal and with absolute paths to the world and the robot.
 std::string scout_graph(const Replacements& replacements) {
   std::string text = read_text(source_file("graphs/scout_goto.xml"));
   Replacements all{{"\"../sim/worlds", "\"" + source_file("sim/worlds")},
@@ -40,7 +40,7 @@ void check_arrives(const Run& run) {
   CHECK(run.arrivals().front().name == "kitchen");
 }
 
-// The fuser's behaviours as candidates instead of connections.
+// Replacements that make the fuser's behaviours candidates instead of connections.
 const Replacements kLateBound{
     {"<component name=\"fuser\" type=\"orca.MotionCommandFuser\"/>",
      "<component name=\"fuser\" type=\"orca.MotionCommandFuser\"><port name=\"motion\" "
@@ -55,8 +55,7 @@ TEST_CASE("behaviours that are only candidates of the fuser drive the robot to i
   check_arrives(drive(folder, scout_graph(kLateBound)));
 }
 
-TEST_CASE("a behaviour that is no candidate is refused at run time, and the reason is told",
-          "[system][graph]") {
+TEST_CASE("a behaviour that is not a candidate is refused at run time with the reason", "[system][graph]") {
   const TempFolder folder;
   Replacements lurker = kLateBound;
   lurker.emplace_back("value=\"goto; avoid\"", "value=\"goto; lurker\"");
@@ -141,7 +140,7 @@ TEST_CASE("--strict starts nothing when there is a warning", "[system][graph]") 
   CHECK(lenient.says("warning G041"));
 }
 
-TEST_CASE("--check --json tells errors on stdout, and nothing else does", "[system][graph]") {
+TEST_CASE("--check --json reports errors on stdout and nothing else", "[system][graph]") {
   const TempFolder folder;
   const Run run = run_deployer(
       {folder.write("graph.xml", "<graph name=\"g\"><component name=\"a\" type=\"orca.Nothing\"/></graph>"),

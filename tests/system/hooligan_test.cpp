@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one process can contain of a plugin that breaks everybody's rules, and what it says before it dies of
-// the rest.
+// The offences of a plugin that one process can contain, and what it reports before it ends because of the
+// others.
 #include <signal.h>
 
 #include <catch2/catch.hpp>
@@ -76,7 +76,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the culprit is named also after it has waited and others have run", "[system][plugins]") {
+TEST_CASE("the culprit is named even after it has waited and others have run", "[system][plugins]") {
   const Run run = act("after_wait", "segfault");
   INFO(run.err);
   check_names_culprit(line_with("ended the process with the signal", run));
@@ -116,7 +116,7 @@ TEST_CASE(
              Contains("bad: ") && Contains("configure()"));
 }
 
-TEST_CASE("of fork() in a component the copy is ended, the culprit named, and the run goes on",
+TEST_CASE("the copy that a component makes by fork() is ended, the component is named, and the run goes on",
           "[system][plugins]") {
   const Run run = act("configure", "fork");
   INFO(run.err);

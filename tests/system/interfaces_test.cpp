@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the robot base of the thesis's run exports (thesis Fig. 11.3).
+// The ports that the robot base of the thesis's run exports (thesis Fig. 11.3).
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -11,7 +11,7 @@ using namespace orca::test;
 
 namespace {
 
-// What a component with hardware offers, asked as the graph checker asks.
+// Returns the ports of a component with hardware, as the graph checker finds them.
 std::set<std::string> exported(const std::string& graph_file, const std::string& component) {
   orca::host::PluginCatalogue catalogue{orca::plugin::PluginIndex({ORCA_BINARY_DIR "/plugins"})};
   orca::xml::Diagnostics diagnostics;
@@ -54,7 +54,8 @@ TEST_CASE("a RobotBaseServer around the same hardware exports all of its sensors
   CHECK(exported("graphs/pioneer_laser_goto.xml", "base").contains("LaserRangeReadingsPush"));
 }
 
-TEST_CASE("a graph that asks the Scout for a laser is told what it has instead", "[system][scout]") {
+TEST_CASE("a graph that asks the Scout for a laser is refused with the list of its ports",
+          "[system][scout]") {
   const Run run = run_deployer(Words{system_graph("laser_from_scout.xml")} + virtual_clock());
   INFO(run.err);
   CHECK(run.exit_code() == 2);

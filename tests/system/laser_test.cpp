@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LaserAvoid in a whole system: LaserServer, LaserAvoid, and the graph that ships with them.
+// LaserServer and LaserAvoid in a whole system, and the graph that ships with them.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"

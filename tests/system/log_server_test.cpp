@@ -31,7 +31,7 @@ TEST_CASE("the log server writes a line per record, and begins a new file when o
   CHECK_FALSE(std::filesystem::exists(folder.file("robot.log.3")));
 }
 
-TEST_CASE("a log that cannot be written stops nobody: the loss is told once", "[system][log]") {
+TEST_CASE("a log that cannot be written stops no component, and the loss is reported once", "[system][log]") {
   const Run run = logging_to("/dev/full");
   INFO(run.err);
   CHECK(run.exit_code() == 0);

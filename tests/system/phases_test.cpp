@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The three phases of a typical run (thesis Fig. 11.7-11.9), read from the trace of the thesis's own run.
+// The three phases of a typical run (thesis Fig. 11.7-11.9), read from the trace of the thesis's run.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
@@ -23,7 +23,7 @@ const TraceFile& trace() {
   return file;
 }
 
-// Where something happens first.
+// Returns the index of the first line of an event.
 std::size_t when(const std::string& event, const std::vector<std::string>& words) {
   const std::size_t index = trace().find(event, words);
   CAPTURE(event, words);
@@ -124,7 +124,7 @@ TEST_CASE("running: nothing is pushed before the hardware is active", "[system][
 TEST_CASE("closing, Fig. 11.9: after the last goal every connection is shut down and the hardware is idle",
           "[system][phases]") {
   const std::size_t last = arrival(3);
-  const std::size_t end = when("state", {"scout", "Ready", "Closed"});  // taking down begins
+  const std::size_t end = when("state", {"scout", "Ready", "Closed"});  // the shutdown begins
   REQUIRE(last < end);
   for (const std::string& connection : kAllConnections) {
     const auto gap = connection.find(' ');

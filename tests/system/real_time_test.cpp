@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The thesis's own run as a person sees it: in real time, with a thread per component.
+// The thesis's run in real time, with a thread per component.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Robots of other kinds than the Scout, from the graph on.
+// Whole systems with robots of other kinds than the Scout.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The thesis's own run (11.1-11.2) in virtual time, seen from outside.
+// The thesis's run (11.1-11.2) in virtual time, seen from outside.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -119,7 +119,7 @@ TEST_CASE("--picture draws what happened, as SVG and as PNG", "[system][scout]")
   CHECK(read_text(folder.file("run.png")).starts_with("\x89PNG\r\n"));
 }
 
-TEST_CASE("at harsh realism the Scout drives to and fro before no door, with seeds that once did",
+TEST_CASE("at harsh realism the Scout passes its doors, with seeds that once made it drive to and fro at one",
           "[system][scout]") {
   for (const char* seed : {"5", "18", "31", "32", "39", "40"}) {
     const Run run = drive({"--set", "realism=harsh", "--seed", seed});

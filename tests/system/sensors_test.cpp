@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the sensors of a simulated robot sense, as the rest of the system gets it.
+// The readings of a simulated robot, as the rest of the system receives them.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
@@ -10,7 +10,7 @@ TEST_CASE(
     "the generic base server hands out laser, infrared, bumper and 100 Hz of odometry, each with its own "
     "stamp",
     "[system][sensors]") {
-  // It ends when the listener has heard all that it waits for; else the test's time runs out.
+  // The run ends when the listener has heard all objects that it waits for; otherwise the test times out.
   const Run run = run_deployer(Words{system_graph("sensors.xml")} + with_test_plugins() + virtual_clock());
   INFO(run.err);
   REQUIRE(run.ended);

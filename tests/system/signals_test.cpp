@@ -19,7 +19,7 @@ constexpr double kEndLimit = 3.0 * (kSanitized ? 3.0 : 1.0);  // [s]
 
 void sleep_for(double seconds) { std::this_thread::sleep_for(Seconds(seconds)); }
 
-// As from a terminal, or as from `kill`.
+// Signals the whole group for SIGINT, as a terminal does, and else the program alone, as `kill` does.
 void stop(const Subprocess& program, int signal) {
   signal == SIGINT ? program.send_to_group(signal) : program.send(signal);
 }
@@ -124,8 +124,8 @@ TEST_CASE("a second signal ends a run that cannot end by itself within a second"
   Subprocess program(deployer(greedy() + Words{"--until", "1000 s"}));
   REQUIRE(program.wait_for_output("counted", Seconds(10) * kSlowdown));
   program.send(SIGINT);
-  sleep_for(
-      0.05);  // the kernel keeps one pending signal of a kind: a second at the same moment would not count
+  // The kernel keeps one pending signal of a kind, so a second one at the same moment would not count.
+  sleep_for(0.05);
   program.send(SIGINT);
   const auto sent = std::chrono::steady_clock::now();
   REQUIRE(program.wait(Seconds(10)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The helper that all system tests stand on.
+// The helper that all system tests use.
 #include "subprocess.hpp"
 
 #include <signal.h>
@@ -22,7 +22,7 @@ bool lives(pid_t pid) { return kill(pid, 0) == 0; }
 
 }  // namespace
 
-TEST_CASE("a subprocess gets its input, and its stdout and stderr are captured apart", "[support]") {
+TEST_CASE("a subprocess gets its input, and its stdout and stderr are captured separately", "[support]") {
   Subprocess program(shell("read a; echo out $a; echo err $a >&2; exit 7"), {.input = "hello\n"});
   const auto ending = program.wait(Seconds(10));
   REQUIRE(ending);
@@ -48,7 +48,7 @@ TEST_CASE("input can follow later, and output can be waited for", "[support]") {
   CHECK(program.wait_for_output("end", Seconds(10)));
 }
 
-TEST_CASE("a signal reaches the subprocess, and its ending tells which one it was", "[support]") {
+TEST_CASE("a signal reaches the subprocess, and its ending says which one it was", "[support]") {
   Subprocess program(shell("sleep 60"));
   CHECK_FALSE(program.wait(Seconds(0.05)));
   program.send_to_group(SIGTERM);
@@ -83,7 +83,7 @@ TEST_CASE("a subprocess takes its whole group along when it is destroyed", "[sup
   CHECK_FALSE(lives(child));
 }
 
-TEST_CASE("what a program leaves behind in its group is seen", "[support]") {
+TEST_CASE("processes that a program leaves behind in its group are noticed", "[support]") {
   Subprocess tidy(shell("exit 0"));
   REQUIRE(tidy.wait(Seconds(10)));
   CHECK_FALSE(tidy.group_lives());

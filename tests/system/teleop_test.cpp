@@ -20,7 +20,7 @@ using namespace orca::test;
 
 namespace {
 
-/// A terminal with the test at the keys.
+/// A terminal whose keys the test presses.
 class Terminal {
  public:
   Terminal() : keys_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
@@ -30,7 +30,7 @@ class Terminal {
     char name[64];
     REQUIRE(ptsname_r(keys_, name, sizeof name) == 0);
     name_ = name;
-    // Held open, so that its settings can be read at any time.
+    // The line is held open, so that its settings can be read at any time.
     line_ = open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
     REQUIRE(line_ >= 0);
   }
@@ -48,7 +48,7 @@ class Terminal {
     REQUIRE(tcgetattr(line_, &settings) == 0);
     return (settings.c_lflag & (ICANON | ECHO)) == (ICANON | ECHO);
   }
-  // Within a generous limit: nothing announces the change of a terminal's settings.
+  // Waits, for at most 5 s, because nothing announces a change of a terminal's settings.
   [[nodiscard]] bool comes_to_echo(bool wanted) const {
     for (int i = 0; i < 500 && echoes() != wanted; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -75,7 +75,7 @@ std::string event(std::int16_t value, unsigned char type, unsigned char number) 
   return bytes;
 }
 
-// The sink tells of changes only: a second stop comes after the driving.
+// The sink reports changes only, so a second stop comes after the driving.
 bool comes_to_stop_after_driving(const Subprocess& program) {
   const auto stops = [&] {
     const std::string err = program.err();
@@ -105,7 +105,7 @@ TEST_CASE("a key drives the robot, letting go stops it, Q ends the run and the t
   CHECK(terminal.comes_to_echo(true));
 }
 
-TEST_CASE("when no key comes any more the robot stands", "[system][teleop]") {
+TEST_CASE("the robot stops when no more keys come", "[system][teleop]") {
   const Terminal terminal;
   Subprocess program(teleop({"--set", "keyboard=" + terminal.name(), "--set", "joystick="}));
   REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
@@ -117,7 +117,7 @@ TEST_CASE("when no key comes any more the robot stands", "[system][teleop]") {
   CHECK(terminal.comes_to_echo(true));
 }
 
-TEST_CASE("the terminal is put back even when the deployer is killed", "[system][teleop]") {
+TEST_CASE("the terminal is restored even when the deployer is killed", "[system][teleop]") {
   for (const int signal : {SIGKILL, SIGABRT, SIGTERM}) {
     const Terminal terminal;
     Subprocess program(teleop({"--set", "keyboard=" + terminal.name()}));
@@ -139,7 +139,7 @@ TEST_CASE("a terminal that goes away stops the robot and not the system", "[syst
   CHECK(finish(program, kLimit).exit_code() == 0);
 }
 
-TEST_CASE("a joystick drives while its dead-man button is held, and nobody when it is unplugged",
+TEST_CASE("a joystick drives while its dead-man button is held, and stops the robot when it is unplugged",
           "[system][teleop]") {
   const TempFolder folder;
   const std::string device = folder.file("js0");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// While the house is rebuilt, every shipped graph that runs in virtual time does exactly what it did before.
+// Every shipped graph that runs in virtual time does exactly what it did before, even while the code is
+// restructured.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// graphs/random_walk.xml: a robot that drives about.
+// Runs of graphs/random_walk.xml: a robot that drives about.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"

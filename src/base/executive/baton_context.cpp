@@ -8,7 +8,7 @@
 namespace orca::detail {
 namespace {
 
-// The right to run, as one thread waits for it.
+// The right to run, which one thread waits for.
 class Baton {
  public:
   void pass() { passed_.notify(); }

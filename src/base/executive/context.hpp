@@ -20,13 +20,13 @@ class Context {
   /// Runs this function, and those that it hands over to, until one of them ends.
   virtual void enter() = 0;
 
-  /// Leaves this function for `next`, without a detour through the scheduler; returns when it is entered
-  /// again.
-  /// @pre  next is of the same maker, has not ended, and is not this.
+  /// Leaves this function and enters `next`, without a detour through the scheduler. Returns when this
+  /// function is entered again.
+  /// @pre  next comes from the same maker, has not ended, and is not this.
   virtual void hand_over(Context& next) = 0;
 };
 
-/// Makes contexts of one kind, which can hand over to each other. It must outlive them.
+/// A factory of contexts of one kind, which can hand over to each other. It must outlive them.
 class ContextMaker {
  public:
   virtual ~ContextMaker() = default;

@@ -14,8 +14,8 @@
 
 namespace orca::detail {
 
-// The executive whose tasks run on this thread, if any: tells notifications from inside from those of
-// strangers.
+// The executive whose tasks run on this thread, or null. It distinguishes notifications from inside from
+// those of other threads.
 [[gnu::tls_model("initial-exec")]] static thread_local const CooperativeExecutive* t_inside = nullptr;
 
 struct CooperativeExecutive::Fiber {
@@ -28,7 +28,7 @@ struct CooperativeExecutive::Fiber {
   Fiber* before = nullptr;  // in the ready queue
   Fiber* after = nullptr;
   std::optional<Timers::iterator> timer;
-  Timers::node_type timer_place;  // kept between two uses: a wait takes nothing from the heap
+  Timers::node_type timer_place;  // kept between two uses, so that a wait allocates nothing
   std::atomic<pthread_t> thread{};
   std::atomic<pid_t> thread_id{0};
 };
@@ -51,7 +51,7 @@ class CooperativeEvent final : public Event {
     if (waiter_ != nullptr) executive_.make_ready(*waiter_);
   }
 
-  // For the executive, under the lock of its inbox.
+  // Used by the executive, under the lock of its inbox.
   bool posted = false;
 
   bool wait_until(TimePoint deadline) override {
@@ -242,7 +242,7 @@ void CooperativeExecutive::fire_timers() {
 
 void CooperativeExecutive::advance_virtual_time() {
   if (timers_.empty()) {
-    make_ready(*main_);  // nothing can ever happen again: main's wait ends
+    make_ready(*main_);  // no task can ever run again, so main's wait ends
     return;
   }
   virtual_now_ns_.store(std::get<TimePoint>(*timers_.begin()).time_since_epoch().count(),
@@ -251,7 +251,7 @@ void CooperativeExecutive::advance_virtual_time() {
 }
 
 void CooperativeExecutive::wait_for_work() {
-  running_.store(nullptr, std::memory_order_release);  // whoever waits here is not stuck
+  running_.store(nullptr, std::memory_order_release);  // a task that waits here is not stuck
   inbox_changed_.wait_until(timers_.empty() ? kForever : std::get<TimePoint>(*timers_.begin()));
 }
 

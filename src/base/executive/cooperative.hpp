@@ -17,8 +17,8 @@ namespace orca::detail {
 
 class CooperativeEvent;
 
-/// Schedules tasks one at a time: on fibers, or on threads that hand a baton around. The scheduling is the
-/// same for both, so their order is the same.
+/// An executive that runs one task at a time, on fibers or on threads that pass a baton. Both schedule in the
+/// same way, so the order of tasks is the same.
 class CooperativeExecutive final : public Executive {
  public:
   CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts, Duration spin);
@@ -50,9 +50,9 @@ class CooperativeExecutive final : public Executive {
   using TimerKey = std::tuple<TimePoint, int, std::uint64_t, Fiber*>;
   using Timers = std::set<TimerKey>;
 
-  // Tasks that are ready, in the same order. What becomes ready never has an earlier time than what is ready
-  // already, so it goes to the end: in virtual time, where all that are ready have one time, before those of
-  // lower priority.
+  // Tasks that are ready, in the same order. A task never becomes ready with an earlier time than the tasks
+  // that are ready already, so it goes to the end. In virtual time all ready tasks have the same time, so it
+  // goes before those of lower priority.
   class ReadyQueue {
    public:
     explicit ReadyQueue(bool by_priority) : by_priority_(by_priority) {}
@@ -88,7 +88,7 @@ class CooperativeExecutive final : public Executive {
   Fiber* current_ = nullptr;
   Fiber* main_ = nullptr;
 
-  // From other threads.
+  // Filled by other threads.
   FutexEvent inbox_changed_;
   std::mutex inbox_mutex_;
   std::vector<CooperativeEvent*> inbox_;
@@ -100,7 +100,7 @@ class CooperativeExecutive final : public Executive {
   std::atomic<std::uint64_t> switches_{0};
   std::uint64_t observed_switches_ = 0;
   Duration cpu_at_observation_{0};
-  TimePoint awake_at_{};  // when the running task was last seen to do something
+  TimePoint awake_at_{};  // when the running task was last seen not asleep
 };
 
 }  // namespace orca::detail

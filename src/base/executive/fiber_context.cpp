@@ -21,8 +21,8 @@ constexpr std::size_t kStackBytes = 8 * 1024 * 1024;  // its red zones make fram
 constexpr std::size_t kStackBytes = 1024 * 1024;
 #endif
 
-// The C++ runtime keeps the exceptions being handled per thread, not per fiber. Without exchanging these two
-// words at every switch a rethrow after a switch inside a handler throws another fiber's exception.
+// The C++ runtime keeps the exceptions being handled per thread, not per fiber. These two words are exchanged
+// at every switch. Otherwise a rethrow after a switch inside a handler would throw another fiber's exception.
 struct ExceptionGlobals {
   void* caught = nullptr;
   unsigned int uncaught = 0;
@@ -34,7 +34,7 @@ StackBounds bounds_of(const bc::stack_context& stack) {
   return {static_cast<char*>(stack.sp) - stack.size, stack.size};
 }
 
-// The fiber keeps a copy and frees its stack with it, when it has left it for good.
+// The fiber keeps a copy of the allocator, and frees its stack with it when it has left the stack for good.
 struct StackAllocator {
   bc::protected_fixedsize_stack pages{kStackBytes};
   bc::stack_context allocate() { return pages.allocate(); }
@@ -44,8 +44,8 @@ struct StackAllocator {
   }
 };
 
-// One flow of control, while another runs on the thread: the rest of it, its stack, and what the thread keeps
-// for whoever runs.
+// A flow of control that is suspended while another one runs on the thread: where it resumes, its stack, and
+// the thread's state that belongs to it.
 struct Flow {
   bc::fiber rest;
   StackBounds stack;
@@ -54,12 +54,12 @@ struct Flow {
   ActivityKeeper activity;
 };
 
-// The scheduler and its fibers, of which one runs at a time.
+// The switch between the scheduler and its fibers, of which one runs at a time.
 class FlowSwitch {
  public:
   Flow scheduler;
 
-  // To be said before the scheduler leaves: the thread may be another one than last time.
+  // Call before the scheduler is left: it may run on another thread than last time.
   void begin() { live_exceptions_ = &live_exceptions(); }
 
   void go(Flow& from, Flow& to) {
@@ -68,14 +68,14 @@ class FlowSwitch {
     arrive(std::move(to.rest).resume(), from.fake_stack);
   }
 
-  // In whatever a switch leads to, with what is left of the flow that was left. `fake_stack` is null in a new
-  // flow.
+  // Completes a switch. Called in the flow that was entered, with the rest of the flow that was left.
+  // `fake_stack` is null in a new flow.
   void arrive(bc::fiber rest, void* fake_stack) {
     left_->rest = std::move(rest);
     finish_switch(fake_stack, &left_->stack);
   }
 
-  // Leaves a flow for good: what this returns is to be resumed as the very last thing.
+  // Leaves a flow for good. The caller resumes the returned fiber as its last action.
   bc::fiber end(Flow& ended) {
     exchange(ended, scheduler);
     start_switch(nullptr, scheduler.stack);

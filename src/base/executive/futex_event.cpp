@@ -40,7 +40,7 @@ timespec to_timespec(TimePoint time) {
 
 void FutexEvent::notify() {
   // The waiter may destroy the event as soon as it sees the flag. The wake-up then goes to an address where
-  // nobody sleeps, or where a later sleeper looks at its own word again.
+  // no thread sleeps, or where a later sleeper checks its own word again.
   if (state_.exchange(kNotified, std::memory_order_acq_rel) == kAsleep) futex(state_, FUTEX_WAKE, 1, nullptr);
 }
 
@@ -59,7 +59,7 @@ bool FutexEvent::take() {
 bool FutexEvent::spin_then_sleep(TimePoint deadline) {
   const TimePoint start = steady_now();
   const bool notified = (spin_ > Duration{0} && spin(std::min(deadline, start + spin_))) || sleep(deadline);
-  // Twice: what was slept through includes the time that waking took.
+  // Twice the limit, because the time slept includes the time that waking took.
   spin_ = steady_now() - start <= 2 * spin_limit_ ? spin_limit_ : spin_ / 2;
   return notified;
 }

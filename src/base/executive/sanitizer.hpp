@@ -14,7 +14,8 @@ struct StackBounds {
   std::size_t size = 0;
 };
 
-/// Tells AddressSanitizer that the stack is about to change, and that it has; nothing in other builds.
+/// Announce to AddressSanitizer that the stack is about to change, and that it has changed. They do nothing
+/// in other builds.
 inline void start_switch([[maybe_unused]] void** fake_stack, [[maybe_unused]] const StackBounds& to) {
 #if defined(__SANITIZE_ADDRESS__)
   __sanitizer_start_switch_fiber(fake_stack, to.bottom, to.size);
@@ -29,8 +30,8 @@ inline void finish_switch([[maybe_unused]] void* fake_stack, [[maybe_unused]] St
 #endif
 }
 
-/// Tells it that the stack is gone: what the loader maps there next, a plugin for example, has no red zones
-/// of frames that once were.
+/// Announces that the stack is gone. Whatever the loader maps there next, for example a plugin, then has no
+/// red zones of former frames.
 inline void forget_stack([[maybe_unused]] const StackBounds& stack) {
 #if defined(__SANITIZE_ADDRESS__)
   __asan_unpoison_memory_region(stack.bottom, stack.size);

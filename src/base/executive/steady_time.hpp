@@ -7,10 +7,10 @@
 
 namespace orca::detail {
 
-/// The steady clock, shifted once so that it reads as ns since the Unix epoch.
+/// Returns the time of the steady clock, shifted once so that it reads as ns since the Unix epoch.
 TimePoint steady_now();
 
-/// The std::chrono instant of a TimePoint of steady_now().
+/// Converts a TimePoint of steady_now() to the instant of std::chrono.
 std::chrono::steady_clock::time_point to_steady(TimePoint time);
 
 }  // namespace orca::detail

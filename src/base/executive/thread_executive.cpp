@@ -20,7 +20,7 @@ class ThreadTask final : public Task {
       pthread_setname_np(pthread_self(), waits_.name().substr(0, 15).c_str());
       waits_.attach();
       run();
-      waits_.begin();  // for good
+      waits_.begin();  // never ends: the task is over
       ended_.notify();
     });
   }

@@ -6,7 +6,7 @@
 
 namespace orca::detail {
 
-/// One std::thread per task on the steady clock.
+/// An executive with one std::thread per task, on the steady clock.
 class ThreadExecutive final : public Executive {
  public:
   explicit ThreadExecutive(Duration spin) : spin_(spin) {}

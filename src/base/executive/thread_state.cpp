@@ -12,7 +12,7 @@ namespace orca::detail {
 
 bool sleeps_in_system(pid_t thread) {
   constexpr std::array kWrites{SYS_write, SYS_pwrite64, SYS_writev, SYS_sendto, SYS_sendmsg};
-  // "running", or the number of the system call that it is in.
+  // Reads "running", or the number of the system call that the thread is in.
   std::ifstream state("/proc/self/task/" + std::to_string(thread) + "/syscall");
   long call = -1;
   return (state >> call) && call >= 0 && std::ranges::find(kWrites, call) == kWrites.end();

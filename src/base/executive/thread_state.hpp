@@ -5,8 +5,8 @@
 
 namespace orca::detail {
 
-/// Whether a thread of this process sleeps in the system, other than to write something that nobody reads
-/// yet. False where the system does not tell.
+/// Returns whether a thread of this process sleeps in a system call. A write that waits for its reader does
+/// not count. False where the system does not tell.
 [[nodiscard]] bool sleeps_in_system(pid_t thread);
 
 }  // namespace orca::detail

@@ -24,7 +24,7 @@ void ThreadWatch::remove(const WaitCount& count) {
 std::optional<StuckTask> ThreadWatch::stuck_task(Duration limit) {
   const std::lock_guard lock(mutex_);
   const TimePoint now = steady_now();
-  const Watched* latest = nullptr;  // it is the one that nobody has heard of yet
+  const Watched* latest = nullptr;  // only this one has not been reported yet
   for (Watched& watched : watched_) {
     const std::uint64_t state = watched.count->state();
     const bool waits = state % 2 == 1;

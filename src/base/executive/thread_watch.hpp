@@ -12,24 +12,25 @@
 
 namespace orca::detail {
 
-/// Whether a task on a thread of its own waits, and how often it has. A wait costs it two stores.
+/// A counter that shows whether a task on its own thread waits, and how often it has waited. A wait costs the
+/// task two stores.
 ///
 /// Thread contract: written by its task, read from anywhere.
 class WaitCount {
  public:
-  /// @param name  of the task.
+  /// @param name  name of the task.
   explicit WaitCount(std::string name) : name_(std::move(name)) {}
 
-  /// From now on the calling thread is the task's.
+  /// Makes the calling thread the task's own.
   void attach();
-  /// Of the calling thread; null: it runs no task.
+  /// Returns the counter of the calling thread; null if it runs no task.
   [[nodiscard]] static WaitCount* current();
 
   void begin() { state_.store(state_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }
   void end() { begin(); }
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// Odd while it waits; another value after each wait.
+  /// Returns an odd number while the task waits, and another number after each wait.
   [[nodiscard]] std::uint64_t state() const { return state_.load(std::memory_order_relaxed); }
 
  private:
@@ -37,7 +38,7 @@ class WaitCount {
   std::atomic<std::uint64_t> state_{0};
 };
 
-/// As long as it lives, the task of this thread waits.
+/// A scope during which the task of the calling thread counts as waiting.
 class Waiting {
  public:
   Waiting() : count_(WaitCount::current()) {
@@ -53,7 +54,7 @@ class Waiting {
   WaitCount* const count_;
 };
 
-/// Finds the tasks that have not waited for long.
+/// A watch over tasks that have not waited for a long time.
 ///
 /// Thread contract: any thread.
 class ThreadWatch {
@@ -61,7 +62,7 @@ class ThreadWatch {
   void add(const WaitCount& count);
   void remove(const WaitCount& count);
 
-  /// The task that has crossed the limit last, if any has.
+  /// Returns the task that was the last to cross the limit, if any has.
   [[nodiscard]] std::optional<StuckTask> stuck_task(Duration limit);
 
  private:

@@ -17,9 +17,10 @@ namespace {
 
 using orca::command::Route;
 
-/// Takes goals from a parameter, a file or a prompt and has the robot drive to one after the other
-/// (thesis 11.1): sends the coordinates to Goto, subscribes to its arrivals, tells the fuser which behaviours
-/// to listen to, waits, and lets go of everything before the next. Done when there are no more goals.
+/// A component that sends the robot to one goal after the other, taken from a parameter, a file or a prompt
+/// (thesis 11.1). For each goal it subscribes to the arrivals, sends the coordinates to Goto and the list of
+/// behaviours to the fuser, and waits. After the arrival it unsubscribes and clears the list. It is done when
+/// there are no more goals.
 class Command final : public orca::Component {
  public:
   explicit Command(orca::ComponentHost& host) : Component(host) {}
@@ -88,10 +89,10 @@ class Command final : public orca::Component {
     return route;
   }
 
-  // Without goals from elsewhere, the user is asked.
+  // Returns whether to ask the user: there are goals from nowhere else.
   [[nodiscard]] bool asks() const { return goals_->empty() && goals_file_->empty(); }
 
-  // One line from the user; false when there will be no more.
+  // Asks the user for one goal; false when there will be no more.
   bool ask() {
     constexpr std::string_view kPrompt = "goal (name: x y > x y, empty line to end)? ";
     if (write(STDERR_FILENO, kPrompt.data(), kPrompt.size()) < 0) return false;
@@ -101,7 +102,7 @@ class Command final : public orca::Component {
     return true;
   }
 
-  // Reads stdin without ever blocking the strand in the system, so that the component can be stopped
+  // Reads a line from stdin without blocking the strand in the system, so that the component can be stopped
   // meanwhile.
   bool read_line(std::string& line) {
     for (;;) {
@@ -139,38 +140,45 @@ class Command final : public orca::Component {
     return orca::ok();
   }
 
-  orca::SendProxy<orca::idl::GoalPoint> goto_{*this, "goto", {.text = "Takes the coordinates: a Goto."}};
+  orca::SendProxy<orca::idl::GoalPoint> goto_{
+      *this, "goto", {.text = "Receiver of the coordinates: a Goto."}};
   orca::SendProxy<orca::idl::ClientList> clients_{
-      *this, "clients", {.text = "Takes the list of behaviours: a fuser."}};
+      *this, "clients", {.text = "Receiver of the list of behaviours: a fuser."}};
   orca::PushProxy<orca::idl::Arrived> arrived_{
-      *this, "arrived", {.text = "Tells when a goal is reached.", .manual = true, .depth = 16}};
+      *this, "arrived", {.text = "Reports that a goal is reached.", .manual = true, .depth = 16}};
 
   orca::Param<std::vector<std::string>> goals_{
       *this,
       "goals",
       {},
-      {.fixed = true, .text = "Goals, each \"name: x y > x y\" in metres: via points, last the goal."}};
+      {.fixed = true, .text = "Goals, each \"name: x y > x y\" in metres: any via points, then the goal."}};
   orca::Param<std::string> goals_file_{
       *this,
       "goals_file",
       "",
-      {.file = true, .fixed = true, .text = "A file of goals, one a line; # starts a comment line."}};
+      {.file = true, .fixed = true, .text = "File of goals, one per line; # starts a comment line."}};
   orca::Param<std::vector<std::string>> behaviours_{
-      *this, "behaviours", {"goto", "avoid"}, {.text = "Whom the fuser shall listen to on the way."}};
+      *this, "behaviours", {"goto", "avoid"}, {.text = "Behaviours that the fuser uses on the way."}};
   orca::Param<double> reach_radius_{
-      *this, "reach_radius", 0.2, {.unit = "m", .min = 0.01, .text = "How near a goal counts as there."}};
+      *this,
+      "reach_radius",
+      0.2,
+      {.unit = "m", .min = 0.01, .text = "Distance at which a goal counts as reached."}};
   orca::Param<double> via_radius_{
-      *this, "via_radius", 0.3, {.unit = "m", .min = 0.01, .text = "How near a via point counts as passed."}};
+      *this,
+      "via_radius",
+      0.3,
+      {.unit = "m", .min = 0.01, .text = "Distance at which a via point counts as passed."}};
   orca::Param<double> reach_angle_{
       *this,
       "reach_angle",
       0.1,
-      {.unit = "rad", .min = 0.01, .text = "How exactly a direction at the goal is taken."}};
+      {.unit = "rad", .min = 0.01, .text = "Accepted deviation from the direction at the goal."}};
   orca::Param<double> goal_timeout_{
       *this,
       "goal_timeout",
       300.0,
-      {.unit = "s", .min = 1.0, .text = "Time for one goal, then it counts as failed."}};
+      {.unit = "s", .min = 1.0, .text = "Longest time for one goal; after it the goal has failed."}};
 
   std::deque<Route> waiting_;
 };
@@ -178,4 +186,4 @@ class Command final : public orca::Component {
 }  // namespace
 
 ORCA_COMPONENT(Command, "orca.Command")
-ORCA_ALLOW_IN_VIRTUAL_TIME("poll", "with a time-out of zero: it asks for input and never waits for it")
+ORCA_ALLOW_IN_VIRTUAL_TIME("poll", "with a timeout of zero: it asks for input and never waits for it")

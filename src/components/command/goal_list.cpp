@@ -38,7 +38,7 @@ Result<double> parse_number(std::string_view text) {
   return value;
 }
 
-// The next number of `rest`, and what is left in `rest` after it.
+// Reads the next number of `rest` and removes it from `rest`.
 Result<double> next_number(std::string_view& rest) {
   rest = trim(rest);
   const auto gap = rest.find_first_of(kBlank);
@@ -59,10 +59,11 @@ Result<Place> parse_place(std::string_view text) {
     *number = *parsed;
   }
   if (rest.empty()) return place;
-  return fail(Code::invalid_argument, "there is more after x, y and z: \"" + std::string(rest) + "\"");
+  return fail(Code::invalid_argument,
+              "expected nothing after x, y and z, found \"" + std::string(rest) + "\"");
 }
 
-// Cuts `text` at the first `mark`: what is before it, and what is left in `text` after it.
+// Cuts `text` at the first `mark`: returns the part before it and leaves the part after it in `text`.
 std::string_view cut(std::string_view& text, char mark) {
   const auto at = text.find(mark);
   const std::string_view before = text.substr(0, at);

@@ -15,18 +15,18 @@ struct Place {
   double z = 0.0;  ///< [m] above the floor.
 };
 
-/// A goal and how to get there.
+/// A goal and the via points on the way to it.
 struct Route {
   std::string name;
   std::vector<Place> via;  ///< Passed on the way, in order.
   Place goal;
   bool use_orientation = false;
-  double orientation = 0.0;  ///< [rad] to face at the goal.
+  double orientation = 0.0;  ///< [rad] direction to face at the goal.
 };
 
-/// Reads one route: `kitchen: 3.1 2 > 5 2 > 5 4.5 @ 90`, that is a name, via points and last the goal in
-/// metres (a third number is the height of the place above the floor), and if wanted after `@` the direction
-/// to face there in degrees.
+/// Reads one route: `kitchen: 3.1 2 > 5 2 > 5 4.5 @ 90`. It consists of a name, any via points, and the goal;
+/// coordinates are in metres. A third number is the height of the place above the floor. The optional number
+/// after `@` is the direction to face at the goal, in degrees.
 ///
 /// @errors  invalid_argument with what was found and what was expected.
 [[nodiscard]] Result<Route> parse_route(std::string_view text);

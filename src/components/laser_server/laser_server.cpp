@@ -7,8 +7,8 @@
 
 namespace {
 
-/// A scanning laser of any brand (thesis 11.1, Fig. 11.4): its scans by Push and Query, and what it is by
-/// Query.
+/// The server of a scanning laser of any brand (thesis 11.1, Fig. 11.4): scans by Push and Query, and the
+/// description of the laser by Query.
 class LaserServer final : public orca::hw::HardwareServer {
  public:
   explicit LaserServer(orca::ComponentHost& host)
@@ -18,7 +18,7 @@ class LaserServer final : public orca::hw::HardwareServer {
   orca::Status configure() override {
     if (container() != nullptr && container()->description().laser_sensors().empty())
       return orca::fail(orca::Code::failed_precondition,
-                        "its hardware has no laser; bind hardware that has one to it");
+                        "its hardware has no laser; bind hardware with a laser to this component");
     return HardwareServer::configure();
   }
 

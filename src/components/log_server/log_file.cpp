@@ -63,7 +63,7 @@ bool LogFile::write_line(const std::string& line) {
     size_ += line.size();
     return true;
   }
-  // Half a line is worse than none. If even that cannot be undone, it stays.
+  // Half a line is worse than none, so it is cut off. It stays only if that fails as well.
   if (done > 0 && (!regular_ || ftruncate(fd_, static_cast<off_t>(size_)) != 0))
     size_ += static_cast<std::uint64_t>(done);
   return false;

@@ -9,26 +9,26 @@
 
 namespace orca::logs {
 
-/// A file of lines that never grows beyond a size: then it becomes NAME.1, NAME.1 becomes NAME.2 and so on,
-/// and the oldest goes. What cannot be written (disk full, device gone) is counted and lost, line by line,
-/// never half a line; when writing works again a line says how many were lost.
+/// A file of lines with a largest size. A file that would exceed it becomes NAME.1, NAME.1 becomes NAME.2 and
+/// so on, and the oldest is removed. A line that cannot be written (disk full, device gone) is lost whole and
+/// counted. When writing works again, a line gives the number of lost lines.
 ///
 /// Thread contract: not synchronised.
 class LogFile {
  public:
-  /// @param most_bytes  of one file; a line that is longer alone still gets a file of its own.
-  /// @param keep        old files besides the one that is written to.
+  /// @param most_bytes  largest size of one file [bytes]; a longer line gets a file of its own.
+  /// @param keep        number of old files besides the present one.
   LogFile(std::string path, std::uint64_t most_bytes, int keep);
   ~LogFile();
   LogFile(const LogFile&) = delete;
   LogFile& operator=(const LogFile&) = delete;
 
-  /// Opens the file for writing at its end.
+  /// Opens the file for appending.
   /// @errors  unavailable with the system's reason.
   Status open();
 
-  /// Adds a line; without line breaks, which are shown as \n.
-  /// @return false if it was lost.
+  /// Appends a line. Line breaks in it are written as \n.
+  /// @return false if the line was lost.
   bool append(std::string_view line);
 
   [[nodiscard]] std::uint64_t written() const { return written_; }
@@ -43,7 +43,7 @@ class LogFile {
   const std::uint64_t most_bytes_;
   const int keep_;
   int fd_ = -1;
-  bool regular_ = false;  // else (a pipe, a terminal) there is nothing to rotate or cut
+  bool regular_ = false;  // false: a pipe or a terminal, which cannot be rotated or cut
   std::uint64_t size_ = 0;
   std::uint64_t written_ = 0;
   std::uint64_t lost_ = 0;

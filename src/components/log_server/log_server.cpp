@@ -22,8 +22,9 @@ const char* name_of(orca::idl::LogLevel level) {
   return "?";
 }
 
-/// Gathers what components have to say in a file (thesis, list of components). A full disk stops nobody: what
-/// cannot be written is counted, and a line says so when there is room again.
+/// A component that collects the log records of others in a file (thesis, list of components). A full disk
+/// stops no component: lines that cannot be written are counted, and a line gives their number when there is
+/// room again.
 class LogServer final : public orca::Component {
  public:
   using Component::Component;
@@ -34,7 +35,7 @@ class LogServer final : public orca::Component {
     return file_->open();
   }
 
-  // There is nothing to do but to take records, which come between laps.
+  // Records are handled between laps, so a lap has nothing to do.
   orca::Outcome work() override { return orca::done(); }
 
   Status on_record(const orca::ObjectPtr<orca::idl::LogRecord>& record) {
@@ -48,25 +49,29 @@ class LogServer final : public orca::Component {
                   " so far");
     if (kept && failing_)
       log_info("writes to " + *path_ + " again; " + std::to_string(file_->lost()) +
-               " records were lost in all");
+               " records were lost in total");
     failing_ = !kept;
     return orca::ok();
   }
 
   orca::SendServer<orca::idl::LogRecord> records_{
-      *this, "LogRecordSend", &LogServer::on_record, {.text = "What happened, a line each.", .depth = 1024}};
+      *this, "LogRecordSend", &LogServer::on_record, {.text = "Log records to write.", .depth = 1024}};
 
   orca::Param<std::string> path_{
-      *this, "file", "orca.log", {.file = true, .fixed = true, .text = "Where the lines go, at its end."}};
-  orca::Param<std::int64_t> most_bytes_{*this,
-                                        "most_bytes",
-                                        10'000'000,
-                                        {.min = 1000,
-                                         .max = 1e12,
-                                         .fixed = true,
-                                         .text = "A larger file becomes FILE.1 and a new one begins."}};
+      *this,
+      "file",
+      "orca.log",
+      {.file = true, .fixed = true, .text = "File to which the lines are appended."}};
+  orca::Param<std::int64_t> most_bytes_{
+      *this,
+      "most_bytes",
+      10'000'000,
+      {.min = 1000,
+       .max = 1e12,
+       .fixed = true,
+       .text = "Size [bytes] beyond which the file becomes FILE.1 and a new one begins."}};
   orca::Param<std::int64_t> keep_{
-      *this, "keep", 5, {.min = 0, .max = 1000, .fixed = true, .text = "Old files that are kept."}};
+      *this, "keep", 5, {.min = 0, .max = 1000, .fixed = true, .text = "Number of old files to keep."}};
 
   std::optional<orca::logs::LogFile> file_;
   bool failing_ = false;

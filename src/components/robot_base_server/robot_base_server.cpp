@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Any robot base (thesis 11.1): all its sensors, its wheels, and its description by Query.
+/// The server of any robot base (thesis 11.1): all its sensors, its motion, and its description by Query.
 class RobotBaseServer final : public orca::hw::HardwareServer {
  public:
   explicit RobotBaseServer(orca::ComponentHost& host) : HardwareServer(host, orca::hw::Source::sensor) {

@@ -37,7 +37,7 @@ void Joystick::take_event() {
 
 Stick Joystick::stick(const JoystickMap& map) const {
   if (!buttons_[map.dead_man_button]) return {};
-  // Nought minus, so that an axis at rest is not a negative zero.
+  // Subtracted from 0.0, so that an axis at rest does not give a negative zero.
   return {0.0 - share(axes_[map.forward_axis], map.dead_zone),
           0.0 - share(axes_[map.left_axis], map.dead_zone)};
 }

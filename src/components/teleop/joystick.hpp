@@ -10,25 +10,25 @@
 
 namespace orca::teleop {
 
-/// Which axes and which button count. Axes as the driver numbers them: to the left and up are negative.
+/// The axes and the button that drive, with the numbers of the kernel driver. Left and up are negative.
 struct JoystickMap {
   std::uint8_t forward_axis = 1;
   std::uint8_t left_axis = 0;
   std::uint8_t dead_man_button = 0;
-  double dead_zone = 0.05;  ///< [1] of the way of an axis; less is none.
+  double dead_zone = 0.05;  ///< [1] share of an axis's range; smaller values count as 0.
 };
 
-/// A joystick as Linux tells of it: an event for each change. While its dead-man button is not held it is at
-/// rest.
+/// A joystick as Linux reports it, by an event for each change. It is at rest while its dead-man button is
+/// not held.
 ///
 /// Thread contract: not synchronised.
 /// @source  Linux kernel, Documentation/input/joydev/joystick-api.rst: struct js_event is time (4 bytes),
 ///          value (signed, 2 bytes), type (1 byte; 1 button, 2 axis, 0x80 added for the first state), number.
 class Joystick {
  public:
-  /// Bytes as read from the device; events may come in parts.
+  /// Takes bytes as read from the device; events may come in parts.
   void take(std::string_view bytes);
-  /// The device has gone.
+  /// Puts everything at rest, because the device has gone.
   void release() { *this = {}; }
 
   [[nodiscard]] Stick stick(const JoystickMap& map) const;

@@ -6,7 +6,8 @@ namespace {
 
 constexpr char kEscape = '\x1b';
 
-// ESC [ A and ESC O A, as terminals send for the arrow up in their two modes, and so on.
+// Returns the key that an arrow stands for. Terminals send ESC [ A or ESC O A for the arrow up, depending on
+// their mode.
 char key_of_arrow(char last) {
   switch (last) {
     case 'A': return 'w';

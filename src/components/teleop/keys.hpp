@@ -5,25 +5,25 @@
 
 namespace orca::teleop {
 
-/// What the hands want, each in [-1, 1]: forward positive, and left positive.
+/// The position of the controls, each in [-1, 1]: forward positive, and left positive.
 struct Stick {
   double forward = 0.0;
   double left = 0.0;
   friend bool operator==(const Stick&, const Stick&) = default;
 };
 
-/// The keys of a terminal: arrows or W A S D drive, the space bar stops, Q ends. A terminal tells only that a
-/// key is pressed, again and again while it is held, and never that it is released: each press counts until
-/// the dead-man time has passed.
+/// The keys of a terminal: arrows or W A S D drive, the space bar stops, Q ends. A terminal reports a key
+/// again and again while it is held, but never its release. So each press counts until the dead-man time has
+/// passed.
 ///
 /// Thread contract: not synchronised.
 class Keys {
  public:
-  /// Bytes as the terminal sends them; escape sequences may come in parts.
+  /// Takes bytes as the terminal sends them; escape sequences may come in parts.
   /// @param time  [s] now.
   void take(std::string_view bytes, double time);
 
-  /// @param dead_man  [s] how long a press counts.
+  /// @param dead_man  [s] time that a press counts.
   [[nodiscard]] Stick stick(double time, double dead_man) const;
   [[nodiscard]] bool quit() const { return quit_; }
 

@@ -15,7 +15,8 @@
 namespace orca::teleop {
 namespace {
 
-// The pipe is its input, the terminal its descriptor 3. Told so, it leaves the terminal alone.
+// The guard: its input is the pipe, its descriptor 3 the terminal. A line on the pipe says that the terminal
+// is restored; without one the guard restores it.
 constexpr const char* kGuard = R"(read -r restored || exec stty "$0" <&3)";
 constexpr char kRestored[] = "restored\n";
 constexpr int kOutOfTheWay = 10;
@@ -27,7 +28,7 @@ void add_number(std::string& text, unsigned long number) {
   text.append(digits.data(), end);
 }
 
-// As `stty -g` prints them and stty takes them back.
+// Returns terminal settings in the form that `stty -g` prints and stty accepts.
 std::string text_of(const termios& settings) {
   std::string text;
   for (const tcflag_t flags : {settings.c_iflag, settings.c_oflag, settings.c_cflag, settings.c_lflag})
@@ -36,8 +37,9 @@ std::string text_of(const termios& settings) {
   return text;
 }
 
-// What a new process begins with: of our descriptors only these two (whoever waits for the end of our pipes
-// must not wait for the guard), in a group of its own, deaf to what ends us.
+// The state in which the guard starts. It has only two of this process's descriptors, so that readers of this
+// process's pipes do not wait for the guard. It is in its own process group and blocks the signals that end
+// this process.
 class Beginning {
  public:
   Beginning(int end_of_pipe, int terminal) {
@@ -62,7 +64,8 @@ class Beginning {
   Beginning(const Beginning&) = delete;
   Beginning& operator=(const Beginning&) = delete;
 
-  // Its process id, -1 if it cannot be started. Not fork(): copies of a process with threads are fragile.
+  // Starts a shell and returns its process id, -1 on failure. It avoids fork(), because a copy of a process
+  // with threads is fragile.
   [[nodiscard]] pid_t shell(std::string script, std::string argument) const {
     std::string name = "sh";
     std::string option = "-c";
@@ -79,7 +82,7 @@ class Beginning {
 }  // namespace
 
 RawTerminal::RawTerminal(int fd) : fd_(fd) {
-  if (tcgetattr(fd_, &before_) != 0) return;  // no terminal
+  if (tcgetattr(fd_, &before_) != 0) return;  // not a terminal
   start_guard();
   termios raw = before_;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
@@ -91,7 +94,7 @@ RawTerminal::RawTerminal(int fd) : fd_(fd) {
 RawTerminal::~RawTerminal() {
   if (changed_) tcsetattr(fd_, TCSANOW, &before_);
   if (guard_ < 0) return;
-  // Told so, the guard leaves the terminal alone, which may be another's by then.
+  // After this line the guard leaves the terminal alone, which may belong to another process by then.
   if (write(alive_, kRestored, sizeof kRestored - 1) < 0) kill(guard_, SIGKILL);
   close(alive_);
   while (waitpid(guard_, nullptr, 0) < 0 && errno == EINTR) {

@@ -6,13 +6,14 @@
 
 namespace orca::teleop {
 
-/// A terminal that hands out each key at once and shows none, for as long as this lives. Ctrl-C stays a
-/// signal.
+/// A terminal that delivers each key at once and echoes none while this object lives. Ctrl-C stays a signal.
 ///
-/// A terminal left like that is useless to its owner, so a small process (a shell) waits for our end and
-/// puts the settings back with stty when this process could not: after a crash, or kill -9.
+/// A terminal left in this state is useless to its owner. So a small process (a shell) waits for the end of
+/// this process and restores the settings with stty if this process could not: after a crash, or kill -9.
 ///
-/// Does nothing to what is no terminal (a pipe, a file). Thread contract: not synchronised.
+/// It does nothing if the descriptor is not a terminal (a pipe, a file).
+///
+/// Thread contract: not synchronised.
 class RawTerminal {
  public:
   explicit RawTerminal(int fd);
@@ -27,7 +28,7 @@ class RawTerminal {
   bool changed_ = false;
   termios before_{};
   pid_t guard_ = -1;
-  int alive_ = -1;  // our end of the pipe by which the guard sees our end
+  int alive_ = -1;  // write end of the pipe by which the guard notices the end of this process
 };
 
 }  // namespace orca::teleop

@@ -20,7 +20,7 @@ namespace {
 using orca::Status;
 using orca::teleop::Stick;
 
-// A device that is read without ever blocking.
+// A device that is read without blocking.
 class Input {
  public:
   ~Input() { close(); }
@@ -40,7 +40,7 @@ class Input {
   [[nodiscard]] int fd() const { return fd_; }
   [[nodiscard]] bool is_open() const { return fd_ >= 0; }
 
-  // What has come; false if the device has gone.
+  // Reads the bytes that have come; false if the device has gone.
   bool read(std::string& bytes) {
     bytes.clear();
     pollfd waiting{fd_, POLLIN, 0};
@@ -56,11 +56,11 @@ class Input {
   int fd_ = -1;
 };
 
-/// A person drives: with the keys of a terminal, with a joystick, or with both (then the joystick counts
-/// while it is not at rest). Who lets go stops: the robot stands as soon as no key has come for the dead-man
-/// time, the joystick's dead-man button is not held, or the device has gone.
+/// A behaviour by which a person drives: with the keys of a terminal, with a joystick, or with both. With
+/// both, the joystick has priority while it is not at rest. To let go is to stop: the robot stops as soon as
+/// no key has come for the dead-man time, the joystick's dead-man button is not held, or the device has gone.
 ///
-/// For the steady clock only: a person does not live in virtual time.
+/// It needs the steady clock, because a person cannot drive in virtual time.
 class Teleop final : public orca::Component {
  public:
   explicit Teleop(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(25)); }
@@ -96,7 +96,7 @@ class Teleop final : public orca::Component {
     const Stick hand = stick_.stick(map());
     const Stick wanted = hand == Stick{} ? keys_.stick(time, *dead_man_) : hand;
     if (wanted == Stick{}) {
-      motion_.push(orca::full_stop());  // also against what other behaviours want
+      motion_.push(orca::full_stop());  // overrules the other behaviours
     } else {
       motion_.push(orca::turn(wanted.left * *turn_rate_, wanted.forward * *speed_, *weight_));
     }
@@ -109,11 +109,11 @@ class Teleop final : public orca::Component {
     joystick_input_.close();
   }
 
-  // New bytes into bytes_; false if there are none.
+  // Reads new bytes into bytes_; false if there are none.
   bool take(Input& input, const char* what) {
     if (!input.is_open()) return false;
     if (input.read(bytes_)) return !bytes_.empty();
-    log_warning(std::string("the ") + what + " has gone: nobody drives with it any more");
+    log_warning(std::string("the ") + what + " has gone: it no longer drives the robot");
     if (&input == &keyboard_input_) terminal_.reset();
     input.close();
     return false;
@@ -125,27 +125,33 @@ class Teleop final : public orca::Component {
   }
 
   orca::PushServer<orca::idl::MotionCommand> motion_{
-      *this, "motion", {.text = "What the person wants, per lap; full stop while nobody holds anything."}};
+      *this, "motion", {.text = "The person's command, one per lap; full stop while no control is held."}};
 
   orca::Param<std::string> keyboard_{
       *this,
       "keyboard",
       "stdin",
-      {.fixed = true, .text = "Terminal whose keys drive: stdin, a device, or empty for none."}};
+      {.fixed = true, .text = "Terminal whose keys drive the robot: stdin, a device, or empty for none."}};
   orca::Param<std::string> joystick_{
-      *this, "joystick", "", {.fixed = true, .text = "Joystick device, as /dev/input/js0; empty for none."}};
+      *this,
+      "joystick",
+      "",
+      {.fixed = true, .text = "Joystick device, e.g. /dev/input/js0; empty for none."}};
   orca::Param<double> speed_{
-      *this, "speed", 0.3, {.unit = "m/s", .min = 0.0, .text = "With a key, or the stick fully forward."}};
+      *this,
+      "speed",
+      0.3,
+      {.unit = "m/s", .min = 0.0, .text = "Speed with a key, or with the stick fully forward."}};
   orca::Param<double> turn_rate_{
       *this,
       "turn_rate",
       0.8,
-      {.unit = "rad/s", .min = 0.0, .text = "With a key, or the stick fully aside."}};
+      {.unit = "rad/s", .min = 0.0, .text = "Turn rate with a key, or with the stick fully aside."}};
   orca::Param<double> dead_man_{
       *this,
       "dead_man",
       0.3,
-      {.unit = "s", .min = 0.05, .max = 2.0, .text = "Without a key for so long the robot stands."}};
+      {.unit = "s", .min = 0.05, .max = 2.0, .text = "The robot stops when no key has come for this long."}};
   orca::Param<std::int64_t> forward_axis_{
       *this, "forward_axis", 1, {.min = 0, .max = 255, .text = "Joystick axis; up is negative."}};
   orca::Param<std::int64_t> left_axis_{

@@ -4,8 +4,8 @@
 
 namespace {
 
-/// The true pose, from a simulator: `RobotPosePush` and `RobotPoseQuery`. Real hardware has no truth to tell,
-/// so with it this component has no ports.
+/// The server of a simulator's true pose: `RobotPosePush` and `RobotPoseQuery`. Real hardware does not know
+/// the true pose, so with it this component has no ports.
 class TruthLocalizer final : public orca::hw::HardwareServer {
  public:
   explicit TruthLocalizer(orca::ComponentHost& host) : HardwareServer(host, orca::hw::Source::truth) {}

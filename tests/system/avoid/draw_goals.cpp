@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws starts and goals for the avoid sweep: draw_goals WORLD MAP_WIDTH COUNT SEED
 //
-// One line each: start x y heading, goal x y, and "clear" if a disc of the required clearance can go straight
-// from one to the other, else "blocked".
+// Prints a line for each: start x y heading, goal x y, and "clear" if a disc of the required clearance can
+// move straight from one to the other, else "blocked".
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -21,7 +21,7 @@ using orca::Vec2;
 constexpr double kClearance = 0.35;  // [m] free around a start and a goal
 constexpr double kNearest = 4.0;     // [m] from start to goal
 constexpr double kFarthest = 15.0;
-constexpr double kIndoors = 60.0;  // [m] a wall is met within this distance on every side
+constexpr double kIndoors = 60.0;  // [m] indoors there is a wall within this distance on every side
 
 class Floor {
  public:
@@ -47,7 +47,7 @@ class Floor {
   }
 
  private:
-  // Plans of buildings have free space and lettering around them.
+  // Floor plans have free space and lettering around the building, which do not count.
   [[nodiscard]] bool indoors(Vec2 p) const {
     constexpr int kRays = 16;
     for (int i = 0; i < kRays; ++i) {

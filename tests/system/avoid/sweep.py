@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Drives the simulated Scout to many random goals in a straight line and counts what it touches.
+"""Drives the simulated Scout to many random goals in a straight line and counts its contacts.
 
     tests/system/avoid/sweep.py [--build DIR] [--worlds office,cave,hospital] [--realism nominal,harsh] [--count 200]
 
 Starts, goals and seeds are fixed, so two runs of the same binaries print the same. Cave and hospital are maps of the Stage
-project; they are looked for in $ORCA_DATA or ../shared/data beside the tree, and are left out with a word where absent.
+project. They are looked up in $ORCA_DATA or in ../shared/data beside the tree; missing ones are reported and left out.
 """
 import argparse
 import concurrent.futures
@@ -36,7 +36,7 @@ class Drive:
 @dataclass(frozen=True)
 class Outcome:
     contacts: int
-    arrived_at: float  # [s], 0: not
+    arrived_at: float  # [s]; 0: it did not arrive
 
 
 def command(args, drive):
@@ -87,7 +87,7 @@ def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=TREE / "build/release")
     parser.add_argument("--graph", type=pathlib.Path, default=TREE / "graphs/scout_hospital.xml",
-                        help="with the arguments map, map_width, x, y, heading, realism and goals")
+                        help="a graph with the arguments map, map_width, x, y, heading, realism and goals")
     parser.add_argument("--set", action="append", default=[], metavar="ARG=VALUE", help="another argument of the graph")
     parser.add_argument("--worlds", default="office,cave,hospital")
     parser.add_argument("--realism", default="nominal,harsh")

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Drives a robot from start to goal through each of many worlds and tells how often that succeeds.
+"""Drives a robot from start to goal through each of many worlds and reports how often that succeeds.
 
     tests/system/barn/run.py [--build DIR] [--file FILE] [--numbers 1-20] [--set ARG=VALUE] [--jobs N]
 
-FILE holds numbered worlds: by default the 200 worlds at hand of the BARN benchmark, looked for in $ORCA_DATA or
-../shared/data beside the tree; else a world with a <generate>, where the number is the seed. A run succeeds if the robot
+FILE holds numbered worlds: by default the 200 worlds of the BARN benchmark, looked up in $ORCA_DATA or in
+../shared/data beside the tree. It may also be a world with a <generate>, whose seed is the number. A run succeeds if the robot
 comes within 1 m of the goal in 100 s and touches nothing. The clock starts with the run, not 0.1 m later as in BARN.
 
 The seed of each run is the number of its world, so two calls with the same binaries print the same.
-Ends with 0 if every run came to its end, whatever the result; with 1 if one crashed or hung; with 77 without the file.
+Exit status: 0 if every run ended, whatever its result; 1 if one crashed or hung; 77 if the file is missing.
 """
 import argparse
 import concurrent.futures
@@ -29,7 +29,7 @@ BROKEN = ("crash", "hang")
 @dataclass(frozen=True)
 class Outcome:
     number: int
-    result: str  # success, collision, time-out, crash, hang
+    result: str  # success, collision, time-out, crash or hang
     time: float  # [s] of the arrival or of the first contact; else of the end
     detail: str = ""
 
@@ -43,7 +43,7 @@ def command(args, number):
 
 
 def judged(number, lines, limit):
-    """What the deployer's lines say: `contact NAME t`, `arrived NAME x y t`."""
+    """Returns the outcome by the deployer's lines: `contact NAME t`, `arrived NAME x y t`."""
     touched = [float(line.split()[-1]) for line in lines if line.startswith("contact")]
     arrived = [float(line.split()[-1]) for line in lines if line.startswith("arrived")]
     if touched:
@@ -57,14 +57,14 @@ def run(args, number):
     except subprocess.TimeoutExpired:
         return Outcome(number, "hang", args.limit, f"no end after {args.hang} s")
     lines = done.stdout.splitlines()
-    # A component that fails does not end the run: the robot only stands. What it said is on stderr.
+    # A component that fails does not end the run, but leaves its error on stderr.
     if done.returncode != 0 or done.stderr or not lines or not lines[-1].startswith("trace-hash"):
         return Outcome(number, "crash", args.limit, f"status {done.returncode}: {done.stderr.strip()}")
     return judged(number, lines, args.limit)
 
 
 def wilson(successes, count):
-    """The 95 % interval of a rate."""
+    """Returns the 95 % confidence interval of a rate."""
     z, rate = 1.959964, successes / count
     middle = (rate + z * z / (2 * count)) / (1 + z * z / count)
     half = z * math.sqrt(rate * (1 - rate) / count + z * z / (4 * count * count)) / (1 + z * z / count)
@@ -85,7 +85,7 @@ def report(outcomes):
 
 
 def numbers_of(text):
-    """1-3,7 -> 1 2 3 7"""
+    """Yields the numbers of a list of ranges: 1-3,7 -> 1 2 3 7."""
     for part in text.split(","):
         first, _, last = part.partition("-")
         yield from range(int(first), int(last or first) + 1)
@@ -103,7 +103,7 @@ def options():
     parser.add_argument("--build", type=pathlib.Path, default=TREE / "build/release")
     parser.add_argument("--graph", type=pathlib.Path, default=pathlib.Path(__file__).with_name("barn_goto.xml"))
     parser.add_argument("--file", type=pathlib.Path, default=DATA / "barn/cylinders.csv.gz")
-    parser.add_argument("--numbers", default="", help="such as 1-20 or 1,4,7; without: all of the file's worlds.csv")
+    parser.add_argument("--numbers", default="", help="e.g. 1-20 or 1,4,7; default: all in the file's worlds.csv")
     parser.add_argument("--set", action="append", default=[], metavar="ARG=VALUE", help="an argument of the graph")
     parser.add_argument("--limit", type=float, default=100.0, help="[s] simulated time of a run")
     parser.add_argument("--hang", type=float, default=300.0, help="[s] real time after which a run counts as hung")

@@ -31,7 +31,6 @@ class Host final : public ComponentHost {
   [[nodiscard]] TimePoint now() const override { return peer_.executive().now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override { return {1, name(), stream}; }
   void write_log(log::Level /*level*/, std::string_view /*text*/) const override {}
-  void announce(const Announcement& /*announcement*/) override {}
   [[nodiscard]] Device* hardware() override { return nullptr; }
   void stay_active(bool /*active*/) override {}
   [[nodiscard]] Strand& strand() override { return peer_.strand(); }

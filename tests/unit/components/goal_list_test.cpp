@@ -55,16 +55,17 @@ TEST_CASE("a wrong route is refused with what was found and an example", "[compo
     const char* text;
     const char* why;
   };
-  const Wrong wrong = GENERATE(
-      Wrong{"", "no \":\""}, Wrong{"kitchen 1 2", "no \":\""}, Wrong{": 1 2", "\"\" is no name"},
-      Wrong{"2nd: 1 2", "\"2nd\" is no name"}, Wrong{"my goal: 1 2", "\"my goal\" is no name"},
-      Wrong{"a:", "expected \"x y\", found \"\""}, Wrong{"a: 1", "found \"1\""},
-      Wrong{"a: 1 2 3 4", "more after x, y and z: \"4\""}, Wrong{"a: 1,5 2", "\"1,5\" is not a number"},
-      Wrong{"a: 10abc 2", "\"10abc\" is not a number"}, Wrong{"a: nan 2", "\"nan\" is not a number"},
-      Wrong{"a: 1 inf", "\"inf\" is not a number"}, Wrong{"a: 1e999 2", "\"1e999\" is not a number"},
-      Wrong{"a: > 1 2", "found \"\""}, Wrong{"a: 1 2 > > 3 4", "found \"\""}, Wrong{"a: 1 2 >", "found \"\""},
-      Wrong{"a: 1 2 @ north", "\"north\" is not a number"}, Wrong{"a: 1 2 @", "\"\" is not a number"},
-      Wrong{"a: 1 2 @ 3 @ 4", "is not a number"});
+  const Wrong wrong =
+      GENERATE(Wrong{"", "no \":\""}, Wrong{"kitchen 1 2", "no \":\""}, Wrong{": 1 2", "\"\" is no name"},
+               Wrong{"2nd: 1 2", "\"2nd\" is no name"}, Wrong{"my goal: 1 2", "\"my goal\" is no name"},
+               Wrong{"a:", "expected \"x y\", found \"\""}, Wrong{"a: 1", "found \"1\""},
+               Wrong{"a: 1 2 3 4", "expected nothing after x, y and z, found \"4\""},
+               Wrong{"a: 1,5 2", "\"1,5\" is not a number"}, Wrong{"a: 10abc 2", "\"10abc\" is not a number"},
+               Wrong{"a: nan 2", "\"nan\" is not a number"}, Wrong{"a: 1 inf", "\"inf\" is not a number"},
+               Wrong{"a: 1e999 2", "\"1e999\" is not a number"}, Wrong{"a: > 1 2", "found \"\""},
+               Wrong{"a: 1 2 > > 3 4", "found \"\""}, Wrong{"a: 1 2 >", "found \"\""},
+               Wrong{"a: 1 2 @ north", "\"north\" is not a number"},
+               Wrong{"a: 1 2 @", "\"\" is not a number"}, Wrong{"a: 1 2 @ 3 @ 4", "is not a number"});
   CAPTURE(wrong.text);
   const auto route = parse_route(wrong.text);
   REQUIRE_FALSE(route.has_value());

@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-INCLUDES = ("src/component_api", "src/patterns", "src/base", "idl", "src/hw/api")
+INCLUDES = ("src/component_api", "src/patterns", "src/geometry", "src/base", "idl", "src/hw/api")
 PLUGIN = "src/components/motion_command_fuser/motion_command_fuser.cpp"
 ROOTS = ("orca/component.hpp", "orca/hardware.hpp", "orca/hw/server.hpp")
 API = "src/component_api/include/orca/component"
@@ -28,7 +28,7 @@ INSIDE = (
     (f"{PORTS}/endpoints/push_edge.hpp", "  std::uint32_t first_ = 0;\n"),
     (f"{PORTS}/endpoints/request_client.hpp", "  Pending pending_;\n"),
     (f"{PORTS}/endpoints/send_server_endpoint.hpp", "  std::deque<Accepted> waiting_;\n"),
-    ("src/runtime/host/run/port_set.hpp", "  PortHome& home_;\n"),
+    ("src/runtime/host/run/component/port_set.hpp", "  PortHome& home_;\n"),
 )
 
 # The type that changes, file, the text in front of which something is added, what is added.

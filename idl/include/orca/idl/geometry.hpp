@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// Geometry and world geometry (thesis 8.2): Point, Rotation3D, Frame3D, WDistance, Pose2D, ... What each
-/// field means, its unit and frame, is said in idl/orca/geometry.idl.
+/// Geometry and world geometry (thesis 8.2): Point, Rotation3D, Frame3D, WDistance, Pose2D, ...
+/// idl/orca/geometry.idl gives the meaning, unit and frame of each field.
 #pragma once
 
 #include "orca/idl/generated/geometry.h"
@@ -18,9 +18,9 @@ namespace orca {
   return point;
 }
 
-/// The frame of something mounted level.
-/// @param position  of its origin in the other frame.
-/// @param yaw [rad]  of its x axis, positive to the left.
+/// Returns the frame of a part that is mounted level.
+/// @param position  of the part's origin in the other frame.
+/// @param yaw [rad]  of the part's x axis in the other frame, positive to the left.
 [[nodiscard]] inline idl::Frame3D make_frame(const idl::Point& position, double yaw) {
   idl::Frame3D frame;
   frame.position(position);

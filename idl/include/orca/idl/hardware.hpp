@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// Robot, Actuator, Drive, Sensor, SonarRing, LaserSensor (thesis 8.3). What each field means,
-/// its unit and frame, is said in idl/orca/hardware.idl.
+/// Robot, Actuator, Drive, Sensor, SonarRing, LaserSensor (thesis 8.3). idl/orca/hardware.idl gives the
+/// meaning, unit and frame of each field.
 #pragma once
 
 #include "orca/idl/generated/hardware.h"

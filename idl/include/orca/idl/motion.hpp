@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// MotionCommand, short ways to make one, HolonomicVelocity, TurretCommand and FusionReason. What each field
-/// means, its unit and frame, is said in idl/orca/motion.idl.
+/// MotionCommand, short ways to make one, HolonomicVelocity, TurretCommand and FusionReason.
+/// idl/orca/motion.idl gives the meaning, unit and frame of each field.
 #pragma once
 
 #include "orca/base/result.hpp"
@@ -11,22 +11,22 @@
 
 namespace orca {
 
-/// Stop at once, whatever others ask for.
+/// Returns the command to stop at once, whatever other behaviours ask for.
 [[nodiscard]] Loan<idl::MotionCommand> full_stop();
 
-/// No opinion: the fuser disregards it.
+/// Returns a command without an opinion, which the fuser ignores.
 [[nodiscard]] Loan<idl::MotionCommand> dont_care();
 
-/// Drive in a direction.
+/// Returns the command to drive in a direction.
 /// @param direction_rad [rad]  robot frame, 0 ahead, positive to the left.
 /// @param speed [m/s]  forward positive.
-/// @param weight [1]  share when fused with the wishes of others, at least 0.
+/// @param weight [1]  share when fused with the commands of others, at least 0.
 [[nodiscard]] Loan<idl::MotionCommand> head(double direction_rad, double speed, double weight = 1.0);
 
-/// Drive and turn.
+/// Returns the command to drive and turn.
 /// @param rate [rad/s]  positive to the left.
 /// @param speed [m/s]  forward positive.
-/// @param weight [1]  share when fused with the wishes of others, at least 0.
+/// @param weight [1]  share when fused with the commands of others, at least 0.
 [[nodiscard]] Loan<idl::MotionCommand> turn(double rate, double speed, double weight = 1.0);
 
 /// Checks the numbers of a command, the same way for all who take commands. What a base can carry out is another

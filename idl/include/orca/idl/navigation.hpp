@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// GoalPoint, Door, Arrived (thesis 8.3). What each field means, its unit and frame, is
-/// said in idl/orca/navigation.idl.
+/// GoalPoint, Door, Arrived (thesis 8.3). idl/orca/navigation.idl gives the meaning, unit and frame of each
+/// field.
 #pragma once
 
 #include "orca/idl/generated/navigation.h"

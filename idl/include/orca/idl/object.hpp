@@ -14,7 +14,7 @@ namespace orca {
 
 namespace detail {
 
-/// What lies in front of each pooled object.
+/// The record in front of each pooled object.
 struct Slot {
   const ObjectType* type;
   void* object;
@@ -23,7 +23,8 @@ struct Slot {
   Slot* next_free = nullptr;
 };
 
-/// Both live in liborca_idl.so, so that no plugin's code or memory is needed to end the life of an object.
+/// Acquire and release a slot. Both functions live in liborca_idl.so, so that the end of an object needs no
+/// code or memory of a plugin.
 [[nodiscard]] Slot* acquire_slot(const ObjectType& type) noexcept;
 void release_slot(Slot* slot) noexcept;
 
@@ -34,13 +35,13 @@ using SlotOwner = std::unique_ptr<Slot, LoanDeleter>;
 
 }  // namespace detail
 
-/// A shared view of an object that nobody can change any more, of whatever type; or nothing.
+/// A shared view of an immutable object of any type; or empty.
 ///
-/// Copying it copies no object. The object returns to its pool when the last view goes; the pool is never
-/// unloaded, so views may outlive the plugin that made the object.
+/// A copy of a view refers to the same object. The object returns to its pool when the last view goes. The
+/// pool is never unloaded, so views may outlive the plugin that made the object.
 ///
-/// Thread contract: like std::shared_ptr. Views may be copied and dropped in any thread, one view belongs to
-/// one thread at a time; the object is immutable and may be read by all.
+/// Thread contract: like std::shared_ptr. Views may be copied and dropped in any thread, but one view belongs
+/// to one thread at a time. The object is immutable and may be read by all threads.
 class ObjectRef {
  public:
   ObjectRef() = default;
@@ -57,10 +58,10 @@ class ObjectRef {
   }
 
   explicit operator bool() const { return slot_ != nullptr; }
-  /// Whether both are views of one object, or of nothing.
+  /// Returns whether both are views of one object, or both are empty.
   friend bool operator==(const ObjectRef&, const ObjectRef&) = default;
 
-  /// @pre  *this, for all four.
+  /// @pre  *this, for the next four functions.
   [[nodiscard]] const ObjectType& type() const { return *slot_->type; }
   [[nodiscard]] const void* get() const { return slot_->object; }
   [[nodiscard]] const idl::OrcaObject& header() const { return *slot_->header; }
@@ -73,7 +74,7 @@ class ObjectRef {
   detail::Slot* slot_ = nullptr;
 };
 
-/// An ObjectRef that knows its type: a shared view of an immutable T, or nothing.
+/// An ObjectRef that knows its type: a shared view of an immutable T; or empty.
 ///
 /// Thread contract: as ObjectRef.
 template <class T>
@@ -86,7 +87,7 @@ class ObjectPtr {
   friend bool operator==(const ObjectPtr&, const ObjectPtr&) = default;
   friend bool operator==(const ObjectPtr& a, std::nullptr_t) { return !a.ref_; }
 
-  /// nullptr if it is a view of nothing.
+  /// Returns the object, or nullptr if the view is empty.
   [[nodiscard]] const T* get() const { return ref_ ? static_cast<const T*>(ref_.get()) : nullptr; }
   /// @pre  *this
   const T& operator*() const { return *get(); }
@@ -104,15 +105,15 @@ class ObjectPtr {
   ObjectRef ref_;
 };
 
-/// The typed view of `ref`; nothing if ref is nothing or its object is not exactly a T.
+/// Returns the typed view of `ref`; empty if `ref` is empty or its object is not exactly a T.
 template <class T>
 [[nodiscard]] ObjectPtr<T> object_cast(ObjectRef ref) {
   if (!ref || &ref.type() != &object_type<T>()) return {};
   return ObjectPtr<T>(std::move(ref));
 }
 
-/// A pooled object that is still being filled, of whatever type: it has one owner, who may change it. Sealing
-/// it ends that and makes it shareable. Dropped without sealing, it returns to its pool.
+/// A pooled object of any type that is still being filled. It has one owner, who may change it. Sealing makes
+/// it immutable and shareable. An object that is dropped unsealed returns to its pool.
 ///
 /// Thread contract: one thread at a time. After a move it is empty and may only be assigned to or destroyed.
 class ObjectLoan {
@@ -158,8 +159,8 @@ class Loan {
   ObjectLoan loan_;
 };
 
-/// A default object from the pool of its type. Memory is taken from the heap only while the pool grows; texts
-/// and sequences keep the capacity that earlier objects in the same place gave them. Without memory the
+/// Returns a default object from the pool of its type. The heap is used only while the pool grows. Texts and
+/// sequences keep the capacity that earlier objects in the same place gave them. If there is no memory, the
 /// process ends.
 /// @thread  any.
 [[nodiscard]] ObjectLoan make_object(const ObjectType& type);
@@ -169,7 +170,7 @@ template <class T>
   return Loan<T>(make_object(object_type<T>()));
 }
 
-/// A pooled object with that value.
+/// Returns a pooled object with the given value.
 template <class T>
 [[nodiscard]] Loan<T> make_object(const T& value) {
   Loan<T> loan = make_object<T>();
@@ -177,7 +178,7 @@ template <class T>
   return loan;
 }
 
-/// A copy that may be changed (thesis 8.3); the original stays as it is.
+/// Returns a copy that may be changed (thesis 8.3); the original stays as it is.
 /// @pre  original
 [[nodiscard]] ObjectLoan copy_value(const ObjectRef& original);
 
@@ -186,7 +187,8 @@ template <class T>
   return make_object<T>(*original);
 }
 
-/// How many objects of a type are alive, and how many the pool has places for. The capacity never shrinks.
+/// The number of live objects of a type, and the number that its pool has places for. The capacity never
+/// shrinks.
 struct PoolStatistics {
   std::size_t live = 0;
   std::size_t capacity = 0;

@@ -22,9 +22,9 @@ namespace detail {
 class Pool;
 }
 
-/// All that the framework must know of an object type to make, copy, move and show objects without knowing
+/// The description of an object type, with which the framework makes, copies, moves and shows objects without
 /// their C++ type. One constant per type lives in liborca_idl.so, so two types are the same exactly if their
-/// addresses are; between programs, compare type_id().
+/// addresses are equal. Between programs, compare type_id().
 ///
 /// Thread contract: constant; the functions may run in any thread on different objects.
 struct ObjectType {
@@ -35,48 +35,48 @@ struct ObjectType {
   std::size_t align;          ///< [bytes] alignof of the C++ type.
 
   void (*construct)(void* place);               ///< Makes a default object in raw memory.
-  void (*destroy)(void* object);                ///< Ends its life; the memory stays.
+  void (*destroy)(void* object);                ///< Destroys the object; the memory stays.
   void (*assign)(void* to, const void* from);   ///< Copies the value; `to` keeps its capacity.
-  bool (*equal)(const void* a, const void* b);  ///< All fields are equal, the header's too.
-  idl::OrcaObject& (*header)(void* object);     ///< The inherited part.
-  std::string (*dump)(const void* object);      ///< For people: one field per line, with units.
+  bool (*equal)(const void* a, const void* b);  ///< Compares all fields, including the header's.
+  idl::OrcaObject& (*header)(void* object);     ///< Returns the inherited part.
+  std::string (*dump)(const void* object);      ///< Returns a text for people: a field per line, with units.
 
-  void (*fields)(void* object, FieldVisitor& visitor);  ///< Shows all fields, inherited ones first.
+  void (*fields)(void* object, FieldVisitor& visitor);  ///< Visits all fields, inherited ones first.
 
   /// Appends the object as XCDR1, little-endian, without encapsulation header; alignment counts from the
   /// first byte appended. Allocates only if `out` must grow. Texts end at their first zero.
   void (*serialize)(const void* object, std::vector<std::byte>& out);
 
-  /// Reads what serialize() wrote into an existing object, whose capacity is reused. Up to 3 bytes of padding
-  /// may follow.
-  /// @errors  data_loss if the payload is cut short, too long, or holds a value that cannot be; the object
-  /// then
-  ///          is valid, but its fields are unspecified.
+  /// Reads the bytes that serialize() wrote into an existing object, whose capacity is reused. Up to 3 bytes
+  /// of padding may follow.
+  /// @errors  data_loss if the payload is cut short, too long, or holds an invalid value. The object is then
+  ///          valid, but its fields are unspecified.
   Status (*deserialize)(std::span<const std::byte> payload, void* object);
 
-  detail::Pool& pool;  ///< Where objects of this type live.
+  detail::Pool& pool;  ///< The memory of all objects of this type.
 };
 
 namespace detail {
 
-/// Defined in liborca_idl.so for the hash of the layout that it was built with, and for no other: who was
-/// built for another layout refers to a symbol that does not exist, and does not load.
+/// Returns a type by its C++ type and the hash of its layout. liborca_idl.so defines it only for the layouts
+/// that it was built with. A plugin that was built for another layout refers to a missing symbol and does not
+/// load.
 template <class T, std::uint64_t layout_hash>
 [[nodiscard]] const ObjectType& object_type_of();
 
 }  // namespace detail
 
-/// The description of an IDL object type. There for the types of the IDL files only.
+/// Returns the description of an object type. Defined only for the types of the IDL files.
 template <class T>
 [[nodiscard]] const ObjectType& object_type();
 
-/// All object types, sorted by name.
+/// Returns all object types, sorted by name.
 [[nodiscard]] std::span<const ObjectType* const> object_types();
 
-/// @return the type of that IDL name, nullptr if there is none.
+/// Returns the type with that IDL name, nullptr if there is none.
 [[nodiscard]] const ObjectType* find_object_type(std::string_view name);
 
-/// What two programs compare before they exchange objects.
+/// Returns the identity that two programs compare before they exchange objects.
 [[nodiscard]] TypeId type_id(const ObjectType& type);
 
 }  // namespace orca

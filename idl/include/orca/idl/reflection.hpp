@@ -8,12 +8,12 @@
 
 namespace orca {
 
-/// What the IDL file says about a field. Both texts live as long as the program.
+/// The description of a field in its IDL file. Both texts live as long as the program.
 struct FieldInfo {
   std::string_view name;
-  std::string_view
-      unit;             ///< SI unit: "m", "rad/s", ...; "1" for a plain number, empty for what is no number.
-  bool header = false;  ///< One of OrcaObject's own fields, which the framework stamps.
+  /// SI unit: "m", "rad/s", ...; "1" for a plain number, empty for a value that is not a number.
+  std::string_view unit;
+  bool header = false;  ///< A field of OrcaObject itself, set by the framework.
 };
 
 /// The fields of an IDL struct, for code that must treat all types alike: CDR, dump, XML.
@@ -41,7 +41,7 @@ concept ReflectedEnum = requires {
   EnumReflection<T>::names;
 };
 
-/// The part of an object that it inherits from Base, as const as the object is.
+/// Returns the part of an object that it inherits from Base; const if the object is const.
 template <class Base, class Object>
 [[nodiscard]] auto& as_base(Object& object) {
   return static_cast<std::conditional_t<std::is_const_v<Object>, const Base&, Base&>>(object);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
 /// RobotPose, Odometry, TurretAngle, RangeReadings, SonarRangeReadings, LaserRangeReadings (thesis 8.3),
-/// InfraredRangeReadings, BumperReadings, Contact, Battery. What each field means, its unit and frame, is said
-/// in idl/orca/sensing.idl.
+/// InfraredRangeReadings, BumperReadings, Contact, Battery. idl/orca/sensing.idl gives the meaning, unit and frame of
+/// each field.
 #pragma once
 
 #include "orca/idl/generated/sensing.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// Ask, ClientList, LogRecord, Alarm. What each field means, its unit and frame, is said in
-/// idl/orca/system.idl.
+/// Ask, ClientList, LogRecord, Alarm. idl/orca/system.idl gives the meaning, unit and frame of each field.
 #pragma once
 
 #include "orca/idl/generated/system.h"

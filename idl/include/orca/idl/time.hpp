@@ -6,7 +6,7 @@
 
 namespace orca {
 
-/// The instant that a time value of an object means.
+/// Converts the time value of an object to an instant.
 [[nodiscard]] inline TimePoint to_time_point(const idl::TimeValue& value) {
   return TimePoint(Duration(value.ns()));
 }

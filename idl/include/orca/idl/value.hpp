@@ -18,10 +18,11 @@ class TimeValue;
 
 struct Value;
 
-/// Is shown the fields of a struct, one after another.
+/// A visitor that receives the fields of a struct, one after another.
 class FieldVisitor {
  public:
-  /// @param value  of that field; good while the object lives and no list around it changes its length.
+  /// @param value  value of that field. It is valid while the object lives and no list around it changes its
+  ///               length.
   virtual void field(const FieldInfo& info, const Value& value) = 0;
 
  protected:
@@ -37,21 +38,21 @@ struct EnumValue {
   void (*set)(void* place, std::uint32_t number);
 };
 
-/// A value of an IDL struct; a whole object too.
+/// A value of an IDL struct. It may be a whole object.
 struct StructValue {
   std::string_view type;  ///< IDL name.
   void* object;
   void (*fields)(void* object, FieldVisitor& visitor);  ///< All of them, inherited ones first.
 };
 
-/// What the elements of a list are, which is known of an empty list too.
+/// The kind of a list's elements, which is known even if the list is empty.
 enum class ElementKind {
   plain,     ///< Numbers, booleans, enumerators or instants.
   text,      ///< Texts.
   structure  ///< Structs.
 };
 
-/// A sequence, or an array, whose length is fixed.
+/// A sequence, or an array of fixed length.
 struct ListValue {
   ElementKind kind;
   void* list;
@@ -60,10 +61,10 @@ struct ListValue {
   Value (*at)(void* list, std::size_t index);     ///< @pre  index < size(list)
 };
 
-/// A value inside an object, seen without its C++ type: for code that treats all types alike and is not
+/// A value inside an object, seen without its C++ type. It serves code that treats all types alike and is not
 /// compiled for each, such as the text form. Pointers refer into the object and are never null.
 ///
-/// Thread contract: as the object it refers to.
+/// Thread contract: that of the object it refers to.
 struct Value {
   std::variant<bool*, std::uint8_t*, std::int32_t*, std::uint32_t*, std::int64_t*, std::uint64_t*, double*,
                std::string*, idl::TimeValue*, EnumValue, StructValue, ListValue>

@@ -8,7 +8,7 @@
 namespace orca::plugin {
 
 std::string demangled(std::string_view symbol) {
-  constexpr std::size_t kLongest = 4096;  // the library's demangler recurses
+  constexpr std::size_t kLongest = 4096;  // the demangler of the C++ library recurses
   std::string name(symbol);
   if (name.size() > kLongest || !name.starts_with("_Z")) return name;
   int status = 0;

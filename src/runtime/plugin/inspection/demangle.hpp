@@ -6,7 +6,7 @@
 
 namespace orca::plugin {
 
-/// The name of a symbol as it is written in C++; other names as they are.
+/// Returns a symbol's name as it is written in C++, or the name itself if it is not mangled.
 [[nodiscard]] std::string demangled(std::string_view symbol);
 
 }  // namespace orca::plugin

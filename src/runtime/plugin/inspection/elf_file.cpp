@@ -20,7 +20,7 @@ constexpr Elf64_Half kMachine = EM_AARCH64;
 #error "name this machine's ELF number here"
 #endif
 
-// More than any real file has, so that a hostile one costs no time.
+// Limits above those of any real file, so that a hostile file costs no time.
 constexpr Elf64_Half kMostSegments = 128;
 constexpr std::size_t kMostVersions = 10'000;
 constexpr std::size_t kLongestText = 64 * 1024;
@@ -43,7 +43,7 @@ std::string kind_of(Elf64_Half type) {
 
 }  // namespace
 
-// The entries of the dynamic section that matter here.
+// The entries of the dynamic section that are used here.
 struct ElfFile::Dynamic {
   std::uint64_t strings = 0, strings_size = 0, symbols = 0, hash = 0, gnu_hash = 0;
   std::uint64_t versions = 0, version_needs = 0, version_need_count = 0;
@@ -177,7 +177,7 @@ Status ElfFile::read_symbols(const Dynamic& dynamic) {
   const std::size_t count = symbol_count(dynamic);
   for (std::size_t i = 1; i < count; ++i) {  // the first means "no symbol"
     const auto symbol = get_at<Elf64_Sym>(dynamic.symbols + i * sizeof(Elf64_Sym));
-    if (!symbol) return refuse("is damaged: its table of symbols is not all in the file");
+    if (!symbol) return refuse("is damaged: its table of symbols is not completely in the file");
     const unsigned binding = ELF64_ST_BIND(symbol->st_info);
     if (binding == STB_LOCAL) continue;
     ElfSymbol read{text(strings_, symbol->st_name),
@@ -197,7 +197,8 @@ Status ElfFile::read_symbols(const Dynamic& dynamic) {
   return ok();
 }
 
-// By the number that the symbols' version entries refer to: the version's name and its library's.
+// Returns the name of each version and of its library, by the number that the symbols' version entries refer
+// to.
 ElfFile::Versions ElfFile::read_versions(const Dynamic& dynamic) const {
   Versions versions;
   std::size_t left = kMostVersions;
@@ -221,7 +222,8 @@ ElfFile::Versions ElfFile::read_versions(const Dynamic& dynamic) const {
   return versions;
 }
 
-// The dynamic section does not tell it; the hash tables do. Never more than the file has room for.
+// Returns the number of symbols, at most as many as the file has room for. The dynamic section does not give
+// it, but the hash tables do.
 std::size_t ElfFile::symbol_count(const Dynamic& dynamic) const {
   std::size_t count = 0;
   if (dynamic.gnu_hash != 0) {
@@ -246,7 +248,7 @@ std::size_t ElfFile::count_by_gnu_hash(std::uint64_t table) const {
     if (!bucket) return 0;
     last = std::max<std::uint64_t>(last, *bucket);
   }
-  if (last < header->first_symbol) return header->first_symbol;  // it offers nothing
+  if (last < header->first_symbol) return header->first_symbol;  // it defines no symbol
   for (;; ++last) {
     const auto chain = get_at<std::uint32_t>(chains_at + (last - header->first_symbol) * 4);
     if (!chain) return 0;

@@ -13,42 +13,42 @@
 
 namespace orca::plugin {
 
-/// One symbol that a shared library offers to others, or wants from them.
+/// A symbol that a shared library offers to others, or needs from them.
 struct ElfSymbol {
   std::string_view name;
   bool defined = false;
   bool weak = false;
   bool unique = false;          ///< STB_GNU_UNIQUE: one for the whole process; pins its library in memory.
-  std::uint64_t address = 0;    ///< In the library's own numbering; of a defined one.
-  std::string_view version;     ///< Wanted; empty: any.
+  std::uint64_t address = 0;    ///< In the library's own address space; defined symbols only.
+  std::string_view version;     ///< Version needed; empty: any.
   std::string_view version_of;  ///< File name of the library that the version belongs to.
 };
 
-/// What a shared library says of itself in its file: what the loader would read, and nothing is run.
+/// The description of a shared library in its own file, as the loader reads it. No code of the library runs.
 ///
-/// The bytes are not trusted: whatever they are, the answer is an error or a description that stays within
-/// them. A value that owns the bytes; its views point into them.
+/// The bytes are not trusted: any bytes give an error, or a description that stays within them. The object is
+/// a value that owns the bytes, and its views point into them.
 /// @source  System V ABI, chapters 4 and 5; GNU hash and version tables as in glibc's <elf.h> and
-/// elf/dl-lookup.c.
+///          elf/dl-lookup.c.
 class ElfFile {
  public:
   using Bytes = std::span<const std::byte>;
 
-  /// @errors  invalid_argument if this is no whole 64-bit shared library for this machine.
+  /// @errors  invalid_argument if this is not a complete 64-bit shared library for this machine.
   static Result<ElfFile> parse(std::vector<std::byte> bytes);
 
   ElfFile(ElfFile&&) = default;
   ElfFile& operator=(ElfFile&&) = default;
 
   [[nodiscard]] const std::vector<ElfSymbol>& symbols() const { return symbols_; }
-  /// File names of the libraries that must be there.
+  /// Returns the file names of the libraries that this one needs.
   [[nodiscard]] const std::vector<std::string_view>& needed() const { return needed_; }
-  /// Folders separated by ':', to be searched for them; "$ORIGIN" is the library's own.
+  /// Returns the folders to search for them, separated by ':'; "$ORIGIN" is the library's own folder.
   [[nodiscard]] std::string_view search_path() const { return search_path_; }
 
-  /// What the file holds for the memory at an address; nothing if that is not all in the file.
+  /// Returns the bytes of the file that belong to an address; nothing if they are not all in the file.
   [[nodiscard]] std::optional<Bytes> at_address(std::uint64_t address, std::size_t size) const;
-  /// A section by name; nothing if there is none, or no table of sections.
+  /// Returns a section by name; nothing if there is none, or no table of sections.
   [[nodiscard]] std::optional<Bytes> section(std::string_view name) const;
 
  private:
@@ -71,12 +71,12 @@ class ElfFile {
   [[nodiscard]] std::size_t count_by_gnu_hash(std::uint64_t table) const;
 
   [[nodiscard]] std::optional<Bytes> at_offset(std::uint64_t offset, std::uint64_t size) const;
-  /// A plain structure at an offset in the file, or at an address.
+  /// Return a plain structure at an offset in the file, or at an address.
   template <class T>
   [[nodiscard]] std::optional<T> get(std::uint64_t offset) const;
   template <class T>
   [[nodiscard]] std::optional<T> get_at(std::uint64_t address) const;
-  /// A text that ends within the table; empty if it does not.
+  /// Returns a text of the table; empty if it does not end within the table.
   [[nodiscard]] static std::string_view text(Bytes table, std::uint64_t at);
 
   std::vector<std::byte> bytes_;

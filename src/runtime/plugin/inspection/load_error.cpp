@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folders of a list separated by ':', "$ORIGIN" replaced.
+// Returns the folders of a list separated by ':', with "$ORIGIN" replaced.
 std::vector<std::string> folders_of(std::string_view list, const std::string& origin) {
   std::vector<std::string> folders;
   while (!list.empty()) {
@@ -28,7 +28,8 @@ std::vector<std::string> folders_of(std::string_view list, const std::string& or
   return folders;
 }
 
-// The libraries that a library needs, opened as it would get them; those that are not there.
+// The libraries that a library needs, opened as the loader would open them, and the names of the missing
+// ones.
 class Needed {
  public:
   Needed(const ElfFile& library, const std::string& path) {
@@ -71,7 +72,7 @@ class Needed {
     const void* const found = symbol.version.empty()
                                   ? dlsym(handle, name.c_str())
                                   : dlvsym(handle, name.c_str(), std::string(symbol.version).c_str());
-    return found != nullptr || dlerror() == nullptr;  // a symbol may be null
+    return found != nullptr || dlerror() == nullptr;  // the value of a symbol may be null
   }
 
   std::vector<void*> handles_;
@@ -101,8 +102,7 @@ std::string explain_load_error(const ElfFile& library, const std::string& path, 
   if (symbols.empty()) return words;
   return "it uses " + listed(symbols) +
          ", which no library provides; link what it needs with orca_add_component(... LINK ...), or build it "
-         "again with "
-         "this Orca";
+         "again with this Orca";
 }
 
 }  // namespace orca::plugin

@@ -7,11 +7,11 @@
 
 namespace orca::plugin {
 
-/// Why the system's loader has refused a library: all needed libraries that are not found, else all symbols
-/// that nobody provides, else the loader's own words.
+/// Explains why the system's loader has rejected a library. The text names all needed libraries that are not
+/// found, else all symbols that no library provides, else it repeats the loader's message.
 ///
-/// @param path   of the library, absolute.
-/// @param words  what the loader said.
+/// @param path   absolute path of the library.
+/// @param words  the loader's message.
 [[nodiscard]] std::string explain_load_error(const ElfFile& library, const std::string& path,
                                              const std::string& words);
 

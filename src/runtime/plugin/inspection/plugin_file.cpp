@@ -23,8 +23,8 @@ namespace {
 constexpr std::string_view kManifest = "orca_plugin_manifest";
 constexpr const char* kRecipe = "; build it with orca_add_component()";
 
-// The object type that a symbol stands for, and the hash of the layout that its user was built with: a
-// reference to orca::detail::object_type_of<orca::idl::NAME, HASH>().
+// The object type that a symbol refers to, and the hash of the layout that the symbol's user was built with.
+// The symbol is orca::detail::object_type_of<orca::idl::NAME, HASH>().
 struct TypeReference {
   std::string name;
   std::uint64_t hash = 0;
@@ -46,7 +46,7 @@ std::optional<TypeReference> type_reference(std::string_view symbol) {
   return hash.ec == std::errc() ? std::optional(reference) : std::nullopt;
 }
 
-// A few of the names, each short enough to read.
+// Lists a few of the names, each shortened if it is long.
 std::string shortly_listed(std::vector<std::string> names) {
   constexpr std::size_t kMost = 4;
   constexpr std::size_t kLongest = 80;
@@ -98,7 +98,7 @@ std::vector<std::string> PluginFile::faults(const KnownType& known) const {
   if (manifest() == nullptr)
     return {"is not an Orca plugin: it exports no " + std::string(kManifest) + kRecipe};
   check_manifest(faults);
-  if (!faults.empty()) return faults;  // what else it holds follows other rules
+  if (!faults.empty()) return faults;  // the rest of the file follows other rules
   check_layouts(faults);
   check_recipe(faults);
   check_types(known, faults);
@@ -158,8 +158,7 @@ void PluginFile::check_recipe(std::vector<std::string>& faults) const {
   if (thread_exit)
     faults.push_back(
         "could never be unloaded: it has a thread_local variable with a destructor (__cxa_thread_atexit); "
-        "make the "
-        "variable a member of the component");
+        "make the variable a member of the component");
 }
 
 void PluginFile::check_types(const KnownType& known, std::vector<std::string>& faults) const {
@@ -182,7 +181,7 @@ void PluginFile::check_types(const KnownType& known, std::vector<std::string>& f
   }
 }
 
-// "NAME{...}" as it was when the plugin was built; empty if it does not tell.
+// Returns the layout "NAME{...}" that the plugin was built with; empty if it does not contain it.
 std::string PluginFile::layout_of(const std::string& type) const {
   const auto section = elf_.section("orca_layouts");
   if (!section) return {};

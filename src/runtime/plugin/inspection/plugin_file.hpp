@@ -12,28 +12,28 @@
 
 namespace orca::plugin {
 
-/// What can be said of a plugin from its file alone, before any of its code has run.
+/// The description of a plugin from its file alone, before any of its code has run.
 ///
-/// A value. The bytes are not trusted, as ElfFile's.
+/// A value. Its bytes are not trusted, like those of an ElfFile.
 class PluginFile {
  public:
-  /// The type of that name as this process knows it; a TypeId without name if there is none.
+  /// A function that returns the type of that name in this process; a TypeId without a name if there is none.
   using KnownType = std::function<TypeId(const std::string& name)>;
 
-  /// @errors  not_found or invalid_argument if the file cannot be read or is no shared library for this
-  /// machine.
+  /// @errors  not_found, data_loss or invalid_argument if the file cannot be read, or is not a shared library
+  ///          for this machine.
   static Result<PluginFile> read(const std::string& path);
   static Result<PluginFile> parse(std::vector<std::byte> bytes);
 
-  /// Every reason not to load it: no manifest, another ABI version, object types of another layout, a build
-  /// that could not be unloaded. Empty: none was found.
+  /// Returns every reason not to load the plugin: no manifest, another ABI version, object types of another
+  /// layout, or a build that could not be unloaded. Empty if none was found.
   [[nodiscard]] std::vector<std::string> faults(const KnownType& known) const;
 
-  /// What it uses that has no place in virtual time, each with what to use instead; or that it says so
-  /// itself.
+  /// Returns every symbol that the plugin uses but must not use in virtual time, with its replacement. If the
+  /// plugin declares that it needs the steady clock, returns its reasons instead.
   [[nodiscard]] std::vector<std::string> virtual_time_faults() const;
 
-  /// Whether it can start threads by itself.
+  /// Returns whether the plugin can start threads by itself.
   [[nodiscard]] bool may_start_threads() const;
 
   [[nodiscard]] const ElfFile& elf() const { return elf_; }
@@ -47,13 +47,13 @@ class PluginFile {
   void check_types(const KnownType& known, std::vector<std::string>& faults) const;
   [[nodiscard]] std::string layout_of(const std::string& type) const;
   [[nodiscard]] const ElfSymbol* manifest() const;
-  /// The texts of the notes that start with `mark`, without it.
+  /// Returns the texts of the notes that start with `mark`, without the mark.
   [[nodiscard]] std::vector<std::string> notes(std::string_view mark) const;
 
   ElfFile elf_;
 };
 
-/// The types that liborca_idl.so of this process has.
+/// Returns a type of this process's liborca_idl.so; a TypeId without a name if there is none.
 [[nodiscard]] TypeId known_type(const std::string& name);
 
 }  // namespace orca::plugin

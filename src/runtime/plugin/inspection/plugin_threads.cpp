@@ -20,7 +20,7 @@ struct Where {
   std::uintptr_t code = 0;
 };
 
-// Where a thread sleeps; nothing while it runs, or once it has ended.
+// Returns where a thread sleeps; nothing while it runs, or after its end.
 std::optional<Where> where_asleep(const std::string& task) {
   std::ifstream file(task + "/syscall");  // "NUMBER ARGUMENTS... STACK CODE", "-1 STACK CODE" or "running"
   std::string line;
@@ -32,7 +32,7 @@ std::optional<Where> where_asleep(const std::string& task) {
   return Where{std::stoul(all[all.size() - 2], nullptr, 16), std::stoul(all.back(), nullptr, 16)};
 }
 
-// The end of the memory that an address lies in.
+// Returns the end of the mapping that contains an address.
 std::uintptr_t end_of_mapping(std::uintptr_t address) {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
@@ -44,7 +44,8 @@ std::uintptr_t end_of_mapping(std::uintptr_t address) {
   return address;
 }
 
-// The words of a stack from its top on. The thread may go on, or end: the system copies what is there.
+// Returns the words of a stack, from its top. The thread may go on or end meanwhile, so the system copies
+// what is there.
 std::vector<std::uintptr_t> stack_of(const Where& where) {
   constexpr std::size_t kMost = 1024 * 1024;
   const std::size_t size = std::min<std::size_t>(end_of_mapping(where.stack) - where.stack, kMost);
@@ -65,7 +66,7 @@ bool may_run_in(const std::string& task, std::uintptr_t start, std::uintptr_t en
     if (!std::filesystem::exists(task)) return false;
     usleep(1000);
   }
-  return std::ifstream(task + "/syscall").good();  // it runs all the time
+  return std::ifstream(task + "/syscall").good();  // it has never slept
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 
 namespace orca::plugin {
 
-/// Whether a thread of this process, other than the calling one, may be running code between two addresses:
-/// its program counter or something on its stack lies there. A thread that never sleeps while this looks at
-/// it counts as one that may. False where the system does not tell.
+/// Returns whether another thread of this process may be running code between two addresses: its program
+/// counter or a word on its stack lies there. A thread that does not sleep during the check counts as one
+/// that may. False where the system does not tell.
 ///
-/// A stack is read as it is, without knowing its frames, so a stale word can look like a return address: a
-/// "yes" may be wrong, a "no" only if a thread starts such code meanwhile.
+/// A stack is read without knowledge of its frames, so a stale word can look like a return address. True may
+/// therefore be wrong. False is wrong only if a thread starts such code meanwhile.
 [[nodiscard]] bool threads_may_run_in(std::uintptr_t start, std::uintptr_t end);
 
 }  // namespace orca::plugin

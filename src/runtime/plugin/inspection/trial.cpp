@@ -26,10 +26,10 @@ constexpr int kSignals[] = {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SI
 
 int g_report_fd = -1;  // in the copy only
 
-// A line each; the last one tells how far the copy came.
+// Writes a line to the parent. The last line shows how far the copy came.
 void report(const std::string& line) {
   const std::string text = line + "\n";
-  if (write(g_report_fd, text.data(), text.size()) < 0) _exit(1);  // nobody waits for the answer any more
+  if (write(g_report_fd, text.data(), text.size()) < 0) _exit(1);  // the parent waits no longer
 }
 
 void report_terminate() {
@@ -47,11 +47,11 @@ void report_terminate() {
   g_report_fd = report_fd;
   for (const int signal : kSignals) ::signal(signal, SIG_DFL);
   std::set_terminate(report_terminate);
-  const int null = open("/dev/null", O_RDWR);  // it is not the copy's business to talk to the user
+  const int null = open("/dev/null", O_RDWR);  // the copy must not talk to the user
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, fd);
   try {
     attempt(report);
-  } catch (...) {  // whoever does the same for good tells what it throws
+  } catch (...) {  // the real attempt will report the exception
   }
   report(kSurvived);
   _exit(0);
@@ -63,7 +63,7 @@ struct Ending {
   bool survived = false;
 };
 
-// What the copy has written, up to its end; false: it is still silent and alive at the deadline.
+// Reads the copy's output up to its end; false if the copy is still running at the deadline.
 bool read_all(int fd, Duration limit, std::string& text) {
   const auto deadline = std::chrono::steady_clock::now() + limit;
   for (;;) {
@@ -78,7 +78,7 @@ bool read_all(int fd, Duration limit, std::string& text) {
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return true;
     text.append(buffer, static_cast<std::size_t>(count));
-    if (text.ends_with(std::string(kSurvived) + "\n")) return true;  // what it has started may live on
+    if (text.ends_with(std::string(kSurvived) + "\n")) return true;  // its child processes may live on
   }
 }
 
@@ -115,7 +115,7 @@ Status survives_trial(const Attempt& attempt, Duration limit) {
     return fail(Code::unavailable, std::string("cannot try it out: ") + std::strerror(errno));
   ActivityKeeper here;
   here.keep();
-  ActivityKeeper().restore();  // it is not a plugin that calls fork()
+  ActivityKeeper().restore();  // this fork() must not count as a plugin's
   const pid_t copy = fork();
   if (copy == 0) run_copy(fds[1], attempt);
   here.restore();

@@ -27,7 +27,7 @@ constexpr auto kRandom = std::to_array<std::string_view>(
 constexpr auto kDeviceWaits =
     std::to_array<std::string_view>({"epoll_pwait", "epoll_wait", "poll", "ppoll", "pselect", "select"});
 
-// The beginnings of the mangled names of the C++ library's members, as g++'s library has them.
+// The first characters of the mangled names of C++ library members, as in g++'s library.
 constexpr auto kCxxClocks = std::to_array<std::string_view>(
     {"_ZNSt6chrono3_V212steady_clock3nowEv", "_ZNSt6chrono3_V212system_clock3nowEv"});
 constexpr auto kCxxSleeps = std::to_array<std::string_view>({"_ZNSt11this_thread11__sleep_for"});
@@ -38,8 +38,8 @@ constexpr auto kCxxThreadWaits = std::to_array<std::string_view>(
 constexpr auto kCxxRandom = std::to_array<std::string_view>({"_ZNSt13random_device"});
 
 struct Rule {
-  Names names;       ///< Exactly these.
-  Names beginnings;  ///< And all that begin with one of these.
+  Names names;       ///< These names exactly.
+  Names beginnings;  ///< All names that begin with one of these.
   UnfitSymbol unfit;
 };
 
@@ -48,7 +48,7 @@ const std::array<Rule, 6> kRules{{
     {kSleeps, kCxxSleeps, {"waits for the machine's clock", "sleep() or lap_every()"}},
     {kThreads,
      kCxxThreads,
-     {"starts a thread or process of its own", "a component of its own for what is to run beside"}},
+     {"starts a thread or process of its own", "a component of its own for what must run concurrently"}},
     {kThreadWaits, kCxxThreadWaits, {"waits for another thread", "the blocking calls of a port"}},
     {kRandom, kCxxRandom, {"draws random numbers that the run's seed does not decide", "random(\"name\")"}},
     {kDeviceWaits,

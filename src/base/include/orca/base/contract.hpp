@@ -14,7 +14,7 @@ namespace orca {
 /// The three communication patterns (thesis 7.3).
 enum class Pattern { push, query, send };
 
-/// Which end of a pattern a port is. The server offers, the proxy uses.
+/// The end of a pattern that a port is. The server offers, the proxy uses.
 enum class Role { server, proxy };
 
 [[nodiscard]] constexpr const char* to_string(Pattern pattern) {
@@ -30,14 +30,14 @@ struct TypeId {
   friend bool operator==(const TypeId& a, const TypeId& b) { return a.name == b.name && a.hash == b.hash; }
 };
 
-/// How an edge buffers: the author of a port sets the default, the integrator decides in the graph.
+/// The buffering of an edge. The author of a port sets the default, the integrator decides in the graph.
 struct QueuePolicy {
-  /// What happens to an object when the queue is full.
+  /// The treatment of an object when the queue is full.
   enum class Overflow {
     drop_oldest,  ///< Push: the oldest object makes room.
     drop_newest,  ///< Push: the new object is dropped.
     block,   ///< The sender waits for room, at most `block_limit`; then the object is dropped or refused.
-    refuse,  ///< Send and Query: the sender is told that it was not accepted.
+    refuse,  ///< Send and Query: the sender learns that the object was not accepted.
   };
   std::uint32_t depth = 1;  ///< Objects kept, at least 1; depth 1 with drop_oldest means "the latest".
   Overflow overflow = Overflow::drop_oldest;
@@ -66,9 +66,9 @@ struct PortContract {
   std::optional<TypeId> reply;  ///< Query only: the reply.
   bool required = false;        ///< A proxy that must be connected.
   bool many = false;            ///< A port array: any number of edges may end at this proxy.
-  QueuePolicy queue;            ///< Author's default for edges that end here.
-  Duration period{0};           ///< PushServer: base period, where it is known before the start; 0: unknown.
-  bool from_device = false;     ///< PushServer: a device's strand pushes here, which waits for nobody.
+  QueuePolicy queue;            ///< The author's default for edges that end here.
+  Duration period{0};           ///< PushServer: base period [s], if it is known before the start; 0: unknown.
+  bool from_device = false;     ///< PushServer: a device's strand pushes here, and it waits for nobody.
   std::string text;             ///< One sentence for people.
 };
 
@@ -94,13 +94,13 @@ struct ParamContract {
   std::optional<double> min;         ///< Smallest allowed value, in `unit`.
   std::optional<double> max;         ///< Largest allowed value, in `unit`.
   std::vector<std::string> choices;  ///< Allowed values of a text; empty: any.
-  bool file = false;                 ///< A text that names a file; relative to the graph file that sets it.
+  bool file = false;                 ///< A text that names a file, relative to the graph file that sets it.
   bool fixed = false;                ///< Cannot change while the component runs.
-  ParamValue default_value;          ///< Of the type `type` says.
+  ParamValue default_value;          ///< A value of type `type`.
   std::string text;                  ///< One sentence for people.
 };
 
-/// What starts a lap of work().
+/// The condition that starts a lap of work().
 struct Trigger {
   enum class Kind {
     free_running,  ///< The next lap follows at once; work() blocks by itself.
@@ -115,14 +115,16 @@ struct Trigger {
 
 enum class PluginKind { component, hardware };
 
-/// What is wrong with the values of a hardware container's parameters, or in the files that they name.
+/// An error in the values of a hardware container's parameters, or in the files that they name.
 struct HardwareFault {
-  std::string param;  ///< The one to correct; empty: `text` is a whole line about a place in another file.
-  std::string text;   ///< What was found and what was expected.
+  /// The parameter to correct; empty: `text` is a whole line about a place in another file.
+  std::string param;
+  std::string text;  ///< What was found and what was expected.
   friend bool operator==(const HardwareFault&, const HardwareFault&) = default;
 };
 
-/// What a component or a hardware container type offers and needs: computed by constructing it, nothing else.
+/// A description of what a type of component or hardware container offers and needs. It is obtained by
+/// constructing an object, without starting it.
 struct Contract {
   PluginKind kind = PluginKind::component;
   std::string type;     ///< e.g. "orca.SonarAvoid".

@@ -12,7 +12,7 @@
 
 namespace orca {
 
-/// The one primitive on which everything that blocks is built: a flag that one task waits for.
+/// A flag that one task waits for. Everything in Orca that blocks is built on it.
 ///
 /// A notification is remembered until it is consumed by a wait; several notifications before that count as
 /// one.
@@ -36,13 +36,13 @@ class Event {
 
 struct TaskOptions {
   std::string name;  ///< For people: the component's name.
-  int priority = 0;  ///< Among tasks that are ready at the same time the larger runs first (fiber and baton).
+  int priority = 0;  ///< Fiber and baton: of tasks that are ready at the same time, the larger runs first.
 };
 
-/// A running function of its own: one strand of execution.
+/// A function that runs on its own: one strand of execution.
 class Task {
  public:
-  /// Joins, like std::jthread; the owner has told the task to end before.
+  /// Joins, like std::jthread. The owner has asked the task to end before.
   virtual ~Task() = default;
   Task() = default;
   Task(const Task&) = delete;
@@ -54,23 +54,23 @@ class Task {
   virtual bool join_until(TimePoint deadline) = 0;
 };
 
-/// A task that has not waited for anything of its executive for longer than allowed.
+/// A task that has run for longer than allowed without waiting on its executive.
 struct StuckTask {
   std::string name;
-  bool asleep = false;  ///< It does not compute, but waits for something that the executive does not know.
+  bool asleep = false;           ///< It does not compute, but waits for something outside the executive.
   bool holds_up_others = false;  ///< No other task can run meanwhile.
 };
 
-/// Runs tasks by one of three back ends and owns the clock that they see.
+/// The scheduler of all tasks, by one of three back ends, and the owner of the clock that they see.
 ///
 /// * thread: a thread per task, steady clock.
 /// * fiber: all tasks on the thread that called run(), steady or virtual clock.
-/// * baton: a thread per task of which only one runs at a time, scheduled exactly as fibers are; virtual
+/// * baton: a thread per task, of which only one runs at a time, scheduled exactly as fibers are; virtual
 /// clock.
 ///
-/// With fibers and batons the order is (time at which the task became ready, priority, sequence), and virtual
-/// time advances only when no task is ready: the same program gives the same order, whatever the load of the
-/// machine.
+/// With fibers and batons the order is (time at which the task became ready, priority, sequence). Virtual
+/// time advances only when no task is ready. The same program therefore gives the same order, whatever the
+/// load of the machine.
 ///
 /// Thread contract: now() and Event::notify() from anywhere; the rest from tasks of this executive.
 class Executive {
@@ -82,8 +82,8 @@ class Executive {
 
   [[nodiscard]] virtual TimePoint now() const = 0;
   [[nodiscard]] virtual bool is_virtual() const = 0;
-  /// Whether two tasks can run at the same time. With fibers and batons they cannot: between two waits a task
-  /// has everything to itself that only tasks touch.
+  /// Returns whether two tasks can run at the same time. With fibers and batons they cannot: between two
+  /// waits, a task alone accesses the data that only tasks touch.
   [[nodiscard]] virtual bool tasks_overlap() const = 0;
   [[nodiscard]] virtual std::unique_ptr<Event> make_event() = 0;
 
@@ -95,10 +95,11 @@ class Executive {
   /// In virtual time, when no task can ever run again, a wait of `main` ends as if its deadline had come.
   virtual void run(std::function<void()> main) = 0;
 
-  /// A task that has not waited for anything of the executive for too long. With fibers and batons the one
-  /// that holds the processor, after `limit` of its CPU time, whatever the load of the machine, or of sleep
-  /// in the system; to wait for a reader of its output is no sleep. With threads any, after `limit` of wall
-  /// time.
+  /// Returns a task that has not waited on the executive for too long.
+  ///
+  /// With fibers and batons it is the task that holds the processor. It counts as stuck after `limit` of its
+  /// own CPU time, whatever the load of the machine, or after `limit` of sleep in the system. Waiting for a
+  /// reader of its output is no sleep. With threads it can be any task, after `limit` of wall time.
   ///
   /// @thread  a monitoring thread outside the executive, which asks several times a second.
   [[nodiscard]] virtual std::optional<StuckTask> stuck_task(Duration limit) = 0;
@@ -113,8 +114,9 @@ enum class Backend { thread, fiber, baton };
 struct ExecutiveOptions {
   ClockKind clock = ClockKind::steady;
   Backend backend = Backend::thread;
-  /// How long a thread spins before it sleeps, at most [s]. It adapts itself: it spins only where waits tend
-  /// to end within this time, and never where the process has a single processor. 0: sleep at once.
+  /// Longest time that a thread spins before it sleeps [s]; 0: it sleeps at once. The time adapts itself: a
+  /// thread spins only where waits tend to end within this time, and never where the process has a single
+  /// processor.
   Duration spin{0};
 };
 

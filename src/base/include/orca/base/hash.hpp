@@ -8,8 +8,8 @@
 
 namespace orca {
 
-/// 64-bit FNV-1a, fed piece by piece. Numbers are taken little-endian, so the value is the same on every
-/// machine.
+/// A 64-bit FNV-1a hash, fed piece by piece. Numbers are hashed in little-endian order, so the value is the
+/// same on every machine.
 ///
 /// Thread contract: a plain value.
 /// @source  Fowler, Noll, Vo; draft-eastlake-fnv, offset basis and prime for 64 bits.
@@ -21,7 +21,7 @@ class Fnv1a {
   void add_u64(std::uint64_t value) {
     for (int shift = 0; shift < 64; shift += 8) step(static_cast<std::uint8_t>(value >> shift));
   }
-  /// The characters and a zero, so that ("ab", "c") and ("a", "bc") differ.
+  /// Adds the characters and a zero, so that ("ab", "c") and ("a", "bc") differ.
   void add_text(std::string_view text) {
     for (const char c : text) step(static_cast<std::uint8_t>(c));
     step(0);

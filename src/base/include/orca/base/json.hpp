@@ -9,7 +9,7 @@
 
 namespace orca {
 
-/// Writes one JSON value (RFC 8259), indented, for the --json of the programs. What it is given must be
+/// A writer of one JSON value (RFC 8259), indented, for option --json of the programs. All texts must be
 /// UTF-8.
 ///
 /// Thread contract: not synchronised; one thread.
@@ -20,13 +20,13 @@ class JsonWriter {
   /// Ends the innermost object or array.
   void end();
 
-  /// The name of the next value of an object.
+  /// Writes the name of the next value of an object.
   JsonWriter& key(std::string_view name);
 
   void value(std::string_view text);
   void value(const char* text) { value(std::string_view(text)); }
   void value(bool flag) { raw(flag ? "true" : "false"); }
-  /// null if it is infinite or no number.
+  /// Writes null for an infinite value or NaN.
   void value(double number);
   template <std::integral Integer>
   requires(!std::same_as<Integer, bool>) void value(Integer number) { raw(std::to_string(number)); }
@@ -37,7 +37,7 @@ class JsonWriter {
     key(name).value(content);
   }
 
-  /// Everything written, ended by a newline.
+  /// Returns everything written, with a newline at the end.
   [[nodiscard]] std::string text() const { return text_ + "\n"; }
 
  private:
@@ -47,8 +47,8 @@ class JsonWriter {
   void new_line();
 
   std::string text_;
-  std::vector<char> open_;  // how the open objects and arrays end
-  bool first_ = true;       // nothing in the innermost one yet
+  std::vector<char> open_;  // the closing brackets of the open objects and arrays
+  bool first_ = true;       // the innermost one is still empty
   bool after_key_ = false;
 };
 

@@ -6,15 +6,16 @@
 
 namespace orca {
 
-/// What to call the two sides of a comparison.
+/// The names of the two sides of a comparison.
 struct LayoutEnds {
   std::string_view from = "at the from end";
   std::string_view to = "at the to end";
 };
 
-/// Where two layouts of one type first differ, for people: the field's path and what it is at either end.
+/// Returns, for people, where two layouts of one type first differ: the field's path and its type at either
+/// end.
 ///
-/// @param from, to  flattened layouts as TypeId::layout has them.
+/// @param from, to  flattened layouts, as in TypeId::layout.
 [[nodiscard]] std::string layout_difference(std::string_view from, std::string_view to,
                                             const LayoutEnds& ends = {});
 

@@ -15,10 +15,10 @@ enum class Level { debug, info, warning, error, off };
 /// Reads "debug", "info", "warning", "error" or "off".
 [[nodiscard]] Result<Level> parse_level(std::string_view text);
 
-/// Lines below this level are not written. Default: info.
+/// Sets the lowest level that is written. Default: info.
 void set_level(Level level);
 
-/// Where the time in front of each line comes from; without it lines carry no time. Null takes it away again.
+/// Sets the clock that gives the time in front of each line. Without a clock (null) lines carry no time.
 void set_clock(std::function<TimePoint()> now);
 
 /// Writes one line to stderr: time [s], level, who, text.

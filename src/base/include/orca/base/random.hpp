@@ -10,7 +10,7 @@ namespace orca {
 /// A stream of random numbers whose values depend on its key alone: (run seed, component, stream name).
 /// Adding a component or a stream leaves every other stream unchanged.
 ///
-/// xoshiro256++ seeded by SplitMix64; the distributions are our own, because the standard library's differ
+/// xoshiro256++ seeded by SplitMix64; the distributions are Orca's own, because the standard library's differ
 /// between implementations and runs must be bit-identical.
 ///
 /// Thread contract: not synchronised; one strand.

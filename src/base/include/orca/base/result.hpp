@@ -24,7 +24,7 @@ enum class Code {
   internal,             ///< A bug in Orca or in a component.
 };
 
-/// The code's name as it appears in messages, e.g. "not_found".
+/// Returns the code's name as it appears in messages, e.g. "not_found".
 [[nodiscard]] std::string_view to_string(Code code);
 
 /// An error as a value.
@@ -36,13 +36,13 @@ struct Error {
   std::string message;
   std::string where;
 
-  /// "where: message", or the message alone.
+  /// Returns "where: message", or the message alone.
   [[nodiscard]] std::string text() const { return where.empty() ? message : where + ": " + message; }
 };
 
 /// A value or an Error, with the member names of C++23's std::expected.
 ///
-/// Thread contract: like the value it holds.
+/// Thread contract: that of the value it holds.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -84,7 +84,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> state_;
 };
 
-/// Success or an Error: the Result of something that only acts.
+/// Success or an Error: the result of a function that returns no value.
 class [[nodiscard]] Status {
  public:
   Status() = default;
@@ -101,10 +101,10 @@ class [[nodiscard]] Status {
   std::optional<Error> error_;
 };
 
-/// The Status of something that went well.
+/// Returns the Status of success.
 [[nodiscard]] inline Status ok() { return {}; }
 
-/// A failure with a code and a text, to return from a function that yields a Status or a Result.
+/// Makes an Error, to return from a function that yields a Status or a Result.
 [[nodiscard]] inline Error fail(Code code, std::string message, std::string where = {}) {
   return Error{code, std::move(message), std::move(where)};
 }

@@ -12,13 +12,13 @@
 
 namespace orca {
 
-/// Thrown out of a wait inside a component when its strand is told to leave its lap: at stop, suspend, or
-/// when the last client has gone. Not a std::exception, so that a component's `catch (const std::exception&)`
-/// lets it pass.
+/// The exception that ends a wait inside a component when its strand must leave its lap: at stop, at suspend,
+/// or when the last client has gone. Not a std::exception, so that a component's `catch (const
+/// std::exception&)` lets it pass.
 struct Interrupted {};
 
-/// The one strand on which everything of a component runs: laps, handlers, parameter changes and state hooks.
-/// Because it is one task they never overlap, and authors need no locks.
+/// The one task on which all code of a component runs: laps, handlers, parameter changes and state hooks.
+/// They never overlap, so authors need no locks.
 ///
 /// Thread contract: wake() from anywhere; the waits only from the strand's own task.
 class Strand {
@@ -28,14 +28,14 @@ class Strand {
   /// Starts the task. `body` must not throw.
   void start(std::function<void()> body);
 
-  /// Something that the strand may be waiting for has changed.
+  /// Reports that something has changed that the strand may be waiting for.
   void wake() { event_->notify(); }
 
-  /// What makes a wait_for() throw Interrupted: asked by the strand itself, each time it is woken. Set before
-  /// start().
+  /// Sets the condition that makes wait_for() throw Interrupted. The strand evaluates it each time it is
+  /// woken. Call before start().
   void set_leave_condition(std::function<bool()> leave) { leave_ = std::move(leave); }
 
-  /// Blocks until `condition` holds or the deadline comes. For waits inside a component's own code.
+  /// Blocks until `condition` holds or the deadline comes. Serves waits inside a component's own code.
   ///
   /// @return whether the condition holds.
   /// @errors  throws Interrupted.
@@ -48,11 +48,11 @@ class Strand {
     return true;
   }
 
-  /// The same for the runtime's own loop, which is not interrupted: returns when woken or at the deadline.
+  /// Blocks until woken or until the deadline, without Interrupted. Serves the runtime's own loop.
   void pause_until(TimePoint deadline) { event_->wait_until(deadline); }
 
-  /// Something has happened that cannot be had again: an object was taken or sent, or time was slept away.
-  /// While the number stays the same, a lap that waits can be given up and begun anew without a loss.
+  /// Counts an act that cannot be repeated: an object was taken or sent, or time was spent asleep. While the
+  /// count stays the same, a waiting lap can be abandoned and started again without loss.
   /// @thread  any.
   void note_activity() {
     activity_.store(activity_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);

@@ -7,10 +7,10 @@
 
 namespace orca {
 
-/// A mutex between tasks of one executive: where they cannot overlap it does nothing. It must not be held
+/// A mutex between tasks of one executive. It does nothing where tasks cannot overlap. It must not be held
 /// across a wait.
 ///
-/// Thread contract: tasks of the executive only; what other threads touch needs more.
+/// Thread contract: tasks of the executive only; data that other threads touch needs another lock.
 class TaskMutex {
  public:
   explicit TaskMutex(const Executive& executive) : needed_(executive.tasks_overlap()) {}

@@ -11,27 +11,28 @@
 
 namespace orca {
 
-/// Threads that share a loop with the one that calls, for work that is the same in whatever order it is done:
-/// then the result does not depend on how many they are. To the clock the loop takes no time, also on virtual
-/// time, where a plugin may start no threads of its own.
+/// A group of threads that shares a loop with the calling thread. It is for work whose result does not depend
+/// on the order, so that the number of threads does not matter. The loop takes no virtual time, and may be
+/// used in virtual time, where a plugin may not start threads of its own.
 ///
 /// Thread contract: one loop at a time, from any thread.
 class Team {
  public:
-  /// @param threads  who works at once, the caller among them; 0: as many as the processor has. If the system
-  ///                 refuses some of them, the others do their work.
+  /// @param threads  number of threads, including the caller; 0: one per processor. If the system refuses
+  ///                 some of them, the others do their work.
   explicit Team(unsigned threads);
   ~Team();
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  /// Calls work(i) once for each i below `count`, and returns when all is done. `work` must neither wait for
-  /// another i nor block on a port, a task or the clock; what it writes must be its own i's.
+  /// Calls work(i) once for each i below `count`, and returns when all calls have ended. A call must not wait
+  /// for another i, and must not block on a port, a task or the clock. It may write only data that belongs to
+  /// its own i.
   ///
-  /// What it throws does not keep it from the others; the exception of the least i is thrown on afterwards.
+  /// An exception does not stop the other calls. Afterwards the exception of the smallest i is rethrown.
   void for_all(std::size_t count, const std::function<void(std::size_t)>& work);
 
-  /// Who works at once, the caller among them.
+  /// Returns the number of threads, including the caller.
   [[nodiscard]] unsigned threads() const { return static_cast<unsigned>(helpers_.size()) + 1; }
 
  private:
@@ -43,7 +44,8 @@ class Team {
   void wait_for_helpers(const Loop& loop);
 
   std::mutex mutex_;
-  Loop* loop_ = nullptr;  // The present one; guarded, as `ended_`.
+  // Guarded by mutex_: the present loop, and whether the team has ended.
+  Loop* loop_ = nullptr;
   bool ended_ = false;
   std::unique_ptr<Event> helpers_left_;
   std::vector<std::unique_ptr<Helper>> helpers_;

@@ -11,8 +11,8 @@ using namespace std::chrono_literals;  // NOLINT: 50ms and 2s are part of the vo
 /// A span of time [ns].
 using Duration = std::chrono::nanoseconds;
 
-/// The clock that all of Orca's time stamps refer to. It has no now(): time is asked of the executive,
-/// because in a simulation it is virtual.
+/// The clock that all of Orca's time stamps refer to. It has no now(): the executive gives the time, because
+/// in a simulation it is virtual.
 struct Clock {
   using duration = Duration;
   using rep = duration::rep;
@@ -20,8 +20,8 @@ struct Clock {
   static constexpr bool is_steady = true;
 };
 
-/// An instant. Steady clock: ns since the Unix epoch, anchored once at process start and never set back or
-/// forth afterwards. Virtual clock: ns since the start of the run.
+/// An instant. Steady clock: ns since the Unix epoch, anchored once at process start and never adjusted
+/// afterwards. Virtual clock: ns since the start of the run.
 using TimePoint = std::chrono::time_point<Clock, Duration>;
 
 /// Later than any instant: wait without limit.
@@ -35,7 +35,7 @@ inline constexpr TimePoint kForever = TimePoint::max();
   return Duration{static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5))};
 }
 
-/// t + d without overflow: kForever stays kForever.
+/// Returns t + d without overflow: kForever stays kForever.
 [[nodiscard]] constexpr TimePoint saturating_add(TimePoint t, Duration d) {
   return d.count() > 0 && t > TimePoint::max() - d ? kForever : t + d;
 }

@@ -102,8 +102,7 @@ bool ComponentLoop::handle_sent(SendServerEndpoint& endpoint) {
 
 bool ComponentLoop::handle_asked(QueryServerEndpoint& endpoint) {
   bool handled = false;
-  const auto fault =
-      parts_.hooks.call(
+  const auto fault = parts_.hooks.call(
       Hook::handler, [&] { handled = endpoint.handle_one(); }, endpoint.contract().name.c_str());
   contain(endpoint, fault);
   return handled || fault;

@@ -10,23 +10,23 @@
 
 namespace orca {
 
-/// The text form of an object: one XML element on one line, named after its type, as docs/objects.md
-/// describes it. Plain values are attributes, structs are elements inside; numbers are in the units of the
-/// IDL file. from_xml() gives back an equal object, each number bit for bit.
+/// Returns the text form of an object: one XML element on one line, named after its type (docs/objects.md).
+/// Plain values are attributes, structs are elements inside. Numbers are in the units of the IDL file.
+/// from_xml() gives back an equal object, each number bit for bit.
 /// @thread  any; the object must not change meanwhile.
 [[nodiscard]] std::string to_xml(const ObjectType& type, const void* object);
 
 /// @pre  object
 [[nodiscard]] std::string to_xml(const ObjectRef& object);
 
-/// Reads the text form, as to_xml() or a person wrote it. What is not mentioned keeps its default (0, false,
-/// empty, the first enumerator); quantities may have units: `reach_radius="30 cm"`.
+/// Reads the text form, as to_xml() or a person wrote it. A field that is not mentioned keeps its default (0,
+/// false, empty, the first enumerator). Quantities may have units: `reach_radius="30 cm"`.
 ///
 /// @param text         UTF-8, at most 16 MB.
-/// @param file_name    where it comes from, for the positions of the errors.
+/// @param file_name    name of the source, for the positions of the errors.
 /// @param diagnostics  receives every error of the text with its position: G1xx for XML that is not
 ///                     well-formed, T0xx for its content (docs/errors.md).
-/// @param expected     the type that it must be of; null: any.
+/// @param expected     the type that the object must have; null: any.
 /// @return the object, or nothing if this text has an error.
 /// @thread  any.
 [[nodiscard]] std::optional<ObjectLoan> from_xml(std::string_view text, const std::string& file_name,
