@@ -35,6 +35,23 @@ function(orca_add_test name)
   endif()
   target_compile_definitions(${name} PRIVATE
     ORCA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ORCA_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  add_test(NAME ${name} COMMAND ${name} --use-colour no "~[.]~[data]")
+  add_test(NAME ${name} COMMAND ${name} --use-colour no "~[.]~[data]~[tool]")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+# orca_add_optional_cases(TEST TAG [LABELS ...] [TIMEOUT seconds])
+#
+# Adds a ctest entry, NAME_TAG_test for NAME_test, that runs the cases of TEST with the tag [data] (public data, which is not
+# in the repository) or [tool] (a program that may not be installed). It is shown as skipped if a case prints "SKIPPED: ".
+function(orca_add_optional_cases test tag)
+  cmake_parse_arguments(arg "" "TIMEOUT" "LABELS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 60)
+  endif()
+  if(NOT arg_LABELS)
+    set(arg_LABELS unit)
+  endif()
+  string(REGEX REPLACE "_test$" "_${tag}_test" name ${test})
+  add_test(NAME ${name} COMMAND ${test} --use-colour no "[${tag}]~[.]")
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} SKIP_REGULAR_EXPRESSION "SKIPPED: ")
 endfunction()

@@ -7,7 +7,7 @@ LINK = re.compile(r"(?<!!)\[[^\]\n]*\]\(<?([^)>\s]+)>?\)|!\[[^\]\n]*\]\(<?([^)>\
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$", re.MULTILINE)
 FENCE = re.compile(r"^(```|~~~).*?^\1", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"`[^`\n]*`")
-GRAPH = re.compile(r"\bgraphs/[\w./-]+?\.xml\b")
+GRAPH = re.compile(r"(?<!/)\bgraphs/[\w./-]+?\.xml\b")
 PAGE = re.compile(r"\bdocs/[\w./-]+?\.md\b")
 SOURCES = (".cpp", ".hpp", ".idl", ".py", ".cmake", "CMakeLists.txt", ".xml", ".urdf", ".md")
 
@@ -86,4 +86,5 @@ GOOD = [
     {"README.md": "./dev run graphs/NAME.xml; graphs/a.xml\n", "graphs/a.xml": "<graph/>"},
     {"docs/adr/0004-x.md": "# x\n", "cmake/a.cmake": "# see docs/adr/0004-x.md and docs/adr/NNNN-title.md\n"},
     {"README.md": "```\n[no](link.md)\n```\n"},
+    {"README.md": "see tests/data/graphs/a.xml\n", "tests/data/graphs/a.xml": "<graph/>"},
 ]

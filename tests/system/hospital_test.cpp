@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "deployer.hpp"
-#include "hospital_map.hpp"
+#include "public_data.hpp"
 
 using namespace orca::test;
 
 namespace {
+
+constexpr const char* kMap = "stage_maps/hospital.png";
 
 Run drive(const std::string& map, const Words& more = {}) {
   return run_deployer(Words{source_file("graphs/scout_hospital.xml"), "--set", "map=" + map} +
@@ -18,7 +20,7 @@ Run drive(const std::string& map, const Words& more = {}) {
 }  // namespace
 
 TEST_CASE("in the hospital the Scout reaches its goals and touches nothing", "[system][data]") {
-  const std::string map = hospital_map();
+  const std::string map = public_data(kMap);
   if (map.empty()) return;
   const Run run = drive(map);
   INFO(run.err);
@@ -33,7 +35,7 @@ TEST_CASE("in the hospital the Scout reaches its goals and touches nothing", "[s
 }
 
 TEST_CASE("the hospital is 140 m wide unless map_width says otherwise", "[system][data]") {
-  const std::string map = hospital_map();
+  const std::string map = public_data(kMap);
   if (map.empty()) return;
   const std::optional<std::string> usual = drive(map, {"--until", "5s"}).trace_hash();
   REQUIRE(usual);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "deployer.hpp"
-#include "hospital_map.hpp"
+#include "public_data.hpp"
 
 using namespace orca::test;
 
@@ -55,6 +55,6 @@ TEST_CASE("the shipped graphs keep their trace hashes", "[system]") {
 }
 
 TEST_CASE("the hospital's run keeps its trace hashes", "[system][data]") {
-  if (const std::string map = hospital_map(); !map.empty())
+  if (const std::string map = public_data("stage_maps/hospital.png"); !map.empty())
     compare("scout_hospital", {"--set", "map=" + map});
 }

@@ -3,8 +3,9 @@
 
 #include "orca/xml/rules.hpp"
 
-// Orca's own elements in a robot file, <orca> and what it holds, and their attributes; docs/simulation.md
-// describes them to people. The elements of URDF itself are not declared: other programs may add to them.
+// Orca's own elements in a robot file, <orca> and what it holds, and their attributes; docs/robot-files.md
+// describes them to people, and a test compares the two. The elements of URDF itself are not declared: other
+// programs may add to them.
 namespace orca::sim::detail {
 
 extern const xml::ElementRule kOrcaRule;

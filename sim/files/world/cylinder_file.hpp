@@ -11,7 +11,7 @@
 namespace orca::sim::detail {
 
 // One world of a CSV file, plain or compressed by gzip, with the columns world,x,y [m]: the form in which the
-// BARN worlds are at hand (docs/simulation.md). Each row is a cylinder of 75 mm; the places "start" and
+// BARN worlds are at hand (docs/world-files.md). Each row is a cylinder of 75 mm; the places "start" and
 // "goal" are BARN's.
 //
 // @param number  which world; without one the error tells which there are.

@@ -3,7 +3,8 @@
 
 #include "orca/xml/rules.hpp"
 
-// The elements of a world file and their attributes; docs/simulation.md describes them to people.
+// The elements of a world file and their attributes; docs/world-files.md describes them to people, and a test
+// compares the two.
 namespace orca::sim::detail {
 
 extern const xml::ElementRule kWorldRule;

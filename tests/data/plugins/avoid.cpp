@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// [avoid]
 #include <algorithm>
 
 #include "orca/component.hpp"
@@ -28,3 +29,4 @@ class Avoid final : public orca::Component {
 }  // namespace
 
 ORCA_COMPONENT(Avoid, "orca.Avoid")
+// [/avoid]

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Worlds of cylinders in one CSV file. The BARN worlds themselves are not part of this repository.
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
 
 #include "orca/sim/caster.hpp"
 #include "orca/sim/world_file.hpp"
+#include "public_data.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::sim;
@@ -21,15 +20,6 @@ std::string errors(const std::string& path, const BitmapScale& scale = {}) {
   orca::xml::Diagnostics diagnostics;
   CHECK_FALSE(read_world(path, scale, diagnostics).has_value());
   return diagnostics.text();
-}
-
-std::string barn_file() {
-  const char* const named = std::getenv("ORCA_DATA");
-  const std::filesystem::path folder = named != nullptr ? named : ORCA_SOURCE_DIR "/../shared/data";
-  const auto file = (folder / "barn/cylinders.csv.gz").lexically_normal();
-  if (std::filesystem::exists(file)) return file.string();
-  WARN("SKIPPED: there is no " << file.string() << "; set ORCA_DATA to the folder that holds barn/");
-  return {};
 }
 
 }  // namespace
@@ -78,7 +68,7 @@ TEST_CASE("a packed file that is damaged or not there is told", "[sim][cylinders
 }
 
 TEST_CASE("BARN worlds are read and start free between their walls", "[sim][cylinders][data]") {
-  const std::string file = barn_file();
+  const std::string file = orca::test::public_data("barn/cylinders.csv.gz");
   if (file.empty()) return;
   std::size_t worlds = 0;
   for (int number = 1; number < 300; number += 10) {

@@ -10,7 +10,7 @@
 
 namespace orca::sim {
 
-/// Reads a robot: a URDF file with one <orca> element inside <robot> (docs/simulation.md). The URDF's root
+/// Reads a robot: a URDF file with one <orca> element inside <robot> (docs/robot-files.md). The URDF's root
 /// link is the base frame, on the floor; moving joints stand at zero.
 ///
 /// @param diagnostics  receives everything that is wrong at once, each with file, line and column (codes R001

@@ -11,7 +11,7 @@
 
 namespace orca::sim {
 
-/// Reads a world: an XML file (root <world>, docs/simulation.md has the elements), an occupancy bitmap if the
+/// Reads a world: an XML file (root <world>, docs/world-files.md has the elements), an occupancy bitmap if the
 /// name ends in .png or .pgm, or one of the worlds of a .csv or .csv.gz file of cylinders.
 ///
 /// @param path         "FILE" or "FILE#N". N chooses one of the worlds of a CSV file; in an XML world it is

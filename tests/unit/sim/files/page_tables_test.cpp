@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The tables of the simulator's pages hold its own numbers, and the elements and attributes that it reads.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <iomanip>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "approval.hpp"
+#include "files/robot/robot_rules.hpp"
+#include "files/world/world_rules.hpp"
+#include "orca/sim/realism.hpp"
+#include "shipped.hpp"
+
+using namespace orca::sim;
+using namespace orca::sim::test;
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+// Returns the rows of a page's table that begins with `heading`, without the heading and the line below it.
+Lines rows_below(const std::string& heading, const std::string& name = "simulation.md") {
+  std::ifstream page(ORCA_SOURCE_DIR "/docs/" + name);
+  std::string line;
+  while (std::getline(page, line) && line != heading) {
+  }
+  std::getline(page, line);
+  REQUIRE(line.starts_with("|---"));
+  Lines rows;
+  while (std::getline(page, line) && line.starts_with("|")) rows.push_back(line);
+  return rows;
+}
+
+std::string number(double value, const std::string& unit) {
+  std::ostringstream text;
+  text << std::setprecision(4) << value;
+  return unit.empty() ? text.str() : text.str() + " " + unit;
+}
+
+std::string percent(double value) { return number(100.0 * value, "%"); }
+std::string millimetres(double value) { return number(1000.0 * value, "mm"); }
+std::string degrees(double value) { return number(value * 180.0 / std::numbers::pi, "deg"); }
+std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
+
+// What the page calls the members of ErrorLevels, in their order.
+const Lines kErrors = {"wheel diameter: bound of its relative error",
+                       "track: bound of its relative error",
+                       "slip of a wheel after 1 m, standard deviation",
+                       "lag and dead time of the drive, times those of the file",
+                       "sonar: standard deviation, relative to the range",
+                       "sonar: readings that are arbitrary",
+                       "sonar: critical angle of smooth surfaces",
+                       "sonar: crosstalk",
+                       "laser: bound of the bias of a run",
+                       "laser: standard deviation",
+                       "laser: incidence beyond which nothing returns",
+                       "laser: mixed pixels",
+                       "infrared: standard deviation per squared range",
+                       "readings in the steps of the device"};
+
+// The numbers of one level, as the page writes them. The names must cover ErrorLevels: with a member more or
+// less this does not compile.
+Lines column_of(Realism realism) {
+  const auto [wheel_mismatch, track_error, slip, delay_scale, sonar_noise, sonar_outliers, critical_angle,
+              sonar_crosstalk, laser_bias, laser_sigma, laser_drop_angle, mixed_pixels, infrared_noise,
+              quantised] = error_levels(realism);
+  return {percent(wheel_mismatch),      percent(track_error),       millimetres(slip),
+          number(delay_scale, ""),      percent(sonar_noise),       percent(sonar_outliers),
+          degrees(critical_angle),      yes_or_no(sonar_crosstalk), millimetres(laser_bias),
+          millimetres(laser_sigma),     degrees(laser_drop_angle),  yes_or_no(mixed_pixels),
+          number(infrared_noise, "/m"), yes_or_no(quantised)};
+}
+
+std::string drive_kind(DriveKind kind) {
+  switch (kind) {
+    case DriveKind::differential: return "differential";
+    case DriveKind::synchro: return "synchro";
+    case DriveKind::holonomic: return "holonomic";
+  }
+  return "unknown";
+}
+
+std::string plan_of(const Shape& footprint) {
+  if (const auto* const circle = std::get_if<Circle>(&footprint))
+    return "circle, radius " + number(circle->radius, "m");
+  const Bounds plan = bounds_of(footprint);
+  return "polygon, " + number(plan.high.x - plan.low.x, "") + " x " + number(plan.high.y - plan.low.y, "m");
+}
+
+std::string row_of(const std::string& name) {
+  const RobotModel robot = shipped(name);
+  return "| `" + name + "` | " + drive_kind(robot.drive.kind) + " | " + number(robot.drive.max_speed, "m/s") +
+         " | " + degrees(robot.drive.max_turn_rate) + "/s | " + plan_of(robot.footprint) + " |";
+}
+
+// Attribute names by element. An element that depends on where it stands is called "`door` in a `wall`".
+using Table = std::map<std::string, std::set<std::string>>;
+
+// Returns cell `number` of a row, counted from 0.
+std::string cell(const std::string& row, std::size_t number) {
+  std::size_t begin = 2;
+  while (number-- > 0) begin = row.find(" | ", begin) + 3;
+  return row.substr(begin, row.find(" |", begin) - begin);
+}
+
+// Returns the first words of the pieces between commas: "fill (0 to 0.5), rounds" gives "fill" and "rounds".
+std::set<std::string> names_in(const std::string& list) {
+  std::set<std::string> names;
+  std::istringstream pieces(list);
+  for (std::string piece; std::getline(pieces, piece, ',');) {
+    std::string name;
+    if (std::istringstream(piece) >> name) names.insert(name);
+  }
+  return names;
+}
+
+// Reads a table of elements; a remark in brackets after an element's name is skipped.
+Table table_of(const std::string& heading, const std::string& page, std::size_t attributes = 1) {
+  Table table;
+  for (const std::string& row : rows_below(heading, page)) {
+    const std::string element = cell(row, 0);
+    table[element.substr(0, element.find(" ("))] = names_in(cell(row, attributes));
+  }
+  return table;
+}
+
+std::string quoted(std::string_view element) { return "`" + std::string(element) + "`"; }
+
+std::set<std::string> attributes_of(const orca::xml::ElementRule& rule) {
+  const std::vector<std::string> names = rule.attribute_names();
+  return {names.begin(), names.end()};
+}
+
+// Returns what the rules allow below `root`, two levels deep, as a page writes it.
+Table rules_below(const orca::xml::ElementRule& root) {
+  Table table{{quoted(root.name), attributes_of(root)}};
+  for (const auto* const element : root.children) {
+    table[quoted(element->name)] = attributes_of(*element);
+    for (const auto* const part : element->children)
+      table[quoted(part->name) + " in a " + quoted(element->name)] = attributes_of(*part);
+  }
+  return table;
+}
+
+}  // namespace
+
+TEST_CASE("docs/simulation.md has the numbers behind each level of realism", "[sim][docs]") {
+  const Lines ideal = column_of(Realism::ideal);
+  const Lines nominal = column_of(Realism::nominal);
+  const Lines harsh = column_of(Realism::harsh);
+  Lines expected;
+  for (std::size_t i = 0; i < kErrors.size(); ++i)
+    expected.push_back("| " + kErrors[i] + " | " + ideal[i] + " | " + nominal[i] + " | " + harsh[i] + " |");
+  CHECK(rows_below("| error | ideal | nominal | harsh |") == expected);
+}
+
+TEST_CASE("docs/simulation.md has every shipped robot with its drive, speeds and plan",
+          "[sim][robots][docs]") {
+  Lines expected;
+  for (const auto& file : orca::test::files_in(kRobots, ".urdf"))
+    expected.push_back(row_of(file.stem().string()));
+  CHECK(rows_below("| file | drive | speed | turn rate | plan |") == expected);
+}
+
+TEST_CASE("docs/world-files.md has every element of a world file with its attributes", "[sim][docs]") {
+  const Table kinds =
+      table_of("| kind | what is drawn | attributes with their defaults |", "world-files.md", 2);
+  std::set<std::string> expected_kinds;
+  for (const std::string_view kind : detail::kGenerateRule.attribute("kind")->value.choices)
+    expected_kinds.insert(quoted(kind));
+  Table page = table_of("| element | attributes | meaning |", "world-files.md");
+  std::set<std::string> kinds_on_page;
+  for (const auto& [kind, attributes] : kinds) {
+    kinds_on_page.insert(kind);
+    page["`generate`"].insert(attributes.begin(), attributes.end());
+  }
+  CHECK(kinds_on_page == expected_kinds);
+  CHECK(page == rules_below(detail::kWorldRule));
+}
+
+TEST_CASE("docs/robot-files.md has every element in <orca> with its attributes", "[sim][robots][docs]") {
+  CHECK(table_of("| element | attributes |", "robot-files.md") == rules_below(detail::kOrcaRule));
+}
