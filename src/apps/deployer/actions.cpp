@@ -28,12 +28,13 @@ ExitCode show(const std::string& text) {
   return ExitCode::finished;
 }
 
-// Plugins are found beside the program, then where the graph says; no environment variable.
+// Returns the folder of Orca's own plugins, beside the program. The graph may name more; no environment
+// variable does.
 std::string plugin_folder() {
   return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "plugins").string();
 }
 
-// A graph and what its plugins said about themselves.
+// A graph, and the catalogue that has checked it.
 struct Loaded {
   explicit Loaded(const Options& options)
       : catalogue(plugin::PluginIndex({plugin_folder()}), options.run.executive.clock) {}
@@ -69,7 +70,7 @@ ExitCode check(const Options& options) {
   return ExitCode::finished;
 }
 
-// 0: both describe the same system, 1: they do not, 2: one of them describes none.
+// Returns 0 if both describe the same system, 1 if they do not, 2 if one of them describes none.
 ExitCode compare(const Options& options) {
   Loaded before(options);
   Loaded after(options);
@@ -103,7 +104,7 @@ ExitCode show_graph(const Options& options) {
 
 ExitCode run(const Options& options) {
   host::StopSignal stop(static_cast<int>(
-      ExitCode::finished));  // first of all, so that a signal at any moment ends the run as it should
+      ExitCode::finished));  // first of all, so that a signal at any moment ends the run properly
   Loaded loaded(options);
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;

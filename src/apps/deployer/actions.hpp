@@ -8,7 +8,7 @@
 namespace orca::deployer {
 
 /// Does what the command line asks for.
-/// @return how the program ends.
+/// @return the exit status of the program.
 ExitCode act(const Options& options);
 
 }  // namespace orca::deployer

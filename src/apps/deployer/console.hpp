@@ -6,9 +6,9 @@
 
 namespace orca::deployer {
 
-/// Standard output during a run, one line per event, each at once: `arrived NAME x y t`, `contact NAME t`,
-/// and last, in virtual time, `trace-hash <16 hex digits>`. Lengths are in metres, times in seconds since the
-/// start of the run.
+/// A listener that writes one line per event of a run to standard output, each at once: `arrived NAME x y t`,
+/// `contact NAME t`, and last, in virtual time, `trace-hash <16 hex digits>`. Lengths are in metres, times in
+/// seconds since the start of the run.
 ///
 /// Thread contract: as RunListener.
 class Console final : public host::RunListener {

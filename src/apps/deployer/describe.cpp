@@ -89,7 +89,7 @@ Result<Contract> contract_of(const TypeEntry& type, const std::string& path) {
 }  // namespace
 
 Result<PluginDescription> describe_plugin(const std::string& path) {
-  // With a folder in its name, so that the system's loader takes this file and does not search.
+  // The path has a folder, so that the system's loader takes this file and does not search.
   const Result<std::unique_ptr<plugin::PluginLibrary>> library =
       plugin::PluginLibrary::load(std::filesystem::absolute(path).string());
   if (!library) return library.error();

@@ -11,20 +11,21 @@
 
 namespace orca::deployer {
 
-/// What a plugin says of itself.
+/// The description that a plugin gives of itself.
 struct PluginDescription {
   std::string file;
   std::uint32_t abi_version = 0;
-  std::string build_id;  ///< Of the Orca that it was built with.
+  std::string build_id;  ///< Build id of the Orca that it was built with.
   std::vector<Contract> types;
 };
 
-/// Loads a plugin and asks it; constructs its types only to describe them.
+/// Loads a plugin and describes it. Its types are constructed only for that.
 [[nodiscard]] Result<PluginDescription> describe_plugin(const std::string& path);
 
-/// What `--describe` prints: the types with their ports and parameters.
+/// Returns the text that `--describe` prints: the types with their ports and parameters.
 [[nodiscard]] std::string text(const PluginDescription& plugin);
-/// The same for programs: {file, abi_version, build_id, types: [{type, kind, ports, parameters, ...}]}.
+/// Returns the same for programs:
+/// {file, abi_version, build_id, types: [{type, kind, ports, parameters, ...}]}.
 [[nodiscard]] std::string json(const PluginDescription& plugin);
 
 }  // namespace orca::deployer

@@ -6,10 +6,10 @@
 
 namespace orca::deployer {
 
-/// How the program ends.
+/// The exit status of the program.
 enum class ExitCode { finished = 0, failed_running = 1, bad_input = 2, could_not_start = 3 };
 
-/// How the program ends after a run.
+/// Returns the exit status after a run.
 [[nodiscard]] constexpr ExitCode exit_code_of(host::RunOutcome outcome) {
   switch (outcome) {
     case host::RunOutcome::finished:

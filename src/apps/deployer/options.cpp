@@ -28,7 +28,7 @@ Error expected(const std::string& option, const std::string& what, const std::st
   return fail(Code::invalid_argument, option + " expects " + what + ", not \"" + found + "\"");
 }
 
-// Asking for help outweighs everything; any other two things to do exclude each other.
+// Returns an option that chooses what to do. Help takes precedence; any other two actions exclude each other.
 Option action(Options::Action action) {
   return {false, [action](Options& options, const std::string&) {
             const bool asks_for_help = options.action == Action::help || action == Action::help;
@@ -107,7 +107,7 @@ Status set_log(Options& options, const std::string& value) {
   return ok();
 }
 
-// The executor is decided after all options are read, because its default depends on the clock.
+// The executor is chosen after all options are read, because its default depends on the clock.
 using Words = std::optional<std::string>;
 
 std::map<std::string, Option> option_table(Words& executor) {
@@ -173,7 +173,7 @@ bool speaks_json(Action action) {
          action == Action::diff || action == Action::describe;
 }
 
-// Which files there are is known only when all options are read.
+// Takes the files, once all options are read: the options decide how many are expected.
 Status take_files(Options& options, const std::vector<std::string>& files) {
   if (takes_no_file(options.action)) return ok();
   const std::size_t wanted = options.action == Action::diff ? 2 : 1;

@@ -11,24 +11,25 @@
 
 namespace orca::deployer {
 
-/// What the command line asks for.
+/// The requests of a command line.
 struct Options {
   enum class Action { run, check, print, dot, mermaid, list_ports, diff, describe, schema, help, version };
   Action action = Action::run;
   std::string file;        ///< The graph, or the plugin to describe.
   std::string other_file;  ///< The graph to compare it with.
   bool strict = false;     ///< Warnings are errors.
-  bool json = false;       ///< For programs.
+  bool json = false;       ///< Output for programs.
   std::vector<std::string> profiles;
   std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
   host::RunOptions run;
   log::Level log_level = log::Level::info;
 };
 
+/// Reads a command line.
 /// @errors  invalid_argument with what was found, what was expected and the nearest option.
 [[nodiscard]] Result<Options> parse_options(const std::vector<std::string>& words);
 
-/// The text of --help.
+/// Returns the text of --help.
 [[nodiscard]] const char* help_text();
 
 }  // namespace orca::deployer

@@ -18,7 +18,7 @@ Error cannot_describe(const std::string& type, const std::string& what) {
   return fail(Code::internal, "the type " + type + " cannot be described: " + what);
 }
 
-// Runs a plugin's code; what it throws becomes an error, its text copied before the plugin is unloaded.
+// Runs a plugin's code. An exception becomes an error, with its text copied before the plugin is unloaded.
 template <class Run>
 auto guarded(const std::string& type, Hook hook, Run&& run) -> decltype(run()) {
   const Activity activity(type.c_str(), hook, nullptr);
@@ -29,7 +29,7 @@ auto guarded(const std::string& type, Hook hook, Run&& run) -> decltype(run()) {
   }
 }
 
-// Takes declarations and refuses every service: a constructor has no business with them.
+// A host that takes declarations and refuses every service, because a constructor must not use any.
 template <class Base>
 class Describer : public Base {
  public:

@@ -36,7 +36,7 @@ const Manifest* manifest_of(void* handle) {
   return static_cast<const Manifest*>(dlsym(handle, "orca_plugin_manifest"));
 }
 
-// All that loading and describing the plugin would do, for a trial.
+// Does everything that loading and describing the plugin would do, for a trial.
 void load_and_describe(const std::string& path, const std::function<void(const std::string&)>& step) {
   step("its static initialisation");
   void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -54,7 +54,7 @@ void load_and_describe(const std::string& path, const std::function<void(const s
   dlclose(handle);
 }
 
-// What a file that has passed its checks and its trial is known for.
+// The facts about a file that has passed its checks and its trial.
 struct Judgement {
   std::vector<std::string> virtual_time_faults;
   bool may_start_threads = false;
@@ -71,8 +71,8 @@ Result<Judgement> judge(const std::string& path, const std::string& file) {
   return Judgement{read->virtual_time_faults(), read->may_start_threads()};
 }
 
-// The same for the same file, as long as it has not been written or exchanged: it may be asked for again
-// while a robot drives, when there is no time for it.
+// Returns the same judgement for the same file until it is written or exchanged. The file may be asked for
+// again while a robot drives, when there is no time for a trial.
 Result<Judgement> judge_once(const std::string& path, const std::string& file) {
   using Identity = std::tuple<std::string, dev_t, ino_t, off_t, time_t, long>;
   static std::map<Identity, Judgement> known;
@@ -86,7 +86,7 @@ Result<Judgement> judge_once(const std::string& path, const std::string& file) {
   return judged;
 }
 
-// Plugins that stay in memory for ever stay known for ever.
+// Keeps a plugin known for ever, because it stays in memory for ever.
 void keep_known(std::unique_ptr<LoadedPlugin> plugin) {
   static std::mutex mutex;
   static auto& kept = *new std::vector<std::unique_ptr<LoadedPlugin>>;
@@ -104,7 +104,7 @@ Error cannot_load(const std::string& path, const std::string& file, const std::s
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& path) {
   std::error_code unused;
   if (!fs::is_regular_file(path, unused)) return fail(Code::not_found, "there is no such plugin", path);
-  // Absolute: a name without a slash would be searched where shared libraries are.
+  // Absolute, because a name without a slash would be searched in the folders of shared libraries.
   const std::string file = fs::absolute(path).string();
   const Result<Judgement> judged = judge_once(path, file);
   if (!judged) return judged.error();

@@ -11,8 +11,8 @@
 namespace orca::plugin {
 namespace {
 
-// Fixed memory, because a signal handler reads it. `end` is written last and read first; 0: the place is
-// free.
+// A place in fixed memory, because a signal handler reads it. `end` is written last and read first; 0: the
+// place is free.
 struct Place {
   std::atomic<std::uintptr_t> end{0};
   std::uintptr_t start = 0;
@@ -27,7 +27,7 @@ struct Range {
   std::uintptr_t end = 0;
 };
 
-// Takes the extent of the library that holds `wanted`.
+// Stores the extent of the library that contains `wanted`.
 int take_range(dl_phdr_info* library, std::size_t /*size*/, void* data) {
   Range& range = *static_cast<Range*>(data);
   std::uintptr_t start = UINTPTR_MAX;

@@ -8,8 +8,8 @@
 
 namespace orca::plugin {
 
-/// Makes the plugin that an address lies in known to plugin_at(), as long as this lives. Beyond 256 plugins
-/// the rest stays unknown.
+/// A registration of the plugin that contains an address. plugin_at() knows the plugin during this object's
+/// lifetime. Beyond 256 plugins the rest stays unknown.
 ///
 /// Thread contract: one thread makes and destroys.
 class LoadedPlugin {
@@ -19,7 +19,7 @@ class LoadedPlugin {
   LoadedPlugin(const LoadedPlugin&) = delete;
   LoadedPlugin& operator=(const LoadedPlugin&) = delete;
 
-  /// Its extent in memory.
+  /// Returns its extent in memory.
   [[nodiscard]] std::uintptr_t start() const { return start_; }
   [[nodiscard]] std::uintptr_t end() const { return end_; }
 

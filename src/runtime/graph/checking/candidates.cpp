@@ -9,7 +9,7 @@
 namespace orca::graph {
 namespace {
 
-// The port of a candidate that fits, if there is one and no other. Nothing after a report.
+// Returns the only port of a candidate that fits; nothing after a report that there is none or more than one.
 std::optional<std::string> fitting_port(const CheckedComponent& candidate, const PortContract& wanted,
                                         const std::string& title, const xml::Position& place,
                                         Report& report) {

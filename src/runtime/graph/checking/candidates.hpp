@@ -10,11 +10,11 @@
 
 namespace orca::graph {
 
-// False, after a report, if the candidates are a trading query.
+// Reports candidates that are a trading query, and returns false for them.
 bool candidates_are_names(const LateBinding& late, Report& report);
 
-// The <connect> that a candidate stands for. `name` is a component, if only one of its ports fits, or
-// component.port. Nothing after a report.
+// Returns the <connect> that a candidate stands for; nothing after a report. `name` is component.port, or a
+// component alone if only one of its ports fits.
 std::optional<Node> candidate_connection(const CheckedComponent& component, const LateBinding& late,
                                          const std::string& name, const Model& model, Report& report);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostComponents = 10'000;
 
-// Reads one component; a new one for each.
+// A reader for one component. Each component needs a new one.
 class ComponentReader {
  public:
   ComponentReader(const Node& node, Types& types, const Model& model, Report& report)
@@ -43,7 +43,7 @@ class ComponentReader {
 
  private:
   bool names_hardware() const { return node_.find("hardware") != nullptr && !hardware_left_out(); }
-  // hardware="" takes back what another part of the graph says.
+  // Returns whether hardware="" cancels what another part of the graph says.
   bool hardware_left_out() const {
     return node_.known("hardware") != nullptr && node_.value("hardware").empty();
   }
@@ -100,7 +100,7 @@ class ComponentReader {
             " needs a hardware: add hardware=\"NAME\"; the graph has: " + listed(model_.hardware_names));
   }
 
-  // The value of an attribute, by its rule.
+  // Returns the value of an attribute, by its rule.
   template <class T>
   std::optional<T> attribute(const char* name) {
     const Text* text = node_.find(name);

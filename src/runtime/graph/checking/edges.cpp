@@ -12,7 +12,8 @@
 namespace orca::graph {
 namespace {
 
-// One reason why two ends do not fit, the most basic first; nothing if they do.
+// A reason why two ends do not fit. The functions below return the most basic one, or nothing if there
+// is none.
 struct Misfit {
   const char* code;
   std::string reason;
@@ -51,7 +52,7 @@ std::optional<Misfit> misfit(const Endpoint& from, const Endpoint& to) {
   return type_misfit(*from.port->reply, *to.port->reply, "reply");
 }
 
-// Whether the ends fit if they are the ports that the graph could not give these names.
+// Returns whether the ends would fit if they were the ports that the graph could not give these names.
 bool may_be_meant_otherwise(Endpoint from, Endpoint to) {
   if (from.perhaps == nullptr && to.perhaps == nullptr) return false;
   if (from.perhaps != nullptr) from.port = from.perhaps;
@@ -59,7 +60,7 @@ bool may_be_meant_otherwise(Endpoint from, Endpoint to) {
   return !misfit(from, to);
 }
 
-// Where an attribute of the policy has a meaning.
+// An attribute of the policy, and where it has a meaning.
 struct PolicyAttribute {
   const char* name;
   bool push;
@@ -70,13 +71,13 @@ constexpr std::array kPolicyAttributes{
     PolicyAttribute{"block_limit", true, true}, PolicyAttribute{"interval", true, false},
     PolicyAttribute{"deadline", true, false}};
 
-// Reads the policy of an edge.
+// A reader for the policy of an edge.
 class PolicyReader {
  public:
   PolicyReader(const Node& connection, const Endpoint& from, Edge& edge, Report& report)
       : connection_(connection), from_(from), edge_(edge), report_(report) {}
 
-  // False after a report.
+  // Returns false after a report.
   bool read() {
     if (!check_pattern()) return false;
     bool good = read_depth();
@@ -195,7 +196,7 @@ std::optional<Edge> make_edge(const Node& connection, const Endpoint& from, cons
     report.error(reason->code, connection.position,
                  "cannot connect " + described(from) + " to " + described(to) + ": " + reason->reason);
     if (reason->code == codes::kPattern)
-      return std::nullopt;  // what the policy may be depends on the pattern
+      return std::nullopt;  // the choice of policies depends on the pattern
   }
   const bool policy_ok = PolicyReader(connection, from, edge, report).read();
   return reason || !policy_ok ? std::nullopt : std::optional(edge);

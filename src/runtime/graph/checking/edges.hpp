@@ -9,8 +9,8 @@
 
 namespace orca::graph {
 
-// The edge between two ends that exist, if they fit together; its queue and interval as the connection says.
-// Nothing after a report.
+// Returns the edge between two existing ends if they fit together, with the queue and interval that the
+// connection gives; nothing after a report.
 std::optional<Edge> make_edge(const Node& connection, const Endpoint& from, const Endpoint& to,
                               Report& report);
 

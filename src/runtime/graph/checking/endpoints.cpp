@@ -20,7 +20,7 @@ void report_bad_form(const Node& connection, const char* attribute, const Model&
   report.error(codes::kBadPort, text.position, message);
 }
 
-// The graph has taken the port away, or given it another name. False if it has not.
+// Reports that the graph has disabled or renamed the port; returns false if it has not.
 bool report_changed_port(Endpoint& end, const CheckedComponent& component, const xml::Position& place,
                          Report& report) {
   const std::string port = "component " + in_quotes(end.ref.component) + ": port " + in_quotes(end.ref.port);

@@ -10,24 +10,24 @@
 
 namespace orca::graph {
 
-// One end of a connection, as far as it can be made out. `port` is null if it cannot, after a report or for a
-// reason reported before.
+// One end of a connection, as far as it could be found. `port` is null if it could not, after a report or for
+// a reason that is reported already.
 struct Endpoint {
   PortRef ref;  // as far as known
   const PortContract* port = nullptr;
   std::optional<std::string> guessed;  // the port of `ref.component` that was probably meant
-  // Another port that may be meant: the graph gives it the name of `port`, which it does not get.
+  // Another port that may be meant: the graph wanted to give it the name of `port` and could not.
   const PortContract* perhaps = nullptr;
 };
 
 Endpoint resolve_endpoint(const Node& connection, const char* attribute, const Model& model, Report& report);
 
-// Objects leave through a PushServer, a QueryProxy and a SendProxy: `from` is one of them.
+// Returns whether the port can be the `from` of a connection: a PushServer, a QueryProxy or a SendProxy.
 bool is_from_end(const PortContract& port);
 
-// "the PushServer of RangeReadings \"base.laser\""
+// Returns a text such as "the PushServer of RangeReadings \"base.laser\"".
 std::string described(const Endpoint& end);
-// "PushServer of RangeReadings"
+// Returns a text such as "PushServer of RangeReadings".
 std::string described(const PortContract& port);
 
 }  // namespace orca::graph

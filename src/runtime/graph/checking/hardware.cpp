@@ -9,7 +9,7 @@
 namespace orca::graph {
 namespace {
 
-// Where the parameter is set, or the hardware's own place if it has its default.
+// Returns the place that sets the parameter, or the hardware's own place if it has its default.
 const xml::Position& place_of(const Node& node, const std::string& param) {
   for (const Node& child : node.children)
     if (child.is("param") && child.value("name") == param) return child.place("value");

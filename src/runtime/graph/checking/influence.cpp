@@ -53,7 +53,7 @@ class Influence {
     return port.pattern == Pattern::push && port.role == Role::server;
   }
 
-  // Nothing but PushProxies is connected.
+  // Returns whether only PushProxies are connected.
   static bool only_listens(const Contract& contract, const std::set<std::string>& connected) {
     return std::ranges::all_of(contract.ports, [&](const PortContract& port) {
       return !connected.contains(port.name) || (port.pattern == Pattern::push && port.role == Role::proxy);
@@ -66,7 +66,7 @@ class Influence {
                         "; if it works all the same, say so with autonomous=\"true\"");
   }
 
-  // The author's own trigger names the port as the author does.
+  // Checks the trigger; the author's own trigger uses the author's name of the port.
   void check_trigger(const CheckedComponent& component, const std::set<std::string>& connected) {
     const Trigger& trigger = component.value.trigger.value_or(component.contract->default_trigger);
     if (trigger.kind != Trigger::Kind::on_port) return;

@@ -34,7 +34,7 @@ std::vector<std::string> read_ends(const Node& graph, const Model& model, Report
   return ends;
 }
 
-// What the <graph> element itself says, but for its ends, which are names of components.
+// Reads the <graph> element's own attributes, except its ends, which are names of components.
 Graph read_root(const Node& root, Report& report) {
   Graph graph;
   graph.name = root.value("name");
@@ -43,7 +43,7 @@ Graph read_root(const Node& root, Report& report) {
   return graph;
 }
 
-// Late-bound edges come from the candidates of ports. The ports remember them, for print() to write.
+// Adds the candidates of late-bound edges to their ports, so that print() can write them.
 void note_candidates(Model& model, const std::vector<Edge>& edges) {
   for (const Edge& edge : edges) {
     if (!edge.late_bound) continue;

@@ -16,7 +16,7 @@ namespace orca::graph {
 
 struct CheckedHardware {
   HardwareNode value;
-  bool sound = false;  // it may be shown to components
+  bool sound = false;  // whether it may be shown to components
 };
 
 // A port whose peers are chosen at run time, from candidates.
@@ -25,33 +25,34 @@ struct LateBinding {
   Text candidates;
 };
 
-// The name that the graph gives a port.
+// A name that the graph gives a port.
 struct Renaming {
   std::string name;
   xml::Position position;
 };
 
+// A component of the graph, and what the checks know about it.
 struct CheckedComponent {
   ComponentNode value;
   std::optional<Contract> contract;  // nothing if the type is missing or unknown
-  bool ports_known = false;          // false: its ports cannot be judged, for a reason already reported
+  bool ports_known = false;          // false: its ports cannot be checked, for a reason reported already
   bool duplicate = false;
-  std::map<std::string, xml::Position> disabled;  // ports, and where that is said
+  std::map<std::string, xml::Position> disabled;  // disabled ports, and the places that disable them
   std::map<std::string, Renaming> renamed;        // by the name that the author gave
-  // Ports by a name that the graph gives them and that they do not get, which is reported.
+  // Names that the graph wanted to give to ports and could not, which is reported.
   std::map<std::string, std::string> refused_names;
-  // Ports of which the graph says wrongly, as is reported, that nothing is connected to them.
+  // Ports that the graph wrongly declares to be unconnected, which is reported.
   std::set<std::string> wrongly_disabled;
   std::vector<LateBinding> late;
 
-  // The port that was to get `name` and did not, or null.
+  // Returns the port that was to get `name` and did not, or null.
   [[nodiscard]] const PortContract* refused_port(const std::string& name) const {
     const auto found = refused_names.find(name);
     return found == refused_names.end() ? nullptr : contract->port(found->second);
   }
 };
 
-// What the checks know about the graph so far. Nodes stay in the order of the file.
+// The knowledge about the graph that the checks share. Nodes stay in the order of the file.
 struct Model {
   std::vector<CheckedHardware> hardware;
   std::vector<CheckedComponent> components;
@@ -85,7 +86,7 @@ struct Model {
   }
 };
 
-// Reports that `name`, said at `place`, is no component, unless that is excused. True if it is one.
+// Returns whether `name` is a component. Reports at `place` that it is not, unless that is excused.
 bool check_component_exists(const std::string& name, const xml::Position& place, const std::string& title,
                             const Model& model, Report& report);
 

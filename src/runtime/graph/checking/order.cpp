@@ -8,7 +8,7 @@
 namespace orca::graph {
 namespace {
 
-// Follows start_after from component to component and finds the circles in it.
+// A search that follows start_after from component to component and finds its cycles.
 class CycleSearch {
  public:
   CycleSearch(const Model& model, Report& report)
@@ -23,10 +23,11 @@ class CycleSearch {
   enum class State { fresh, on_path, done };
   struct Step {
     std::size_t component;
-    std::size_t next = 0;  // which of its start_after is looked at next
+    std::size_t next = 0;  // index of the next start_after to look at
   };
 
-  // Depth first with a path of its own: ten thousand components in a row must not need as many stack frames.
+  // Searches depth first with its own stack, because ten thousand components in a row must not need as many
+  // stack frames.
   void walk(std::size_t start) {
     enter(start);
     while (!path_.empty()) {

@@ -37,7 +37,7 @@ class PortReader {
     if (setting.disabled || !setting.alias.empty()) checked_.value.ports[port->name] = setting;
   }
 
-  // Only now, so that every <port> sees the names that the author gave.
+  // Applies the changes at the end, so that every <port> sees the author's names.
   void apply() {
     Contract& contract = *checked_.contract;
     std::erase_if(contract.ports, [&](const PortContract& port) {
@@ -78,7 +78,7 @@ class PortReader {
     return false;
   }
 
-  // Its new name; empty: it keeps the old one.
+  // Returns the new name; empty: it keeps the old one.
   std::string read_alias(const Node& node, const PortContract& port) {
     const Text* alias = node.known("as");
     if (alias == nullptr || alias->value == port.name) return {};
@@ -104,7 +104,8 @@ class PortReader {
     return {};
   }
 
-  // Not even a name that is given up is free: an error about its use must be able to name the new one.
+  // Returns whether a name is taken. Even a name that is given up is not free: an error about its use must be
+  // able to name the new one.
   bool is_taken(const std::string& name) const {
     const auto has_it = [&](const auto& entry) { return entry.second.name == name; };
     return checked_.contract->port(name) != nullptr || std::ranges::any_of(checked_.renamed, has_it);

@@ -7,10 +7,10 @@
 
 namespace orca::graph {
 
-// Reads the <port>s of a component and changes its contract as they say: other names, ports left out.
+// Reads the <port>s of a component and changes its contract accordingly: new names, ports left out.
 void read_ports(const Node& node, CheckedComponent& component, Report& report);
 
-// "in: laser, sonar; out: motion": the ports of a contract, for people.
+// Returns the ports of a contract for people: "in: laser, sonar; out: motion".
 std::string ports_of(const Contract& contract);
 
 }  // namespace orca::graph

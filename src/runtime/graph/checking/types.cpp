@@ -48,7 +48,7 @@ std::optional<Contract> Types::component_without_hardware(const Node& node) {
 void Types::report_failure(const Node& node, const Error& error, PluginKind kind) {
   const std::string what = node.title() + ": " + error.text();
   if (error.code == Code::not_found) {
-    // A type that is known and not found after all has lost its plugin.
+    // The index knows a type that cannot be found any more: its plugin is gone.
     std::vector<std::string> names = catalogue_.type_names(kind);
     std::erase(names, node.value("type"));
     return report_.error(codes::kUnknownType, node.place("type"),

@@ -11,23 +11,24 @@
 
 namespace orca::graph {
 
-// Asks the catalogue about types and tells what it answers, a broken plugin only once.
+// The types of a graph as the catalogue knows them. It reports the catalogue's errors, each broken plugin
+// only once.
 class Types {
  public:
   Types(Catalogue& catalogue, Report& report) : catalogue_(catalogue), report_(report) {}
 
-  // The contract of the node's type; nothing if it has none, after a report.
+  // Returns the contract of the node's type; nothing if it has none, after a report.
   std::optional<Contract> hardware(const Node& node);
   std::optional<Contract> component(const Node& node, const HardwareUse* use);
-  // The same without a report about the plugin: the hardware that it would need is not to be had.
+  // Returns the same without a report about the plugin, for a component whose hardware is not available.
   std::optional<Contract> component_without_hardware(const Node& node);
   [[nodiscard]] Catalogue& catalogue() { return catalogue_; }
 
  private:
-  // The type's name, or null after a report.
+  // Returns the type's name, or null after a report.
   const Text* type_of(const Node& node);
   void report_failure(const Node& node, const Error& error, PluginKind kind);
-  // What keeps the type out of this run, once per type.
+  // Reports what keeps the type out of this run, once per type.
   void report_unfit(const Node& node, const std::string& type, PluginKind kind);
 
   Catalogue& catalogue_;

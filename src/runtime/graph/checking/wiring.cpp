@@ -37,7 +37,7 @@ class Wiring {
     if (takes_one_more(*edge, from, to)) edges_.push_back(*std::move(edge));
   }
 
-  // The candidates of late-bound ports, after everything that is written as a connection.
+  // Connects the candidates of late-bound ports, after all written connections.
   void connect_candidates() {
     for (const CheckedComponent& component : model_.components) {
       for (const LateBinding& late : component.late) {
@@ -65,10 +65,10 @@ class Wiring {
   std::vector<Edge> edges() && { return std::move(edges_); }
 
  private:
-  // A connection whose other end could not be made out, although something was said about it.
+  // A connection whose other end could not be found, although the graph names one.
   struct Loose {
     const PortContract* port;
-    std::string component;  // that the other end names; empty: not even that is known
+    std::string component;  // named by the other end; empty: not even that is known
   };
 
   void touch(const Endpoint& end, const Endpoint& other) {
@@ -116,8 +116,8 @@ class Wiring {
                       described(port) + ") must be connected; " + offers(port));
   }
 
-  // One connection with an unknown end may be the one that is missing here: that would be two errors for one
-  // cause.
+  // Returns whether a connection with an unknown end may be the one that is missing here. Reporting it as
+  // missing would be a second error for one cause.
   bool explained_by_loose_end(const PortRef& ref, const PortContract& port) {
     const auto explains = [&](const Loose& loose) {
       return fit_together(*loose.port, port) && (loose.component.empty() || loose.component == ref.component);
@@ -128,7 +128,7 @@ class Wiring {
     return true;
   }
 
-  // What an end of a connection must have to fit to another.
+  // The properties that an end of a connection must share with the other end.
   using Plug = std::tuple<Pattern, Role, std::string, std::uint64_t>;
 
   void index_offers() {
@@ -153,7 +153,7 @@ class Wiring {
   std::vector<Edge> edges_;
   std::set<PortRef> touched_;
   std::vector<Loose> loose_;
-  std::map<Plug, std::vector<std::string>> offers_;  // ports by what fits to them
+  std::map<Plug, std::vector<std::string>> offers_;  // ports, by the plug that fits them
   std::map<PortRef, Edge> single_;                   // the first edge at each proxy that takes only one
 };
 

@@ -124,7 +124,7 @@ void Arguments::append(const std::string& name, Text& text) {
 
 void Arguments::report_undefined(const std::string& name, const Text& text) {
   const auto near = report_.nearest(name, names_);
-  if (near) arguments_.at(*near).used = true;  // to call it unused would be a second error for one cause
+  if (near) arguments_.at(*near).used = true;  // reporting it as unused would be a second error for one cause
   report_.error(
       codes::kUndefinedArgument, text.position,
       "${" + name + "} is not defined; there is <arg> for: " + listed(names_) + xml::did_you_mean(near));
@@ -144,7 +144,7 @@ std::optional<std::string> Arguments::report_no_such_argument(const std::string&
 }
 
 void Arguments::check_use() {
-  std::set<std::string> meant;  // to miss the value of these would be a second error for one cause
+  std::set<std::string> meant;  // reporting their missing value would be a second error for one cause
   for (const auto& [name, setting] : settings_)
     if (!setting.used)
       if (const auto argument = report_no_such_argument(name, setting)) meant.insert(*argument);

@@ -14,11 +14,11 @@
 
 namespace orca::graph {
 
-// The <arg>s of one file with what the command line, or the <include> or <use> that names the file, sets; and
-// their replacement in attribute values.
+// The <arg>s of one file, with the values set by the command line or by the <include> or <use> that names the
+// file. They replace ${...} in attribute values.
 class Arguments {
  public:
-  // @param settings  "ARG=VALUE" each, from the command line.
+  // @param settings  each "ARG=VALUE", from the command line.
   Arguments(const std::vector<std::string>& settings, Budget& budget, Report& report);
   // @param bringer  the <include> or <use>; its <arg>s are the settings.
   Arguments(const Node& bringer, Budget& budget, Report& report);
@@ -26,7 +26,7 @@ class Arguments {
   // Declares an <arg>. Its default may refer to arguments declared before.
   void declare(const Node& arg);
 
-  // The attribute's value with ${arg} replaced and $$ made $.
+  // Returns the attribute's value with ${arg} replaced and $$ made $.
   Text replaced(const xml::Attribute& attribute);
 
   // Reports settings that no <arg> takes and arguments that nothing uses.
@@ -47,10 +47,10 @@ class Arguments {
 
   void report_duplicate(const std::string& name, const Node& arg);
   void report_without_value(const std::string& name, const Argument& argument);
-  // Returns the argument that the setting was meant for.
+  // Reports the error and returns the argument that the setting was probably meant for.
   std::optional<std::string> report_no_such_argument(const std::string& name, const Setting& setting);
   Argument read(const std::string& name, const Node& arg);
-  // Replaces what stands at the '$' that `rest` starts with, and takes it off.
+  // Replaces the reference at the '$' that `rest` starts with, and removes it from `rest`.
   void replace_one(std::string_view& rest, Text& text);
   void append(const std::string& name, Text& text);
   void report_undefined(const std::string& name, const Text& text);

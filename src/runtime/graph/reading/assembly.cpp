@@ -18,7 +18,7 @@
 namespace orca::graph {
 namespace {
 
-// A file that includes itself is a circle; a chain of different files this long is a mistake as well.
+// A file that includes itself is a cycle; a chain of different files this long is a mistake as well.
 constexpr std::size_t kDeepest = 50;
 
 class Assembler {
@@ -36,7 +36,7 @@ class Assembler {
   }
 
  private:
-  // What a file holds, with everything that it brings in itself, under a prefix.
+  // Returns the content of a file, with everything that it brings in, under a prefix.
   Node take(Structure structure, const std::string& prefix) {
     collect_plugin_folders(structure.graph);
     for (const std::string& name : structure.excused) result_.excused.insert(prefix + name);
@@ -77,7 +77,7 @@ class Assembler {
     return brought;
   }
 
-  // After a report: what the file would have brought is not missed.
+  // Returns no nodes, after a report; the missing content causes no further errors.
   std::vector<Node> leave_out() {
     result_.names_incomplete = true;
     result_.files_missing = true;
@@ -96,7 +96,7 @@ class Assembler {
     return std::move(graph.children);
   }
 
-  // Null after a report, or if there has been one.
+  // Returns null after a report, or if there has been one.
   const xml::Document* open(const Node& node, const Text& name) {
     const std::string path = shown_path(name);
     if (std::ranges::find(chain_, path) != chain_.end()) return report_cycle(name, path);
@@ -108,7 +108,7 @@ class Assembler {
     return &*file.document;
   }
 
-  // As positions in the file name it: seen from where the first file's name is seen from.
+  // Returns the path as positions in the file show it, relative to the same folder as the first file's name.
   static std::string shown_path(const Text& name) {
     const auto folder = std::filesystem::path(name.named_in).parent_path();
     return (folder / name.value).lexically_normal().string();
@@ -146,9 +146,10 @@ class Assembler {
   Report& report_;
   Budget budget_;
   Assembly result_;
-  std::vector<std::string> chain_;     // the files that are open now, the outermost first
-  std::vector<std::string> prefixes_;  // theirs, but for the first; each holds the ones before
-  const Origin* origin_ = nullptr;     // how the innermost file came in
+  std::vector<std::string> chain_;  // the files that are open now, the outermost first
+  std::vector<std::string>
+      prefixes_;                    // prefixes of the open files except the first; each contains those before
+  const Origin* origin_ = nullptr;  // the way by which the innermost file came in
 };
 
 }  // namespace

@@ -9,11 +9,11 @@
 
 namespace orca::graph {
 
-// How much a graph may grow by what it includes and by its arguments: a few small files that name each other
+// A limit to the growth of a graph by included files and arguments. A few small files that name each other
 // ten times over must not cost gigabytes.
 class Budget {
  public:
-  // False, after one report, when all that was left is taken.
+  // Returns false, after one report, when the budget is used up.
   bool take_elements(std::size_t count, const xml::Position& position, Report& report);
   bool take_characters(std::size_t count, const xml::Position& position, Report& report);
 

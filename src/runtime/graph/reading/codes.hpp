@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The codes of everything that can be wrong with a graph. docs/errors.md explains them to people; a test
-// compares the two. A code keeps its meaning for ever.
+// The codes of everything that can be wrong with a graph. docs/errors.md explains them; a test compares the
+// two. The meaning of a code never changes.
 #pragma once
 
 namespace orca::graph::codes {

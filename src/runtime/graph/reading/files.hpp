@@ -16,14 +16,14 @@ namespace orca::graph {
 class Files {
  public:
   struct File {
-    std::string unreadable;                 // the system's word for it; empty: it could be read
-    std::optional<xml::Document> document;  // nothing if it is no XML, which is reported
+    std::string unreadable;                 // the system's reason; empty: it could be read
+    std::optional<xml::Document> document;  // nothing if it is not XML, which is reported
     std::size_t elements = 0;
   };
 
   Files(FileReader read, xml::Diagnostics& diagnostics) : read_(std::move(read)), diagnostics_(diagnostics) {}
 
-  // @param path  as positions in it shall name it
+  // @param path  the path as positions in the file are to show it
   const File& open(const std::string& path);
 
  private:

@@ -17,7 +17,7 @@ void report_unknown(const Node& node, const Node& param, const Contract& contrac
                    " has: " + listed(names) + report.hint(name, names));
 }
 
-// False if the parameter cannot be used.
+// Returns false if the parameter cannot be used.
 bool read_param(const Node& node, const Node& param, const Contract& contract, Params& result,
                 Report& report) {
   const Text* value = param.known("value");

@@ -10,8 +10,8 @@
 
 namespace orca::graph {
 
-// All parameters of a hardware or component node: what it sets, defaults for the rest. Nothing if one of them
-// is wrong.
+// Returns all parameters of a hardware or component node: the values that it sets, and defaults for the rest.
+// Returns nothing if one of them is wrong.
 std::optional<Params> read_params(const Node& node, const Contract& contract, Report& report);
 
 }  // namespace orca::graph

@@ -8,7 +8,7 @@ namespace {
 
 void prefix_name(Node& node, const char* attribute, const std::string& context) {
   const auto found = node.attributes.find(attribute);
-  // An empty one is an error, or takes back what another part says.
+  // An empty name is an error, or cancels what another part says.
   if (found == node.attributes.end() || found->second.value.empty()) return;
   found->second.value.insert(0, context);
 }

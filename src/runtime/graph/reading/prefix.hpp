@@ -7,7 +7,7 @@
 
 namespace orca::graph {
 
-// Puts a context such as "left/" before the names that a part of a sub-graph has and refers to.
+// Puts a context such as "left/" before the names that a part of a sub-graph has or refers to.
 void put_prefix(Node& node, const std::string& context);
 
 }  // namespace orca::graph

@@ -7,7 +7,8 @@ namespace orca::graph {
 
 namespace {
 
-// The message without the contexts of names, in which the copies of a file differ: "left/avoid" is "avoid".
+// Returns the message without the contexts of names, which differ between copies of a file:
+// "left/avoid" is "avoid".
 std::string without_contexts(const std::string& message) {
   std::string result;
   std::size_t word = 0;

@@ -11,29 +11,29 @@
 
 namespace orca::graph {
 
-// Where the checks of a graph put what they find.
+// The collector of what the checks of a graph find.
 class Report final : public xml::Reporter {
  public:
   // @param strict  warnings are errors
   explicit Report(xml::Diagnostics& out, bool strict = false) : Reporter(out), strict_(strict) {}
 
-  // The file may be part of the graph several times. What is wrong in it is reported once, not for each copy.
+  // Marks a file as part of the graph several times. An error in it is reported once, not for each copy.
   void share(const std::string& file) { shared_files_.insert(file); }
 
   void error(const char* code, const xml::Position& position, std::string message) override;
   void warning(const char* code, const xml::Position& position, std::string message);
-  // Names that begin with `context`, which is reported as no good name, are not reported again.
+  // Reports no more names that begin with `context`, which is reported as an invalid name already.
   void tolerate(const std::string& context) { bad_contexts_.insert(context); }
   [[nodiscard]] bool tolerates(std::string_view name) const {
     const auto starts_name = [&](const std::string& context) { return name.starts_with(context); };
     return std::ranges::any_of(bad_contexts_, starts_name);
   }
 
-  // Nothing is wrong so far but what --strict makes an error.
+  // Returns whether no error was found, apart from warnings that --strict makes errors.
   [[nodiscard]] bool no_errors() const { return diagnostics().error_count() == strict_warnings_; }
   void line(const xml::Position& position, std::string finished_line);
 
-  // Returns a hint at a name that may only lack its context, "avoid" for "left/avoid".
+  // Returns a hint at a name that may only lack its context: "avoid" for "left/avoid".
   std::string hint_in_contexts(std::string_view name, std::span<const std::string> candidates);
 
  private:

@@ -88,7 +88,7 @@ constexpr std::array kUse{AttributeRule{"graph", true, "Path from the folder of 
                           AttributeRule{"prefix", true, "The context that its names get here."}};
 
 constexpr std::array<std::string_view, 2> kEnds{"from", "to"};
-// How editors find graphs/orca-graph.xsd.
+// The attributes by which editors find graphs/orca-graph.xsd.
 constexpr std::array<std::string_view, 2> kSchema{"xmlns:xsi", "xsi:noNamespaceSchemaLocation"};
 
 // These contain each other.

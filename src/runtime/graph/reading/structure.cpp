@@ -59,7 +59,7 @@ class Reader {
       read_child(child, xml::match_child(child, *parent.rule, graph_rules(), report_), parent);
   }
 
-  // @param rule  what the element was meant to be; null: there is no telling
+  // @param rule  the rule that was probably meant; null: unknown
   void read_child(const xml::Element& element, const xml::ElementRule* rule, Node& parent) {
     if (rule == nullptr) return excuse(element);
     if (rule->planned) {
@@ -82,7 +82,7 @@ class Reader {
     for (const xml::Element& child : element.children()) excuse(child);
   }
 
-  // What may be said once inside an element, under its name.
+  // Returns whether the node is a setting: it may stand once inside an element, under its name.
   static bool is_setting(const Node& node) {
     return node.is("param") || node.is("property") || node.is("port") || node.is("arg");
   }

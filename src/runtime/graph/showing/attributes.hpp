@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A graph's parts as the attributes that they have in XML: what print() writes, diff() compares and the JSON
-// form holds.
+// The parts of a graph as attributes, as in XML. print() writes them, diff() compares them, and the JSON form
+// holds them.
 #pragma once
 
 #include <string>
@@ -13,15 +13,15 @@ namespace orca::graph {
 
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-// Without the name, and without what has its default.
+// Return the attributes of a part, without its name and without values equal to the default.
 Attributes attributes_of(const Graph& graph);
 Attributes attributes_of(const HardwareNode& node);
 Attributes attributes_of(const ComponentNode& node);
 Attributes attributes_of(const PortSetting& setting);
-// Without the ends; the policy is complete.
+// Returns the attributes without the ends; the policy is complete.
 Attributes attributes_of(const Edge& edge);
 
-// As it stands in a <param>.
+// Returns the value as it is written in a <param>.
 std::string value_text(const ParamValue& value);
 
 }  // namespace orca::graph

@@ -57,7 +57,7 @@ Parts parts_of(const Graph& graph, Change::Part part) {
   } else if (part == Change::Part::component) {
     for (const ComponentNode& node : graph.components) parts[node.name] = fields_of(node);
   } else {
-    // A late-bound one belongs to the candidates of its port.
+    // A late-bound edge belongs to the candidates of its port.
     for (const Edge& edge : graph.edges)
       if (!edge.late_bound)
         parts[edge.from.text() + " to " + edge.to.text()] = fields_of(attributes_of(edge));

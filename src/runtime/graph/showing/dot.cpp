@@ -14,7 +14,7 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-// The line break is Graphviz's own escape, so it is put in after quoting.
+// Returns the label. The line break is Graphviz's own escape, so it is added after quoting.
 std::string label_of(const DrawnNode& node) {
   std::string name = quoted(node.name);
   name.pop_back();

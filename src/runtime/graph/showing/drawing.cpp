@@ -13,7 +13,8 @@ std::string context_of(const std::string& name) {
 
 std::string last_of(const std::string& name) { return name.substr(name.rfind('/') + 1); }
 
-// Objects flow from a PushServer and a SendProxy; a Query goes to its server and comes back.
+// Returns the label of an edge. Objects flow from a PushServer or a SendProxy; a Query goes to its server and
+// comes back.
 std::string label_of(const Edge& edge) {
   std::string label = edge.from.port + " > " + edge.to.port;
   if (edge.pattern == Pattern::push && edge.queue.depth > 1)

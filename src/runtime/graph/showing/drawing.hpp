@@ -9,7 +9,7 @@
 
 namespace orca::graph {
 
-// What a picture of a graph shows, whatever language it is written in.
+// One box of a picture of a graph, in whatever language the picture is written.
 struct DrawnNode {
   std::string id;    // "c3", "h0"
   std::string name;  // without its context
@@ -17,6 +17,7 @@ struct DrawnNode {
   bool hardware = false;
 };
 
+// One arrow of such a picture.
 struct DrawnEdge {
   std::string from;   // id
   std::string to;     // id
@@ -24,6 +25,7 @@ struct DrawnEdge {
   bool dashed = false;
 };
 
+// A picture of a graph before it is written in any language.
 struct Drawing {
   std::string title;
   std::map<std::string, std::vector<DrawnNode>> nodes;  // by context, "" first

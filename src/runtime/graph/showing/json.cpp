@@ -12,7 +12,7 @@ void write(const Attributes& attributes, JsonWriter& json) {
   for (const auto& [name, value] : attributes) json.member(name, value);
 }
 
-// Numbers and flags keep their type here, in SI.
+// Writes parameters in SI. Numbers and flags keep their type.
 void write(const Params& params, JsonWriter& json) {
   json.key("params").begin_object();
   for (const auto& [name, value] : params)

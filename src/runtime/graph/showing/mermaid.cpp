@@ -5,7 +5,7 @@
 namespace orca::graph {
 namespace {
 
-// Mermaid has entities of its own for what would end a text or start markup.
+// Quotes a text. Mermaid has entities of its own for characters that would end a text or start markup.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {

@@ -86,7 +86,7 @@ std::vector<ListedPort> list_ports(const Graph& graph, Catalogue& catalogue) {
   std::vector<ListedPort> ports;
   for (const ComponentNode& node : graph.components) {
     const Result<Contract> contract = contract_of(node, graph, catalogue);
-    if (!contract) continue;  // it could be had when the graph was checked
+    if (!contract) continue;  // the contract existed when the graph was checked
     for (const PortContract& declared : contract->ports) {
       ports.push_back(listed(node, declared));
       ports.back().peers = peers[ports.back().ref];

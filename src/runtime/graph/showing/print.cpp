@@ -6,7 +6,7 @@
 namespace orca::graph {
 namespace {
 
-// A value as it stands in the file: a dollar is doubled, because a single one starts an argument.
+// Writes an attribute. A dollar in its value is doubled, because a single one starts an argument.
 std::string attribute(const std::string& name, const std::string& value) {
   std::string doubled;
   for (const char c : value) doubled += c == '$' ? "$$" : std::string(1, c);
@@ -53,7 +53,8 @@ std::string print(const Graph& graph) {
   const std::string attributes =
       attribute("name", graph.name) + attribute("version", "1") + text_of(attributes_of(graph));
   std::string result = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graph" + attributes + ">\n";
-  // Its content is merged into the graph; the name stays, so that the file reads back as the same value.
+  // The profile's content is merged into the graph. Its name stays, so that reading the file back
+  // gives the same value.
   if (!graph.default_profile.empty())
     result += element("profile", attribute("name", graph.default_profile), "");
   for (const HardwareNode& node : graph.hardware) {

@@ -16,7 +16,7 @@ std::string documentation(std::string_view text, const std::string& indent) {
          "</xs:documentation></xs:annotation>\n";
 }
 
-// One of the words, or something that holds an argument.
+// Returns a type that allows one of the words, or a text that contains an argument.
 std::string choices_text(std::span<const std::string_view> choices) {
   std::string text =
       "      <xs:simpleType>\n        <xs:union memberTypes=\"with_argument\">\n          <xs:simpleType>\n"

@@ -12,7 +12,7 @@ idl::AlarmSeverity severity_of(AlarmKind kind) {
     case AlarmKind::failed:
     case AlarmKind::stalled:
     case AlarmKind::descriptors: return idl::ALARM_WARNING;
-    default: return idl::ALARM_NOTICE;  // it was put back, or harms nobody yet
+    default: return idl::ALARM_NOTICE;  // it was restored, or harms nobody yet
   }
 }
 

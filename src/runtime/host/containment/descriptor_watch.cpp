@@ -40,7 +40,8 @@ std::optional<Finding> DescriptorWatch::look(const std::string* alone) {
   const int lowest = own_.lowest_free();
   if (lowest < 0) return look_for_exhaustion();
   exhausted_ = false;
-  if (std::exchange(last_, lowest) == lowest) return std::nullopt;  // what is opened takes the lowest
+  if (std::exchange(last_, lowest) == lowest)
+    return std::nullopt;  // a new descriptor always takes the lowest number
   if (!is_crowded()) return known_.reset(), std::nullopt;
   if (alone != nullptr && known_) return count_for(*alone);
   known_ = open_descriptors();

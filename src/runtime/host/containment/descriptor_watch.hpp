@@ -10,11 +10,12 @@
 
 namespace orca::host {
 
-/// The descriptors of the process: whether its own are open, whether there are any left, and who opens many
-/// in its turns and closes none.
+/// A watch over the descriptors of the process. It reports closed descriptors that the process itself needs,
+/// a process that has none left, and a component that opens many during its turns and closes none.
 ///
-/// As soon as 32 more are open than at first, new ones are counted for the component in whose turn alone they
-/// appeared; of one that has 32 open, this is reported. What is opened in turns of several is nobody's.
+/// As soon as 32 more are open than at first, each new one is counted for the component that alone had a turn
+/// since the last look. A component that has 32 of them open is reported. Descriptors that appear while
+/// several components have turns are counted for none.
 ///
 /// Thread contract: one thread at a time.
 class DescriptorWatch {
@@ -22,14 +23,14 @@ class DescriptorWatch {
   void keep();
   void let_go() { own_.release(); }
 
-  /// Whether somebody has closed descriptors that the process itself needs.
+  /// Returns whether a descriptor that the process itself needs has been closed.
   [[nodiscard]] bool own_are_closed() const { return !own_.all_open(); }
-  /// Whether so many are open that each turn must be looked at.
+  /// Returns whether so many are open that every turn must be checked.
   [[nodiscard]] bool is_crowded() const { return last_ - first_ >= kMany; }
 
-  /// Accepts what is open now, after a hook that may open what others close.
+  /// Accepts the open descriptors as they are, after a hook that may open what others close.
   void accept();
-  /// Looks who has opened what.
+  /// Finds the component that has opened too many descriptors, or reports that the process has none left.
   /// @param alone  the only component that had a turn since the last look; null: there were several, or none.
   std::optional<Finding> look(const std::string* alone);
 
@@ -40,27 +41,27 @@ class DescriptorWatch {
   std::optional<Finding> count_for(const std::string& who);
 
   OwnDescriptors own_;
-  int first_ = 0;  // lowest free descriptor at first,
-  int last_ = 0;   // and at the last look
+  int first_ = 0;  // lowest free descriptor at first
+  int last_ = 0;   // lowest free descriptor at the last look
   bool exhausted_ = false;
-  std::optional<Descriptors> known_;              // at the last look in a crowd
-  std::map<std::string, Descriptors> opened_by_;  // in a crowd, and still open
+  std::optional<Descriptors> known_;              // at the last look while crowded
+  std::map<std::string, Descriptors> opened_by_;  // opened while crowded, and still open
 };
 
-/// What a component opened in start() and stop() and has not closed by the end of stop(). It is known only if
-/// nobody else had a turn during these hooks.
+/// The descriptors that a component opened in start() and stop() and has not closed by the end of stop().
+/// They are known only if no other component had a turn during these hooks.
 ///
 /// Thread contract: one thread at a time.
 class DescriptorBalance {
  public:
-  /// A hook begins.
-  /// @param anew   it is start(): what was opened before is forgotten.
-  /// @param alone  nobody else has a turn at the moment.
+  /// Notes that a hook begins.
+  /// @param anew   it is start(): earlier openings are forgotten.
+  /// @param alone  no other component has a turn at the moment.
   void begin(bool anew, bool alone);
-  /// The hook is over.
-  /// @param alone  nobody else had a turn since it began.
+  /// Notes that the hook is over.
+  /// @param alone  no other component had a turn since it began.
   void end(bool alone);
-  /// What is still open; nothing if that is not known.
+  /// Returns the descriptors that are still open; none if they are not known.
   [[nodiscard]] Descriptors left_open() const { return known_ ? opened_ : Descriptors{}; }
 
  private:

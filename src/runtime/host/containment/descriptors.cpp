@@ -26,8 +26,8 @@ std::optional<Descriptors> open_descriptors() {
   Descriptors open;
   for (const auto& entry : entries) {
     struct stat file {};
-    // By path: other threads may close what is theirs meanwhile.
-    if (stat(entry.c_str(), &file) != 0) continue;  // as the one that read the folder
+    // By path, because other threads may close their descriptors meanwhile.
+    if (stat(entry.c_str(), &file) != 0) continue;  // such as the one that reads the folder
     std::error_code unused;
     open[std::atoi(entry.filename().c_str())] = {file.st_dev, file.st_ino,
                                                  std::filesystem::read_symlink(entry, unused).native()};

@@ -10,39 +10,38 @@
 
 namespace orca::host {
 
-/// What is open at a descriptor.
+/// The file behind an open descriptor.
 struct OpenFile {
   dev_t device = 0;
   ino_t inode = 0;
   std::string name;  ///< For people, in the system's words: "/dev/ttyS0", "socket:[4711]".
 
-  /// Whether both are the same file; it may have been renamed meanwhile.
+  /// Returns whether both are the same file; it may have been renamed meanwhile.
   friend bool operator==(const OpenFile& a, const OpenFile& b) {
     return a.device == b.device && a.inode == b.inode;
   }
 };
 
-/// By number.
+/// Open files by descriptor number.
 using Descriptors = std::map<int, OpenFile>;
 
-/// What this process has open; nothing if that cannot be told, because there is no descriptor left to look
-/// with.
+/// Returns the open descriptors of this process; nothing if no descriptor is left to read them with.
 [[nodiscard]] std::optional<Descriptors> open_descriptors();
 
-/// For people: "7 (/dev/ttyS0), 8 (socket:[4711])"; of many only the first.
+/// Returns a text for people: "7 (/dev/ttyS0), 8 (socket:[4711])"; only the first ones if there are many.
 [[nodiscard]] std::string names_of(const Descriptors& descriptors);
 
-/// Descriptors that the process itself needs, to be seen to when a plugin closes what is not its own.
+/// The descriptors that the process itself needs, kept so that a plugin that closes them is noticed.
 ///
 /// Thread contract: one thread at a time.
 class OwnDescriptors {
  public:
   ~OwnDescriptors() { release(); }
-  /// Remembers stdin, stdout and stderr as far as they are open, and one more.
+  /// Remembers stdin, stdout and stderr if they are open, and one more descriptor.
   void remember();
   void release();
   [[nodiscard]] bool all_open() const;
-  /// The number that the next descriptor would get; -1 if the process may open no more.
+  /// Returns the number that the next descriptor would get; -1 if the process may open no more.
   [[nodiscard]] int lowest_free() const;
 
  private:

@@ -18,10 +18,10 @@ const char* advice(AlarmKind kind) {
   return "; it is put back where it can be: a component must leave alone what all share";
 }
 
-// Where there is no run, there is nobody else to tell.
+// Only logs an alarm: outside a run nobody else takes it.
 void only_log(const idl::Alarm& alarm) { log_alarm(alarm, "orca"); }
 
-// The hooks that open and close things, and that run seldom enough to be looked at closely.
+// Returns whether a hook opens and closes things, and runs rarely enough for all checks.
 bool is_rare(Hook hook) {
   return hook == Hook::configure || hook == Hook::start || hook == Hook::stop || hook == Hook::suspend ||
          hook == Hook::resume;
@@ -91,7 +91,7 @@ void Environment::entering(const Activity& turn) {
   watched([&] {
     Guest& guest = this->guest(turn);
     look_each_turn(nullptr);
-    if (is_rare(turn.hook())) look_at_all(nullptr, false);  // what is wrong now was others
+    if (is_rare(turn.hook())) look_at_all(nullptr, false);  // what is wrong now was done by others
     begin_hook(guest);
     if (is_rare(turn.hook())) begin_balance(guest, turn.hook());
   });
@@ -128,8 +128,7 @@ void Environment::leave(Guest& guest, const Activity& turn) {
   ++turns_;
   guest.hook = hook_text(turn.hook(), turn.port());
   guest.had_turn = true;
-  if (turn.hook() == Hook::strand && guest.hooks_running == 0)
-    begin_hook(guest);  // it has no end to wait for
+  if (turn.hook() == Hook::strand && guest.hooks_running == 0) begin_hook(guest);  // no end of a hook follows
   look_each_turn(&guest);
   if (is_rare(turn.hook())) return;
   if (is_due(guest)) {
@@ -207,7 +206,7 @@ void Environment::end_balance(Guest& guest, Hook hook) {
 void Environment::accuse(const Guests& possible, const Finding& finding) {
   if (possible.size() == 1) return accuse_one(*possible.front(), finding);
   for (const Guest* guest : possible)
-    if (said_.contains({guest->name, finding.kind})) return;  // who does it is known
+    if (said_.contains({guest->name, finding.kind})) return;  // its author is known
   each_turn_ = true;
   if (said_.emplace("", finding.kind).second)
     found_.push_back(

@@ -19,34 +19,35 @@ namespace orca::host {
 
 /// The state of the process and of its threads that no component may change: floating-point control, locale,
 /// signal mask and handlers, working folder, umask, resource limits, descriptors. When control leaves a
-/// component the watches compare it with what it was and put it back, and an alarm is raised, once per
-/// component and kind. If a component has closed the process's own descriptors, the process ends.
+/// component, the watches compare this state with the reference and restore it. A change raises an alarm,
+/// once per component and kind. If a component has closed the process's own descriptors, the process ends.
 ///
-/// Floating-point control and locale are looked at each time, because that costs next to nothing; the rest
-/// around configure(), start(), stop(), suspend() and resume(), and at a component's first two and then each
-/// 64th turn. An alarm names a component only if no other one can have done it. Else it says "one of", and
-/// from then on each turn is looked at, so that whoever does it again is found. Where strands overlap, every
-/// component whose hook is not over can have changed the state of the process; the state of a thread is its
-/// component's alone.
+/// Floating-point control and locale are checked each time, because that costs next to nothing. The rest is
+/// checked around configure(), start(), stop(), suspend() and resume(), and at a component's first two turns
+/// and then every 64th. An alarm names a component only if no other one can have made the change. Otherwise
+/// it says "one of", and from then on every turn is checked, so that a repeated change finds its author.
+/// Where strands overlap, every component whose hook is not over can have changed the state of the process.
+/// Only its own component can have changed the state of a thread.
 ///
-/// Thread contract: keep() and let_go() before and after the strands live; the rest from the strands.
+/// Thread contract: keep() before the first strand starts and let_go() after the last one has ended; the rest
+/// from the strands.
 class Environment {
  public:
   static Environment& of_process();
 
   /// Records the present state as the reference.
-  /// @param strands_overlap  whether two components can be at work at the same time.
+  /// @param strands_overlap  whether two components can run at the same time.
   /// @param sink             takes the alarms, on the strand that raises them.
   void keep(bool strands_overlap, AlarmSink sink);
   void let_go();
 
-  /// Before a hook of a component.
+  /// Notes that a hook of a component begins.
   void entering(const Activity& turn);
-  /// When control leaves a component or a hardware container, because its code begins to wait for something.
+  /// Checks the state when a component or a hardware container gives up control to wait for something.
   void leaving(const Activity& turn);
-  /// After a hook, instead of leaving().
+  /// Checks the state after a hook; called instead of leaving().
   void left(const Activity& turn);
-  /// In the process that has called fork(), in a hook.
+  /// Reports a fork(); called in a hook, by the process that has called it.
   void forked(const Activity& turn);
 
  private:
@@ -56,29 +57,31 @@ class Environment {
     std::string hook;  // the last one
     std::uint64_t turns = 0;
     int hooks_running = 0;
-    bool had_turn = false;  // since everything was last looked at
+    bool had_turn = false;  // since the last full check
     DescriptorBalance balance;
-    std::uint64_t others_turns = 0;  // that were over when the hook began
+    std::uint64_t others_turns = 0;  // turns that were over when the hook began
   };
   using Guests = std::vector<const Guest*>;
 
   Environment();
-  // Calls `body` unless let go, and then raises what it has found.
+  // Calls `body` unless let_go() was called, then raises the alarms for what it has found.
   template <class Body>
   void watched(Body&& body);
   Guest& guest(const Activity& turn);
   void begin_hook(Guest& guest);
   void leave(Guest& guest, const Activity& turn);
   [[nodiscard]] bool is_due(const Guest& guest) const;
-  // Who can have changed the process since everything was last looked at.
+  // Returns the guests that can have changed the process since the last full check.
   [[nodiscard]] Guests suspects() const;
-  // Who can have changed the process since the last turn of anybody; null: nobody leaves.
+  // Returns the guests that can have changed the process since anybody's last turn.
+  // @param leaver  the guest that gives up control; null: none does.
   [[nodiscard]] Guests suspects_of_turn(const Guest* leaver) const;
   [[nodiscard]] bool is_alone(const Guest& guest) const;
-  // "bad: work()", "one of a, b".
+  // Returns the suspects for people: "bad: work()", "one of a, b".
   static std::string culprit(const Guests& possible);
 
-  // Who leaves; null: somebody enters.
+  // Makes the checks of every turn.
+  // @param leaver  the guest that gives up control; null: a guest enters.
   void look_each_turn(const Guest* leaver);
   void look_at_all(const Guest* leaver, bool may_open);
   void look_at_descriptors(const Guests& possible, bool may_open);
@@ -91,7 +94,7 @@ class Environment {
   std::mutex mutex_;
   bool kept_ = false;
   bool strands_overlap_ = false;
-  AlarmSink sink_;  // constant while kept
+  AlarmSink sink_;  // constant between keep() and let_go()
   Watches of_thread_each_turn_;
   Watches of_process_each_turn_;
   Watches of_thread_;
@@ -100,12 +103,12 @@ class Environment {
   std::map<std::string, Guest, std::less<>> guests_;
   std::uint64_t turns_ = 0;  // of all guests
   int hooks_running_ = 0;    // of all guests
-  bool each_turn_ = false;   // everything is looked at
+  bool each_turn_ = false;   // whether every turn is checked in full
   std::set<std::pair<std::string, AlarmKind>> said_;
-  std::vector<idl::Alarm> found_;  // still to be raised, without the lock
+  std::vector<idl::Alarm> found_;  // to be raised once the lock is released
 };
 
-/// Keeps the process's environment as long as it lives.
+/// A guard that keeps the process's environment during its own lifetime.
 class KeptEnvironment {
  public:
   KeptEnvironment(bool strands_overlap, AlarmSink sink) {

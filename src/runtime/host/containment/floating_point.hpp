@@ -8,8 +8,8 @@ namespace orca::host {
 
 #if defined(__x86_64__)
 
-/// How this thread computes: rounding, traps and the treatment of tiny numbers, without the flags that every
-/// computation sets. Faster than fegetenv().
+/// Returns how this thread computes: rounding, traps and the treatment of tiny numbers, without the flags
+/// that every computation sets. It is faster than fegetenv().
 /// @source  Intel 64 and IA-32 Architectures Software Developer's Manual, vol. 1, 8.1.5 and 10.2.3.
 inline std::uint32_t floating_point_control() {
   std::uint16_t x87 = 0;
@@ -26,7 +26,7 @@ inline void set_floating_point_control(std::uint32_t control) {
 
 #else
 
-/// How this thread rounds; elsewhere there is no portable way to see more.
+/// Returns how this thread rounds. There is no portable way to see more on other processors.
 inline std::uint32_t floating_point_control() { return static_cast<std::uint32_t>(std::fegetround()); }
 inline void set_floating_point_control(std::uint32_t control) { std::fesetround(static_cast<int>(control)); }
 

@@ -13,21 +13,21 @@
 
 namespace orca::host {
 
-/// How a call into a plugin went wrong.
+/// The way in which a call into a plugin went wrong.
 struct PluginFault {
-  bool interrupted = false;  ///< Not a fault: the strand was asked to leave.
-  std::string text;          ///< What was thrown, copied, so that it outlives the plugin.
+  bool interrupted = false;  ///< Not a fault: the strand was asked to end.
+  std::string text;          ///< What was thrown, copied so that it outlives the plugin.
 };
 
-/// Who is called, for alarms and for the last words of a process that dies of it.
+/// The code that is called, for alarms and for the last words of a process that dies of it.
 struct PluginCall {
-  const char* who;  ///< The component or hardware container.
+  const char* who;  ///< Name of the component or hardware container.
   Hook hook;
-  const void* code;       ///< Anything in the plugin.
-  const char* port = "";  ///< Whose handler it is.
+  const void* code;       ///< Any address in the plugin.
+  const char* port = "";  ///< Port of a handler; "" for other hooks.
 };
 
-/// The time in which a plugin's code runs: as long as the object lives.
+/// A guard for the time in which a plugin's code runs: its own lifetime.
 class PluginTurn {
  public:
   explicit PluginTurn(const PluginCall& call) : activity_(call.who, call.hook, call.code, call.port) {
@@ -42,13 +42,13 @@ class PluginTurn {
   const Activity activity_;
 };
 
-/// Looks at what a plugin's code has left behind so far. To be called when it begins to wait, before the turn
-/// of another one.
+/// Checks what a plugin's code has changed so far. To be called when the code begins to wait, before anyone
+/// else's turn.
 inline void pause_plugin_turn() {
   if (const Activity* const turn = Activity::current()) Environment::of_process().leaving(*turn);
 }
 
-/// Calls into a plugin; nothing that it throws comes further than here.
+/// Calls into a plugin and catches everything that it throws.
 template <class Call>
 std::optional<PluginFault> guarded_call(const PluginCall& called, Call&& call) {
   const PluginTurn turn(called);

@@ -28,7 +28,7 @@ namespace orca::host {
 namespace {
 
 constexpr std::array kSignals{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
-constexpr int kHighDescriptor = 900;  // out of the way of a plugin that closes everything it can count to
+constexpr int kHighDescriptor = 900;  // beyond the reach of a plugin that closes every number it can count to
 constexpr std::uintptr_t kNearStack = 64 * 1024;
 
 std::atomic<bool> g_armed{false};
@@ -38,7 +38,7 @@ int g_status = EXIT_FAILURE;
 std::array<struct sigaction, kSignals.size()> g_before;
 std::terminate_handler g_terminate_before = nullptr;
 
-// Puts a line together without anything that a signal handler may not use.
+// A line of text, built without anything that a signal handler must not use.
 class Line {
  public:
   Line& operator<<(std::string_view text) {
@@ -54,7 +54,7 @@ class Line {
   }
   void write() {
     *this << "\n";
-    if (::write(g_stderr, text_.data(), size_) < 0) return;  // nothing is left to be done about it
+    if (::write(g_stderr, text_.data(), size_) < 0) return;  // there is nothing left to do about it
   }
 
  private:
@@ -62,7 +62,7 @@ class Line {
   std::size_t size_ = 0;
 };
 
-// "error: avoid: work() "
+// Adds "error: avoid: work() ".
 void start_line(Line& line, const Activity* activity) {
   line << "error: ";
   if (activity == nullptr) {
@@ -77,7 +77,7 @@ void start_line(Line& line, const Activity* activity) {
   }
 }
 
-// "; the plugin is avoid.so"
+// Adds "; the plugin is avoid.so".
 void add_plugin(Line& line, const Activity* activity, const void* code) {
   const char* plugin = plugin::plugin_at(code);
   if (plugin == nullptr && activity != nullptr) plugin = plugin::plugin_at(activity->code());
@@ -125,7 +125,7 @@ void on_signal(int signal, siginfo_t* info, void* context) {
     add_plugin(line, activity, code_at(where));
     line.write();
   }
-  // A fault happens again on return and meets the old action. What was sent must be sent again.
+  // A fault happens again on return and meets the old action. A signal that was sent must be sent again.
   if (info->si_code <= 0) raise(signal);
 }
 
@@ -149,7 +149,8 @@ void on_terminate() {
   std::abort();
 }
 
-// exit() while plugins are at work: it would take down the process under the feet of all other components.
+// Ends the process on exit() while plugins run: a normal exit would destroy what the other components
+// still use.
 void end_instead_of_exit(std::string_view call) {
   if (!g_armed.load()) return;
   const Activity* const activity = Activity::current();
@@ -173,7 +174,7 @@ void after_fork_here() {
 }
 void after_fork_in_copy() {
   if (g_armed.exchange(false) && Activity::current() != nullptr)
-    _exit(1);  // else it is a copy of our own making
+    _exit(1);  // otherwise it is a copy made by Orca itself
 }
 
 void register_once() {
@@ -186,7 +187,7 @@ void register_once() {
   (void)registered;
 }
 
-// A stack for signal handlers, unless the thread has one, as it has under AddressSanitizer.
+// A stack for signal handlers, unless the thread has one already, as under AddressSanitizer.
 class SignalStack {
  public:
   SignalStack() {

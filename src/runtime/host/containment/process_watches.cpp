@@ -31,7 +31,7 @@ rlimit present(int resource) {
   return now;
 }
 
-// The soft limit if that has changed, else the hard one.
+// Names the soft limit if that has changed, else the hard one.
 std::string change_of(const char* name, const rlimit& before, const rlimit& now) {
   const bool soft = before.rlim_cur != now.rlim_cur;
   return std::string("the ") + (soft ? "" : "hard ") + "limit of the " + name + " from " +
@@ -39,7 +39,7 @@ std::string change_of(const char* name, const rlimit& before, const rlimit& now)
          text_of(soft ? now.rlim_cur : now.rlim_max);
 }
 
-// Sets the limit as it was, or as near to it as the hard limit allows.
+// Restores the limit, or comes as near to it as the hard limit allows.
 bool put_back(int resource, const rlimit& before, const rlimit& now) {
   const auto which = static_cast<__rlimit_resource_t>(resource);
   if (setrlimit(which, &before) == 0) return true;

@@ -12,7 +12,7 @@
 
 namespace orca::host {
 
-/// The locale of the process. A look costs some ten nanoseconds.
+/// A watch over the locale of the process. A look costs some ten nanoseconds.
 class LocaleWatch final : public Watch {
  public:
   void keep() override;
@@ -22,7 +22,7 @@ class LocaleWatch final : public Watch {
   std::string reference_;
 };
 
-/// What happens at SIGINT, SIGTERM and SIGSEGV.
+/// A watch over the handling of SIGINT, SIGTERM and SIGSEGV.
 class SignalHandlerWatch final : public Watch {
  public:
   void keep() override;
@@ -36,7 +36,7 @@ class SignalHandlerWatch final : public Watch {
   std::vector<Handler> reference_;
 };
 
-/// The working folder.
+/// A watch over the working folder.
 class FolderWatch final : public Watch {
  public:
   void keep() override;
@@ -46,7 +46,7 @@ class FolderWatch final : public Watch {
   std::string reference_;
 };
 
-/// The permissions that new files do not get.
+/// A watch over the umask: the permissions that new files do not get.
 class UmaskWatch final : public Watch {
  public:
   void keep() override;
@@ -56,7 +56,7 @@ class UmaskWatch final : public Watch {
   mode_t reference_ = 0;
 };
 
-/// The soft and hard limits of memory, CPU time, size of files and number of descriptors.
+/// A watch over the soft and hard limits of memory, CPU time, file size and number of descriptors.
 class LimitWatch final : public Watch {
  public:
   void keep() override;

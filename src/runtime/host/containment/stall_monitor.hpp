@@ -13,18 +13,18 @@
 
 namespace orca::host {
 
-/// A thread that watches an executive from outside. A component that computes for 2 s of CPU time, or sleeps
-/// in the system for 2 s, without waiting for anything of Orca is reported: as a standstill if it holds up
-/// all others, else in an alarm STALLED, once per component.
+/// A thread that watches an executive from outside. It reports a component that computes for 2 s of CPU time,
+/// or sleeps in the system for 2 s, without waiting for anything of Orca. If the component holds up all
+/// others, the report is a standstill, otherwise an alarm STALLED, once per component.
 ///
 /// Thread contract: lives around Executive::run().
 class StallMonitor {
  public:
-  /// Called in a standstill, with the component and what is wrong. Nothing else can run: it must end the
-  /// process.
+  /// A handler of a standstill, called with the component and what is wrong. It must end the process, because
+  /// nothing else can run.
   using Standstill = std::function<void(const std::string& component, const std::string& text)>;
 
-  /// @param sink, standstill  called by a thread of the monitor's own.
+  /// @param sink, standstill  called by the monitor's own thread.
   StallMonitor(Executive& executive, AlarmSink sink, Standstill standstill);
   ~StallMonitor();
   StallMonitor(const StallMonitor&) = delete;

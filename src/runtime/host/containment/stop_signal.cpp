@@ -52,8 +52,7 @@ void StopSignal::watch() {
     signalfd_siginfo info;
     if (read(signal_fd_, &info, sizeof info) != sizeof info) continue;
     if (requested_.exchange(true)) {
-      // Second signal: whoever waits for us has lost patience. If this process is still here then, it ends as
-      // it is.
+      // After a second signal the process gets a short time to end by itself. Then it is ended.
       if (poll(fds + 1, 1, kSecondSignalGraceMs) == 0) std::_Exit(exit_status_);
       return;
     }

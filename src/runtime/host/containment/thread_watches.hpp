@@ -9,7 +9,7 @@
 
 namespace orca::host {
 
-/// How the thread rounds, and which results it traps. A look costs a few nanoseconds.
+/// A watch over the thread's rounding and floating-point traps. A look costs a few nanoseconds.
 class FloatingPointWatch final : public Watch {
  public:
   void keep() override;
@@ -19,14 +19,14 @@ class FloatingPointWatch final : public Watch {
   std::uint32_t reference_ = 0;
 };
 
-/// That the thread has no locale of its own. A look costs a few nanoseconds.
+/// A watch that the thread has no locale of its own. A look costs a few nanoseconds.
 class ThreadLocaleWatch final : public Watch {
  public:
   void keep() override {}
   std::optional<Finding> look() override;
 };
 
-/// Which signals the thread blocks.
+/// A watch over the signals that the thread blocks.
 class SignalMaskWatch final : public Watch {
  public:
   void keep() override;

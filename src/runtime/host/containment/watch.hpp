@@ -8,10 +8,10 @@
 
 namespace orca::host {
 
-/// A change that must not have been made.
+/// A change that a component must not make.
 struct Finding {
   AlarmKind kind;
-  std::string deed;  ///< As it stands after "has": "changed the umask".
+  std::string deed;  ///< The words after "has": "changed the umask".
 };
 
 /// A watch over one kind of state that no component may change, because others depend on it.
@@ -27,8 +27,8 @@ class Watch {
   /// Records the present state as the reference.
   virtual void keep() = 0;
 
-  /// Compares with the reference and puts it back. What cannot be put back becomes the reference, so that it
-  /// is reported once.
+  /// Compares the state with the reference and restores it. A change that cannot be undone becomes part of
+  /// the reference, so that it is reported once.
   /// @return the change; nothing if there is none.
   virtual std::optional<Finding> look() = 0;
 };

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kLeast = 6;
 constexpr std::size_t kMost = 12;
 
-// The moment nearest to that time.
+// Returns the moment nearest to that time.
 const Scene::Moment& at(const Scene::Robot& robot, TimePoint time) {
   return *std::ranges::min_element(robot.moments, {}, [time](const Scene::Moment& moment) {
     return moment.time < time ? time - moment.time : moment.time - time;
@@ -25,14 +25,14 @@ bool is_near(const Scene::Robot& robot, const Scene::Mark& mark) {
          std::max(1.0, 2.0 * robot.radius_m);
 }
 
-// Marks do not say whose they are: those near enough are taken for the robot's own.
+// Adds the marks near a robot. Marks do not name their robot, so those near enough count as its own.
 void add_marks(const Scene::Robot& robot, const std::vector<Scene::Mark>& marks, const std::string& verb,
                std::vector<KeyMoment>& found) {
   for (const Scene::Mark& mark : marks)
     if (is_near(robot, mark)) found.push_back({&robot, &at(robot, mark.time), verb + mark.label});
 }
 
-// A moment that is worth a picture for two reasons is shown once.
+// Joins moments at the same time, so that a moment with two reasons is shown once.
 std::vector<KeyMoment> joined(std::vector<KeyMoment> found) {
   std::ranges::stable_sort(found, {}, [](const KeyMoment& key) { return key.moment->time; });
   std::vector<KeyMoment> keys;
@@ -45,7 +45,7 @@ std::vector<KeyMoment> joined(std::vector<KeyMoment> found) {
   return keys;
 }
 
-// Between the two that are farthest apart in time, the middle; nothing if there is none.
+// Returns the middle of the two neighbours that are farthest apart in time; nothing if there is none.
 std::optional<KeyMoment> middle_of_the_longest_gap(const Scene::Robot& robot,
                                                    const std::vector<KeyMoment>& keys) {
   const Scene::Moment* best = nullptr;

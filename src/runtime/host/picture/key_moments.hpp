@@ -12,12 +12,12 @@ namespace orca::host {
 struct KeyMoment {
   const Scene::Robot* robot = nullptr;
   const Scene::Moment* moment = nullptr;
-  std::string why;  ///< "start", "at kitchen", "contact of Dewey", "end", or empty: one between.
+  std::string why;  ///< "start", "at kitchen", "contact of Dewey", "end"; empty for a moment between.
 };
 
-/// Start, arrivals, contacts and end of each robot's run, and moments from the middle of the longest gaps, so
-/// that there are at least six if it had so many; ordered by robot, then time. Of more than twelve of a
-/// robot, start, end and twelve less two in even steps are kept.
+/// Returns the start, arrivals, contacts and end of each robot's run, ordered by robot, then time. Moments
+/// from the middle of the longest gaps fill them up to six, if the run has that many. If a robot has more
+/// than twelve, its start and end are kept, and the rest in even steps, twelve in all.
 ///
 /// @return pointers into `scene`.
 [[nodiscard]] std::vector<KeyMoment> key_moments(const Scene& scene);

@@ -9,9 +9,9 @@ namespace orca::host {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kTurnRadius = 0.6;         // [m] of the arc that shows a turn
-constexpr double kLeastMotion = 0.02;       // [m/s, rad/s] nothing is drawn below
-constexpr double kLongestTurn = 1.9 * kPi;  // [rad] an arc never closes
+constexpr double kTurnRadius = 0.6;         // [m] radius of the arc that shows a turn
+constexpr double kLeastMotion = 0.02;       // [m/s, rad/s] slower motion is not drawn
+constexpr double kLongestTurn = 1.9 * kPi;  // [rad] so that an arc never closes
 
 }  // namespace
 

@@ -11,18 +11,18 @@
 
 namespace orca::host {
 
-/// A rectangle of the picture [pixels] and what it shows.
+/// A rectangle of the picture [pixels] and the part of the world that it shows.
 struct Window {
   double left = 0.0;
   double top = 0.0;
   double width = 0.0;
   double height = 0.0;
-  Vec2 centre;          ///< Shown in the middle.
+  Vec2 centre;          ///< Point of the world in the middle of the window.
   double up_rad = 0.0;  ///< Direction of the world that points up.
   double scale = 1.0;   ///< [pixels/m]
 };
 
-/// Draws shapes that are given in metres into a window, and nothing outside of it.
+/// A painter of shapes given in metres. It draws into a window, and nothing outside of it.
 class Painter {
  public:
   Painter(cairo_t* cairo, const Window& window, const std::set<Layer>& hidden);
@@ -34,7 +34,7 @@ class Painter {
   void track(const std::vector<Vec2>& points);
   void arrival(const Scene::Mark& mark);
   void contact(const Scene::Mark& mark);
-  /// The robot, what it does and what it senses, at a moment of its run.
+  /// Draws the robot, what it does and what it senses, at a moment of its run.
   void robot(const Scene::Robot& robot, const Scene::Moment& moment);
   void frame();
 
@@ -55,7 +55,7 @@ class Painter {
   cairo_t* const cairo_;
   const Window window_;
   const std::set<Layer>& hidden_;
-  const double pixel_;  // [m]
+  const double pixel_;  // [m] width of a pixel
 };
 
 }  // namespace orca::host

@@ -52,7 +52,7 @@ Result<Drawing> drawing_of(const Scene& scene, const PictureOptions& options) {
   }
 }
 
-// The place of a name in a list that is in the order of an enum.
+// Returns the value of an enum by its name's position in a list of the same order.
 template <class Enum>
 std::optional<Enum> named(std::string_view name, const std::vector<std::string>& names) {
   const auto found = std::ranges::find(names, name);

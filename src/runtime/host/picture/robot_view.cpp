@@ -11,7 +11,7 @@
 namespace orca::host {
 namespace {
 
-constexpr double kShownMetres = 8.0;  // from side to side
+constexpr double kShownMetres = 8.0;  // [m] from side to side
 constexpr double kLargePixels = 800.0;
 constexpr double kSmallPixels = 400.0;
 constexpr double kCaptionPixels = 26.0;
@@ -25,7 +25,7 @@ std::string caption_of(const KeyMoment& key, TimePoint start) {
   return key.robot->name + "  " + numbers + (key.why.empty() ? "" : "  " + key.why);
 }
 
-// The way so far; moments are fewer than the points of the whole track.
+// Returns the track up to a moment, made of the moments. These are fewer than the points of the whole track.
 std::vector<Vec2> track_until(const Scene::Robot& robot, const Scene::Moment& now) {
   if (&now == &robot.moments.back()) return robot.track;
   std::vector<Vec2> points;
@@ -34,7 +34,7 @@ std::vector<Vec2> track_until(const Scene::Robot& robot, const Scene::Moment& no
   return points;
 }
 
-// A square with the robot in its middle, looking up, and words below.
+// Draws a square with the robot in its middle, looking up, and words below.
 void draw_frame(cairo_t* cairo, const Scene& scene, const std::set<Layer>& hidden, const KeyMoment& key,
                 Vec2 corner, double size) {
   const Scene::Moment& moment = *key.moment;

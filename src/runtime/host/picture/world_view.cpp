@@ -38,7 +38,7 @@ Box bounds(const Scene& scene) {
   return box;
 }
 
-// Where it is in the end, with what it sensed last.
+// Returns the robot's last pose, with its last sensor readings.
 Scene::Moment last_moment(const Scene::Robot& robot) {
   Scene::Moment moment = robot.moments.empty() ? Scene::Moment{} : robot.moments.back();
   moment.pose = robot.pose;

@@ -12,7 +12,7 @@ PluginCatalogue::PluginCatalogue(plugin::PluginIndex index, ClockKind clock)
 PluginCatalogue::~PluginCatalogue() { forget_answers(); }
 
 void PluginCatalogue::forget_answers() {
-  hardware_.clear();  // before the code that made it
+  hardware_.clear();  // before the code that made them
   const std::lock_guard lock(mutex_);
   held_.clear();
 }

@@ -8,7 +8,7 @@
 namespace orca::host {
 
 /// Collects the counters of all connections.
-/// @pre  the system has been built of this graph.
+/// @pre  the system was built from this graph.
 /// @thread  any.
 [[nodiscard]] RunCounters collect_counters(const graph::Graph& graph, const System& system);
 

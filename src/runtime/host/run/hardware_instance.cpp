@@ -34,7 +34,7 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
 }
 
 void HardwareInstance::state_changed(hw::HardwareState state) {
-  LastWords::prepare_thread();  // the first that is heard of from its strand
+  LastWords::prepare_thread();  // the first call from its strand
   run_.trace.state_changed(name_, to_string(traced_), to_string(state));
   traced_ = state;
   if (state == hw::HardwareState::fault)  // the container has written the reason to the log

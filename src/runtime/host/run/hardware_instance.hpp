@@ -22,8 +22,7 @@ class HardwareInstance final : public hw::HardwareHost {
   ~HardwareInstance() override;
 
   /// Constructs the container, sets its parameters and declares its endpoints.
-  /// @errors  internal with what it threw; invalid_argument with the first thing that is wrong with its
-  /// files.
+  /// @errors  internal with what it threw; invalid_argument with the first error in its files.
   Status construct(const std::map<std::string, ParamValue>& params);
 
   [[nodiscard]] hw::HardwareContainer& container() { return *container_; }

@@ -14,14 +14,14 @@
 
 namespace orca::host {
 
-/// The place where everything of a run comes together that is for people and programs outside: arrivals,
-/// contacts, alarms, log lines. It passes each on to the listener and keeps it for the result. Deliveries it
-/// hands to the trace first.
+/// The collector of everything in a run that is meant for people and programs outside: arrivals, contacts,
+/// alarms, log lines. It passes each on to the listener and keeps it for the result. Deliveries go to the
+/// trace first.
 ///
 /// Thread contract: any strand or thread.
 class Reporter final : public LinkObserver {
  public:
-  /// @param log_name  the name in the log for what concerns no component alone.
+  /// @param log_name  name in the log for whatever concerns no single component.
   Reporter(const Executive& executive, Trace& trace, RunListener& listener, std::string log_name);
 
   void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
@@ -29,11 +29,12 @@ class Reporter final : public LinkObserver {
     trace_.link_changed(client, server, connected);
   }
 
+  /// Reports a contact.
   /// @param origin  the hardware container that reports it.
   void report(const std::string& origin, const idl::Contact& contact);
   /// Writes an alarm to the log and reports it.
   void raise(idl::Alarm alarm);
-  /// Reports an alarm whose text is in the log already, from whoever it is about.
+  /// Reports an alarm whose text is in the log already, whatever it is about.
   void note(idl::Alarm alarm);
   void log(log::Level level, const std::string& who, std::string_view text);
   /// Writes an error of the run as a whole to the log.
@@ -41,7 +42,7 @@ class Reporter final : public LinkObserver {
 
   /// Adds arrivals and contacts to a picture.
   void draw(Scene& scene) const;
-  /// Fills in what was reported so far, and the start of the run.
+  /// Fills in what has been reported so far, and the start of the run.
   void fill(RunResult& result) const;
 
  private:
@@ -53,7 +54,8 @@ class Reporter final : public LinkObserver {
   const std::string log_name_;
   const TimePoint start_;
   mutable std::mutex mutex_;
-  std::map<std::string, ObjectRef> last_arrived_;  // by origin: what has several readers is heard once
+  std::map<std::string, ObjectRef>
+      last_arrived_;  // by origin: an object with several readers is reported once
   std::vector<idl::Arrived> arrivals_;
   std::vector<idl::Contact> contacts_;
   std::vector<idl::Alarm> alarms_;

@@ -14,12 +14,12 @@ namespace orca::host {
 struct RunContext {
   Executive& executive;
   Trace& trace;
-  /// Takes what people and programs outside are to know.
+  /// Takes whatever people and programs outside are to know.
   Reporter& reporter;
   std::uint64_t seed = 1;
-  /// Called whenever an instance has changed its state. Any strand.
+  /// Called whenever an instance has changed its state, on any strand.
   std::function<void()> changed;
-  /// A picture is to be drawn in the end.
+  /// Whether a picture is to be drawn at the end.
   bool wants_scene = false;
 };
 

@@ -43,7 +43,7 @@ class Run {
   RunResult execute() {
     run();
     RunResult result = this->result();
-    listener_.ended(result);  // before destructors of plugins, which may end the process
+    listener_.ended(result);  // before the destructors of plugins, which may end the process
     system_.reset();
     reporter_.fill(result);
     return result;
@@ -109,8 +109,8 @@ class Run {
     outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
   }
 
-  // Whether the components that the graph names in `ends` have come to an end; keeps the reason if one has
-  // failed.
+  // Returns whether the components that the graph names in `ends` have come to an end. Keeps the reason if
+  // one has failed.
   bool has_ended() {
     bool all_done = !graph_.ends.empty();
     for (const std::string& name : graph_.ends) {
@@ -124,7 +124,7 @@ class Run {
     return all_done;
   }
 
-  // Lets the closing phase run its course: the last client has gone, connections close down to the hardware.
+  // Waits for the closing phase: the last client has gone, and connections close down to the hardware.
   void wait_for_rest() {
     const TimePoint limit = executive_.now() + kRestLimit;
     while (!system_->at_rest() && executive_.now() < limit && !stop_.requested()) changed_->wait_until(limit);
@@ -140,18 +140,18 @@ class Run {
     listener_.abandon(result());  // a thread cannot be ended in any other way
   }
 
-  // On a thread of the monitor's own: no strand can run.
+  // Reports a standstill. It runs on the monitor's own thread, because no strand can run.
   void stand_still(const std::string& component, const std::string& text) {
     reporter_.log(log::Level::error, component, text);
     RunResult ended = result();
     ended.outcome = RunOutcome::failed;
     ended.culprit = component;
     ended.error = fail(Code::deadline_exceeded, text, component);
-    ended.trace_hash.reset();  // it would depend on when this was noticed
+    ended.trace_hash.reset();  // it would depend on the moment at which the standstill was noticed
     listener_.abandon(ended);
   }
 
-  // Alarms of the environment come on the strand of the component that they are about, if it is one.
+  // Raises an alarm. Alarms of the environment about a single component come on its strand.
   void raise(idl::Alarm alarm) {
     const Activity* const activity = Activity::current();
     if (runs_.load() && activity != nullptr && alarm.source() == activity->who())
@@ -173,7 +173,7 @@ class Run {
     result.outcome = outcome_;
     result.culprit = culprit_;
     result.error = error_;
-    const bool ran = outcome_ != RunOutcome::not_started;  // what never ran is equal to nothing
+    const bool ran = outcome_ != RunOutcome::not_started;  // without a start there is nothing to compare
     if (ran && executive_.is_virtual()) result.trace_hash = trace_.hash();
     reporter_.fill(result);
     if (ran) result.counters = collect_counters(graph_, *system_);
@@ -188,8 +188,8 @@ class Run {
   RunListener& listener_;
   Trace trace_;
   Reporter reporter_;
-  std::atomic<bool> runs_{false};      // there are strands
-  const KeptEnvironment environment_;  // around all that runs a plugin's code
+  std::atomic<bool> runs_{false};      // whether there are strands
+  const KeptEnvironment environment_;  // lives longer than all that runs a plugin's code
   const TimePoint start_ = executive_.now();
   std::unique_ptr<Event> changed_ = executive_.make_event();
   RunContext context_{executive_,

@@ -11,7 +11,7 @@
 namespace orca::host {
 namespace {
 
-// Calls `done` each time something changes, until it holds or the deadline comes.
+// Calls `done` each time something changes, until it returns true or the deadline comes.
 template <class Done>
 bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline, Done&& done) {
   while (!done()) {
@@ -71,7 +71,7 @@ Status System::build_components(PluginCatalogue& catalogue) {
   return ok();
 }
 
-// The ports are there from the start, the code comes when somebody asks for it.
+// Makes the ports of a component. They exist from the start; the code is loaded when somebody asks for it.
 Status System::declare(const graph::ComponentNode& node, ComponentInstance& instance,
                        PluginCatalogue& catalogue) {
   std::optional<graph::HardwareUse> use;

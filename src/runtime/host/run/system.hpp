@@ -23,12 +23,12 @@ namespace orca::host {
 /// Thread contract: one thread, the executive's main task once it runs.
 class System {
  public:
-  /// @param give_up  asked while things come up: true to wait no longer.
+  /// @param give_up  called while the system comes up; true ends the waiting.
   System(const graph::Graph& graph, RunContext& run, std::function<bool()> give_up)
       : graph_(graph), run_(run), give_up_(std::move(give_up)) {}
 
   /// Constructs hardware and components and connects them.
-  /// @errors  of whatever cannot be constructed, with its name.
+  /// @errors  the error of whatever cannot be constructed, with its name.
   Status build(PluginCatalogue& catalogue);
 
   /// Opens the hardware, then configures the components in the order of start_after. All must be up by the
@@ -39,24 +39,23 @@ class System {
   /// Lets the components work.
   void open_gates();
 
-  /// True when everything has let go of everything: components at rest, hardware idle.
+  /// Returns whether nothing is in use any more: components are at rest, hardware is idle.
   [[nodiscard]] bool at_rest() const;
 
-  /// Stops the motors, ends all strands.
+  /// Stops the motors and ends all strands.
   /// @return the names of those that did not end in time, with what they are doing.
   std::vector<std::string> take_down(TimePoint deadline);
 
-  /// Pauses a component between two laps, and lets it go on.
+  /// Pause a component between two laps, and resume it.
   /// @errors  not_found; failed_precondition if it cannot be suspended now; deadline_exceeded if a lap does
-  /// not
-  ///          end in time: it is carried out then when the lap does end.
+  ///          not end in time. The order is then carried out when the lap does end.
   Status suspend(const std::string& component, Event& changed, TimePoint deadline);
   Status resume(const std::string& component, Event& changed, TimePoint deadline);
 
-  /// Gives parameters new values, all together between two laps or none.
-  /// @param texts  as a graph would say them, with units.
-  /// @errors  not_found; invalid_argument with everything that is wrong; what the component itself says
-  ///          against the values; deadline_exceeded as above.
+  /// Gives parameters new values between two laps, all together or none.
+  /// @param texts  values as written in a graph, with units.
+  /// @errors  not_found; invalid_argument with everything that is wrong; the component's own objection to the
+  ///          values; deadline_exceeded as above.
   Status set_params(const std::string& component, const std::map<std::string, std::string>& texts,
                     Event& changed, TimePoint deadline);
 
@@ -84,8 +83,8 @@ class System {
   RunContext& run_;
   std::function<bool()> give_up_;
   std::vector<std::unique_ptr<HardwareInstance>> hardware_;
-  std::vector<std::unique_ptr<ComponentInstance>>
-      components_;  // in the order of the graph; gone before the hardware
+  // In the order of the graph; destroyed before the hardware.
+  std::vector<std::unique_ptr<ComponentInstance>> components_;
 };
 
 }  // namespace orca::host

@@ -16,8 +16,8 @@
 
 namespace orca::host {
 
-/// Records what happens in a run. In virtual time it also computes the trace hash: FNV-1a over (time in ns,
-/// component, port, seq, XCDR1 payload) of every delivery, in delivery order.
+/// A recorder of what happens in a run. In virtual time it also computes the trace hash: FNV-1a over (time in
+/// ns, component, port, seq, XCDR1 payload) of every delivery, in delivery order.
 ///
 /// The file has one line per event: time [s], what, who, details.
 ///
@@ -26,7 +26,7 @@ class Trace final : public LinkObserver {
  public:
   explicit Trace(const Executive& executive);
 
-  /// Also writes a file.
+  /// Starts to write a file as well.
   /// @errors  unavailable with the system's reason if the file cannot be written.
   Status open(const std::string& path);
 
@@ -46,8 +46,8 @@ class Trace final : public LinkObserver {
   mutable std::mutex mutex_;
   std::ofstream file_;
   Fnv1a hash_;
-  ObjectRef
-      serialized_;  // the object whose payload is in payload_: an object with many readers is serialised once
+  // The object whose payload is in payload_, so that an object with many readers is serialised once.
+  ObjectRef serialized_;
   std::vector<std::byte> payload_;
 };
 

@@ -175,7 +175,7 @@ Status ElfFile::read_dynamic(std::uint64_t offset, std::uint64_t size) {
 Status ElfFile::read_symbols(const Dynamic& dynamic) {
   const Versions versions = read_versions(dynamic);
   const std::size_t count = symbol_count(dynamic);
-  for (std::size_t i = 1; i < count; ++i) {  // the first means "no symbol"
+  for (std::size_t i = 1; i < count; ++i) {  // the first one means "no symbol"
     const auto symbol = get_at<Elf64_Sym>(dynamic.symbols + i * sizeof(Elf64_Sym));
     if (!symbol) return refuse("is damaged: its table of symbols is not completely in the file");
     const unsigned binding = ELF64_ST_BIND(symbol->st_info);
@@ -197,8 +197,7 @@ Status ElfFile::read_symbols(const Dynamic& dynamic) {
   return ok();
 }
 
-// Returns the name of each version and of its library, by the number that the symbols' version entries refer
-// to.
+// Returns the name of each version and of its library, by the number in the symbols' version entries.
 ElfFile::Versions ElfFile::read_versions(const Dynamic& dynamic) const {
   Versions versions;
   std::size_t left = kMostVersions;

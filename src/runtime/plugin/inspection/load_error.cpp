@@ -28,8 +28,7 @@ std::vector<std::string> folders_of(std::string_view list, const std::string& or
   return folders;
 }
 
-// The libraries that a library needs, opened as the loader would open them, and the names of the missing
-// ones.
+// The libraries that a library needs, opened as the loader would open them, and the names of those missing.
 class Needed {
  public:
   Needed(const ElfFile& library, const std::string& path) {

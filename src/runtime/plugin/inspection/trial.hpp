@@ -13,8 +13,7 @@ namespace orca::plugin {
 /// Its changes to memory are lost. An exception is not a failure of the trial.
 ///
 /// @param attempt  calls its argument before each step with a description of the step, for people.
-/// @errors  internal with the step and how it ended the copy; deadline_exceeded if the attempt did not end in
-///          time.
+/// @errors  internal with the step and how it ended the copy; deadline_exceeded if it takes too long.
 /// @thread  any; the copy has only the calling thread.
 [[nodiscard]] Status survives_trial(
     const std::function<void(const std::function<void(const std::string&)>&)>& attempt, Duration limit);

@@ -10,7 +10,7 @@
 namespace orca::graph {
 namespace {
 
-// The outermost first.
+// Returns the origins of a node, the outermost first.
 std::vector<const Origin*> way_of(const Node& node) {
   std::vector<const Origin*> way;
   for (const Origin* at = node.origin; at != nullptr; at = at->parent) way.push_back(at);
@@ -59,7 +59,7 @@ void Clashes::report_group(const Cause& cause, const std::vector<Clash>& group, 
   for (const auto& [node, first] : group)
     if (!node->is("connect")) taken.insert(node->value("name"));
   const bool one_cause = taken.size() > 1 && (cause.first != nullptr || cause.second != nullptr);
-  // Two connections between the same names are the consequence of these.
+  // Two connections between the same names are a consequence of these clashes.
   const auto follows = [&](const Node& node) {
     return node.is("connect") && (taken.contains(component_of(node.value("from"))) ||
                                   taken.contains(component_of(node.value("to"))));

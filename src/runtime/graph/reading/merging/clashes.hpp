@@ -11,8 +11,8 @@
 
 namespace orca::graph {
 
-// Names and connections that a graph has twice. They are gathered before they are reported, so that an
-// <include> or <use> that brings in what is there already gives one line, however much it brings.
+// The names and connections that a graph has twice. They are collected before they are reported, so that an
+// <include> or <use> that repeats existing parts gives one line, however many it repeats.
 class Clashes {
  public:
   // @param node  the later one of the two; both must outlive this object
@@ -24,7 +24,8 @@ class Clashes {
     const Node* node;
     const Node* first;
   };
-  // The ways on which both came into the graph, from where they part; null: the file where they part has it.
+  // The ways by which both came into the graph, from where they part; null: the part is in the file where
+  // they part.
   using Cause = std::pair<const Origin*, const Origin*>;
 
   static Cause cause_of(const Node& node, const Node& first);

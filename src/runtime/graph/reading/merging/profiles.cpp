@@ -15,7 +15,7 @@
 namespace orca::graph {
 namespace {
 
-// What makes two nodes the same one: the name, or both ends of a connection. Nothing if that is not known.
+// Returns what identifies a node: its name, or both ends of a connection; nothing if that is not known.
 std::optional<std::string> identity(const Node& node) {
   const bool edge = node.is("connect");
   const std::string name = edge ? node.value("from") : node.value("name");
@@ -47,7 +47,7 @@ void override_node(Node& base, const Node& over) {
   for (const Node& child : over.children) override_child(base, child);
 }
 
-// One kind of parts while sections are merged into it.
+// A merger of sections into the parts of one kind.
 class Merger {
  public:
   Merger(std::vector<Node>& nodes, Clashes& clashes) : nodes_(nodes), clashes_(clashes) {}
@@ -76,7 +76,7 @@ class Merger {
 
   std::vector<Node>& nodes_;
   Clashes& clashes_;
-  std::map<std::string, const Node*> section_;  // what the present section has defined
+  std::map<std::string, const Node*> section_;  // definitions of the present section
   std::map<std::string, std::size_t> index_;
 };
 
@@ -89,7 +89,7 @@ void report_unknown(const std::string& wanted, const xml::Position& position,
                "there is no profile " + in_quotes(wanted) + "; the graph has: " + listed(names) + hint);
 }
 
-// The profiles of a graph, in its order. Those of one name add up if they come from different files.
+// Returns the profiles of a graph, in its order. Profiles of one name add up if their files differ.
 std::vector<const Node*> profiles_of(const Node& graph, Report& report) {
   std::vector<const Node*> profiles;
   std::map<std::pair<std::string, const Origin*>, xml::Position> seen;
@@ -110,7 +110,7 @@ std::vector<const Node*> profiles_of(const Node& graph, Report& report) {
   return profiles;
 }
 
-// What is asked for, and where.
+// Returns the profiles that are asked for, and where.
 std::vector<std::pair<std::string, xml::Position>> wanted_profiles(const Node& graph,
                                                                    const std::vector<std::string>& chosen) {
   std::vector<std::pair<std::string, xml::Position>> wanted;
@@ -122,7 +122,7 @@ std::vector<std::pair<std::string, xml::Position>> wanted_profiles(const Node& g
   return wanted;
 }
 
-// The profiles that are chosen, in the order of the choice, then of the graph.
+// The chosen profiles, in the order of the choice, then of the graph.
 class Choice {
  public:
   Choice(const Assembly& assembly, const std::vector<std::string>& chosen, Report& report)
@@ -151,7 +151,7 @@ class Choice {
     }
   }
 
-  // With those of a file that it includes.
+  // Adds a profile, with those of the files that it includes.
   void add(const Node& profile) {
     result_.push_back(&profile);
     for (const Node* inner : profiles_of(profile, report_)) {

@@ -10,15 +10,15 @@
 
 namespace orca::graph {
 
-// What a graph consists of once its profiles are merged.
+// The parts of a graph once its profiles are merged.
 struct Parts {
   std::vector<Node> hardware;
   std::vector<Node> components;
   std::vector<Node> connections;
-  bool some_missing = false;  // because a file or a profile is: parts of any kind may be in it
+  bool some_missing = false;  // a file or a profile is missing, and parts of any kind may be in it
 };
 
-// The graph's own parts with the chosen profiles merged over them in order.
+// Returns the graph's own parts with the chosen profiles merged over them in order.
 // @param chosen  names from the command line; none: the graph's default_profile.
 Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& chosen, Report& report);
 

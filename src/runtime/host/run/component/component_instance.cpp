@@ -12,7 +12,7 @@ ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings
       life_(parts_, residency_),
       loop_(parts_, residency_, life_) {}
 
-// The destructor of a component may still use any part.
+// Destroys the component first, because its destructor may still use any part.
 ComponentInstance::~ComponentInstance() { residency_.destroy(); }
 
 void ComponentInstance::start() {

@@ -13,26 +13,26 @@
 namespace orca::host {
 
 /// One component in this process, as the rest of the process sees it. The state machine is in
-/// component_states.hpp, what runs on the strand in component_loop.hpp.
+/// component_states.hpp, the code that runs on the strand in component_loop.hpp.
 ///
 /// Thread contract: the constructor, load() and declare() before start(); the rest from anywhere.
 class ComponentInstance final {
  public:
-  /// @param loader, unloader  bring the type's code into memory and let it go; on the strand once it runs.
-  /// @param hardware  what the graph binds to the component, or null.
+  /// @param loader, unloader  bring the type's code into memory and release it, on the strand once it runs.
+  /// @param hardware  the hardware that the graph binds to the component, or null.
   ComponentInstance(RunContext& run, ComponentSettings settings, Residency::Loader loader,
                     Residency::Unloader unloader, Device* hardware);
   ~ComponentInstance();
   ComponentInstance(const ComponentInstance&) = delete;
   ComponentInstance& operator=(const ComponentInstance&) = delete;
 
-  /// Residency::load() for a component that is there from the start.
+  /// Loads a component that is there from the start; see Residency::load().
   Status load() { return residency_.load(); }
-  /// Makes the ports of one that is loaded on demand only.
+  /// Makes the ports of a component that is loaded only on demand.
   void declare(const Contract& contract) { residency_.declare(contract); }
 
   [[nodiscard]] const std::string& name() const { return parts_.settings.name; }
-  /// The endpoint of a declared port, or null.
+  /// Returns the endpoint of a declared port, or null.
   [[nodiscard]] Endpoint* endpoint(const std::string& port) const { return parts_.ports.find(port); }
 
   void start();
@@ -42,29 +42,29 @@ class ComponentInstance final {
   void request_exit() { loop_.request_exit(); }
   [[nodiscard]] bool join_until(TimePoint deadline) { return parts_.strand.join_until(deadline); }
 
-  /// Orders are carried out between two laps, one after the other. A lap that waits and has not taken or sent
-  /// anything yet is given up for them, and begins anew after.
+  /// Return the order. Orders are carried out between two laps, one after the other. A lap that waits and has
+  /// not taken or sent anything yet is given up for them, and begins anew afterwards.
   std::shared_ptr<Order> order_suspend();
   std::shared_ptr<Order> order_resume();
-  /// All values change together, or none does.
+  /// Orders new parameter values. They change all together, or none does.
   /// @param values  checked against the contract.
   std::shared_ptr<Order> order_params(ParamValues values);
 
   [[nodiscard]] ComponentState state() const { return life_.state(); }
   [[nodiscard]] bool at_rest() const;
-  /// Whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
+  /// Returns whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
   [[nodiscard]] bool has_failed() const { return life_.has_failed(); }
-  /// Why it is in WORK_FAILED, or why it could not be configured.
+  /// Returns why it is in WORK_FAILED, or why it could not be configured.
   [[nodiscard]] std::string failure() const { return life_.failure(); }
-  /// The hook that the strand is in now, for people: "work()"; of a handler its port, "" between hooks.
+  /// Returns the hook that the strand is in now, for people: "work()"; for a handler its port; else "".
   [[nodiscard]] const char* current_hook() const { return parts_.hooks.current(); }
-  /// Fills in the mission and cause of what the component works on. On its strand.
+  /// Fills in the mission and cause of what the component works on. To be called on its strand.
   void stamp(idl::OrcaObject& object) const { parts_.home.provenance.stamp(object); }
-  /// What its parameters may be.
+  /// Returns the contracts of its parameters.
   [[nodiscard]] const std::vector<ParamContract>& param_contracts() const {
     return parts_.params.contracts();
   }
-  /// What they are now.
+  /// Returns the present values of its parameters.
   [[nodiscard]] ParamValues params() const { return parts_.params.values(); }
 
  private:

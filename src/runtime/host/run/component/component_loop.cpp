@@ -39,7 +39,7 @@ void ComponentLoop::turn() {
   parts_.strand.pause_until(next_wake_up());
 }
 
-// What there is to be seen that leads out of the present state.
+// Returns a circumstance that leads out of the present state; nothing if there is none.
 std::optional<ComponentEvent> ComponentLoop::look() const {
   const auto leads_on = [this](ComponentEvent event) { return transition(life_.state(), event) != nullptr; };
   const ComponentEvent clients = wanted() ? ComponentEvent::wanted : ComponentEvent::unwanted;
@@ -125,12 +125,12 @@ bool ComponentLoop::must_leave_lap() const {
   pause_plugin_turn();
   if (is_to_exit()) return true;
   if (!in_lap_) return false;
-  // Nothing is lost with a lap that has only waited so far.
+  // A lap that has only waited so far can be given up without loss.
   const bool clean = parts_.strand.activity() == activity_before_lap_;
   return !wanted() || (clean && (parts_.orders.waits() || parts_.ports.has_intake()));
 }
 
-// When an idle component is to be unloaded; kForever if it is to stay.
+// Returns when an idle component is to be unloaded; kForever if it is to stay.
 TimePoint ComponentLoop::unload_time() const {
   if (!parts_.settings.on_demand || parts_.settings.stay_warm) return kForever;
   return saturating_add(std::max(life_.entered(), last_intake_), parts_.settings.idle_time);

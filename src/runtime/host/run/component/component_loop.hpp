@@ -11,8 +11,8 @@
 
 namespace orca::host {
 
-/// The body of one component's strand: looks at the world, turns what it sees into events for the state
-/// machine, and calls laps and handlers between them.
+/// The body of one component's strand. It checks the component's circumstances, turns them into events for
+/// the state machine, and calls laps and handlers between them.
 ///
 /// Thread contract: open_gate() and request_exit() from anywhere, the rest on the strand.
 class ComponentLoop {

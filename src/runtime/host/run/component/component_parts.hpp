@@ -16,16 +16,15 @@
 
 namespace orca::host {
 
-/// What one component of this process consists of, apart from its code. Each part has its own thread
-/// contract.
+/// The parts of one component in this process, apart from its code. Each part has its own thread contract.
 struct ComponentParts {
   ComponentParts(RunContext& run_of_all, ComponentSettings settings_of_this, Device* hardware);
   ComponentParts(const ComponentParts&) = delete;
   ComponentParts& operator=(const ComponentParts&) = delete;
 
-  /// Makes a failure of the component known: a line in the log, and an alarm with the mission and cause of what
-  /// the component works on. On its strand.
-  /// @param port  whose handler it is; "" for other hooks.
+  /// Reports a failure of the component: writes a line to the log, and raises an alarm with the mission and
+  /// cause of what the component works on. To be called on its strand.
+  /// @param port  port of a handler; "" for other hooks.
   void report_failure(Hook hook, const std::string& text, const char* port = "");
 
   RunContext& run;

@@ -10,20 +10,20 @@
 
 namespace orca::host {
 
-/// How the graph wants one component to run.
+/// The settings that the graph gives one component.
 struct ComponentSettings {
   std::string name;
   int priority = 0;
   std::optional<bool> autonomous;
-  std::optional<Trigger> trigger;  ///< Replaces the author's.
+  std::optional<Trigger> trigger;  ///< Replaces the author's trigger.
   bool on_demand = false;          ///< Loaded when first asked for.
-  bool stay_warm = false;          ///< Once loaded it stays.
-  Duration idle_time{0};           ///< An on-demand component that nobody has used for that long is unloaded.
+  bool stay_warm = false;          ///< Stays in memory once it is loaded.
+  Duration idle_time{0};           ///< An on-demand component that is not used for that long is unloaded.
   std::map<std::string, ParamValue> params;
-  /// What the graph calls a port, by the author's name for it.
+  /// Names of ports in the graph, by the author's names.
   std::map<std::string, std::string> port_names;
 
-  /// Returns the graph's name for a port of the author's.
+  /// Returns the graph's name for a port, given the author's name.
   [[nodiscard]] const std::string& name_in_graph(const std::string& port) const {
     const auto renamed = port_names.find(port);
     return renamed == port_names.end() ? port : renamed->second;

@@ -11,27 +11,28 @@
 
 namespace orca::host {
 
-/// What a component's object has declared. It may hold the plugin's code, so it must go before that does.
+/// The declarations of a component's object. They may hold the plugin's code, so they must be destroyed
+/// before it.
 struct Declarations {
   std::vector<PortDeclaration> ports;  ///< By their names in the graph.
   std::vector<ParamDeclaration> params;
   Trigger trigger;
 };
 
-/// What one component sees of the process around it, and what it declares there.
+/// The process around one component, as the component sees it, and the place for its declarations.
 ///
 /// Thread contract: as ComponentHost; the rest on the component's strand, or before that starts.
 class ComponentSite final : public ComponentHost {
  public:
-  /// @param hardware  what the graph binds to the component, or null.
+  /// @param hardware  the hardware that the graph binds to the component, or null.
   ComponentSite(RunContext& run, const ComponentSettings& settings, Strand& strand, Device* hardware);
 
   [[nodiscard]] const Declarations& declared() const { return declared_; }
-  /// Whether the component is to work without clients.
+  /// Returns whether the component is to work without clients.
   [[nodiscard]] bool stays_active() const { return stays_active_; }
-  /// Drops what may lead into the plugin's code.
+  /// Drops everything that may lead into the plugin's code.
   void forget_code();
-  /// Is as it was before a component was constructed here.
+  /// Restores the state from before a component was constructed here.
   void reset();
 
   // ComponentHost

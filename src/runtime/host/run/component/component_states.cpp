@@ -41,7 +41,7 @@ constexpr auto kRows = std::to_array<ComponentTransition>({
     // Loaded on demand.
     {State::idle, Event::unused, State::unloaded, {Action::hold_intake, Action::unload, Action::enter}},
 
-    // What cannot go on.
+    // Failures.
     {State::init, Event::failed, State::broken, kFailAtRest},
     {State::init, Event::threw, State::broken, kFailAtRest},
     {State::idle, Event::threw, State::broken, kFailAtRest},

@@ -8,8 +8,8 @@
 
 namespace orca::host {
 
-/// The states of a component: those of thesis Fig. 9.1, INIT and EXIT, which the thesis leaves to the
-/// constructor and the destructor, and what on-demand loading and an operator's pause add (ADR 0007).
+/// The states of a component. They are those of thesis Fig. 9.1, those for on-demand loading and an
+/// operator's pause (ADR 0007), and INIT and EXIT, which the thesis leaves to constructor and destructor.
 enum class ComponentState {
   unloaded,        ///< Its code is not in memory: nobody has asked for it, or not for a while.
   init,            ///< It is being loaded and configured.
@@ -18,13 +18,13 @@ enum class ComponentState {
   work,            ///< It works, lap by lap.
   work_done,       ///< Its task is done, and a client is still there.
   work_failed,     ///< It has reported a failure. It may try again after its last client has gone.
-  broken,          ///< It threw, or it could not be configured. It stays so.
+  broken,          ///< It threw, or it could not be configured. It stays in this state.
   suspended_idle,  ///< Paused while it was IDLE.
   suspended_work,  ///< Paused while it was at WORK.
   exit,            ///< Its strand ends.
 };
 
-/// What makes a component change its state.
+/// The events that make a component change its state.
 enum class ComponentEvent {
   // Circumstances.
   asked_for,  ///< There is a client, an object or a question for a component that is not loaded.
@@ -40,29 +40,29 @@ enum class ComponentEvent {
   configured,
   started,
   interrupted,  ///< start() was made to return because the strand is to end.
-  done,         ///< work() says that the task is done.
+  done,         ///< work() reports that the task is done.
   failed,       ///< A hook reports a failure.
   threw,        ///< A hook or a handler threw.
 };
 
-/// What is done in a transition.
+/// The actions of a transition.
 enum class ComponentAction {
   enter,         ///< The new state holds from here on, and others see it.
   load,          ///< Loads the code and constructs the component.
   configure,     ///< Calls configure().
-  open_intake,   ///< What is sent and asked goes to the component's handlers from here on.
-  hold_intake,   ///< What is sent and asked waits from here on.
-  close_intake,  ///< What is sent and asked is refused from here on: the component has failed.
+  open_intake,   ///< From here on requests and sent objects go to the component's handlers.
+  hold_intake,   ///< From here on requests and sent objects wait.
+  close_intake,  ///< From here on requests and sent objects are refused: the component has failed.
   subscribe,     ///< Subscribes to the component's own providers (thesis Fig. 9.2).
   start,         ///< Calls start().
   begin_laps,    ///< The first lap is due now.
   stop,          ///< Calls stop().
-  try_stop,      ///< Calls stop(); what it throws is reported and changes nothing.
-  unsubscribe,   ///< Lets the providers go; the task ends.
+  try_stop,      ///< Calls stop(); an exception is reported and changes nothing.
+  unsubscribe,   ///< Unsubscribes from the providers; the task ends.
   suspend,       ///< Calls suspend().
   resume,        ///< Calls resume().
   unload,        ///< Destroys the component and unloads its code.
-  end,           ///< Refuses orders, and what is sent and asked: the system is being stopped.
+  end,           ///< Refuses orders, requests and sent objects: the system is being stopped.
 };
 
 inline constexpr std::size_t kComponentStates = 11;
@@ -70,16 +70,16 @@ inline constexpr std::size_t kComponentEvents = 14;
 
 using ComponentTransition = Transition<ComponentState, ComponentEvent, ComponentAction>;
 
-/// The state machine of a component.
+/// Looks up a transition in the state machine of a component.
 ///
-/// An action may end in an event of its own: start() in `started`, any hook in `threw`. That event is taken
-/// at once, in the state that holds then, and the rest of its row is left out.
+/// An action may end in an event of its own: start() in `started`, any hook in `threw`. That event is handled
+/// at once, in the state that holds then, and the rest of the row's actions are left out.
 ///
-/// @return the row for the event in the state, or null if the event leads nowhere; kind_of() says what that
-///         means.
+/// @return the row for the event in the state, or null if the event leads nowhere; kind_of() tells what a
+///         null means.
 [[nodiscard]] const ComponentTransition* transition(ComponentState state, ComponentEvent event);
 
-/// All rows, in the order of a component's life.
+/// Returns all rows, in the order of a component's life.
 [[nodiscard]] std::span<const ComponentTransition> component_transitions();
 
 [[nodiscard]] constexpr EventKind kind_of(ComponentEvent event) {
@@ -87,20 +87,20 @@ using ComponentTransition = Transition<ComponentState, ComponentEvent, Component
   return event <= ComponentEvent::resume ? EventKind::order : EventKind::outcome;
 }
 
-/// The state's name in traces and messages, in the words of the thesis: both SUSPENDED states have one name,
-/// and a broken component is in WORK_FAILED.
+/// Returns the state's name in traces and messages, in the words of the thesis. Both SUSPENDED states have
+/// one name, and a broken component is in WORK_FAILED.
 [[nodiscard]] const char* to_string(ComponentState state);
 
 [[nodiscard]] constexpr bool is_suspended(ComponentState state) {
   return state == ComponentState::suspended_idle || state == ComponentState::suspended_work;
 }
 
-/// Whether the component is in WORK_FAILED, for whatever reason.
+/// Returns whether the component is in WORK_FAILED, for whatever reason.
 [[nodiscard]] constexpr bool is_failed(ComponentState state) {
   return state == ComponentState::work_failed || state == ComponentState::broken;
 }
 
-/// Whether what is sent and asked is handled in this state, between two laps.
+/// Returns whether requests and sent objects are handled in this state, between two laps.
 [[nodiscard]] constexpr bool takes_intake(ComponentState state) {
   return state == ComponentState::idle || state == ComponentState::work || state == ComponentState::work_done;
 }

@@ -11,8 +11,8 @@
 
 namespace orca::host {
 
-/// The only way into a component's code once it is constructed: calls one hook or handler at a time, and
-/// nothing that it throws gets further.
+/// The only way into a component's code once it is constructed. It calls one hook or handler at a time, and
+/// catches everything that they throw.
 ///
 /// Thread contract: current() from anywhere, the rest on the component's strand.
 class HookCaller {
@@ -20,15 +20,15 @@ class HookCaller {
   /// @param component  its name in the graph.
   explicit HookCaller(std::string component) : component_(std::move(component)) {}
 
-  /// Sets what the called code belongs to: anything in the plugin, or null while none is loaded.
+  /// Sets the code that is called: any address in the plugin, or null while none is loaded.
   void set_code(const void* code) { code_ = code; }
 
   /// Calls `body` as this hook.
-  /// @param port  whose handler it is; "" for other hooks. Outlives the call.
-  /// @return what it threw.
+  /// @param port  port of a handler; "" for other hooks. It must outlive the call.
+  /// @return the exception or interruption; nothing if the call returned.
   std::optional<PluginFault> call(Hook hook, const std::function<void()>& body, const char* port = "");
 
-  /// The hook that the strand is in now, for people: "work()"; of a handler its port, "" between hooks.
+  /// Returns the hook that the strand is in now, for people: "work()"; for a handler its port; else "".
   [[nodiscard]] const char* current() const { return hook_.load(std::memory_order_acquire); }
 
  private:

@@ -8,20 +8,20 @@
 
 namespace orca::host {
 
-/// What starts the laps of one component: the end of the lap before, a period, or an object on a port.
+/// The trigger that starts the laps of one component: the last lap's end, a period, or an object on a port.
 ///
 /// Thread contract: the component's strand.
 class LapTrigger {
  public:
-  /// @errors  invalid_argument if it is to be a port that is no PushProxy of the component.
+  /// @errors  invalid_argument if the trigger's port is no PushProxy of the component.
   Status choose(const Trigger& trigger, const PortSet& ports);
 
   /// Makes the first lap due now.
   void begin(TimePoint now) { next_ = now; }
   [[nodiscard]] bool is_due(TimePoint now) const;
-  /// Notes that a lap begins now. Laps that were missed are not made up for.
+  /// Notes that a lap begins now. Missed laps are not made up for.
   void lap_begins(TimePoint now);
-  /// When the next lap is due; kForever if that is not a matter of time.
+  /// Returns when the next lap is due; kForever if no time starts it.
   [[nodiscard]] TimePoint next() const;
 
  private:

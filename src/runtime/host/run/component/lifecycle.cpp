@@ -24,7 +24,7 @@ void Lifecycle::fail_with(ComponentEvent event, Hook hook, const std::string& wh
   handle(report(event, hook, what, port));
 }
 
-// The one place where a component's failure is made known.
+// Reports a failure of the component; nothing else does.
 ComponentEvent Lifecycle::report(ComponentEvent event, Hook hook, const std::string& what, const char* port) {
   const std::string text = hook_text(hook, port) + " " + what;
   {
@@ -58,7 +58,7 @@ Lifecycle::FollowUp Lifecycle::carry_out(ComponentAction action, ComponentState 
   }
 }
 
-// The actions that call nothing of the component's.
+// Carries out the actions that call none of the component's code.
 void Lifecycle::arrange(ComponentAction action) {
   switch (action) {
     case ComponentAction::open_intake: return parts_.ports.open();

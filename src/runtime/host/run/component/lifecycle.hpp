@@ -12,8 +12,8 @@
 
 namespace orca::host {
 
-/// The state of one component: asks the table of component_states.hpp what an event means, carries the
-/// actions out, and keeps why the component failed.
+/// The state of one component. It looks up in the table of component_states.hpp what an event means, carries
+/// out the actions, and keeps the reason for a failure.
 ///
 /// Thread contract: state(), has_failed() and failure() from anywhere, the rest on the component's strand.
 class Lifecycle {
@@ -22,27 +22,27 @@ class Lifecycle {
   Lifecycle(const Lifecycle&) = delete;
   Lifecycle& operator=(const Lifecycle&) = delete;
 
-  /// Takes an event, and those that its actions end in.
+  /// Handles an event, and the events that its actions end in.
   void handle(ComponentEvent event);
-  /// Reports a failure, then takes the event: `failed` or `threw`.
+  /// Reports a failure, then handles the event: `failed` or `threw`.
   /// @param hook  where it happened.
   /// @param what  "threw ...", "failed: ..."
-  /// @param port  whose handler it is; "" for other hooks.
+  /// @param port  port of a handler; "" for other hooks.
   void fail_with(ComponentEvent event, Hook hook, const std::string& what, const char* port = "");
 
-  // Orders.
+  // Orders, carried out between two laps.
   Status suspend();
   Status resume();
-  /// All values change together, or none does.
+  /// Changes all values together, or none.
   /// @errors  the component's own; internal with what it threw.
   Status change_params(const ParamValues& values);
 
   [[nodiscard]] ComponentState state() const { return state_.load(std::memory_order_acquire); }
-  /// When the state was entered.
+  /// Returns when the state was entered.
   [[nodiscard]] TimePoint entered() const { return entered_; }
-  /// Whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
+  /// Returns whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
   [[nodiscard]] bool has_failed() const { return has_failed_.load(std::memory_order_acquire); }
-  /// Why it is in WORK_FAILED.
+  /// Returns why the component is in WORK_FAILED.
   [[nodiscard]] std::string failure() const;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace orca::host {
 
-/// One thing that a component is asked for from outside. It is done on its strand, between two laps.
+/// A request to one component from outside. It is carried out on the component's strand, between laps.
 ///
 /// Thread contract: done() from anywhere, result() after it; the rest on the component's strand.
 class Order {

@@ -13,24 +13,24 @@
 
 namespace orca::host {
 
-/// The orders that one component has been given and has not carried out yet, oldest first.
+/// The orders that were given to one component and are not carried out yet, oldest first.
 ///
 /// Thread contract: add() and waits() from anywhere, the rest on the component's strand.
 class OrderQueue {
  public:
-  /// @param strand  of the component: woken when an order comes.
+  /// @param strand  the component's strand, which is woken when an order comes.
   explicit OrderQueue(Strand& strand) : strand_(strand) {}
 
-  /// Hands in an order. After refuse_all() it is refused at once.
+  /// Adds an order. After refuse_all() the order is refused at once.
   /// @param body  carries it out, on the strand.
   std::shared_ptr<Order> add(std::function<Status()> body);
-  /// Whether an order waits.
+  /// Returns whether an order waits.
   [[nodiscard]] bool waits() const { return waits_.load(std::memory_order_acquire); }
 
   /// Carries out the oldest order.
   /// @return false if there is none.
   bool carry_out_next();
-  /// Refuses the orders that wait and those that come later: the component has ended.
+  /// Refuses the waiting orders and all later ones, because the component has ended.
   void refuse_all();
 
  private:

@@ -13,20 +13,20 @@ namespace orca::host {
 
 using ParamValues = std::map<std::string, ParamValue>;
 
-/// The parameters of one component: what they may be and what they are. They outlive its code.
+/// The parameters of one component: their contracts and their values. They outlive its code.
 ///
 /// Thread contract: declare() before the component's strand starts; values() and contracts() from anywhere;
 /// keep() on the strand.
 class Parameters {
  public:
-  /// @param values  that the graph gives.
+  /// @param values  the values that the graph gives.
   explicit Parameters(ParamValues values) : values_(std::move(values)) {}
 
   void declare(std::vector<ParamContract> contracts) { contracts_ = std::move(contracts); }
   [[nodiscard]] const std::vector<ParamContract>& contracts() const { return contracts_; }
 
   [[nodiscard]] ParamValues values() const;
-  /// Sets what the values are from now on, for this object of the component and for those after it.
+  /// Sets the values for this object of the component and for those after it.
   void keep(ParamValues values);
 
  private:
@@ -35,7 +35,7 @@ class Parameters {
   ParamValues values_;
 };
 
-/// Gives a component's object the values of the parameters that it has declared.
+/// Sets the values of the parameters that a component's object has declared.
 void set_params(const std::vector<ParamDeclaration>& declared, const ParamValues& values);
 
 }  // namespace orca::host

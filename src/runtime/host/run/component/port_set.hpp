@@ -15,7 +15,7 @@
 
 namespace orca::host {
 
-/// The ports of one component as the host process owns them: they are there before the component's code is
+/// The ports of one component, owned by the host process. They are made before the component's code is
 /// loaded, stay when it is unloaded or exchanged, and queue meanwhile.
 ///
 /// Thread contract: add() before the system runs; find() from anywhere; the rest on the component's strand.
@@ -31,23 +31,23 @@ class PortSet {
 
   /// Makes an endpoint.
   void add(const PortContract& contract);
-  /// Null if there is no such port.
+  /// Returns the endpoint of a port; null if there is no such port.
   [[nodiscard]] Endpoint* find(const std::string& port) const;
 
-  /// Lets the handles of a component that was constructed just now lead here.
+  /// Connects the handles of a newly constructed component with these ports.
   /// @errors  failed_precondition if it declares a port that is not there: its code is not the one that the
   ///          graph was checked with.
   Status bind(const std::vector<PortDeclaration>& declarations);
   /// Forgets everything that belongs to the component's code.
   void unbind();
 
-  /// From now on what comes in is handed to the component's handlers.
+  /// Passes requests and sent objects to the component's handlers from now on.
   void open();
-  /// What comes in waits until the component is there.
+  /// Lets requests and sent objects wait until the component is there.
   void hold();
-  /// What comes in is refused.
+  /// Refuses requests and sent objects from now on.
   void close(const std::string& reason);
-  /// Whether something waits to be handled.
+  /// Returns whether something waits to be handled.
   [[nodiscard]] bool has_intake() const;
 
   [[nodiscard]] const std::vector<Intake<SendServerEndpoint>>& send_servers() const { return send_servers_; }
@@ -56,7 +56,7 @@ class PortSet {
   }
 
   [[nodiscard]] bool has_subscribers() const;
-  /// Subscribes the clients whose subscriptions are not the component's own business.
+  /// Subscribes the clients whose subscriptions the runtime manages.
   void subscribe();
   void unsubscribe();
 

@@ -9,8 +9,9 @@
 
 namespace orca::host {
 
-/// The code of one component in this process: brings it into memory, constructs the object, connects it with
-/// the parts that are there already, and lets both go again. Ports, parameters and orders stay meanwhile.
+/// The code of one component in this process. It is loaded into memory, the object is constructed and
+/// connected with the parts that exist already, and both are released again. Ports, parameters and orders
+/// stay meanwhile.
 ///
 /// Thread contract: the component's strand, or before that starts and after it has ended.
 class Residency {
@@ -18,7 +19,7 @@ class Residency {
   using Loader = std::function<Result<LoadedType>()>;
   using Unloader = std::function<Status(LoadedType)>;
 
-  /// @param loader, unloader  bring the type's code into memory and let it go.
+  /// @param loader, unloader  bring the type's code into memory and release it.
   Residency(ComponentParts& parts, Loader loader, Unloader unloader);
   Residency(const Residency&) = delete;
   Residency& operator=(const Residency&) = delete;
@@ -27,16 +28,16 @@ class Residency {
   void declare(const Contract& contract);
 
   /// Loads the code, constructs the component and sets its parameters.
-  /// @errors  of the loader; internal with what the constructor threw; failed_precondition if the code is not
-  ///          the one that the graph was checked with.
+  /// @errors  those of the loader; internal with what the constructor threw; failed_precondition if the code
+  ///          is not the one that the graph was checked with.
   Status load();
-  /// Destroys the component and unloads its code. What goes wrong with it is only logged: the component is
-  /// gone in any case.
+  /// Destroys the component and unloads its code. Errors are only logged, because the component is gone in
+  /// any case.
   void unload();
-  /// Destroys the component; its code goes with this object.
+  /// Destroys the component; its code is released with this object.
   void destroy();
 
-  /// Null while no component is there.
+  /// Returns the component; null while none is loaded.
   [[nodiscard]] Component* component() const { return component_; }
 
  private:

@@ -10,14 +10,14 @@
 
 namespace orca::graph {
 
-/// A hardware container as a component's contract may depend on it.
+/// A hardware container, as far as a component's contract may depend on it.
 struct HardwareUse {
   std::string name;
   std::string type;
   Params params;  ///< Complete, in SI, files absolute.
 };
 
-/// What the checker asks about plugins. The plugin loader implements it; tests have a fake.
+/// The checker's source of knowledge about plugins. The plugin loader implements it; tests have a fake.
 ///
 /// Thread contract: called from the thread that loads the graph, one call at a time.
 class Catalogue {
@@ -27,31 +27,31 @@ class Catalogue {
   Catalogue& operator=(const Catalogue&) = delete;
   virtual ~Catalogue() = default;
 
-  /// More folders to search for plugins, absolute, after Orca's own. Called once per graph, before any other
+  /// Adds folders to search for plugins, absolute, after Orca's own. Called once per graph, before any other
   /// question about it.
   virtual void add_folders(const std::vector<std::string>& folders) = 0;
 
-  /// The contract of a hardware type; its parameters count.
-  /// @errors  not_found: no plugin holds the type; the message says where was searched. Any other code: the
-  ///          plugin is there and cannot be used, and the message says why.
+  /// Returns the contract of a hardware type. The checker uses its parameters.
+  /// @errors  not_found: no plugin holds the type; the message lists the places searched. Any other code: the
+  ///          plugin exists but cannot be used; the message tells why.
   [[nodiscard]] virtual Result<Contract> hardware(const std::string& type) = 0;
 
-  /// Looks at the values of a hardware container's parameters, and into the files that they name (world,
-  /// robot, ...).
-  /// @return what is wrong; empty if all is well.
+  /// Checks the values of a hardware container's parameters, and the files that they name, such as
+  /// world and robot.
+  /// @return the errors; empty if there are none.
   [[nodiscard]] virtual std::vector<HardwareFault> validate_hardware(const HardwareUse& use) = 0;
 
-  /// The contract of a component type.
-  /// @param hardware  what the graph binds it to, or null. A component that needs hardware and gets none here
-  ///                  still has its `needs_hardware` and `params` in the contract.
+  /// Returns the contract of a component type.
+  /// @param hardware  the hardware that the graph binds to it, or null. The contract of a component that
+  ///                  needs hardware and gets none here still has its `needs_hardware` and `params`.
   /// @errors  as hardware(); the message of "does not fit that hardware" names both.
   [[nodiscard]] virtual Result<Contract> component(const std::string& type, const HardwareUse* hardware) = 0;
 
-  /// Why a type that is there cannot be part of the run that the graph is loaded for; empty: it can. Asked
-  /// only about types that it has given a contract of.
+  /// Returns why a type cannot be part of the run that the graph is loaded for; empty: it can. Called only
+  /// for types whose contract it has returned.
   [[nodiscard]] virtual std::vector<std::string> unfit(PluginKind kind, const std::string& type) = 0;
 
-  /// Every type that could be named, sorted: for "did you mean".
+  /// Returns every type that could be named, sorted, for "did you mean".
   [[nodiscard]] virtual std::vector<std::string> type_names(PluginKind kind) const = 0;
 };
 

@@ -7,10 +7,10 @@
 
 namespace orca::graph {
 
-/// The graph as a picture for Graphviz (`deployer GRAPH --dot | dot -Tsvg`): components and hardware with
-/// their types, connections with their ports, sub-graphs as boxes, late-bound edges dashed.
+/// Returns the graph as a picture for Graphviz (`deployer GRAPH --dot | dot -Tsvg`): components and hardware
+/// with their types, connections with their ports, sub-graphs as boxes, late-bound edges dashed.
 ///
-/// @param profiles  that are merged into it, for the title; may be empty.
+/// @param profiles  the profiles merged into it, for the title; may be empty.
 [[nodiscard]] std::string dot(const Graph& graph, const std::string& profiles);
 
 }  // namespace orca::graph

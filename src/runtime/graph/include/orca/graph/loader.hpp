@@ -15,29 +15,27 @@
 
 namespace orca::graph {
 
-/// What the command line says about a graph.
+/// The command line's settings for a graph.
 struct LoadOptions {
   std::vector<std::string> profiles;  ///< Merged in this order; none: the graph's default_profile.
   std::vector<std::string> settings;  ///< "ARG=VALUE"; a relative path in VALUE starts at the current folder.
   bool strict = false;                ///< Warnings are errors.
 };
 
-/// Where the text of a file comes from that a graph includes. The path starts at the current folder.
+/// A function that returns the text of an included file. The path starts at the current folder.
 using FileReader = std::function<Result<std::string>(const std::string& path)>;
 
-/// Reads a system graph and checks it against the contracts of its plugins. It loads nothing and starts
-/// nothing.
+/// Reads a system graph and checks it against the contracts of its plugins. It loads and starts nothing.
 ///
-/// @param diagnostics  receives all errors and warnings of the whole graph (docs/errors.md), not only the
-/// first.
+/// @param diagnostics  receives all errors and warnings of the whole graph (docs/errors.md), not just one.
 /// @return the graph, if there is no error at all.
 /// @thread  one call per Catalogue at a time. Reads the current folder, to make paths absolute.
 [[nodiscard]] std::optional<Graph> load_file(const std::string& path, const LoadOptions& options,
                                              Catalogue& catalogue, xml::Diagnostics& diagnostics);
 
-/// The same for text in memory. `file_name` appears in positions, and relative paths start at its folder.
+/// Reads a graph from a text in memory. `file_name` appears in positions. Relative paths start at its folder.
 ///
-/// @param read  for the files that it includes.
+/// @param read  returns the files that it includes.
 [[nodiscard]] std::optional<Graph> load_text(std::string_view text, const std::string& file_name,
                                              const LoadOptions& options, Catalogue& catalogue,
                                              xml::Diagnostics& diagnostics,

@@ -7,9 +7,9 @@
 
 namespace orca::graph {
 
-/// The graph as a Mermaid flow chart, which many web pages and editors draw. Shows what dot() shows.
+/// Returns the graph as a Mermaid flow chart, which many web pages and editors draw. Shows what dot() shows.
 ///
-/// @param profiles  that are merged into it, for the title; may be empty.
+/// @param profiles  the profiles merged into it, for the title; may be empty.
 [[nodiscard]] std::string mermaid(const Graph& graph, const std::string& profiles);
 
 }  // namespace orca::graph

@@ -9,23 +9,23 @@
 
 namespace orca::graph {
 
-/// A port of a component of a graph, and who is at its other end.
+/// A port of a component of a graph, and the ports at its other end.
 struct ListedPort {
   PortRef ref;            ///< By its name in the graph.
   PortContract contract;  ///< As its author declares it.
   bool disabled = false;
-  std::vector<PortRef> peers;       ///< Connected to it, in the order of the graph.
-  std::vector<PortRef> candidates;  ///< That it may be connected to at run time.
+  std::vector<PortRef> peers;       ///< Ports connected to it, in the order of the graph.
+  std::vector<PortRef> candidates;  ///< Ports that it may be connected to at run time.
 };
 
-/// All ports of all components of a checked graph, in its order.
-/// @param catalogue  that the graph was checked against.
+/// Returns all ports of all components of a checked graph, in its order.
+/// @param catalogue  the catalogue that the graph was checked against.
 [[nodiscard]] std::vector<ListedPort> list_ports(const Graph& graph, Catalogue& catalogue);
 
-/// One line per port, in columns: name, pattern and role, type, what it is connected to.
+/// Returns one line per port, in columns: name, pattern and role, type, connected ports.
 [[nodiscard]] std::string ports_text(const std::vector<ListedPort>& ports);
 
-/// The same for programs: an array of {port, declared_as, pattern, role, type, reply, required, many,
+/// Returns the same for programs: an array of {port, declared_as, pattern, role, type, reply, required, many,
 /// disabled, connected_to, candidates, text}.
 [[nodiscard]] std::string ports_json(const std::vector<ListedPort>& ports);
 

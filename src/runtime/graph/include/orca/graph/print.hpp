@@ -7,8 +7,8 @@
 
 namespace orca::graph {
 
-/// The graph as XML again, with profiles merged, arguments replaced, defaults filled in and values in SI.
-/// Loading that text gives an equal Graph.
+/// Returns the graph as XML again, with profiles merged, arguments replaced, defaults filled in and values in
+/// SI. Loading that text gives an equal Graph.
 [[nodiscard]] std::string print(const Graph& graph);
 
 }  // namespace orca::graph

@@ -5,8 +5,8 @@
 
 namespace orca::graph {
 
-/// The graph's language as an XML schema, for editors: graphs/orca-graph.xsd. It is made from the rules that
-/// the reader follows, and says less than the reader checks: any value may be "${arg}".
+/// Returns the graph's language as an XML schema, for editors: graphs/orca-graph.xsd. It is made from the
+/// rules that the reader follows, but is less strict than the reader: any value may be "${arg}".
 [[nodiscard]] std::string schema();
 
 }  // namespace orca::graph

@@ -13,8 +13,8 @@ namespace orca::graph {
 
 /// Reads new values for some of a component's parameters as a graph would, for a change at run time.
 ///
-/// @param texts  by name: "0.5 m", "true", ...
-/// @errors  invalid_argument with everything that is wrong, a line each.
+/// @param texts  values by name: "0.5 m", "true", ...
+/// @errors  invalid_argument with everything that is wrong, one line each.
 [[nodiscard]] Result<Params> read_settings(const std::vector<ParamContract>& contracts,
                                            const std::map<std::string, std::string>& texts);
 

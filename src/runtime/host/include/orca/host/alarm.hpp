@@ -14,29 +14,29 @@ enum class AlarmKind {
   failed,          ///< A component has failed: an exception, an error, or WORK_FAILED.
   hardware_fault,  ///< A hardware container is in the state Fault.
   stalled,         ///< A component computes or sleeps without waiting for anything of Orca.
-  plugin_pinned,   ///< A plugin stays in memory although nobody uses it.
+  plugin_pinned,   ///< A plugin stays in memory although nothing uses it.
   fork,            ///< A component called fork(); the copy was ended.
-  floating_point,  ///< The following are changes of what all components share.
+  floating_point,  ///< The following are changes of state that all components share.
   locale,
   signal_mask,
   signal_handler,
   working_folder,
   umask,
   resource_limit,
-  descriptors  ///< Descriptors were left open, or there are none left.
+  descriptors  ///< Descriptors were left open, or none are left.
 };
 
-/// The kind in capitals, as it stands in idl::Alarm: "SIGNAL_MASK".
+/// Returns the kind in capitals, as in idl::Alarm: "SIGNAL_MASK".
 [[nodiscard]] const char* to_string(AlarmKind kind);
 
-/// Takes alarms as they are raised.
+/// A function that takes alarms as they are raised.
 ///
 /// Thread contract: called from any strand or thread, also from several at once.
 using AlarmSink = std::function<void(const idl::Alarm&)>;
 
-/// Makes an alarm that is raised now. Its times, mission and cause are left to whoever knows them.
-/// @param component  name as in the graph; empty: it is not known to be one alone.
-/// @param hook       as to_string(Hook) or hook_text() has it; empty: in none.
+/// Makes an alarm that is raised now. The caller fills in its times, mission and cause where they are known.
+/// @param component  name as in the graph; empty: not known to be a single component.
+/// @param hook       as returned by to_string(Hook) or hook_text(); empty: outside any hook.
 [[nodiscard]] idl::Alarm make_alarm(AlarmKind kind, const std::string& component, const std::string& hook,
                                     const std::string& text);
 
@@ -45,7 +45,8 @@ using AlarmSink = std::function<void(const idl::Alarm&)>;
 /// @param log_name  the name for an alarm without a component.
 void log_alarm(const idl::Alarm& alarm, const std::string& log_name);
 
-/// The hook in front of a verb, for people: "work()"; of a handler the name of its port: "goal()".
+/// Returns the hook for people, to stand before a verb: "work()"; for a handler, the name of its port:
+/// "goal()".
 [[nodiscard]] std::string hook_text(Hook hook, const char* port);
 
 }  // namespace orca::host

@@ -17,19 +17,20 @@
 
 namespace orca::host {
 
-/// A type, and the plugin that holds its code: it stays in memory for as long as somebody holds this.
+/// A type, and the plugin that holds its code. The plugin stays in memory at least as long as this object
+/// lives.
 struct LoadedType {
   std::shared_ptr<plugin::PluginLibrary> library;
   const TypeEntry* entry = nullptr;
 };
 
-/// Answers the graph checker's questions from the plugins themselves, and loads and unloads them for those
-/// who run them.
+/// The types of all plugins. It answers the graph checker's questions from the plugins themselves, and loads
+/// and unloads plugins for a run.
 ///
 /// Thread contract: acquire() and release() from anywhere, the rest from one thread.
 class PluginCatalogue final : public graph::Catalogue {
  public:
-  /// @param clock  of the run that the plugins are for.
+  /// @param clock  clock of the run that the plugins are for.
   explicit PluginCatalogue(plugin::PluginIndex index, ClockKind clock = ClockKind::steady);
   ~PluginCatalogue() override;
 
@@ -37,23 +38,24 @@ class PluginCatalogue final : public graph::Catalogue {
   Result<Contract> hardware(const std::string& type) override;
   std::vector<HardwareFault> validate_hardware(const graph::HardwareUse& use) override;
   Result<Contract> component(const std::string& type, const graph::HardwareUse* hardware) override;
-  /// In virtual time: what of the machine's time, threads and randomness the type's plugin uses.
+  /// Returns the machine's time, threads and randomness that the type's plugin uses, if the run is in virtual
+  /// time.
   [[nodiscard]] std::vector<std::string> unfit(PluginKind kind, const std::string& type) override;
   [[nodiscard]] std::vector<std::string> type_names(PluginKind kind) const override;
 
-  /// A type, its plugin loaded if nobody has done so before.
-  /// @errors  not_found with the places searched, and plugin::PluginLibrary::load()'s.
+  /// Returns a type, and loads its plugin unless it is loaded already.
+  /// @errors  not_found with the places searched; the errors of plugin::PluginLibrary::load().
   Result<LoadedType> acquire(PluginKind kind, const std::string& type);
 
-  /// Lets a type go, and unloads its plugin if nobody else holds it.
+  /// Releases a type, and unloads its plugin if nobody else holds it.
   /// @errors  failed_precondition if nobody holds the plugin and it is in memory all the same.
   Status release(LoadedType type);
 
-  /// From now on alarms about plugins go to `sink`; null: only to the log, as at first.
+  /// Sends later alarms about plugins to `sink`; null: only to the log, as at first.
   /// @thread  while nobody uses the catalogue.
   void on_alarm(AlarmSink sink) { sink_ = std::move(sink); }
 
-  /// Lets go of all that was loaded and constructed only to answer questions.
+  /// Releases everything that was loaded and constructed only to answer questions.
   void forget_answers();
 
  private:
@@ -68,7 +70,7 @@ class PluginCatalogue final : public graph::Catalogue {
   AlarmSink sink_;
   mutable std::mutex mutex_;
   std::map<std::string, std::weak_ptr<plugin::PluginLibrary>> libraries_;  // by file
-  std::map<std::string, LoadedType> held_;                                 // by type: what answers came from
+  std::map<std::string, LoadedType> held_;  // by type; kept because answers came from them
   std::map<std::string, std::unique_ptr<plugin::DescribedHardware>> hardware_;  // by name in the graph
 };
 

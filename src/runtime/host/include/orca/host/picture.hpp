@@ -12,31 +12,32 @@
 
 namespace orca::host {
 
-/// From where a run is shown.
+/// The viewpoint from which a run is shown.
 enum class View {
-  world,  ///< The whole world as it was in the end, with the robots' ways.
-  robot,  ///< Around the first robot as it was in the end; ahead is up.
-  film,   ///< Around each robot at its key moments: start, arrivals, contacts, end, and some between.
+  world,  ///< The whole world at the end of the run, with the robots' tracks.
+  robot,  ///< The surroundings of the first robot at the end of the run; ahead is up.
+  film,  ///< The surroundings of each robot at its key moments: start, arrivals, contacts, end, some between.
 };
 
-/// What can be left out of a picture.
+/// The parts of a picture that can be left out.
 enum class Layer { walls, track, robot, sonar, laser, motion, marks };
 
-/// Their names, as people write them.
+/// Return the view or the layer that people call by this name; nothing if there is none.
 [[nodiscard]] std::optional<View> view_from(std::string_view name);
 [[nodiscard]] std::optional<Layer> layer_from(std::string_view name);
 [[nodiscard]] const std::vector<std::string>& view_names();
 [[nodiscard]] const std::vector<std::string>& layer_names();
 
+/// The options of a picture of a run.
 struct PictureOptions {
   std::string file;  ///< Ends in .svg or .png; empty: no picture.
   View view = View::world;
   std::set<Layer> hidden;
 };
 
-/// Draws a scene into a file, as SVG or PNG by the file's ending; a metre is as long across as up. Sonar
-/// readings are yellow, lasers blue; a red arrow shows how far the robot would come in a second, a red arc
-/// how far it would turn.
+/// Draws a scene into a file, as SVG or PNG by the file's ending, with the same scale across as up. Sonar
+/// readings are yellow, lasers blue. A red arrow shows how far the robot would drive in a second, and a red
+/// arc how far it would turn.
 ///
 /// @errors  invalid_argument for another ending or an empty scene; unavailable if the file cannot be written.
 Status write_picture(const Scene& scene, const PictureOptions& options);

@@ -9,8 +9,8 @@
 
 namespace orca::host {
 
-/// The application's ear in a run. It stands outside the graph: it has no queue, and what it hears takes no
-/// part in the trace hash.
+/// The application's observer of a run. It stands outside the graph: it has no queue, and what it receives
+/// does not count in the trace hash.
 ///
 /// Thread contract: one call after the other, but from any strand or thread. No call may block or use the
 /// run.
@@ -21,22 +21,23 @@ class RunListener {
   RunListener(const RunListener&) = delete;
   RunListener& operator=(const RunListener&) = delete;
 
-  /// The first call.
-  /// @param now  of the run's clock, which all stamps refer to.
+  /// Reports the start of the run; the first call.
+  /// @param now  time of the run's clock, which all stamps refer to.
   virtual void started(TimePoint /*now*/) {}
-  /// An Arrived was delivered to a component; once for each, however many take it.
+  /// Reports that an Arrived was delivered to a component, once for each object, however many components take
+  /// it.
   virtual void arrived(const idl::Arrived& /*arrived*/) {}
-  /// A robot touched something.
+  /// Reports that a robot touched something.
   virtual void contact(const idl::Contact& /*contact*/) {}
   virtual void alarm(const idl::Alarm& /*alarm*/) {}
-  /// A component or a hardware container wrote a line to the log.
+  /// Reports a line that a component or a hardware container wrote to the log.
   virtual void logged(log::Level /*level*/, std::string_view /*who*/, std::string_view /*text*/) {}
 
-  /// The run is over; only the destructors of components and hardware are still to come.
+  /// Reports the end of the run. Only the destructors of components and hardware are still to come.
   virtual void ended(const RunResult& /*result*/) {}
 
-  /// Some strands do not end. They may still run, therefore nothing that they use can be destroyed: reports
-  /// the result and ends the process without unwinding.
+  /// Reports the result when some strands do not end, and ends the process without unwinding. The strands may
+  /// still run, so nothing that they use can be destroyed.
   [[noreturn]] virtual void abandon(const RunResult& result) = 0;
 };
 

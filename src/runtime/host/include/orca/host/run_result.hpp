@@ -16,35 +16,35 @@
 
 namespace orca::host {
 
-/// How a run ended.
+/// The way in which a run ended.
 enum class RunOutcome {
   finished,     ///< The components that the graph names in `ends` are done.
-  time_is_up,   ///< It was to run until then.
-  stopped,      ///< On request.
-  failed,       ///< While it ran.
-  not_started,  ///< Not everything came up; all was taken down again.
+  time_is_up,   ///< The time limit was reached.
+  stopped,      ///< A stop was requested.
+  failed,       ///< Something failed during the run.
+  not_started,  ///< Not everything came up; all of it was taken down again.
   bad_options   ///< The options contradict each other; nothing was started.
 };
 
-/// What went over the connections of one run. A plain value.
+/// The counts of what the connections of one run carried. A plain value.
 struct RunCounters {
   struct Edge {
-    std::string from;  ///< "component.port" of the PushServer,
-    std::string to;    ///< and of the PushProxy.
+    std::string from;  ///< "component.port" of the PushServer.
+    std::string to;    ///< "component.port" of the PushProxy.
     EdgeCounters counters;
   };
-  std::vector<Edge> edges;                         ///< Push, in the order of the graph.
+  std::vector<Edge> edges;                         ///< Push connections, in the order of the graph.
   std::map<std::string, RequestCounters> clients;  ///< By "component.port" of the SendProxy or QueryProxy.
   std::map<std::string, IntakeCounters> servers;   ///< By "component.port" of the SendServer or QueryServer.
 };
 
-/// What came of a run. A plain value.
+/// The result of a run. A plain value.
 struct RunResult {
   RunOutcome outcome = RunOutcome::finished;
-  std::string culprit;  ///< Component or hardware, name as in the graph; empty: none, or not one alone.
-  std::optional<Error> error;               ///< Unless it ended well.
-  std::optional<std::uint64_t> trace_hash;  ///< In virtual time, unless it did not start.
-  TimePoint start;                          ///< Of the run's clock; stamps are of that clock, too.
+  std::string culprit;         ///< Component or hardware, named as in the graph; empty: none, or several.
+  std::optional<Error> error;  ///< The reason, unless the run ended well.
+  std::optional<std::uint64_t> trace_hash;  ///< In virtual time only, if the run started.
+  TimePoint start;                          ///< Time of the run's clock, which all stamps refer to.
   std::vector<idl::Arrived> arrivals;       ///< In the order of their delivery.
   std::vector<idl::Contact> contacts;       ///< In the order in which they were reported.
   std::vector<idl::Alarm> alarms;           ///< In the order in which they were raised.

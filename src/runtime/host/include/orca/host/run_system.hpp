@@ -15,21 +15,22 @@
 
 namespace orca::host {
 
-/// How to run a system.
+/// The options of a run.
 struct RunOptions {
   ExecutiveOptions executive;
-  std::optional<std::uint64_t> seed;  ///< None: the graph's, else 1.
-  std::optional<Duration> until;      ///< End then [s of the run's clock]; none: no such limit.
-  std::string trace_file;             ///< Empty: none.
+  std::optional<std::uint64_t> seed;  ///< None: the graph's seed, or 1 if it has none.
+  std::optional<Duration> until;      ///< Time limit [s of the run's clock]; none: no limit.
+  std::string trace_file;             ///< Empty: no trace is written.
   PictureOptions picture;
-  std::string log_name = "orca";  ///< The name in the log for what concerns the run as a whole.
+  std::string log_name = "orca";  ///< Name in the log for what concerns the run as a whole.
 };
 
-/// Runs a checked graph in this process: brings everything up or takes everything down again, watches, stops
-/// the robot, takes down. Writes to the log, and to the files that the options name.
+/// Runs a checked graph in this process: brings everything up, watches it, stops the robot and takes
+/// everything down. If something does not come up, the rest is taken down again. Writes to the log, and to
+/// the files that the options name.
 ///
 /// @param stop      a request ends the run.
-/// @param listener  hears what happens meanwhile.
+/// @param listener  is called during the run.
 /// @thread  the main thread.
 [[nodiscard]] RunResult run_system(const graph::Graph& graph, PluginCatalogue& catalogue,
                                    const RunOptions& options, StopSignal& stop, RunListener& listener);

@@ -15,7 +15,7 @@ namespace orca::host {
 /// requested() and on_request() from anywhere.
 class StopSignal {
  public:
-  /// @param exit_status  of a process that is ended by the second signal.
+  /// @param exit_status  status of a process that the second signal ends.
   explicit StopSignal(int exit_status);
   ~StopSignal();
   StopSignal(const StopSignal&) = delete;
@@ -23,7 +23,7 @@ class StopSignal {
 
   [[nodiscard]] bool requested() const { return requested_.load(std::memory_order_acquire); }
 
-  /// Calls `action` at the request, or at once if it has been made; null: no longer.
+  /// Calls `action` when the stop is requested, or at once if it has been already; null: no action any more.
   void on_request(std::function<void()> action);
 
  private:

@@ -13,29 +13,29 @@
 
 namespace orca::plugin {
 
-/// A hardware container that was constructed and prepared, but opens nothing: for contracts that depend on
-/// it.
+/// A hardware container that was constructed and prepared, but opens nothing. The contracts of components can
+/// depend on it.
 ///
 /// Thread contract: one thread at a time, as for the functions below.
 class DescribedHardware {
  public:
   virtual ~DescribedHardware() = default;
   [[nodiscard]] virtual const Contract& contract() const = 0;
-  /// Sets the parameters and declares the endpoints; what is wrong with the files that they name, ready to
-  /// print.
+  /// Sets the parameters and declares the endpoints.
+  /// @return the errors in the files that the parameters name, ready to print.
   virtual std::vector<HardwareFault> prepare(const std::map<std::string, ParamValue>& params) = 0;
   [[nodiscard]] virtual hw::HardwareContainer& container() = 0;
 };
 
 /// Constructs a container only to describe it.
-/// @param name  of the hardware in the graph.
+/// @param name  name of the hardware in the graph.
 /// @errors  internal if its constructor throws or does more than declare.
 Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& type,
                                                              const std::string& library,
                                                              const std::string& name);
 
 /// Constructs a component only to describe it, and destroys it again.
-/// @param hardware  what the graph binds to it, prepared; null: nothing.
+/// @param hardware  the prepared hardware that the graph binds to it; null: none.
 /// @errors  internal if its constructor throws or does more than declare.
 Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
                                     hw::HardwareContainer* hardware);

@@ -10,24 +10,24 @@
 
 namespace orca::plugin {
 
-/// Which plugin file holds which type, read from the NAME.types files that the build writes beside NAME.so:
-/// lines of "component TYPE" or "hardware TYPE".
+/// An index of the plugin files by type. It is read from the NAME.types files that the build writes beside
+/// NAME.so, with lines of "component TYPE" or "hardware TYPE".
 ///
 /// A plain value.
 class PluginIndex {
  public:
-  /// @param folders  searched in this order; the first that knows a type wins. Missing folders
-  ///                 are remembered for error texts.
+  /// @param folders  searched in this order; the first that knows a type wins. Missing folders are remembered
+  ///                 for error texts.
   explicit PluginIndex(const std::vector<std::string>& folders) { add(folders); }
 
-  /// More folders, searched after those there are.
+  /// Adds folders that are searched after the present ones.
   void add(const std::vector<std::string>& folders);
 
-  /// The plugin file that holds a type.
+  /// Returns the plugin file that holds a type.
   /// @errors  not_found, naming the places searched.
   [[nodiscard]] Result<std::string> file_of(const std::string& type) const;
 
-  /// The names of all types of one kind, sorted.
+  /// Returns the names of all types of one kind, sorted.
   [[nodiscard]] std::vector<std::string> types(PluginKind kind) const;
 
  private:

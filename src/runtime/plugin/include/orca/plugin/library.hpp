@@ -15,18 +15,17 @@ namespace orca::plugin {
 
 class LoadedPlugin;
 
-/// A plugin in memory, from load() until the object is destroyed. Whatever was made from its types must be
-/// gone by then. A plugin that does not go, or whose threads still run, is reported as pinned.
+/// A plugin in memory, from load() until the object is destroyed. Everything made from its types must be
+/// destroyed before. A plugin that stays in memory, or whose threads still run, is reported as pinned.
 ///
 /// Thread contract: one thread.
 class PluginLibrary {
  public:
-  /// Checks a plugin's file, has it loaded and its types constructed in a copy of the process, and loads it.
-  /// A file that has passed is not checked again as long as it is not changed.
+  /// Checks a plugin's file, loads it and constructs its types in a copy of the process as a trial, and then
+  /// loads it. A file that has passed is not checked again until it is changed.
   ///
   /// @thread  any; one call at a time.
-  /// @errors  not_found if there is no such file; invalid_argument, with all that is wrong and what to do,
-  /// for a
+  /// @errors  not_found if there is no such file; invalid_argument, with all errors and what to do, for a
   ///          file that cannot be loaded, that is not an Orca plugin, that was built for another ABI version
   ///          or other layouts of the objects, or not by the recipe (docs/adr/0004); internal or
   ///          deadline_exceeded if the copy of the process did not survive or come to an end.
@@ -36,15 +35,15 @@ class PluginLibrary {
   PluginLibrary(const PluginLibrary&) = delete;
   PluginLibrary& operator=(const PluginLibrary&) = delete;
 
-  /// The absolute path that it was loaded from.
+  /// Returns the absolute path that it was loaded from.
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const Manifest& manifest() const { return *manifest_; }
   [[nodiscard]] std::vector<const TypeEntry*> types() const;
-  /// What it uses that has no place in virtual time, each with what to use instead.
+  /// Returns what it uses that must not be used in virtual time, each with its replacement.
   [[nodiscard]] const std::vector<std::string>& virtual_time_faults() const { return virtual_time_faults_; }
-  /// From now on `sink` takes the reason if the plugin stays in memory; without a sink the log does.
+  /// Sends the reason to `sink` if the plugin stays in memory; without a sink it goes to the log.
   void on_pinned(std::function<void(const std::string& why)> sink) { on_pinned_ = std::move(sink); }
-  /// Null if the plugin holds no such type.
+  /// Returns a type; null if the plugin holds no such type.
   [[nodiscard]] const TypeEntry* find(PluginKind kind, std::string_view type) const;
 
  private:
@@ -60,8 +59,8 @@ class PluginLibrary {
   bool may_start_threads_ = false;
 };
 
-/// Whether any part of the file is still mapped into this process, even if the file itself has been removed
-/// or exchanged meanwhile: the proof after unloading.
+/// Returns whether any part of the file is still mapped into this process, even if the file itself has been
+/// removed or exchanged meanwhile. This is the proof after unloading.
 [[nodiscard]] bool is_mapped(const std::string& path);
 
 }  // namespace orca::plugin

@@ -3,7 +3,7 @@
 
 namespace orca::plugin {
 
-/// The file of the plugin that an address lies in, be it code or data; null: none of those that are loaded.
+/// Returns the file of the loaded plugin that contains an address of code or data; null if there is none.
 /// @thread  any, also a signal handler.
 [[nodiscard]] const char* plugin_at(const void* address) noexcept;
 
