@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The codes of everything that can be wrong with a file before its content is looked at. docs/errors.md
-// explains them to people; a test compares the two.
+// The codes of all errors that a file can have before its content is checked. docs/errors.md explains them to
+// people; a test compares the two.
 #pragma once
 
 namespace orca::xml::codes {

@@ -6,13 +6,13 @@
 
 namespace orca::xml {
 
-// Line and column, both from 1.
+// A line and a column, both counted from 1.
 struct Mark {
   int line = 1;
   int column = 1;
 };
 
-// Walks through a text and knows where it is.
+// A position that walks through a text and knows its line and column.
 class Cursor {
  public:
   explicit Cursor(std::string_view text, Mark start = {}) : text_(text), mark_(start) {}
@@ -24,9 +24,9 @@ class Cursor {
   }
   [[nodiscard]] std::size_t offset() const { return offset_; }
   [[nodiscard]] Mark mark() const { return mark_; }
-  // From an earlier offset up to here.
+  // Returns the text from an earlier offset up to here.
   [[nodiscard]] std::string_view since(std::size_t from) const { return text_.substr(from, offset_ - from); }
-  // How far `what` is away, npos if it does not come any more.
+  // Returns the distance to the next `what`, npos if there is none.
   [[nodiscard]] std::size_t distance_to(std::string_view what) const {
     const std::size_t at = text_.find(what, offset_);
     return at == std::string_view::npos ? at : at - offset_;

@@ -16,7 +16,8 @@ Error not_a_number(std::string_view text, const std::string& hint) {
   return fail(Code::invalid_argument, "\"" + std::string(text) + "\" is not a number" + hint);
 }
 
-// "0,5 m" was meant as "0.5 m": a comma straight after the digits read so far, with a digit behind it.
+// Returns whether "0,5 m" was meant as "0.5 m": a comma straight after the digits read so far, with a digit
+// behind it.
 bool comma_follows(std::string_view rest) { return rest.size() > 1 && rest[0] == ',' && is_digit(rest[1]); }
 
 Error comma_error(std::string_view text) {

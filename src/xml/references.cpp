@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kPredefined{"amp", "lt", "gt", "apos", "quot"};
 
-// Long enough for every legal reference; what is longer is an '&' that stands for itself.
+// Long enough for every legal reference; in anything longer, the '&' stands for itself.
 constexpr std::size_t kLongest = 40;
 
 bool is_xml_character(std::uint32_t c) {
@@ -22,7 +22,7 @@ bool is_xml_character(std::uint32_t c) {
   return c <= 0x10FFFF && c != 0xFFFE && c != 0xFFFF;
 }
 
-// `digits` is what stands between "&#" and ';'.
+// Takes in `digits` the text between "&#" and ';'.
 bool is_character_number(std::string_view digits) {
   const bool hex = digits.starts_with('x');
   if (hex) digits.remove_prefix(1);

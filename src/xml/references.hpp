@@ -15,7 +15,7 @@ struct BadReference {
   std::string message;
 };
 
-// The first bad reference at or after `from`.
+// Returns the first bad reference at or after `from`.
 std::optional<BadReference> find_bad_reference(std::string_view text, std::size_t from);
 
 }  // namespace orca::xml

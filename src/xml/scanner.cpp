@@ -13,10 +13,10 @@
 namespace orca::xml {
 namespace {
 
-// Beyond this many errors a file is something else than XML with slips.
+// With more errors than this, a file is not XML with slips but something else.
 constexpr std::size_t kMaxErrors = 1000;
 
-// The value of `name="value"` in an XML declaration, empty if there is none.
+// Returns the value of `name="value"` in an XML declaration, empty if there is none.
 std::string declared(std::string_view declaration, std::string_view name) {
   std::size_t at = declaration.find(name);
   if (at == std::string_view::npos) return {};
@@ -85,7 +85,7 @@ bool Scanner::check_references(std::string_view content, Mark begin) {
   std::size_t from = 0;
   while (const auto bad = find_bad_reference(content, from)) {
     cursor.advance(bad->offset - cursor.offset());
-    // tinyxml2 leaves an unknown entity as it is, but makes something of an impossible number.
+    // tinyxml2 leaves an unknown entity unchanged, but converts an impossible number.
     const bool number = bad->code == std::string_view(codes::kCharacterReference);
     if (number) scan_.readable = false;
     flaw(bad->code, cursor.mark(), bad->message);
@@ -231,14 +231,14 @@ void Scanner::close(std::string_view tag, Mark begin) {
   const auto same = [&](const Open& open) { return open.name == tag; };
   const auto match = std::find_if(open_.rbegin(), open_.rend(), same);
   if (innermost.name != tag) {
-    // The end tag that was missing before, come late: "<a><b></a></b>" is one error.
+    // A late end tag that was missing before: "<a><b></a></b>" is one error.
     if (match == open_.rend() && take_crossed(tag)) return;
     broken(codes::kEndTag, begin,
            shown + " does not fit: <" + std::string(innermost.name) + "> from " + place(innermost.begin) +
                " is open and needs </" + std::string(innermost.name) + "> first");
     end_tags_wrong_ = true;
   }
-  // An end tag that fits nothing is taken for a misspelt one.
+  // An end tag that fits nothing is treated as a misspelt one.
   const auto closed = match == open_.rend() ? open_.end() - 1 : match.base() - 1;
   if (match != open_.rend())
     for (auto crossed = closed + 1; crossed != open_.end(); ++crossed) ++crossed_[crossed->name];

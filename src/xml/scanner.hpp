@@ -36,9 +36,9 @@ struct Scan {
   bool readable = true;               // a tree can be built, although there may be errors
 };
 
-// Reads through a text once, reports everything that is not well-formed and notes where things are, because
-// tinyxml2 neither knows columns nor objects to much. After an error it goes on where a person would: one
-// slip, one error.
+// The scanner of a text. It reads the text once, reports everything that is not well-formed and notes the
+// positions, because tinyxml2 knows no columns and accepts many errors. After an error it continues where a
+// person would: one slip, one error.
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& file, Diagnostics& out);
@@ -52,7 +52,7 @@ class Scanner {
     std::size_t element;
   };
 
-  // scanner.cpp: what lies between the tags, and end tags
+  // scanner.cpp: the text between the tags, and end tags.
   bool starts_as_xml();
   void declaration();
   void content();
@@ -64,7 +64,7 @@ class Scanner {
   void instruction();
   void end_tag();
   void close(std::string_view name, Mark begin);
-  // Whether the element was closed by the end tag of an outer one, and its own comes now.
+  // Returns whether the end tag of an outer element closed this one, and its own end tag comes now.
   bool take_crossed(std::string_view tag);
   void check_complete();
 
@@ -80,10 +80,10 @@ class Scanner {
   TagEnd value_runs_on(std::string_view name, Mark begin, std::string_view so_far);
   void note_attribute(std::string_view name, AttributeMark mark, Range range);
 
-  // Both
+  // Used by both files.
   std::string_view name();
   bool skip_blanks();
-  // False if there is a bad one.
+  // Returns false if there is a bad reference.
   bool check_references(std::string_view content, Mark begin);
   void flaw(const char* code, Mark at, std::string message);    // the tree is still to be had
   void broken(const char* code, Mark at, std::string message);  // it is not

@@ -15,7 +15,7 @@ std::string attribute_text(std::string_view name) { return "attribute \"" + std:
 
 }  // namespace
 
-// As tinyxml2 has it: everything beyond ASCII counts as a letter.
+// Follows tinyxml2: everything beyond ASCII counts as a letter.
 bool is_name_start(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' ||
          static_cast<unsigned char>(c) >= 0x80;

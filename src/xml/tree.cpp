@@ -11,7 +11,7 @@ class TreeBuilder {
  public:
   TreeBuilder(const Scan& scan, const std::string& file) : scan_(scan), file_(file) {}
 
-  // False as soon as tinyxml2 and the scanner saw different things.
+  // Returns false as soon as tinyxml2 and the scanner saw different things.
   bool build(const tinyxml2::XMLElement& from, Element& to) {
     if (next_ == scan_.elements.size()) return false;
     const ElementMark& mark = scan_.elements[next_++];

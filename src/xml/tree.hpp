@@ -10,7 +10,8 @@
 
 namespace orca::xml {
 
-// tinyxml2's tree of a text that was found readable, with the positions of the scan put in document order.
+// Builds tinyxml2's tree of a text that was found readable, and adds the positions of the scan in document
+// order.
 std::optional<Document> build_tree(std::string_view text, const Scan& scan, const std::string& file,
                                    Diagnostics& out);
 

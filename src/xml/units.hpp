@@ -7,8 +7,8 @@
 
 namespace orca::xml {
 
-// value in SI = value * multiply / divide. Two numbers, because 190 mm is exactly 190 / 1000 m, but not 190 *
-// 0.001.
+// A unit: value in SI = value * multiply / divide. There are two numbers, because 190 mm is exactly 190 /
+// 1000 m, but not 190 * 0.001.
 struct Unit {
   std::string_view name;
   std::string_view si;  // what it measures, by its SI unit; empty: a ratio
@@ -16,13 +16,13 @@ struct Unit {
   double divide = 1.0;
 };
 
-// The unit called `name`, or null.
+// Returns the unit called `name`, or null.
 const Unit* find_unit(std::string_view name);
 
-// "a length", "an angle", ... for the SI unit; empty if Orca does not know the unit.
+// Returns "a length", "an angle", ... for the SI unit; empty if Orca does not know the unit.
 std::string_view quantity_name(std::string_view si);
 
-// "m, mm, cm or km": what may be written where `si` is expected.
+// Returns the units that may be written where `si` is expected: "m, mm, cm or km".
 std::string units_for(std::string_view si);
 
 }  // namespace orca::xml

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes are an object or an error, for every object type; an object that was read is the same after writing.
-// The first byte of the input chooses the type, the rest is the payload.
+// Any bytes give an object or an error, for every object type. An object that was read is the same after
+// writing. The first byte of the input chooses the type; the rest is the payload.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes seeds for cdr_fuzz into a folder: of each object type the default object, and one whose lists have an
-// element each.
+// Writes seeds for cdr_fuzz into a folder: for each object type the default object, and one whose lists have
+// one element each.
 #include <fstream>
 #include <iostream>
 #include <string>

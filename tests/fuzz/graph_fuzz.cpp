@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any files give a graph or errors; a graph that loads is the same after printing, and can be shown in every
+// Any files give a graph or errors. A graph that loads is the same after printing, and can be shown in every
 // way.
 //
-// The input is the graph's file; after a line "%%file NAME" comes another one that it may include.
+// The input is the graph's file. After a line "%%file NAME" follows another file that it may include.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -24,7 +24,7 @@ using Files = std::map<std::string, std::string>;
 
 constexpr std::string_view kMark = "\n%%file ";
 
-// Each file by its path; the first is "/main.xml".
+// The files by path; the first is "/main.xml".
 Files split(std::string_view input) {
   Files files;
   std::string name = "main.xml";
@@ -39,7 +39,7 @@ Files split(std::string_view input) {
   }
 }
 
-// What is said is text again, and none of it is that Orca's two readers disagree.
+// Checks that messages are valid text, and that none reports that Orca's two readers disagree.
 void check_texts(const orca::xml::Diagnostics& diagnostics) {
   for (const orca::xml::Diagnostic& diagnostic : diagnostics.sorted()) {
     if (diagnostic.code == "G129") std::abort();

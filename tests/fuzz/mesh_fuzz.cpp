@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes give a sound mesh or an error: an STL file, binary or text, and an OBJ file. The first byte says
-// which.
+// Any bytes give a sound mesh or an error: an STL file, binary or text, or an OBJ file. The first byte
+// chooses which.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace {
 
-// A mesh that was found sound can be reckoned with.
+// Checks that a mesh that was found sound can be used in computations.
 void check(const orca::sim::Mesh& mesh) {
   const auto [low, high] = height_range_of(mesh);
   if (!(low <= high)) std::abort();

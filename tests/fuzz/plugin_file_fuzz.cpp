@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes are an error or a description of a plugin; nothing outside of them is read.
+// Any bytes give an error or a description of a plugin; nothing outside of them is read.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

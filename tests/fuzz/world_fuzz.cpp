@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   orca::xml::Diagnostics diagnostics;
-  // In no folder that there is, so that it finds no pictures.
+  // In a folder that does not exist, so that it finds no pictures.
   const auto world = orca::sim::read_world_text(bytes, "/no/such/folder/fuzz.xml", diagnostics);
   if (world.has_value() == diagnostics.has_errors()) std::abort();
   if (world) check(*world);

@@ -30,7 +30,7 @@ double way_to_wall(Vec2 echo, double direction, const Limits& limits) {
   return gap >= limits.side_distance || closing < 0.05 ? kNever : (gap - limits.margin) / closing;
 }
 
-// What speaks against a direction: leaving the goal aside, turning far, changing sides, and a short way.
+// Returns the cost of a direction: for missing the goal, turning far, changing sides, and a short way.
 double cost(double direction, double way, const Situation& situation, const Limits& limits) {
   const double goal = situation.goal.value_or(0.0);
   const double off = wrapped(direction - goal);

@@ -11,8 +11,8 @@
 namespace orca::avoid {
 namespace {
 
-// 0 where the way is free, 1 half way, 1000 at the stop distance: there no other wish must carry the robot
-// on.
+// Returns the weight of the advice: 0 where the way is free, 1 half way, 1000 at the stop distance, where no
+// other wish must move the robot on.
 double insistence(double urgency) { return urgency / (1.001 - urgency); }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace orca::avoid {
 namespace {
 
-// Where a beam ends; nothing if it met nothing.
+// Returns where a beam ends; nothing if it met nothing.
 std::optional<Vec2> place_of(const Scan& scan, std::size_t i) {
   const double yaw = scan.X_RS.yaw + scan.angle_start + scan.angle_increment * static_cast<double>(i);
   return echo_of(scan.ranges[i], scan.min_range, scan.max_range, {scan.X_RS.x, scan.X_RS.y, yaw});

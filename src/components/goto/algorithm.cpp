@@ -24,7 +24,7 @@ Step drive(double direction, double speed, const Limits& limits) {
   return {Step::Kind::drive, direction, std::min(limits.max_speed, speed) * aligned};
 }
 
-// Towards the circle from afar, along it with the place on the left when on it, outwards from within it.
+// Steers towards the circle from afar, along it (place on the left) when on it, and outwards from within it.
 Step circle(const Target& target, const Pose2& pose, const Limits& limits) {
   const double inwards =
       std::atan2(distance(target, pose) - limits.circle_radius, 0.5 * limits.circle_radius);

@@ -25,7 +25,7 @@ struct Limits {
   double circle_radius = 0.0;  ///< [m] of the circle around a place that is never reached.
 };
 
-/// The lap before: where the robot was, and what Goto commanded.
+/// The state of the lap before: where the robot was, and what Goto commanded.
 struct Before {
   bool near = false;   ///< It has been within reach before: a little drift out of it does not start the
                        ///< approach again.
@@ -33,7 +33,7 @@ struct Before {
   double time = 0.0;   ///< [s] since then.
 };
 
-/// What to do now: a direction in the robot frame and a speed, or nothing more.
+/// The result of one lap: a direction in the robot frame and a speed, or the end of the task.
 struct Step {
   enum class Kind { drive, turn, reached };
   Kind kind = Kind::drive;
@@ -41,13 +41,13 @@ struct Step {
   double speed = 0.0;      ///< [m/s]
 };
 
-/// One control step towards a target: straight at it, slower when the target lies off the robot's axis and
-/// near a goal. Within reach it comes to rest evenly, then turns to the target's orientation. Around a target
-/// without reach it circles counter-clockwise.
+/// Computes one control step towards a target. The robot drives straight at it, slower near a goal and when
+/// the target lies off the robot's axis. Within reach it decelerates evenly to rest, then turns to the
+/// target's orientation. It circles counter-clockwise around a target without reach.
 [[nodiscard]] Step step_towards(const Target& target, const Pose2& pose, const Limits& limits,
                                 const Before& before);
 
-/// Whether the pose lies within the target's reach radius.
+/// Returns whether the pose lies within the target's reach radius.
 [[nodiscard]] bool within_reach(const Target& target, const Pose2& pose);
 
 }  // namespace orca::go

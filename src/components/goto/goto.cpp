@@ -19,9 +19,10 @@ using orca::Pose2;
 using orca::Status;
 using orca::go::Step;
 
-/// Drives to a goal in a straight line (thesis 11.1); around one whose reach_radius is 0 it circles until
-/// another comes. A goal may lie above or below the robot: its reach is a ball. Via points that come before a
-/// goal are passed in order; a goal that comes when the route already ends in one replaces the whole route.
+/// A behaviour that drives to a goal in a straight line (thesis 11.1). It circles around a goal whose
+/// reach_radius is 0 until another goal comes. A goal may lie above or below the robot: its reach is a ball.
+/// Via points that come before a goal are passed in order. A goal that comes when the route already ends in a
+/// goal replaces the whole route.
 class Goto final : public orca::Component {
  public:
   using Component::Component;
@@ -44,7 +45,7 @@ class Goto final : public orca::Component {
     return orca::ok();
   }
 
-  // Null if the robot can go there.
+  // Returns why the robot cannot go there; null if it can.
   [[nodiscard]] const char* fault_of(const orca::idl::GoalPoint& goal) const {
     const auto& place = goal.coordinate().point();
     for (const double number :

@@ -8,7 +8,8 @@
 
 namespace {
 
-/// Keeps the robot from driving into what its laser sees (thesis 11.1). README.md tells how.
+/// An avoid behaviour that keeps the robot from driving into what its laser sees (thesis 11.1). See
+/// README.md.
 class LaserAvoid final : public orca::avoid::Avoider {
  public:
   explicit LaserAvoid(orca::ComponentHost& host) : Avoider(host, 4.0) {}
@@ -18,7 +19,7 @@ class LaserAvoid final : public orca::avoid::Avoider {
 
   orca::PushProxyHandle& sensor() override { return laser_; }
 
-  // The scan was taken a moment ago from where the robot was then.
+  // The scan was taken a moment ago, from the robot's pose at that time.
   void listen(orca::avoid::EchoMemory& memory) override {
     const auto readings = laser_.get_update();
     const orca::Pose2 mount = orca::plane_pose(readings->pose());

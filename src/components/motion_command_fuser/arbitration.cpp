@@ -28,7 +28,7 @@ bool suppresses(const Wiring& wiring, const std::string& name) {
                      [&](const Node& node) { return node.higher == name; });
 }
 
-// Calls act(higher, lower) for each node of which both ends are listened to.
+// Calls act(higher, lower) for each node if the fuser listens to both its ends.
 template <class Act>
 void for_each_node(std::span<const Voice> voices, const std::vector<Node>& nodes, Act act) {
   for (const Node& node : nodes) {

@@ -9,7 +9,7 @@
 namespace orca::fuse {
 namespace {
 
-// A required behaviour that is silent; null if all are heard.
+// Returns a required behaviour that is silent; null if all are heard.
 const std::string* silent(std::span<const Voice> voices, const Rules& rules) {
   for (const std::string& name : rules.required) {
     const bool heard = std::any_of(voices.begin(), voices.end(), [&](const Voice& voice) {

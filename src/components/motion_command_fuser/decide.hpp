@@ -19,10 +19,10 @@ enum class Mode { weighted, priority, vote, vector_sum, subsumption };
 [[nodiscard]] Mode mode_of(std::string_view text);
 inline const std::vector<std::string> kModes{"weighted", "priority", "vote", "vector_sum", "subsumption"};
 
-/// How the voices of the behaviours become one command.
+/// The rules by which the voices of the behaviours become one command.
 struct Rules {
   Mode mode = Mode::weighted;
-  double max_age = 0.0;  ///< [s] what is older does not count.
+  double max_age = 0.0;  ///< [s] older wishes do not count.
   Ballot ballot;
   std::vector<std::string> order;  ///< Mode priority: the first named comes first.
   Wiring wiring;                   ///< Mode subsumption.
@@ -32,7 +32,7 @@ struct Rules {
 
 enum class Verdict { fused, no_wish, told_to_stop, required_silent };
 
-/// What the robot shall do, and why.
+/// The movement that the robot shall make, and the reason.
 struct Decision {
   Verdict verdict = Verdict::no_wish;  ///< All but `fused` mean: stop.
   Wish command;                        ///< If fused.
@@ -40,9 +40,9 @@ struct Decision {
   std::string decided_by;              ///< Who had the largest share, said stop, or was silent; or empty.
 };
 
-/// Before any mode comes safety: the robot stops if a required behaviour has been silent for too long or is
-/// not listened to, and if any behaviour has said full stop. What a behaviour without an opinion said, what
-/// is too old and what has no weight never counts.
+/// Decides on a command; safety comes before any mode. The robot stops if a required behaviour has been
+/// silent for too long or is not listened to, and if any behaviour has said full stop. Messages without an
+/// opinion, messages that are too old and wishes without weight never count.
 ///
 /// @param last_rate  [rad/s] decided in the lap before.
 [[nodiscard]] Decision decide(std::span<const Voice> voices, const Rules& rules, double last_rate);

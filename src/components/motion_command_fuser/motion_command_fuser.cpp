@@ -22,7 +22,7 @@ using orca::fuse::Wish;
 using MotionPort = orca::PushProxyArray<orca::idl::MotionCommand>;
 using Source = MotionPort::Source;
 
-// A behaviour that is listened to, and what it said.
+// A behaviour that the fuser listens to, and its last messages.
 struct Listened {
   Source source;
   std::string name;
@@ -30,8 +30,8 @@ struct Listened {
   ObjectPtr<orca::idl::MotionCommand> last_wish;  // opinions only
 };
 
-/// Fuses the wishes of the behaviours that a client list names into one crisp command (thesis 11.1). Which
-/// behaviours may be named is what the graph connects to `motion`. README.md tells about the modes.
+/// The component that fuses the wishes of the behaviours in a client's list into one crisp command (thesis
+/// 11.1). A list may name the behaviours that the graph connects to `motion`. README.md explains the modes.
 class MotionCommandFuser final : public orca::Component {
  public:
   using Component::Component;
@@ -53,7 +53,7 @@ class MotionCommandFuser final : public orca::Component {
       return orca::fail(orca::Code::invalid_argument, "mode priority needs the parameter order");
     if (Status read = read_nodes(*suppress_, rules.wiring.suppress); !read.ok()) return read;
     if (Status read = read_nodes(*inhibit_, rules.wiring.inhibit); !read.ok()) return read;
-    // One that is not there would keep the robot standing for good.
+    // A required behaviour that is absent would keep the robot standing for good.
     for (const std::string& name : rules.required)
       if (!source_of(name)) return not_connected(name);
     rules_ = std::move(rules);
@@ -83,7 +83,7 @@ class MotionCommandFuser final : public orca::Component {
     return orca::ok();
   }
 
-  // What those said that were listened to before is forgotten.
+  // Forgets the messages of the behaviours that it listened to before.
   Status choose(const std::vector<std::string>& names) {
     std::vector<Listened> chosen;
     for (const std::string& name : names) {
@@ -110,8 +110,8 @@ class MotionCommandFuser final : public orca::Component {
     return orca::again();
   }
 
-  // The first policy of thesis 7.4, but a full stop is not kept waiting, nor the others by one that is
-  // silent.
+  // Implements the first policy of thesis 7.4, with two exceptions: a full stop is not delayed, and a silent
+  // behaviour does not delay the others.
   void wait_for_all() {
     const auto settled = [&] {
       return stop_is_waiting() || std::all_of(listened_.begin(), listened_.end(),
@@ -166,7 +166,7 @@ class MotionCommandFuser final : public orca::Component {
     return orca::turn(wish.value, wish.speed, wish.weight);
   }
 
-  // The command as it was sent.
+  // Sends the command and returns it as it was sent.
   orca::idl::MotionCommand send() {
     orca::Loan<orca::idl::MotionCommand> loan = command();
     const orca::idl::MotionCommand sent = *loan;
@@ -230,8 +230,8 @@ class MotionCommandFuser final : public orca::Component {
             .required_max_age = *required_max_age_};
   }
 
-  // Whether the source is the behaviour or port `name`, seen from the fuser's own context or from the top: a
-  // Command beside it in a sub-graph "left" says "goto" for "left/goto".
+  // Returns whether the source is the behaviour or port `name`, seen from the fuser's own context or from the
+  // top: a Command beside it in a sub-graph "left" says "goto" for "left/goto".
   [[nodiscard]] bool is_called(const Source& source, const std::string& name) const {
     const std::string path = source.path();
     const std::string behaviour = path.substr(0, path.rfind('.'));

@@ -8,7 +8,7 @@
 
 namespace orca::fuse {
 
-/// What a behaviour that the fuser listens to has said last.
+/// The last message of a behaviour that the fuser listens to.
 struct Voice {
   enum class Said { nothing, dont_care, full_stop, wish };
 

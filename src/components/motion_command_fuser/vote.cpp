@@ -38,7 +38,7 @@ double at(const Votes& votes, int i) {
   return i < 0 || i >= kRates ? 0.0 : votes[static_cast<std::size_t>(i)];
 }
 
-// The highest peak.
+// Returns the highest peak.
 int winner(const Votes& votes, const Ballot& ballot, double last_rate) {
   int best = -1;
   double most = 0.0;
@@ -52,7 +52,7 @@ int winner(const Votes& votes, const Ballot& ballot, double last_rate) {
   return best;
 }
 
-// Where the peak lies between the candidates: exact for a single bell.
+// Returns where the peak lies between the candidates: exact for a single bell.
 double peak(const Votes& votes, int best, const Ballot& ballot) {
   if (best == 0 || best == kRates - 1) return candidate(best, ballot);
   const double before = std::log(at(votes, best - 1));
@@ -63,7 +63,7 @@ double peak(const Votes& votes, int best, const Ballot& ballot) {
   return candidate(best, ballot) + aside * ballot.max_turn_rate / kSide;
 }
 
-// The speed with most votes; of several the slowest.
+// Returns the speed with most votes; if there are several, the slowest.
 double speed_of(std::span<const Wish> wishes, const std::vector<double>& shares, const Ballot& ballot) {
   const auto slower = [](const Wish& a, const Wish& b) { return a.speed < b.speed; };
   const auto [slowest, fastest] = std::minmax_element(wishes.begin(), wishes.end(), slower);

@@ -7,7 +7,7 @@
 
 namespace orca::fuse {
 
-/// How the vote is held.
+/// The parameters of the vote.
 struct Ballot {
   double steer_gain = 0.0;     ///< [1/s] a direction is a vote for the turn rate of this times it.
   double max_turn_rate = 0.0;  ///< [rad/s] the candidates lie between this to the right and to the left.
@@ -16,18 +16,18 @@ struct Ballot {
   double inertia = 0.0;        ///< [1] share of all votes that the last choice has in choosing between peaks.
 };
 
-/// A vote (DAMN): each wish gives votes to the candidate turn rates, most to its own and the fewer the
-/// farther off, in proportion to its weight; the candidate with most votes wins. Those that voted for it,
-/// each in proportion to its votes, then choose the speed in the same way. Where a mean would drive between
-/// two wishes, into what both want to avoid, a vote takes one of them.
+/// Holds a vote (DAMN). Each wish gives votes to the candidate turn rates in proportion to its weight: most
+/// to its own rate, and fewer to rates farther away. The candidate with most votes wins. The wishes that
+/// voted for it, each in proportion to its votes, then choose the speed in the same way. A mean would drive
+/// between two wishes, into the obstacle that both want to avoid; a vote takes one of them.
 ///
-/// Between several peaks the last choice, `last_rate` [rad/s], has votes too, so that the robot keeps to its
-/// side while the behaviours speak one after the other. Of equal peaks the one to the left wins.
+/// If there are several peaks, the last choice, `last_rate` [rad/s], has votes too. The robot then keeps to
+/// its side while the behaviours speak one after the other. If peaks are equal, the one to the left wins.
 ///
 /// @param wishes  at least one, each with a weight above 0.
 /// @source  Rosenblatt, "DAMN: A Distributed Architecture for Mobile Navigation", J. Experimental and
 ///          Theoretical AI 9(2-3), 1997: command fusion by votes, smoothing and interpolation of the peak.
-///          That behaviours give one wish each, which is spread to a bell here, is our own.
+///          Our own addition: each behaviour gives one wish, which is spread to a bell here.
 [[nodiscard]] Fused vote(std::span<const Wish> wishes, const Ballot& ballot, double last_rate);
 
 }  // namespace orca::fuse

@@ -8,8 +8,8 @@
 namespace orca::fuse {
 namespace {
 
-// Unit vectors whose weighted sum is shorter than this share of the weights cancel out: what is left of them
-// is rounding, and no direction.
+// Unit vectors whose weighted sum is shorter than this share of the weights cancel out: the remainder is
+// rounding, not a direction.
 constexpr double kCancelled = 1e-9;
 
 struct Sums {
@@ -48,7 +48,7 @@ std::vector<double> shares_of(std::span<const Wish> wishes, double weight) {
   return shares;
 }
 
-// Where the vectors point, at this speed; standing if they cancel out.
+// Returns a wish in the direction of the sum, at this speed; standing if the vectors cancel out.
 Wish along(const Sums& sums, double speed) {
   if (std::hypot(sums.forward, sums.left) < kCancelled * sums.weight)
     return {Wish::Kind::direction, 0.0, 0.0, sums.weight};

@@ -5,7 +5,7 @@
 
 namespace orca::fuse {
 
-/// How one behaviour wants the robot to move.
+/// The movement that one behaviour wants.
 struct Wish {
   enum class Kind { direction, turn_rate };
   Kind kind = Kind::direction;
@@ -14,7 +14,7 @@ struct Wish {
   double weight = 0.0;  ///< [1] above 0.
 };
 
-/// The one command that came of several wishes.
+/// The one command that several wishes result in.
 struct Fused {
   Wish command;                ///< Its weight is the sum of those that made it.
   std::vector<double> shares;  ///< [1] of each wish in it, in their order; the sum is 1.

@@ -14,9 +14,9 @@
 
 namespace {
 
-/// Drives about: straight on, and away by a random turn where sonars or laser find the way blocked. Beside an
-/// avoid behaviour it only gives the robot something to do; alone it stops short of obstacles, but keeps no
-/// distance from what it passes.
+/// A behaviour that drives about: straight on, then away by a random turn where sonars or laser find the way
+/// blocked. Beside an avoid behaviour it only gives the robot something to do. Alone it stops short of
+/// obstacles, but keeps no distance from things that it passes.
 class RandomWalk final : public orca::Component {
  public:
   explicit RandomWalk(orca::ComponentHost& host) : Component(host) {
@@ -55,7 +55,7 @@ class RandomWalk final : public orca::Component {
     return orca::again();
   }
 
-  // The newest readings of either sensor take the place of those before.
+  // Replaces the former readings of each sensor by its newest ones.
   void hear() {
     if (!sonar_.new_data_arrived() && !laser_.new_data_arrived()) return;
     heard_at_ = now();

@@ -20,10 +20,10 @@ struct Step {
   double speed = 0.0;      ///< [m/s]
 };
 
-/// Straight on until the way is blocked or it has been long enough, then a turn on the spot by a random angle
-/// to a random side.
+/// A random walk: straight on until the way is blocked or a random time has passed, then a turn on the spot
+/// by a random angle to a random side.
 ///
-/// Thread contract: not synchronised. What it does depends on the times, the free ways and the stream alone.
+/// Thread contract: not synchronised. Its steps depend only on the times, the free ways and the stream.
 class Walk {
  public:
   /// @param time      [s] now, never less than before.

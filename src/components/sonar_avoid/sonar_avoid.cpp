@@ -7,7 +7,8 @@
 
 namespace {
 
-/// Keeps the robot from driving into what its sonars hear (thesis 11.1). README.md tells how.
+/// An avoid behaviour that keeps the robot from driving into what its sonars hear (thesis 11.1). See
+/// README.md.
 class SonarAvoid final : public orca::avoid::Avoider {
  public:
   explicit SonarAvoid(orca::ComponentHost& host) : Avoider(host, 0.25) {}
@@ -15,8 +16,9 @@ class SonarAvoid final : public orca::avoid::Avoider {
  private:
   orca::PushProxyHandle& sensor() override { return sonar_; }
 
-  // An echo may come from anywhere on the arc of the cone; its middle is taken. What is too near to tell how
-  // near may be at the sonar itself. The sonars fire one after the other: meanwhile the robot moves.
+  // An echo may come from anywhere on the arc of the cone; the middle of the arc is used. An obstacle below
+  // the minimum range may be at the sonar itself. The sonars fire one after the other, and the robot moves
+  // meanwhile.
   void listen(orca::avoid::EchoMemory& memory) override {
     const auto readings = sonar_.get_update();
     const std::size_t count = std::min(readings->ranges().size(), readings->poses().size());

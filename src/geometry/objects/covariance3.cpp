@@ -16,7 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Matrix = geometry::Square<6>;
 
-// Nearer to straight up or down than this, the covariance of roll and yaw means nothing.
+// Closer to straight up or down than this, the covariance of roll and yaw is meaningless.
 constexpr double kLeastCosOfPitch = 1e-6;
 
 Vector3d vector_of(const idl::Point& point) { return {point.x(), point.y(), point.z()}; }
@@ -28,7 +28,8 @@ Matrix3d matrix_of(const idl::Rotation3D& r) {
       .toRotationMatrix();
 }
 
-// Straight up or down all of roll and yaw together becomes roll: the rotation is right there too.
+// Computes roll, pitch and yaw of a rotation. Straight up or down, roll and yaw are both expressed as roll,
+// and the rotation is still correct.
 idl::Rotation3D angles_of(const Matrix3d& R) {
   const double yaw = std::atan2(R(1, 0), R(0, 0));
   const double c = std::cos(yaw);
@@ -40,8 +41,8 @@ idl::Rotation3D angles_of(const Matrix3d& R) {
   return rotation;
 }
 
-// The small turn about the axes of the outer frame that small changes of roll, pitch and yaw make: its
-// columns are the axes that the three turn about.
+// Returns the matrix that maps small changes of roll, pitch and yaw to the small turn about the axes of the
+// outer frame. Its columns are the axes that the three turn about.
 Matrix3d turn_of_angles(const idl::Rotation3D& r) {
   const double cp = std::cos(r.pitch());
   const double cy = std::cos(r.yaw());
@@ -57,14 +58,14 @@ Matrix3d cross(const Vector3d& v) {
   return m;
 }
 
-// From (position, roll, pitch, yaw) to (position, turn), the coordinates in which poses compose simply.
+// Maps (position, roll, pitch, yaw) to (position, turn), the coordinates in which poses compose simply.
 Matrix to_turn(const idl::Rotation3D& r) {
   Matrix J = Matrix::Identity();
   J.bottomRightCorner<3, 3>() = turn_of_angles(r);
   return J;
 }
 
-// A pose whose covariance is given for (position, turn).
+// Builds a pose whose covariance is given for (position, turn).
 Result<idl::Pose3D> pose_of(const Vector3d& position, const Matrix3d& R, const Matrix& covariance) {
   idl::Pose3D pose;
   pose.position(make_point(position.x(), position.y(), position.z()));

@@ -10,10 +10,10 @@
 namespace orca {
 namespace {
 
-// Below this [rad] the series is exact to the last digits, and the quotient is not.
+// Below this [rad] the series is exact to the last digits, but the quotient is not.
 constexpr double kSmall = 0.05;
 
-// The derivative of sin(h) / h, the chord per arc that turns by 2 h.
+// Returns the derivative of sin(h) / h, the chord per arc that turns by 2 h.
 double chord_ratio_slope(double h) {
   const double q = h * h;
   if (std::abs(h) < kSmall) return -h / 3.0 * (1.0 - q / 10.0 * (1.0 - q / 28.0 * (1.0 - q / 54.0)));
@@ -35,7 +35,8 @@ Status check(const WheelTravel& travel, const DifferentialBase& base) {
   return ok();
 }
 
-// The derivatives of (x, y, orientation) for the way and the turn of an arc that ends `chord` away.
+// Returns the derivatives of (x, y, orientation) with respect to the length and the turn of an arc that ends
+// `chord` away.
 Eigen::Matrix<double, 3, 2> slope_of(const Travel2& travel, const Vec2& chord, double start_orientation) {
   const double h = 0.5 * travel.turn;
   const Vec2 along = direction(start_orientation + h);

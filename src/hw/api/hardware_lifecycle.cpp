@@ -65,7 +65,8 @@ void HardwareLifecycle::forget() {
   for (SensorEndpoint* sensor : container_.sensors()) sensor->forget();
 }
 
-// The device has failed in some way, but its motors may run and may still listen.
+// Stops the motors as far as possible: the device has failed in some way, but they may run and may still
+// listen.
 void HardwareLifecycle::try_stop() {
   try {
     applied_ = standing();
@@ -91,7 +92,7 @@ HardwareLifecycle::FollowUp HardwareLifecycle::checked(const Status& outcome) {
   return HardwareEvent::failed;
 }
 
-// The one place where a fault is made known. The first one stays.
+// Makes a fault known; this is the only place that does so. The first fault stays.
 void HardwareLifecycle::report(const std::string& reason) {
   if (state() == HardwareState::fault) return;
   {

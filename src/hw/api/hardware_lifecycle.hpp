@@ -13,11 +13,11 @@
 
 namespace orca::hw {
 
-/// The state of one hardware container: asks the table of hardware_states.hpp what an event means, carries
-/// the actions out, and keeps why the container failed.
+/// The state of one hardware container. It looks an event up in the table of hardware_states.hpp, carries out
+/// the actions, and keeps the reason why the container failed.
 ///
 /// Thread contract: state(), fault() and watch() from any strand; the rest on the container's strand, or
-/// before that starts.
+/// before that strand starts.
 class HardwareLifecycle {
  public:
   /// @param container  outlives this object.
@@ -25,15 +25,15 @@ class HardwareLifecycle {
   HardwareLifecycle(const HardwareLifecycle&) = delete;
   HardwareLifecycle& operator=(const HardwareLifecycle&) = delete;
 
-  /// Takes an event, and those that its actions end in. Lets pass what the driver throws.
+  /// Takes an event, and the events that its actions end in. Passes on what the driver throws.
   void handle(HardwareEvent event);
   /// Reports a fault and takes the event `failed`.
   void fail_with(const std::string& reason);
-  /// Gives the motors a set-point, unless they have it already. An error of the driver's is a fault.
+  /// Gives the motors a set-point, unless they already have it. An error of the driver is a fault.
   void drive(const DriveSetpoint& setpoint);
 
   [[nodiscard]] HardwareState state() const { return state_.load(std::memory_order_acquire); }
-  /// Why the state is Fault.
+  /// Returns why the state is Fault.
   [[nodiscard]] std::string fault() const;
   /// Wakes `strand` at every change of state.
   void watch(Strand& strand);

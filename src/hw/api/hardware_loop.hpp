@@ -11,8 +11,8 @@
 
 namespace orca::hw {
 
-/// The running part of one hardware container: its strand and its users. It polls the device and carries
-/// commands out; nothing that the driver throws gets further.
+/// The running part of one hardware container: its strand and its users. It polls the device and carries out
+/// commands. Nothing that the driver throws passes beyond it.
 ///
 /// Thread contract: the public functions from any strand.
 class HardwareLoop {
@@ -24,14 +24,14 @@ class HardwareLoop {
 
   /// Starts the strand, which opens the device.
   void run();
-  /// Makes the strand stop and close the device and end.
+  /// Makes the strand stop and close the device and then end.
   void shut_down();
   [[nodiscard]] bool join_until(TimePoint deadline);
 
   /// Adds or removes a user.
   void acquire();
   void release();
-  /// Makes the strand carry out a new command now.
+  /// Makes the strand carry out a new command at once.
   void wake();
 
   [[nodiscard]] HardwareLifecycle& life() { return life_; }

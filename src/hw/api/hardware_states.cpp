@@ -28,7 +28,7 @@ constexpr auto kRows = std::to_array<HardwareTransition>({
      Event::failed,
      State::fault,
      {Action::halt, Action::try_stop, Action::forget, Action::enter}},
-    // What went wrong first is the reason that people need.
+    // The first fault is the reason that people need.
     {State::fault, Event::failed, State::fault, {}},
 
     {State::ready, Event::shut_down, State::closed, {Action::close, Action::enter}},

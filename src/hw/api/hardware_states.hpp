@@ -9,7 +9,7 @@
 
 namespace orca::hw {
 
-/// What makes a hardware container change its state.
+/// The events that may make a hardware container change its state.
 enum class HardwareEvent {
   // Circumstances.
   wanted,     ///< Somebody uses the device.
@@ -22,9 +22,9 @@ enum class HardwareEvent {
   failed,  ///< A function of the driver reports an error or throws.
 };
 
-/// What is done in a transition.
+/// The actions of a transition.
 enum class HardwareAction {
-  enter,     ///< The new state holds from here on, and others see it.
+  enter,     ///< The new state holds from here on and is visible to others.
   open,      ///< Calls open().
   start,     ///< Calls start().
   halt,      ///< The motion endpoint drops its command.
@@ -42,14 +42,15 @@ using HardwareTransition = Transition<HardwareState, HardwareEvent, HardwareActi
 
 /// The state machine of a hardware container.
 ///
-/// Any call of the driver may end in the event `failed`. It is taken at once, in the state that holds then,
-/// and the rest of its row is left out.
+/// Any call of the driver may end in the event `failed`. That event is taken at once, in the state that holds
+/// then, and the rest of its row is left out.
 ///
-/// @return the row for the event in the state, or null if the event leads nowhere; kind_of() says what that
+/// @return the row for the event in the state, or null if the event leads nowhere; kind_of() explains what
+/// that
 ///         means.
 [[nodiscard]] const HardwareTransition* transition(HardwareState state, HardwareEvent event);
 
-/// All rows, in the order of a container's life.
+/// Returns all rows, in the order of a container's life.
 [[nodiscard]] std::span<const HardwareTransition> hardware_transitions();
 
 [[nodiscard]] constexpr EventKind kind_of(HardwareEvent event) {

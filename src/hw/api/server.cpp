@@ -13,7 +13,7 @@ constexpr Duration kStartLimit = 5s;         // for a device to start
 constexpr Duration kFirstReadingLimit = 2s;  // for a query to an idle device
 constexpr Duration kMotionHold = 500ms;      // a base stays active this long after the last motion command
 
-// Keeps the hardware active as long as it lives, also when a wait is interrupted.
+// A use of the hardware: keeps it active while this object lives, even if a wait is interrupted.
 class Use {
  public:
   explicit Use(HardwareContainer& container) : container_(container) { container_.acquire(); }
@@ -54,11 +54,11 @@ class HardwareServer::SensorPorts {
     Push(PortOwner& owner, std::string name, const SensorEndpoint& sensor)
         : PushServerHandle(owner, std::move(name), type_id(sensor.type()),
                            {.period = sensor.period(), .from_device = true}) {}
-    // From the container's strand, so without the provenance of what the component handles at the moment.
+    // Called on the container's strand, so without the provenance of the object that the component handles.
     ObjectRef push(ObjectLoan reading) { return push_reading(std::move(reading)); }
   };
 
-  // The latest reading; of idle hardware, the first after starting it.
+  // Returns the latest reading; if the hardware is idle, the first one after starting it.
   Result<ObjectLoan> answer() {
     HardwareContainer& container = *server_.container();
     const Use use(container);
@@ -81,7 +81,7 @@ HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectT
   lap_every(kWatchPeriod);
   if (container_ == nullptr) return;
   for (SensorEndpoint* sensor : container_->sensors()) {
-    // By name: a plugin may have a copy of the type's description.
+    // Types are compared by name, because a plugin may have its own copy of the type's description.
     const bool wanted = only == nullptr || only->name == sensor->type().name;
     if (wanted && sensor->source() == source)
       sensors_.push_back(std::make_unique<SensorPorts>(*this, *sensor));
@@ -152,7 +152,7 @@ Status HardwareServer::on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velo
                    velocity->forward() == 0.0 && velocity->left() == 0.0 && velocity->turn_rate() == 0.0);
 }
 
-// It holds no age, so that idle hardware takes it before it is started.
+// A turret command has no age, so idle hardware takes it before it is started.
 Status HardwareServer::on_turret(const ObjectPtr<idl::TurretCommand>& turret) {
   const bool active = container_->state() == HardwareState::active;
   const Status taken = active ? container_->command(*turret) : container_->motion()->command(*turret, now());
@@ -169,7 +169,7 @@ Status HardwareServer::carry_out(const ObjectPtr<Command>& command, bool stands)
     stay_active(!stands);
     return container_->command(*command);
   }
-  // Idle hardware stands already; what it was to be started for is not wanted any more.
+  // Idle hardware stands already; the command for which it was to be started is discarded.
   waiting_command_ = nullptr;
   if (!stands) waiting_command_ = [this, command] { return container_->command(*command); };
   stay_active(!stands);

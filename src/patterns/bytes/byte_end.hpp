@@ -17,7 +17,7 @@
 
 namespace orca::bytes {
 
-/// The means by which an end reaches its peer.
+/// The wires by which an end reaches its peer.
 struct Connection {
   Executive& executive;
   Traffic& traffic;
@@ -26,10 +26,11 @@ struct Connection {
   std::shared_ptr<ByteWire> in;
 };
 
-/// Sends frames to a peer, and receives frames on a task of its own. A peer that sends what cannot be, or that
-/// does not read, is cut off: nothing goes either way any more, and it is counted and logged.
+/// One end of a link of bytes. It sends frames to a peer, and receives frames on a task of its own. A peer
+/// that sends invalid data, or that does not read, is cut off: nothing passes in either direction any more,
+/// and the event is counted and logged.
 ///
-/// Thread contract: send() and cut() from any; start() and stop() from one task.
+/// Thread contract: send() and cut() from any thread; start() and stop() from one task.
 class ByteEnd {
  public:
   /// Whether a frame may be dropped because the link has no room for it.

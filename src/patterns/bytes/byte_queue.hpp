@@ -16,15 +16,15 @@ class ByteQueue {
   explicit ByteQueue(std::size_t capacity) : ring_(capacity) {}
 
   /// Appends as many of the bytes as there is room for.
-  /// @return how many.
+  /// @return the number of bytes appended.
   std::size_t write(std::span<const std::byte> bytes);
-  /// Takes the oldest bytes, as many as there are and as `to` has room for.
-  /// @return how many.
+  /// Moves the oldest bytes into `to`: as many as the queue has and `to` can hold.
+  /// @return the number of bytes moved.
   std::size_t read(std::span<std::byte> to);
 
  private:
   std::vector<std::byte> ring_;
-  // Bytes ever written and ever read; the difference is in the queue.
+  // Bytes ever written and ever read; the queue holds the difference.
   std::atomic<std::size_t> written_{0};
   std::atomic<std::size_t> read_{0};
 };

@@ -13,23 +13,24 @@
 
 namespace orca::bytes {
 
-/// One direction of a link: a stream of bytes from a sender's queue, along which a courier carries them, to a
-/// receiver's queue. Whoever writes may find no room; whoever reads gets the bytes in any portions.
+/// One direction of a link: a stream of bytes. A courier carries them from the sender's queue to the
+/// receiver's queue. A writer may find no room; a reader gets the bytes in portions of any size.
 ///
-/// Thread contract: write() from one thread at a time, read() too, carry() from the courier; the rest from any.
+/// Thread contract: write() from one thread at a time, read() likewise, carry() from the courier; the rest
+/// from any thread.
 class ByteWire {
  public:
   /// @param capacity [bytes] of each of the two queues, at least 1.
   ByteWire(Courier& courier, std::size_t capacity);
 
   /// Appends as many of the bytes as there is room for; none once the wire is closed.
-  /// @return how many.
+  /// @return the number of bytes appended.
   std::size_t write(std::span<const std::byte> bytes);
   /// Takes bytes that have arrived.
-  /// @return how many.
+  /// @return the number of bytes taken.
   std::size_t read(std::span<std::byte> to);
 
-  /// Who is notified when bytes have arrived, and when there is room again. Null: nobody.
+  /// Sets who is notified when bytes have arrived, and when there is room again. Null: nobody.
   void set_receiver(Event* event);
   void set_sender(Event* event);
 
@@ -37,7 +38,7 @@ class ByteWire {
   [[nodiscard]] bool closed() const { return closed_.load(std::memory_order_acquire); }
 
   /// Moves a portion of the bytes on.
-  /// @return whether there were any to move and room for them.
+  /// @return whether it moved any: there were some, and there was room for them.
   bool carry();
 
  private:

@@ -11,7 +11,7 @@ namespace orca::bytes {
 
 class ByteWire;
 
-/// A thread that no executive knows and that carries bytes along wires, as a kernel or a listener of shared
+/// A thread unknown to any executive that carries bytes along wires, as a kernel or a listener of shared
 /// memory does.
 ///
 /// Thread contract: any thread.
@@ -22,9 +22,9 @@ class Courier {
   Courier(const Courier&) = delete;
   Courier& operator=(const Courier&) = delete;
 
-  /// Carries the bytes of this wire too, until it is closed.
+  /// Adds a wire to those whose bytes it carries, until the wire is closed.
   void serve(std::shared_ptr<ByteWire> wire);
-  /// Reports that some wire has bytes to carry, or room for them, or was closed.
+  /// Reports that some wire has bytes to carry, or has room for them, or was closed.
   void notify();
 
  private:

@@ -13,7 +13,8 @@
 
 namespace orca::bytes {
 
-/// What a frame says. The number in its header is the subscription's for Push, the request's for Query and Send.
+/// The kinds of frame. The number in a frame's header is the subscription's for Push, the request's for Query
+/// and Send.
 enum class FrameKind : std::uint8_t {
   attach = 1,  ///< Push, client: subscribes. Interval [ns], multiple.
   detach,      ///< Push, client: ends the subscription.
@@ -29,31 +30,31 @@ enum class FrameKind : std::uint8_t {
   answer,      ///< Request, server: a code, a text, a place; of a reply, the object.
 };
 
-/// A frame that is being written: length [bytes] of all that follows the length, kind, number, then fields as
-/// they are added. All numbers are little-endian.
+/// A frame that is being written. It holds the length [bytes] of all that follows the length, the kind, the
+/// number, then the fields as they are added. All numbers are little-endian.
 class FrameWriter {
  public:
   FrameWriter(FrameKind kind, std::uint64_t number);
 
   void add(std::uint64_t value);
   void add(const std::string& text);
-  /// Adds an object as XCDR1; it must be the last field.
+  /// Adds an object as XCDR1. It must be the last field.
   void add(const ObjectRef& object);
 
-  /// The whole frame.
+  /// Returns the whole frame.
   [[nodiscard]] std::span<const std::byte> bytes();
 
  private:
   std::vector<std::byte> bytes_;
 };
 
-/// A frame that has been received. Its bytes are not trusted: a field that is not there reads as 0 or empty, and
-/// status() says so.
+/// A frame that has been received. Its bytes are not trusted: a missing field reads as 0 or empty, and
+/// status() reports it.
 ///
 /// A view; it must not outlive the bytes.
 class FrameReader {
  public:
-  /// @param frame  all that follows the length.
+  /// @param frame  all bytes that follow the length.
   explicit FrameReader(std::span<const std::byte> frame);
 
   [[nodiscard]] FrameKind kind() const { return kind_; }
@@ -62,11 +63,11 @@ class FrameReader {
   std::uint64_t read_number();
   std::string read_text();
   /// Reads the object that is the rest of the frame.
-  /// @errors  data_loss if it is none of that type.
+  /// @errors  data_loss if the bytes are no object of that type.
   Result<ObjectRef> read_object(const ObjectType& type);
 
-  /// How the reading went, once all fields are read.
-  /// @errors  data_loss if a field was missing or if there are more.
+  /// Returns whether all fields could be read. Called after the last field.
+  /// @errors  data_loss if a field was missing or if bytes are left over.
   [[nodiscard]] Status status() const;
 
  private:
@@ -79,12 +80,12 @@ class FrameReader {
   std::uint64_t number_;
 };
 
-/// A stream of bytes, cut into frames.
+/// A stream of bytes that is cut into frames.
 class FrameSplitter {
  public:
   void append(std::span<const std::byte> bytes);
   /// Returns the next whole frame without its length, valid until the next call; nothing if it is not whole yet.
-  /// @errors  data_loss for a length that cannot be.
+  /// @errors  data_loss for an impossible length.
   Result<std::optional<std::span<const std::byte>>> next();
 
  private:

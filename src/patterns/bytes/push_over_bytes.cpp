@@ -69,10 +69,10 @@ Duration PushSourceOverBytes::base_period() const {
   return base_period_;
 }
 
-// With the lock held.
+// Called with the lock held.
 void PushSourceOverBytes::deliver(ObjectRef object, std::uint64_t ticket) {
   if (sink_->deliver(std::move(object)).has_value()) {
-    held_ = Held{std::move(object), ticket};  // it was left as it was
+    held_ = Held{std::move(object), ticket};  // deliver() left it unchanged
     return;
   }
   if (ticket == 0) return;
@@ -191,7 +191,7 @@ void PushSinkOverBytes::lost(std::uint64_t objects) {
   end_.traffic().objects_lost.fetch_add(objects, std::memory_order_relaxed);
 }
 
-// Called again and again with the same object until the client has taken it.
+// Called repeatedly with the same object until the client has taken it.
 std::optional<Duration> PushSinkOverBytes::push_and_wait(const ObjectRef& object) {
   const std::lock_guard lock(mutex_);
   if (in_flight_ == object) {

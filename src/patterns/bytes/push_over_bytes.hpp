@@ -12,7 +12,7 @@
 
 namespace orca::bytes {
 
-/// The client's end of a Push edge: stands for the server's source.
+/// The client's end of a Push edge. It stands for the server's source.
 ///
 /// Thread contract: as PushSource.
 class PushSourceOverBytes final : public PushSource, public LinkEnd {
@@ -30,7 +30,7 @@ class PushSourceOverBytes final : public PushSource, public LinkEnd {
   [[nodiscard]] std::string path() const override { return path_; }
 
  private:
-  // An object that did not fit in, and for which its publisher waits.
+  // An object that did not fit in and for which its publisher waits.
   struct Held {
     ObjectRef object;
     std::uint64_t ticket;
@@ -47,15 +47,15 @@ class PushSourceOverBytes final : public PushSource, public LinkEnd {
   mutable std::mutex mutex_;
   // Below: guarded by mutex_.
   PushSink* sink_ = nullptr;        // null: not subscribed
-  std::uint64_t subscription_ = 0;  // counts them, so that nothing of an earlier one is delivered
+  std::uint64_t subscription_ = 0;  // a count, so that objects of an earlier one are discarded
   Duration base_period_;
   std::optional<Held> held_;
 
   ByteEnd end_;  // the last member: its task uses the others
 };
 
-/// The server's end of a Push edge: stands for the client's sink. Where the edge's policy is `block`, a publisher
-/// waits for each object until the client has taken it in, which costs a round trip.
+/// The server's end of a Push edge. It stands for the client's sink. Where the edge's policy is `block`, a
+/// publisher waits for each object until the client has taken it in, which costs a round trip.
 ///
 /// Thread contract: as PushSink.
 class PushSinkOverBytes final : public PushSink, public LinkEnd {
@@ -77,7 +77,7 @@ class PushSinkOverBytes final : public PushSink, public LinkEnd {
   PushSource& source_;
   const bool waits_;  // for room
   const Duration limit_;
-  std::uint64_t losses_ = 0;  // not yet told; the publisher's strand
+  std::uint64_t losses_ = 0;  // not yet reported; used on the publisher's strand
 
   mutable std::mutex mutex_;
   // Below: guarded by mutex_.

@@ -29,7 +29,7 @@ FrameWriter answer_frame(RequestId id, const Answer& answer) {
   return frame;
 }
 
-// What follows an answer's head when it is no error.
+// Reads the part that follows an answer's head when it is no error.
 Status read_rest(FrameReader& frame, const RequestTypes& types, std::optional<Result<ObjectRef>>& answer) {
   Result<ObjectRef> object = frame.read_object(*types.reply);
   if (!object) return object.error();  // the fault of the link, not the answer
@@ -122,7 +122,7 @@ Status TargetOverBytes<Answer>::receive(FrameReader& frame) {
   return ok();
 }
 
-// Nothing that is still open will be answered any more.
+// Closes everything that is still open, because no answer can come any more.
 template <class Answer>
 void TargetOverBytes<Answer>::close(const Error& reason) {
   const Error error =

@@ -20,7 +20,7 @@ struct RequestTypes {
   const ObjectType* reply;  ///< Null for Send.
 };
 
-/// The client's end of a Query or Send edge: stands for the server's target.
+/// The client's end of a Query or Send edge. It stands for the server's target.
 ///
 /// Thread contract: as RequestTarget.
 template <class Answer>
@@ -33,7 +33,7 @@ class TargetOverBytes final : public RequestTarget<Answer>, public LinkEnd {
 
   std::optional<Answer> offer(const ObjectRef& object, ReplySink<Answer>& reply_to, RequestId id,
                               bool may_wait) override;
-  /// Waits until the server has confirmed it, at most 1 s.
+  /// Withdraws the request and waits until the server has confirmed that, at most 1 s.
   void withdraw(RequestId id) override;
   [[nodiscard]] Duration patience() const override { return patience_; }
   [[nodiscard]] std::string path() const override { return path_; }
@@ -63,7 +63,7 @@ class TargetOverBytes final : public RequestTarget<Answer>, public LinkEnd {
   ByteEnd end_;  // the last member: its task uses the others
 };
 
-/// The server's end of a Query or Send edge: stands for the client.
+/// The server's end of a Query or Send edge. It stands for the client.
 ///
 /// Thread contract: as ReplySink.
 template <class Answer>

@@ -36,7 +36,7 @@ void PushEdge::unsubscribe() {
   counts_.left_behind += count_;
   count_.store(0, std::memory_order_release);
   std::fill(ring_.begin(), ring_.end(), ObjectRef{});
-  newest_ = ObjectRef{};  // what was true before is not news to the next subscription
+  newest_ = ObjectRef{};  // an object of this subscription is not news to the next one
   publisher_waits_ = subscriber_stuck_ = false;
 }
 
@@ -75,7 +75,7 @@ std::optional<Duration> PushEdge::deliver(ObjectRef&& object) {
   return std::nullopt;
 }
 
-// False if the new object cannot go in; it is counted, or its publisher waits.
+// Makes room for a new object. Returns false if it cannot go in; it is counted, or its publisher waits.
 bool PushEdge::make_room() {
   switch (policy_.overflow) {
     case QueuePolicy::Overflow::drop_oldest:
@@ -93,7 +93,7 @@ bool PushEdge::make_room() {
   }
 }
 
-// Into the queue, which holds `count` objects.
+// Puts the object into the queue, which holds `count` objects.
 void PushEdge::put(ObjectRef&& object, std::uint32_t count) {
   std::uint32_t last = first_ + count;
   if (last >= policy_.depth) last -= policy_.depth;
@@ -150,7 +150,7 @@ ObjectRef PushEdge::latest() const {
   return count == 0 ? newest_ : ring_[(first_ + count - 1) % policy_.depth];
 }
 
-// With a deadline only.
+// Called with a deadline only.
 std::uint64_t PushEdge::missed_until(TimePoint time) const {
   const Duration since = time.time_since_epoch() - Duration(last_arrival_);
   if (since <= Duration{0}) return counts_.missed_deadlines;

@@ -20,7 +20,7 @@ class PushServerEndpoint::Edge final : public PushSource {
   [[nodiscard]] Duration base_period() const override { return server_.base_period(); }
   [[nodiscard]] std::string path() const override { return server_.path(); }
 
-  // Below: with the server's lock held, while subscribed.
+  // Below: called with the server's lock held, while subscribed.
   [[nodiscard]] bool is_due(const ObjectRef& object);
   [[nodiscard]] PushSink& sink() const { return *sink_; }
   void regrant();
@@ -64,7 +64,7 @@ void PushServerEndpoint::publish(ObjectRef object) {
   if (subscriber_count() > 0 && !hand_out(object)) wait_for_room(object);
 }
 
-// False if the publisher must wait for room somewhere; otherwise the last subscriber may have got the
+// Returns false if the publisher must wait for room somewhere. Otherwise the last subscriber may have got the
 // publisher's own view.
 bool PushServerEndpoint::hand_out(ObjectRef& object) {
   bool done = true;
@@ -90,7 +90,7 @@ void PushServerEndpoint::wait_for_room(const ObjectRef& object) {
   }
 }
 
-// Tries again where the object is owed; true when it is owed nowhere any more.
+// Retries where the object is still owed. Returns true when no edge waits for it any more.
 bool PushServerEndpoint::settle(const ObjectRef& object) {
   bool settled = true;
   const std::lock_guard lock(mutex_);

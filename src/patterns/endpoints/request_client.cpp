@@ -7,7 +7,7 @@
 namespace orca {
 namespace {
 
-// The object that an answer brings; null if it brings none.
+// Returns the object that an answer brings; null if it brings none.
 ObjectRef object_of(const Result<ObjectRef>& answer) { return answer ? *answer : ObjectRef{}; }
 ObjectRef object_of(const Status& /*outcome*/) { return {}; }
 

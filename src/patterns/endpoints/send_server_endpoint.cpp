@@ -21,7 +21,7 @@ class SendServerEndpoint::Edge final : public SendTarget {
   }
   [[nodiscard]] std::string path() const override { return server_.path(); }
 
-  // Below: with the server's lock held.
+  // Below: called with the server's lock held.
   void refuse_held(const Error& reason);
   void handled();
   IntakeCounters counters;

@@ -18,14 +18,14 @@ bool among(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// At most so many bytes, and no character cut in two.
+// Returns at most that many bytes of the text; no character is cut in two.
 std::string beginning_of(std::string_view text, std::size_t length) {
   while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;
   return std::string(text.substr(0, length));
 }
 
-// The rule of the attribute; for an unknown one that of the attribute it was meant to be, unless that is
-// there as well. Null if there is none.
+// Returns the rule of the attribute. An unknown attribute gets the rule of the one that was meant, unless
+// that one is there as well. Null if there is none.
 const AttributeRule* match(const Attribute& attribute, const Element& element, const ElementRule& rule,
                            const FileRules& file, Reporter& reporter) {
   if (const AttributeRule* known = rule.attribute(attribute.name)) return known;
@@ -41,8 +41,8 @@ bool is_matched(const MatchedAttributes& matched, std::string_view name) {
   return std::ranges::find(matched, name, &MatchedAttributes::value_type::first) != matched.end();
 }
 
-// The child that an unknown element was meant to be: the one with the nearest name, or the one that its
-// attributes tell. Null if there is no telling.
+// Guesses the child that an unknown element was meant to be: the one with the nearest name, or the one that
+// its attributes identify. Null if neither helps.
 const ElementRule* guess(const Element& element, const ElementRule& parent) {
   if (const auto near = nearest_name(element.name(), parent.child_names())) return parent.child(*near);
   const auto is_told = [&](const ElementRule* rule) {

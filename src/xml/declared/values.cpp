@@ -16,7 +16,7 @@ std::nullopt_t refuse(ValueFault& fault, ValueFault::Kind kind, std::string mess
   return std::nullopt;
 }
 
-// "0.05 to 5 m is allowed", or nothing if everything is.
+// Returns "0.05 to 5 m is allowed", or nothing if everything is allowed.
 std::string limit_text(const ValueRule& rule) {
   const bool low = std::isfinite(rule.min);
   const bool high = std::isfinite(rule.max);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the integrator may say of a Push edge besides its depth (DESIGN 6): block, deadline; and the counters,
-// for every link.
+// The settings of a Push edge that the integrator may make besides its depth (DESIGN 6): block, deadline; and
+// the counters, for every link.
 #include <thread>
 
 #include "link_kits.hpp"
@@ -132,7 +132,7 @@ TEMPLATE_LIST_TEST_CASE("a publisher that waits goes on when the subscriber leav
 
 namespace {
 
-// Pushes whatever it gets back to where it came from.
+// Pushes every object back to its source.
 struct Mirror : Peer {
   Mirror(Executive& executive, const std::string& name) : Peer(executive, name) {}
   PushProxy<MotionCommand> in{*this, "in"};

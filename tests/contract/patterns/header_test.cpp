@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the framework writes into the header of every object that travels (DESIGN 3), for every link.
+// The fields that the framework writes into the header of every object that travels (DESIGN 3), for every
+// link.
 #include "link_kits.hpp"
 
 using namespace orca;
@@ -7,7 +8,7 @@ using namespace orca::test;
 
 namespace {
 
-// Pushes an answer to what it gets, by Push or by Send.
+// Pushes an answer to each object that it receives by Push or by Send.
 struct Relay : Peer {
   explicit Relay(Executive& executive) : Peer(executive, "relay") {}
 

@@ -47,10 +47,10 @@ class Kit {
 
 /// The links within a process.
 struct LocalKit : Kit<LocalLinks> {
-  /// Whether client and server see the same object, not two equal ones.
+  /// Returns whether client and server see the same object, not two equal ones.
   static constexpr bool kSharesObjects = true;
 
-  /// Where this link works.
+  /// Returns the executives on which this link works.
   static std::vector<ExecutiveOptions> executives() { return all_executives(); }
 
   explicit LocalKit(Executive& used) : Kit(used) {}
@@ -79,7 +79,7 @@ void on_each_executive(const std::function<void(Kit&)>& body) {
 
 using idl::MotionCommand;
 
-/// Motion commands are told apart by their speed.
+/// Motion commands are distinguished by their speed.
 inline Loan<MotionCommand> numbered(int number) { return head(0.0, number); }
 inline int number_of(const ObjectPtr<MotionCommand>& command) {
   return command ? static_cast<int>(command->speed()) : -1;
@@ -113,7 +113,7 @@ struct Listener : Peer {
 
   [[nodiscard]] PushEdge& edge() const { return *edges("in").front(); }
 
-  /// All that waits, oldest first.
+  /// Takes all waiting objects, oldest first.
   std::vector<int> take_all() {
     std::vector<int> numbers;
     while (in.new_data_arrived()) numbers.push_back(number_of(in.get_update()));

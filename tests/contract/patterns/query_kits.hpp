@@ -17,7 +17,7 @@ struct Asker : Peer {
     return request;
   }
 
-  /// Asks what the server refuses. Within a process it does so at once; another process answers with it.
+  /// Sends a question that the server refuses: within a process at once, from another process by its answer.
   [[nodiscard]] Result<ObjectPtr<MotionCommand>> ask_in_vain(const std::string& text) {
     const Result<QueryId> id = question.query_request(about(text));
     if (!id) return id.error();

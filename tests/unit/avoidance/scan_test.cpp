@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A laser scan becomes echoes: what it sees replaces what was remembered in its field of view.
+// A laser scan becomes echoes: the scan replaces the remembered echoes in its field of view.
 #include "orca/avoidance/scan.hpp"
 
 #include <catch2/catch.hpp>
@@ -25,7 +25,7 @@ const Limits kLimits{.robot_radius = 0.2,
                      .stop_distance = 0.15,
                      .max_speed = 0.4};
 
-// Half a turn ahead in steps of a degree, as a scanner of the time has it.
+// Half a turn ahead in steps of a degree, as laser scanners of that time had it.
 Scan scan_of(const std::vector<double>& ranges, const orca::Pose2& mount = {}) {
   return {ranges, 0.05, kMaxRange, -pi / 2, pi / 180, mount};
 }

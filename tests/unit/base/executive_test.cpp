@@ -209,7 +209,7 @@ TEST_CASE("a task has stack enough for std::regex on a long text", "[base][execu
 
 namespace {
 
-// What the executive says of a task that does `step` over and over until it has been named.
+// Returns the executive's report about a task that does `step` repeatedly until it has been named.
 StuckTask name_culprit(Executive& executive, const std::function<void()>& step) {
   std::atomic<bool> found{false};
   StuckTask named;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the base class offers an author, seen through a host that does nothing else.
+// The services of the base class to an author, seen through a host that does nothing else.
 #include "orca/component.hpp"
 
 #include <catch2/catch.hpp>

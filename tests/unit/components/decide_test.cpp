@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What comes before every mode: stops, silence, age; and the modes that choose instead of blending.
+// Stops, silence and age, which come before every mode; and the modes that choose instead of blending.
 #include <catch2/catch.hpp>
 
 #include <string>

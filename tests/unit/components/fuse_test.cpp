@@ -52,7 +52,7 @@ double fastest(const std::vector<Wish>& wishes) {
   return std::ranges::max_element(wishes, {}, &Wish::speed)->speed;
 }
 
-// The turn rate that a base makes of a command.
+// Returns the turn rate that a base makes of a command.
 double rate_of(const Wish& command) {
   return command.kind == Wish::Kind::turn_rate ? command.value : kGain * command.value;
 }

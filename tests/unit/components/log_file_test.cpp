@@ -18,7 +18,7 @@ using orca::test::TempFolder;
 
 namespace {
 
-// No file of this process may grow beyond so many bytes: what a full disk does, for a while.
+// Lets no file of this process grow beyond that many bytes, as a full disk does, while this object lives.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t most_bytes) {

@@ -19,7 +19,7 @@ constexpr Limits kLimits{.speed = 0.3,
 constexpr double kLap = 0.05;
 constexpr double kFree = 2.0;
 
-// What a walk does within 60 s when the way is blocked now and then.
+// Returns the steps of a walk within 60 s when the way is blocked now and then.
 std::vector<Step> minute(std::uint64_t seed, const Limits& limits = kLimits) {
   orca::RandomStream random(seed, "test", "walk");
   Walk walk;

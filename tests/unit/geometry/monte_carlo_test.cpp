@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Propagated covariances against the spread of many drawn samples. The errors are small enough that what
-// first order leaves out (about sigma^2 = 1e-4 of the covariance per radian squared) is far below what chance
-// makes of the sample.
+// Propagated covariances against the spread of many drawn samples. The errors are small enough that the terms
+// beyond first order (about sigma^2 = 1e-4 of the covariance per radian squared) are far below the random
+// error of the sample.
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 
@@ -15,11 +15,11 @@ namespace {
 
 constexpr int kSamples = 20'000;
 
-// Five standard errors: among the 360 entries compared here chance exceeds it in 1 of 5000 choices of seeds.
+// Five standard errors. Among the 360 entries compared here, chance exceeds it in 1 of 5000 choices of seeds.
 constexpr double kErrors = 5.0;
 
-// How far `sample`'s covariance is from `expected` in the worst entry, in standard errors of that entry:
-// var(S_ij) = (C_ii C_jj + C_ij^2) / (n - 1) for n normal samples.
+// Returns how far `sample`'s covariance is from `expected` in the worst entry, in standard errors of that
+// entry: var(S_ij) = (C_ii C_jj + C_ij^2) / (n - 1) for n normal samples.
 template <int N>
 double worst_error(const Matrix<N>& sample, const Matrix<N>& expected) {
   double worst = 0.0;
@@ -31,7 +31,7 @@ double worst_error(const Matrix<N>& sample, const Matrix<N>& expected) {
   return worst;
 }
 
-// The covariance of kSamples values that `draw` gives, around `mean`.
+// Returns the covariance of kSamples values that `draw` gives, around `mean`.
 template <int N, class Draw>
 Matrix<N> sample_covariance(const Vector<N>& mean, Draw&& draw) {
   Vector<N> sum = Vector<N>::Zero();

@@ -17,7 +17,7 @@ constexpr DifferentialBase kScout{.track = 0.35, .left_noise = 1e-4, .right_nois
 
 WheelTravel rolled(double left, double right) { return {.left = left, .right = right, .stamp = {}}; }
 
-// The pose after rolling, as a vector of the pose before and the travel of both wheels.
+// Returns the pose after rolling, as a vector of the pose before and the travel of both wheels.
 Vector<3> driven(const Vector<5>& v) {
   return vector_of(integrate_arc(pose_of(Vector<3>(v.head<3>())), rolled(v(3), v(4)), kScout).value());
 }
@@ -40,7 +40,7 @@ TEST_CASE("a half circle ends beside its start, however large it is", "[geometry
   const double half = kScout.track / 2;
   const auto pose =
       integrate_arc(idl::Pose2D(), rolled(kPi * (radius - half), kPi * (radius + half)), kScout).value();
-  // The wheels' difference is rounded as the wheels' travel is; the pose is off by that angle times the way.
+  // The wheels' difference is rounded like the wheels' travel; the pose is off by that angle times the way.
   const double rounding = 1e-15 * kPi * (1.0 + radius / kScout.track) * 2.0 * radius;
   CHECK(pose.x() == Approx(0.0).margin(rounding));
   CHECK(pose.y() == Approx(2.0 * radius));
@@ -72,7 +72,7 @@ TEST_CASE("odometry's covariance follows the derivatives that differences give",
   RandomStream random(22, "test", "jacobian");
   for (int i = 0; i < 500; ++i) {
     const idl::Pose2D start = random_pose2(random, 0.1);
-    // Also travel that is nearly straight, where the series are used.
+    // Includes travel that is nearly straight, where the series are used.
     const double left = random.uniform(-0.5, 0.5);
     const double right = random.chance(0.5) ? left + random.normal(0.0, 0.02) : random.uniform(-0.5, 0.5);
     Vector<5> at;

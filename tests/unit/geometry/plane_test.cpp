@@ -30,7 +30,7 @@ Pose2 random_pose(RandomStream& random) {
   return {random.uniform(-9.0, 9.0), random.uniform(-9.0, 9.0), random.uniform(-kPi, kPi)};
 }
 
-// Where a body ends that moves at a constant twist: the integral of its turning velocity.
+// Returns the final position of a body at a constant twist: the integral of its turning velocity.
 Complex integrated(const Twist2& twist, double seconds) {
   const Complex turn(0.0, twist.turn_rate * seconds);
   return Complex(twist.forward, twist.left) * seconds * (std::exp(turn) - 1.0) / turn;

@@ -7,7 +7,7 @@
 #include "orca/geometry/angle.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 
-// What the compiler takes long for is in poses.cpp, once.
+// Templates that are slow to compile are instantiated once, in poses.cpp.
 namespace orca::test {
 
 /// A pose as a vector of its N numbers, for tests that treat the plane (3) and space (6) alike.
@@ -21,7 +21,7 @@ Vector<6> vector_of(const idl::Pose3D& pose);
 idl::Pose2D pose_of(const Vector<3>& v);
 idl::Pose3D pose_of(const Vector<6>& v);
 
-/// b - a; angles the short way round. Angles are the last 1 of 3 and the last 3 of 6.
+/// Returns b - a; angles the short way round. Angles are the last 1 of 3 and the last 3 of 6.
 template <int N>
 Vector<N> difference(const Vector<N>& a, const Vector<N>& b) {
   Vector<N> d = b - a;
@@ -38,15 +38,15 @@ void set_covariance(idl::Pose3D& pose, const Matrix<6>& covariance);
 template <int N>
 Vector<N> normal(RandomStream& random, double sigma);
 
-/// A random covariance, none of whose standard deviations is much over `sigma`; N is 3 or 6.
+/// Returns a random covariance, none of whose standard deviations is much over `sigma`; N is 3 or 6.
 template <int N>
 Matrix<N> random_covariance(RandomStream& random, double sigma);
 
-/// Anywhere within `reach`; in space the pitch stays away from straight up and down.
+/// Returns a pose anywhere within `reach`; in space the pitch stays away from straight up and down.
 idl::Pose2D random_pose2(RandomStream& random, double sigma, double reach = 5.0);
 idl::Pose3D random_pose3(RandomStream& random, double sigma, double reach = 5.0);
 
-/// The rotation of a pose in space, worked out without the library under test.
+/// Returns the rotation of a pose in space, computed without the library under test.
 Eigen::Matrix3d rotation_of(const idl::Pose3D& pose);
 
 /// The derivatives of `function`, a vector of a vector, by central differences.
@@ -66,8 +66,8 @@ Eigen::Matrix<double, N, M> jacobian(F&& function, const Vector<M>& at) {
   return J;
 }
 
-/// The smallest eigenvalue of the correlation matrix: below zero if `covariance` is none; N is 3 or 6. Unlike
-/// that of the covariance itself it does not depend on units. Rows of zeros are left out of account.
+/// Returns the smallest eigenvalue of the correlation matrix: below zero if `covariance` is none; N is 3 or
+/// 6. Unlike the eigenvalue of the covariance itself, it does not depend on units. Rows of zeros are ignored.
 template <int N>
 double least_correlation_eigenvalue(const Matrix<N>& covariance);
 

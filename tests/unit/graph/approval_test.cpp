@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The texts of errors are part of what Orca promises. Each tests/data/graphs/broken/NAME.xml is checked, and
-// what comes out must equal NAME.expected. A first line "<!-- options: profile P set A=B strict yes -->"
-// stands for the command line. NAME.case is for what cannot stand in a file of moderate size; see
-// made_graph.hpp.
+// The texts of errors are part of Orca's promises. Each tests/data/graphs/broken/NAME.xml is checked, and the
+// output must equal NAME.expected. A first line "<!-- options: profile P set A=B strict yes -->" stands for
+// the command line. NAME.case is for graphs that do not fit in a file of moderate size; see made_graph.hpp.
 #include "approval.hpp"
 
 #include <catch2/catch.hpp>
@@ -49,7 +48,7 @@ std::string errors_of(const std::string& text, const std::string& name) {
   return diagnostics.text();
 }
 
-// "load NAME" names a file that need not be there, anything else a graph that made_graph() makes.
+// "load NAME" names a file that need not exist; anything else names a graph that made_graph() makes.
 std::string errors_of_case(const fs::path& path) {
   const std::string order = bytes_of(path);
   if (!order.starts_with("load ")) return errors_of(made_graph(order), path.stem().string() + ".xml");

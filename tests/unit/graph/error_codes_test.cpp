@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Every "Gnnn" of a file that stands between `before` and `after`.
+// Returns every "Gnnn" of a file that stands between `before` and `after`.
 std::set<std::string> codes_in(const fs::path& path, const std::string& before, const std::string& after) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
@@ -43,7 +43,8 @@ TEST_CASE("every code appears in the approved text of a broken graph", "[graph][
   for (const auto& entry : fs::directory_iterator(fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs/broken"))
     if (entry.path().extension() == ".expected") shown.merge(codes_in(entry.path(), " ", ": "));
   for (const std::string& code : declared_codes()) {
-    // Not to be had from a text of moderate size, or not at all: tested elsewhere, or a bug if it happens.
+    // Codes that no text of moderate size can cause, or no text at all: tested elsewhere, or a bug if one
+    // occurs.
     if (code == "G101" || code == "G103" || code == "G129" || code == "G040") continue;
     INFO(code);
     CHECK(shown.contains(code));

@@ -7,7 +7,7 @@
 
 #include "orca/graph/loader.hpp"
 
-/// Contracts as the shipped plugins have them, and some for what can go wrong, without a plugin.
+/// A catalogue without plugins: the contracts of the shipped plugins, and some contracts with faults.
 ///
 /// A hardware whose parameter "world" ends in "broken.world" has a broken world file, one where it ends in
 /// "flooded.world" cannot work with that value. "test.Clock" is unfit for any run, for two reasons.
@@ -25,7 +25,7 @@ class FakeCatalogue final : public orca::graph::Catalogue {
 
   void add(orca::Contract contract) { types_[contract.type] = std::move(contract); }
 
-  /// What it was told and asked, in order: "folders /a;/b", "hardware T", "validate NAME", "component T with
+  /// The calls that it received, in order: "folders /a;/b", "hardware T", "validate NAME", "component T with
   /// NAME".
   std::vector<std::string> calls;
 

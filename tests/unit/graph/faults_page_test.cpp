@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// docs/faults.md is true: every class of fault has at least two cases, and they show what it says.
+// docs/faults.md is true: every class of fault has at least two cases, and they show what the page says.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

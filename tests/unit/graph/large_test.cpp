@@ -34,8 +34,8 @@ double seconds_for(const std::string& text, std::size_t& errors) {
   return seconds;
 }
 
-// The bound is for what people run. Sanitizers cost ten times and more, no optimisation with counters for
-// coverage as much again; there it is one on hangs only.
+// The bound holds for ordinary builds. Sanitizers are ten times slower and more, and so is a build without
+// optimisation and with counters for coverage. The bound there only detects hangs.
 #if defined(ORCA_RELEASE)
 constexpr double kBound = 1.0;
 #elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -86,7 +86,7 @@ TEST_CASE("more than ten thousand components are refused", "[graph][large]") {
 
 namespace {
 
-// The most memory that this process has had [MB].
+// Returns the most memory that this process has had [MB].
 double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -9,7 +9,7 @@
 
 #include "fake_catalogue.hpp"
 
-/// The graph of a text that must be good.
+/// Returns the graph of a text that must be good.
 inline orca::graph::Graph must_load(const std::string& text, const orca::graph::LoadOptions& options = {},
                                     const std::string& file = "test.xml") {
   FakeCatalogue catalogue;
@@ -42,7 +42,7 @@ inline orca::graph::Graph must_load(const Files& files, const orca::graph::LoadO
   return *graph;
 }
 
-/// What is said about files, "" if nothing.
+/// Returns the messages about files, "" if there are none.
 inline std::string said_about(const Files& files, const orca::graph::LoadOptions& options = {}) {
   orca::xml::Diagnostics diagnostics;
   const bool loaded = load_files(files, diagnostics, options).has_value();
@@ -50,7 +50,7 @@ inline std::string said_about(const Files& files, const orca::graph::LoadOptions
   return diagnostics.text();
 }
 
-/// What is said about a text, "" if nothing.
+/// Returns the messages about a text, "" if there are none.
 inline std::string said_about(const std::string& text, const orca::graph::LoadOptions& options = {}) {
   FakeCatalogue catalogue;
   orca::xml::Diagnostics diagnostics;

@@ -9,8 +9,8 @@
 
 namespace orca::test {
 
-/// The least that a component needs around it: ports, a strand, and somebody who calls its hooks as the state
-/// machine of thesis 9.4 does. Failures are lines of its diary.
+/// The minimum that a component needs around it: ports, a strand, and a caller of its hooks in the order of
+/// the state machine of thesis 9.4. Failures are lines of its diary.
 class ComponentBench final : public ComponentHost {
  public:
   ~ComponentBench() noexcept override {}  // components' destructors may throw; those of these tests do not

@@ -14,7 +14,7 @@
 
 namespace orca::test {
 
-/// What a container finds around it: keeps its states and errors as lines of a diary.
+/// The host of a container: keeps the container's states and errors as lines of a diary.
 class FakeHardwareHost final : public hw::HardwareHost {
  public:
   FakeHardwareHost(Executive& executive, Diary& diary) : executive_(executive), diary_(diary) {}

@@ -15,7 +15,7 @@ using Actions = std::vector<Action>;
 
 namespace {
 
-// A cell of the specification: where the event leads and through what, or why it leads nowhere.
+// A cell of the specification: where the event leads and by which actions, or why it leads nowhere.
 struct Cell {
   State to{};
   Actions actions;

@@ -24,7 +24,7 @@ DriveSetpoint driving(double speed, double turn_rate) {
   return {.velocity = {.forward = speed, .turn_rate = turn_rate}};
 }
 
-// What a base with these limits does right after the command.
+// Returns the motion of a base with these limits right after the command.
 DriveSetpoint carried_out(const Loan<idl::MotionCommand>& command, const DriveLimits& limits = kLimits) {
   MotionHW motion(limits, kAge);
   CHECK(motion.command(*command, kStart).ok());

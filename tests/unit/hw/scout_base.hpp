@@ -9,7 +9,7 @@
 
 namespace orca::test {
 
-/// What a RobotBaseServer is besides its description.
+/// A RobotBaseServer without its description.
 class Base final : public hw::HardwareServer {
  public:
   explicit Base(ComponentHost& host) : HardwareServer(host, hw::Source::sensor) { offer_motion(); }

@@ -54,7 +54,7 @@ class RandomFill {
   RandomStream& stream_;
 };
 
-/// A T whose content depends on the seed alone.
+/// Returns a T whose content depends only on the seed.
 template <class T>
 [[nodiscard]] T random_object(std::uint64_t seed) {
   RandomStream stream(seed, "test", Reflection<T>::name);

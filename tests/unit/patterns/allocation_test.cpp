@@ -80,7 +80,7 @@ class Bench {
     }
   }
 
-  // Every place of the pool that these laps can use gets the capacity that its object needs.
+  // Gives every place of the pool that these laps can use the capacity that its object needs.
   static void warm_up_pool() {
     std::vector<Loan<T>> places;
     while (places.size() < 64) {

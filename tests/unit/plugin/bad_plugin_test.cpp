@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that are no plugins, or not for this runtime: refused with what is wrong and what to do, and gone
-// again.
+// Files that are no plugins, or not for this runtime. They are refused with the fault and the remedy, and
+// removed from memory again.
 #include <fstream>
 
 #include "places.hpp"

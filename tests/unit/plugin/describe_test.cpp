@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Describing a type constructs it and nothing else; what its constructor does wrong is an error with its
-// text.
+// Describing a type constructs it and nothing else. A fault of its constructor is reported as an error with
+// the fault's text.
 #include "orca/plugin/describe.hpp"
 #include "orca/hw/container.hpp"
 #include "places.hpp"
@@ -12,7 +12,7 @@ using Catch::Contains;
 
 namespace {
 
-// The error of a component type of a test plugin whose only type it is, after the plugin is gone.
+// Returns the error of the only component type of a test plugin, after the plugin has been unloaded.
 Error describing_fails(const std::string& plugin) {
   const auto library = loaded(test_plugin(plugin));
   REQUIRE(library->types().size() == 1);

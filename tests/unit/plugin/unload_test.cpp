@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loaded, described, unloaded, and proved gone: a plugin that stays in memory would run stale code after a
-// swap.
+// Plugins are loaded, described, unloaded, and proved gone: a plugin that stays in memory would run stale
+// code after a swap.
 #include <dlfcn.h>
 #include <spdlog/spdlog.h>
 
@@ -17,7 +17,7 @@ using namespace orca::test;
 
 namespace {
 
-// What the contract of one type says; for hardware without preparing it.
+// Returns what the contract of one type says; hardware is not prepared for it.
 Contract contract_of(const TypeEntry& type, const std::string& library) {
   if (type.kind == PluginKind::hardware) return describe_hardware(type, library, "test").value()->contract();
   return describe_component(type, library, nullptr).value();

@@ -68,7 +68,7 @@ class NastyFill final : public FieldVisitor {
   RandomStream& stream_;
 };
 
-/// A T whose content depends on the seed alone.
+/// Returns a T whose content depends only on the seed.
 template <class T>
 [[nodiscard]] T nasty_object(std::uint64_t seed) {
   RandomStream stream(seed, "test", object_type<T>().name);

@@ -35,7 +35,7 @@ constexpr ElementRule kRoot{.name = "root", .children = kInRoot, .foreign = kFor
 constexpr std::array kElements{&kRoot, &kGroup, &kPart, &kLine};
 constexpr FileRules kFile{"a test", kElements, {"E1", "E2", "E3", "E4", "E5", "E6", "E7", "E8", "E9"}};
 
-// One <part>, with what is said about it.
+// One <part> and the messages about it.
 struct Part {
   explicit Part(const std::string& attributes)
       : document(read_text("<part " + attributes + "/>", "f", diagnostics)),
@@ -47,7 +47,7 @@ struct Part {
   Attributes part;
 };
 
-// What is said about the children of a <root> with this inside.
+// Returns the messages about the children of a <root> with this inside.
 std::string errors_in_root(const std::string& inside) {
   Diagnostics diagnostics;
   Reporter reporter(diagnostics);
@@ -170,7 +170,7 @@ TEST_CASE("an unknown element is taken for the nearest, or the one that its attr
   CHECK_THAT(
       errors_in_root("<gruop><part/></gruop>"),
       Catch::Contains("error E1: there is no element <gruop>") && Catch::Contains("did you mean \"group\"?"));
-  // That it is read on as a <line> shows in that nothing more is missed.
+  // Nothing more is reported as missing, which shows that it is read as a <line>.
   CHECK_THAT(errors_in_root("<arrow from='a' to='b'/>"), Catch::EndsWith("did you mean \"line\"?\n"));
 }
 

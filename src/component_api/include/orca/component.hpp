@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-/// All that a component author includes, besides the objects that the ports carry.
+/// The one header that a component author includes, besides the objects that the ports carry.
 
 #include "orca/component/component.hpp"
 #include "orca/component/manifest.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One slip gives one error: what follows from it is not told as well. And it hides nothing that has another
+// One slip gives one error: its consequences are not reported as well. It hides nothing that has another
 // cause.
 #include <algorithm>
 #include <set>

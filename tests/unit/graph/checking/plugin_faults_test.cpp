@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faults that only real plugins, worlds and robots show. As approval_test.cpp, with the plugins of the build:
-// in the approved texts PLUGINS is the folder of this test's plugins, SHIPPED that of Orca's, SOURCE the top
-// of the tree.
+// Faults that only real plugins, worlds and robots show. Like approval_test.cpp, with the plugins of the
+// build. In the approved texts PLUGINS is the folder of this test's plugins, SHIPPED that of Orca's, SOURCE
+// the top of the tree.
 #include <catch2/catch.hpp>
 
 #include <fstream>

@@ -16,7 +16,7 @@ using orca::test::TempFolder;
 
 namespace {
 
-// Lets the process open nothing more as long as it lives.
+// Lets the process open nothing more while this object lives.
 class NoDescriptorsLeft {
  public:
   NoDescriptorsLeft() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who is named for a change of what all components share, and that nobody else is.
+// The component that changes something shared by all components is named, and no other.
 #include "containment/environment.hpp"
 
 #include <catch2/catch.hpp>
@@ -43,7 +43,7 @@ class Turn {
   const Activity activity_;
 };
 
-// So many laps of a component that does nothing wrong.
+// Makes that many laps of a component that does nothing wrong.
 void work_quietly(const char* who, int laps) {
   for (int i = 0; i < laps; ++i) const Turn turn(who);
 }

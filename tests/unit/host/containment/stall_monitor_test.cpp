@@ -11,7 +11,7 @@ using Catch::Contains;
 
 namespace {
 
-/// An executive that runs nothing, and says of one task that it is stuck.
+/// An executive that runs nothing, and reports that one task is stuck.
 class StuckExecutive final : public Executive {
  public:
   explicit StuckExecutive(StuckTask task) : task_(std::move(task)) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each watch finds the one kind of change that it is for, puts it back, and says it once.
+// Each watch finds the one kind of change that it is for, puts it back, and reports it once.
 #include <catch2/catch.hpp>
 
 #include <signal.h>
@@ -45,7 +45,7 @@ void lower_soft_limit() {
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-// Runs `body` in a copy of the process: for what cannot be undone.
+// Runs `body` in a copy of the process, because its effects cannot be undone.
 bool holds_in_copy(const std::function<bool()>& body) {
   const pid_t copy = fork();
   if (copy == 0) _exit(body() ? 0 : 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What pictures show: read back pixel by pixel.
+// The content of pictures, read back pixel by pixel.
 #include <cairo.h>
 
 #include <catch2/catch.hpp>
@@ -24,7 +24,7 @@ Scene::Moment moment_at(double seconds, double x) {
   return moment;
 }
 
-// A robot that drives along x with 1 m/s for so long.
+// A robot that drives along x with 1 m/s for that long.
 Scene drive(double seconds) {
   Scene scene;
   scene.walls = {{{-1, -2}, {11, -2}}, {{-1, 2}, {11, 2}}};
@@ -70,7 +70,7 @@ class Pixels {
 
   [[nodiscard]] int width() const { return cairo_image_surface_get_width(surface_); }
   [[nodiscard]] int height() const { return cairo_image_surface_get_height(surface_); }
-  /// How many pixels of that colour a part of the picture has.
+  /// Returns the number of pixels of that colour in a part of the picture.
   [[nodiscard]] int count(const IsColour& is, int left, int top, int right, int bottom) const {
     const unsigned char* const data = cairo_image_surface_get_data(surface_);
     const int stride = cairo_image_surface_get_stride(surface_);

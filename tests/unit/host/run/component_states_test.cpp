@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The state machine of a component, each state with each event. What is written here is the specification, in
-// words of its own; docs/states.md is made from the table itself.
+// The state machine of a component, each state with each event. The table here is the specification, in its
+// own words; docs/states.md is made from the runtime's table.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ std::string found(State state, Event event) {
   return "?";
 }
 
-// The place of an action in a row; the number of actions if it is not there.
+// Returns the place of an action in a row; the number of actions if it is not there.
 std::ptrdiff_t place(const ComponentTransition& row, Action action) {
   return std::find(row.actions.begin(), row.actions.end(), action) - row.actions.begin();
 }
@@ -58,7 +58,7 @@ bool has(const ComponentTransition& row, Action action) {
   return std::find(row.actions.begin(), row.actions.end(), action) != row.actions.end();
 }
 
-// In these the component has been started, and its providers are its own.
+// The states in which the component has been started and is subscribed to its own providers.
 bool is_up(State state) {
   return state == State::connect || state == State::work || state == State::suspended_work;
 }

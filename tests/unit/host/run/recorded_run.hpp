@@ -8,7 +8,7 @@
 
 namespace orca::test {
 
-/// What came of a run in the test's own process, and what its listener heard.
+/// The result of a run in the test's own process, and the events that its listener received.
 struct RecordedRun {
   host::RunResult result;
   std::vector<std::string> heard;  ///< "started", "arrived home", "contact Dewey", "alarm UMASK", "ended"

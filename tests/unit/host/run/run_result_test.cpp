@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an application is given after a run, and what it hears meanwhile.
+// The result that an application gets after a run, and the events that it receives meanwhile.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

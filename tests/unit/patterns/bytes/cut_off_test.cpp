@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an end of a byte link does about a peer that sends what cannot be, does not read, or goes.
+// The reaction of a byte link's end to a peer that sends invalid data, does not read, or goes away.
 #include <catch2/catch.hpp>
 
 #include "courier.hpp"
@@ -41,7 +41,7 @@ struct Taker : Peer {
   SendServer<MotionCommand> in{*this, "in", &Taker::on_command, {.depth = 1}};
 };
 
-// Two wires whose other ends are in the test's hands.
+// Two wires whose other ends the test controls.
 class Wires {
  public:
   explicit Wires(Executive& executive, std::size_t capacity = 4096)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a copy of the process tries out cannot hurt this one.
+// Code that is tried out in a copy of the process cannot harm this process.
 #include "inspection/trial.hpp"
 
 #include <signal.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a plugin uses decides whether it may run in virtual time; all is told at once.
+// The symbols that a plugin uses decide whether it may run in virtual time; all of them are reported at once.
 #include "inspection/virtual_time.hpp"
 
 #include "../places.hpp"

@@ -19,7 +19,7 @@ namespace {
 const fs::path kWorlds = fs::path(ORCA_SOURCE_DIR) / "tests/data/worlds/broken";
 const fs::path kRobots = fs::path(ORCA_SOURCE_DIR) / "tests/data/robots/broken";
 
-// What was said, with the folder left out.
+// Returns the messages, with the folder left out.
 std::string text_of(const xml::Diagnostics& diagnostics, const fs::path& folder) {
   std::string text = diagnostics.text();
   const std::string prefix = folder.string() + "/";

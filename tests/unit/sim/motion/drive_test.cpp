@@ -18,7 +18,8 @@ namespace {
 constexpr DriveKind kAll[] = {DriveKind::differential, DriveKind::synchro, DriveKind::holonomic};
 using Complex = std::complex<double>;
 
-// Where a base ends that moves with constant velocity in its own frame: the integral of its turning velocity.
+// Returns the final pose of a base with constant velocity in its own frame: the integral of its turning
+// velocity.
 Complex integrated(const Twist2& velocity, double seconds) {
   const Complex turn(0.0, velocity.turn_rate * seconds);
   const Complex moved = Complex(velocity.forward, velocity.left) * seconds;

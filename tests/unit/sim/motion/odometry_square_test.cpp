@@ -32,7 +32,7 @@ void add(OdometryModel& odometry, const Travel2& whole) {
     odometry.add({whole.forward / kSteps, whole.left / kSteps, whole.turn / kSteps}, 0.01);
 }
 
-// Where the odometry believes to be after a square. @param turn  at each corner: +-90 deg.
+// Returns the pose that the odometry reports after a square. @param turn  at each corner: +-90 deg.
 Pose2 believed_end(DriveKind kind, const WheelErrors& errors, double turn, std::uint64_t seed = 1) {
   OdometryModel odometry(drive_of(kind), errors, orca::RandomStream(seed, "dewey", "odometry"));
   for (int corner = 0; corner < 4; ++corner) {

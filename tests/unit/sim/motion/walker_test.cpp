@@ -31,7 +31,7 @@ void run(World& world, double time) {
   for (int i = 0; i < static_cast<int>(time * 100.0 + 0.5); ++i) world.step();
 }
 
-// Where the walker stands: the one circle of the snapshot that is not the room's post.
+// Returns the place of the walker: the one circle of the snapshot that is not the room's post.
 Vec2 place(const World& world) { return world.snapshot().circles.at(1).center; }
 
 Vec2 place_after(const Walker& walker, double time, std::uint64_t seed = 1) {

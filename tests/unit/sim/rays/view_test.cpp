@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a view promises: every ray that it allows meets the same as cast by itself.
+// The guarantee of a view: every ray that it allows has the same hit as a ray cast by itself.
 #include <catch2/catch.hpp>
 
 #include "orca/base/random.hpp"

@@ -33,7 +33,7 @@ struct Ride {
       : world(kerb(), {.seed = 1, .realism = Realism::ideal}),
         id(*world.add_robot("dewey", scout_with_bumper(), start)) {}
 
-  // Drives and tells which segments were pressed meanwhile, as "0 3".
+  // Drives and returns the segments that were pressed meanwhile, as "0 3".
   std::string pressed(double forward, double turn, double seconds) {
     REQUIRE(world.set_velocity_command(id, forward, turn));
     std::vector<bool> felt(8);

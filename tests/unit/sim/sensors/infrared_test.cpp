@@ -35,7 +35,7 @@ WorldModel wall(double distance) {
   return {"wall", {{"wall", Box{{distance + 0.1, 0, 0}, {0.1, 5}}, 2.5}}, {}};
 }
 
-// So many readings of the sensor that looks ahead, at a wall `range` from it.
+// Returns that many readings of the sensor that looks ahead, at a wall `range` from it.
 std::vector<double> readings(double range, int n, Realism realism) {
   World world(wall(0.19 + range), {.seed = 4, .realism = realism});
   const RobotId id = *world.add_robot("dewey", scout_with_infrared(), {});

@@ -15,7 +15,8 @@ constexpr double kFar = 3.0;
 constexpr double kThin = 1e-4;  // The near thing shows no side.
 constexpr double kHalfSpot = 0.25 * kDegree;
 
-// What the beam straight ahead reads if the near box ends at this angle from it and lies to its right.
+// Returns the reading of the beam straight ahead if the near box ends at this angle from it and lies to its
+// right.
 double ahead_of_edge(double edge, double far = kFar) {
   LaserScanner laser = lms200();
   laser.divergence = 2.0 * kHalfSpot;

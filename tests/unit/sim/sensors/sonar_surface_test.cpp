@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a transducer hears of corners and of smooth walls, without noise, against closed forms.
+// The echoes that a transducer hears from corners and smooth walls, without noise, against closed forms.
 #include <catch2/catch.hpp>
 
 #include "scout.hpp"

@@ -21,7 +21,7 @@ inline Mesh box_mesh(double length, double width, double height) {
   return mesh;
 }
 
-/// A closed, bumpy thing about `center`, of 2 * 10 * 7 triangles: a sphere whose radius differs at each
+/// A closed, bumpy body about `center`, of 2 * 10 * 7 triangles: a sphere whose radius differs at each
 /// corner.
 inline Mesh boulder(RandomStream& random, const Vec3& center, double radius) {
   constexpr int kAround = 10;

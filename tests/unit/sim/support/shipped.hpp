@@ -10,7 +10,7 @@ namespace orca::sim::test {
 
 inline const std::string kRobots = ORCA_SOURCE_DIR "/sim/robots/";
 
-/// The shipped robot of that name; its file must be without fault.
+/// Returns the shipped robot of that name; its file must be without fault.
 inline RobotModel shipped(const std::string& name) {
   xml::Diagnostics diagnostics;
   auto model = read_robot(kRobots + name + ".urdf", diagnostics);
@@ -20,7 +20,7 @@ inline RobotModel shipped(const std::string& name) {
   return *model;
 }
 
-/// The shipped world of that name, likewise.
+/// Returns the shipped world of that name; its file must be without fault.
 inline WorldModel shipped_world(const std::string& name) {
   xml::Diagnostics diagnostics;
   auto world = read_world(ORCA_SOURCE_DIR "/sim/worlds/" + name + ".xml", {}, diagnostics);

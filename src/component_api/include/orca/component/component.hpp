@@ -14,16 +14,16 @@
 
 namespace orca {
 
-/// The base of every component (thesis 9.3): an equal peer that talks through ports only.
+/// The base class of every component (thesis 9.3): an equal peer that talks through ports only.
 ///
-/// The state machine (thesis 9.4) calls the hooks: INIT configure(), CONNECT start(), WORK work() lap by lap,
-/// and stop() on the way back to IDLE; suspend() and resume() around SUSPENDED. A component works while
-/// somebody subscribes to one of its PushServers, or while it has asked for it with stay_active(); the graph
-/// may say `autonomous`.
+/// The state machine (thesis 9.4) calls the hooks. INIT calls configure(), CONNECT calls start(), WORK calls
+/// work() lap by lap, and the way back to IDLE calls stop(). suspend() and resume() enclose SUSPENDED. A
+/// component works while somebody subscribes to one of its PushServers, or while it has asked for work with
+/// stay_active(); the graph may also say `autonomous`.
 ///
-/// Two rules make this sound. The constructor only declares: ports and parameters are members, and nothing is
-/// opened or started, so that a process may construct a component only to describe it. And all hooks, laps
-/// and handlers run on one strand: they never overlap, no locks are needed.
+/// Two rules make this sound. The constructor only declares: ports and parameters are members, and it opens
+/// and starts nothing, so a process may construct a component only to describe it. All hooks, laps and
+/// handlers run on one strand, so they never overlap and need no locks.
 ///
 /// Thread contract: everything on the component's strand.
 class Component : public PortOwner {
@@ -33,40 +33,42 @@ class Component : public PortOwner {
   Component(const Component&) = delete;
   Component& operator=(const Component&) = delete;
 
-  /// INIT, once, after the parameters are set: check them, allocate. An error keeps the whole system from
-  /// starting.
+  /// Checks the parameters and allocates. Called in INIT, once, after the parameters are set. An error keeps
+  /// the whole system from starting.
   virtual Status configure() { return ok(); }
 
-  /// CONNECT, each time a first client comes, after the component's own providers have been subscribed to. An
-  /// error leads to WORK_FAILED.
+  /// Prepares for work. Called in CONNECT, each time a first client comes, after the component's own
+  /// providers have been subscribed to. An error leads to WORK_FAILED.
   virtual Status start() { return ok(); }
 
-  /// WORK: one lap. Blocking calls on ports are welcome. While a lap waits and has not taken or sent anything
-  /// yet, handlers of this component are let in: the wait throws Interrupted, and the lap begins anew after.
+  /// Does one lap of WORK. Blocking calls on ports are welcome. While a lap waits and has not yet taken or
+  /// sent anything, handlers of this component may run: the wait throws Interrupted, and the lap starts again
+  /// afterwards.
   virtual Outcome work() = 0;
 
-  /// After the last lap, when nobody uses the component any more, before its providers are let go.
+  /// Ends the work. Called after the last lap, when nobody uses the component any more and its providers are
+  /// still there.
   virtual void stop() {}
 
-  /// An operator pauses the component, between two laps: SUSPENDED. It stays subscribed, what comes in waits
-  /// in its queues, and nothing is called before resume(). Robots stop by themselves when their commands
-  /// cease.
+  /// Prepares for a pause. Called between two laps when an operator pauses the component: SUSPENDED. The
+  /// component stays subscribed, incoming objects wait in its queues, and nothing is called before resume().
+  /// Robots stop by themselves when their commands cease.
   virtual void suspend() {}
 
-  /// Before the first lap after SUSPENDED.
+  /// Ends a pause. Called before the first lap after SUSPENDED.
   virtual void resume() {}
 
-  /// Parameters have new values, all at once and between two laps. An error puts the old ones back, and goes
-  /// to whoever wanted the new ones.
+  /// Takes note of new parameter values. They all change at once, between two laps. An error restores the old
+  /// values and is returned to whoever requested the new ones.
   virtual Status params_changed() { return ok(); }
 
-  // For the handles that are members of a component.
+  // Used by the handles that are members of a component.
   void declare_port(PortDeclaration declaration) final { host_.declare_port(std::move(declaration)); }
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 
  protected:
-  /// Says what starts a lap unless the graph says otherwise: a period [s], or a new object on a port. Without
-  /// these, the next lap follows at once.
+  /// Sets what starts a lap unless the graph sets it: a period [s], or a new object on a port. Without these,
+  /// the next lap follows at once.
   /// @pre  called from the constructor or from configure().
   void lap_every(Duration period) { host_.set_default_trigger({Trigger::Kind::period, period, {}}); }
   void lap_on(std::string port) {
@@ -78,12 +80,12 @@ class Component : public PortOwner {
   [[nodiscard]] TimePoint now() const { return host_.now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const { return host_.random(stream); }
 
-  /// Blocks this component for a while.
+  /// Blocks this component for `time` [s].
   /// @errors  throws Interrupted.
   void sleep(Duration time);
 
-  /// Blocks until the condition holds, at most `limit` [s]. The condition is asked whenever something arrives
-  /// at a port of this component.
+  /// Blocks until the condition holds, at most `limit` [s]. The condition is evaluated whenever something
+  /// arrives at a port of this component.
   /// @return whether it holds.
   /// @errors  throws Interrupted when the component must leave its lap; let it pass.
   bool wait_until(const std::function<bool()>& condition, Duration limit);
@@ -93,7 +95,7 @@ class Component : public PortOwner {
   void log_warning(std::string_view text) const { host_.write_log(log::Level::warning, text); }
   void log_error(std::string_view text) const { host_.write_log(log::Level::error, text); }
 
-  /// Work also without subscribers, from now on or no longer.
+  /// Sets whether the component works even without subscribers, from now on.
   void stay_active(bool active) { host_.stay_active(active); }
 
   [[nodiscard]] ComponentHost& host() const { return host_; }

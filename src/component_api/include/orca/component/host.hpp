@@ -23,9 +23,9 @@ struct ParamDeclaration {
   std::function<void(const ParamValue&)> set;
 };
 
-/// What a process offers to the components and hardware containers that it hosts.
+/// The services that a process offers to the components and hardware containers that it hosts.
 ///
-/// Thread contract: declarations from the constructor of the hosted object, the rest from its strand.
+/// Thread contract: declarations from the constructor of the hosted object; the rest from its strand.
 class PluginHost {
  public:
   virtual ~PluginHost() = default;
@@ -34,23 +34,24 @@ class PluginHost {
 
   [[nodiscard]] virtual const std::string& name() const = 0;
   [[nodiscard]] virtual TimePoint now() const = 0;
-  /// A stream that depends on the run's seed, this instance's name and `stream` alone.
+  /// Returns a stream that depends only on the run's seed, this instance's name and `stream`.
   [[nodiscard]] virtual RandomStream random(std::string_view stream) const = 0;
   virtual void write_log(log::Level level, std::string_view text) const = 0;
 };
 
-/// What a process offers to a component. Implemented by the runtime; a component author does not need it.
+/// The services that a process offers to a component. The runtime implements it; a component author does not
+/// need it.
 class ComponentHost : public PluginHost {
  public:
   virtual void declare_port(PortDeclaration declaration) = 0;
   virtual void set_default_trigger(const Trigger& trigger) = 0;
 
-  /// The hardware that the graph binds to this component, or null. Naming it here makes it part of the
-  /// contract.
+  /// Returns the hardware that the graph binds to this component, or null. This declaration makes it part of
+  /// the contract.
   [[nodiscard]] virtual Device* hardware() = 0;
 
   virtual void stay_active(bool active) = 0;
-  /// The strand on which the component runs.
+  /// Returns the strand on which the component runs.
   [[nodiscard]] virtual Strand& strand() = 0;
 };
 

@@ -10,28 +10,29 @@ namespace orca {
 
 class PluginHost;
 
-/// Counts up whenever the manifest, or the meaning of anything that crosses the plugin boundary, changes. Changes
-/// of layout are found by the build: see Manifest::layout_hash.
+/// The version of the plugin boundary. It counts up whenever the manifest, or the meaning of anything that
+/// crosses the boundary, changes. The build finds changes of layout: see Manifest::layout_hash.
 inline constexpr std::uint32_t kAbiVersion = 2;
 
-/// One type that a plugin holds.
+/// A type that a plugin provides.
 struct TypeEntry {
   PluginKind kind;
   const char* type;  ///< e.g. "orca.SonarAvoid".
-  /// Constructs a Component, whose host is a ComponentHost, or a hw::HardwareContainer, whose host is a
-  /// hw::HardwareHost: as `kind` says.
+  /// Constructs the object that `kind` names: a Component, whose host is a ComponentHost, or a
+  /// hw::HardwareContainer, whose host is a hw::HardwareHost.
   void* (*create)(PluginHost& host);
   void (*destroy)(void* object);
 };
 
-/// The one symbol that a plugin exports, `orca_plugin_manifest`. Plain data: it can be checked before any of
-/// the plugin's code has run. Compatibility is decided by abi_version, size, layout_hash and the objects' type
-/// hashes; build_id is for people.
+/// The one symbol that a plugin exports, `orca_plugin_manifest`. It is plain data, so it can be checked
+/// before any of the plugin's code has run. abi_version, size, layout_hash and the objects' type hashes
+/// decide about compatibility; build_id is for people.
 struct Manifest {
   std::uint32_t abi_version;
   std::uint32_t size;  ///< sizeof(Manifest) when the plugin was built.
-  /// Of sizes, offsets and virtual functions of every type that a plugin compiles in, computed by the build
-  /// (cmake/plugin/list_layouts.py). The section "orca_plugin_layouts" of a plugin has it type by type.
+  /// A hash over sizes, offsets and virtual functions of every type that a plugin compiles in. The build
+  /// computes it (cmake/plugin/list_layouts.py). The plugin's section "orca_plugin_layouts" lists it type by
+  /// type.
   std::uint64_t layout_hash;
   const char* build_id;
   const TypeEntry* const* first_type;
@@ -53,7 +54,7 @@ void destroy(void* object) {
 }  // namespace detail
 }  // namespace orca
 
-// Entries gather in a section of their own; plugin_entry.cpp, which orca_add_component() adds, exports its
+// Entries gather in a section of their own. plugin_entry.cpp, which orca_add_component() adds, exports its
 // bounds.
 #define ORCA_DETAIL_TYPE_ENTRY(...)                                                          \
   namespace {                                                                                \
@@ -62,7 +63,7 @@ void destroy(void* object) {
     gnu::retain]] const ::orca::TypeEntry* const orca_type_entry_pointer = &orca_type_entry; \
   }
 
-/// Makes a class of this source file known as a component type. Once per file, at its end.
+/// Registers a class of this source file as a component type. It is used once per file, at the end.
 #define ORCA_COMPONENT(Class, type_name)                                                           \
   ORCA_DETAIL_TYPE_ENTRY({::orca::PluginKind::component, type_name,                                \
                           ::orca::detail::create<Class, ::orca::Component, ::orca::ComponentHost>, \
@@ -75,11 +76,12 @@ void destroy(void* object) {
     gnu::retain]] constexpr char ORCA_DETAIL_JOIN(orca_clock_note_, line)[] = text; \
   }
 
-/// Says that the types of this plugin cannot run in virtual time, and why: "reads a joystick". A literal.
+/// Declares that the types of this plugin cannot run in virtual time, and why: "reads a joystick". The reason
+/// is a literal.
 #define ORCA_STEADY_CLOCK_ONLY(reason) ORCA_DETAIL_CLOCK_NOTE(__LINE__, "steady only: " reason)
 
-/// Says that this plugin may use a symbol in virtual time that is refused there, and why it does no harm:
-/// ORCA_ALLOW_IN_VIRTUAL_TIME("poll", "with a time-out of zero, it never waits"). The symbol as the refusal
-/// names it.
+/// Declares that this plugin may use a symbol that is otherwise refused in virtual time, and why the symbol
+/// does no harm: ORCA_ALLOW_IN_VIRTUAL_TIME("poll", "with a time-out of zero, it never waits"). The symbol is
+/// spelt as in the refusal.
 #define ORCA_ALLOW_IN_VIRTUAL_TIME(symbol, reason) \
   ORCA_DETAIL_CLOCK_NOTE(__LINE__, "allows " symbol ": " reason)

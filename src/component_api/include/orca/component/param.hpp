@@ -12,7 +12,7 @@
 
 namespace orca {
 
-/// What an author may say about a parameter: the one place where it is documented.
+/// The properties of a parameter, documented in this one place.
 struct ParamOptions {
   std::string unit{};                  ///< SI unit of the value; empty: none.
   std::optional<double> min{};         ///< In that unit.
@@ -24,7 +24,7 @@ struct ParamOptions {
 };
 
 /// A parameter of a component: declared as a member, set by the graph before configure(), read with `*`.
-/// Unless it is `fixed` it may get another value between two laps, see Component::params_changed().
+/// Unless it is `fixed`, its value may change between two laps; see Component::params_changed().
 ///
 /// @tparam T  bool, std::int64_t, double, std::string or std::vector<std::string>. Numbers are in SI units.
 /// Thread contract: the component's strand.

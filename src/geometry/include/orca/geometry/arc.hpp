@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// Exact motion at a constant twist: an arc of a circle. A body that goes an arc of length s while it turns by a ends
-/// s sin(a/2) / (a/2) away. Seen from the frame halfway, turned by a/2, it went that far in the direction of its
-/// velocity (docs/geometry.md).
+/// Exact motion at a constant twist: an arc of a circle. A body that moves along an arc of length s while it
+/// turns by a ends s sin(a/2) / (a/2) away. Seen from the frame halfway, turned by a/2, it has moved that far
+/// in the direction of its velocity (docs/geometry.md).
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace orca {
 
-/// Returns the length of the chord over that of the arc.
+/// Returns the ratio of the chord's length to the arc's.
 /// @param turn [rad]  from one end of the arc to the other.
 [[nodiscard]] inline double chord_ratio(double turn) {
   const double half = 0.5 * turn;
@@ -20,21 +20,22 @@ namespace orca {
   return std::fabs(half) < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
 }
 
-/// Returns the straight way from the arc's begin to its end.
-/// @param yaw [rad]  of the body at the begin, in the frame of the result.
+/// Returns the straight line from the start of the arc to its end.
+/// @param yaw [rad]  of the body at the start, in the frame of the result.
 [[nodiscard]] inline Vec2 chord(double yaw, const Travel2& travel) {
   return chord_ratio(travel.turn) * rotated({travel.forward, travel.left}, yaw + 0.5 * travel.turn);
 }
 
-/// Returns the pose of a body that has gone that far from `X_WB`.
+/// Returns the pose of a body that has travelled that far from `X_WB`.
 [[nodiscard]] inline Pose2 along_arc(const Pose2& X_WB, const Travel2& travel) {
   const Vec2 end = X_WB.position() + chord(X_WB.yaw, travel);
   return {end.x, end.y, wrapped(X_WB.yaw + travel.turn)};
 }
 
-/// Returns the pose of a body that has moved at `twist` for `seconds` [s], in its frame of before. Negative seconds lead
-/// back. It is along_arc({}, twist * seconds) but for the last bits: here the way shrinks to the chord before it is
-/// turned, there afterwards. The recorded runs rest on both (docs/adr/0022-one-plane-geometry.md).
+/// Returns the pose of a body that has moved at `twist` for `seconds` [s], in its frame at the start.
+/// Negative seconds lead back. It equals along_arc({}, twist * seconds) except for the last bits: here the
+/// way shrinks to the chord before it is turned, there afterwards. The recorded runs depend on both
+/// (docs/adr/0022-one-plane-geometry.md).
 [[nodiscard]] inline Pose2 moved(const Twist2& twist, double seconds) {
   const Travel2 travel = twist * seconds;
   const double half = 0.5 * travel.turn;
@@ -44,8 +45,8 @@ namespace orca {
   return {end.x, end.y, wrapped(travel.turn)};
 }
 
-/// Returns what along_arc() was given, from where it began and ended.
-/// @pre  it turned by less than half a circle.
+/// Returns the travel that led along_arc() from `from` to `to`.
+/// @pre  the body turned by less than half a circle.
 [[nodiscard]] inline Travel2 arc_between(const Pose2& from, const Pose2& to) {
   const double turn = wrapped(to.yaw - from.yaw);
   const Vec2 way = rotated(to.position() - from.position(), -(from.yaw + 0.5 * turn));

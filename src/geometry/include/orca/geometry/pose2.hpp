@@ -6,7 +6,7 @@
 
 namespace orca {
 
-/// Where a frame stands in another one, in the plane. X_AB is the pose of frame B in A, p_B a point given in B.
+/// The pose of one frame in another, in the plane. X_AB is the pose of frame B in A, p_B a point given in B.
 ///
 /// A plain value.
 struct Pose2 {

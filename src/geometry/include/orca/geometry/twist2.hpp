@@ -5,7 +5,7 @@
 
 namespace orca {
 
-/// How fast a body moves in the plane, in its own frame.
+/// The velocity of a body in the plane, in its own frame.
 ///
 /// A plain value.
 struct Twist2 {
@@ -19,7 +19,8 @@ struct Twist2 {
   return std::isfinite(twist.forward) && std::isfinite(twist.left) && std::isfinite(twist.turn_rate);
 }
 
-/// How far a body goes at a constant twist. The lengths are those of the arc that it follows, not of its chord.
+/// The distance that a body travels at a constant twist. The lengths are those of the arc that it follows,
+/// not of its chord.
 ///
 /// A plain value.
 struct Travel2 {
@@ -29,11 +30,13 @@ struct Travel2 {
   friend bool operator==(const Travel2&, const Travel2&) = default;
 };
 
+/// Returns the travel in that time.
 /// @param seconds [s]  negative: how far the body has come in the time before.
 [[nodiscard]] constexpr Travel2 operator*(const Twist2& twist, double seconds) {
   return {twist.forward * seconds, twist.left * seconds, twist.turn_rate * seconds};
 }
 
+/// Returns the constant twist that gives that travel.
 /// @pre  seconds is not 0.
 [[nodiscard]] constexpr Twist2 operator/(const Travel2& travel, double seconds) {
   return {travel.forward / seconds, travel.left / seconds, travel.turn / seconds};

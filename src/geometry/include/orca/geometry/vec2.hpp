@@ -8,7 +8,7 @@ namespace orca {
 /// A point or a vector in the plane, in the frame that its user names: x forward (on a plan: to the right), y to the
 /// left (on a plan: up). Points are in metres, axes have the length 1.
 ///
-/// A plain value, as all types of src/geometry; its functions may be called from any thread.
+/// A plain value, like all types of src/geometry; its functions may be called from any thread.
 struct Vec2 {
   double x = 0.0;
   double y = 0.0;

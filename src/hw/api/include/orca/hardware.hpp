@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-/// All that the author of a hardware plugin includes, besides the objects that the endpoints deliver.
+/// The one header that the author of a hardware plugin includes, besides the objects that the endpoints
+/// deliver.
 
 #include "orca/component/manifest.hpp"
 #include "orca/hw/container.hpp"
 
-/// Makes a class of this source file known as a hardware type. Once per file, at its end.
+/// Registers a class of this source file as a hardware type. It is used once per file, at the end.
 #define ORCA_HARDWARE(Class, type_name)                                                        \
   ORCA_DETAIL_TYPE_ENTRY(                                                                      \
       {::orca::PluginKind::hardware, type_name,                                                \

@@ -5,7 +5,7 @@
 
 namespace orca {
 
-/// What has happened on one Push edge so far. A plain value.
+/// The counters of one Push edge, from its start until now. A plain value.
 struct EdgeCounters {
   std::uint64_t delivered = 0;  ///< Objects put into the queue.
   std::uint64_t dropped = 0;    ///< Objects lost, for any of the reasons that follow.
@@ -17,11 +17,11 @@ struct EdgeCounters {
   std::uint64_t left_behind = 0;       ///< They were still in the queue at unsubscribe().
   std::uint64_t waits = 0;             ///< Times that the publisher had to wait for room.
   std::uint64_t missed_deadlines = 0;  ///< Deadlines that passed without an object.
-  std::uint32_t queued = 0;            ///< In the queue now.
-  std::uint32_t high_water = 0;        ///< Most that were ever in the queue.
+  std::uint32_t queued = 0;            ///< Objects in the queue now.
+  std::uint32_t high_water = 0;        ///< Largest number that was ever in the queue.
 };
 
-/// What has happened at one Send or Query server, or on one Send edge, so far. A plain value.
+/// The counters of one Send or Query server, or of one Send edge, from its start until now. A plain value.
 struct IntakeCounters {
   std::uint64_t accepted = 0;
   std::uint64_t refused = 0;  ///< Not accepted, for any of the reasons that follow.
@@ -32,7 +32,7 @@ struct IntakeCounters {
   std::uint64_t withdrawn = 0;   ///< The sender stopped waiting for room.
   std::uint64_t waits = 0;       ///< Times that a sender had to wait for room.
   std::uint32_t queued = 0;      ///< Waiting to be handled now.
-  std::uint32_t high_water = 0;  ///< Most that ever waited; of several edges the sum.
+  std::uint32_t high_water = 0;  ///< Largest number that ever waited; summed over several edges.
 
   IntakeCounters& operator+=(const IntakeCounters& other) {
     accepted += other.accepted;
@@ -48,12 +48,12 @@ struct IntakeCounters {
   }
 };
 
-/// What has happened at one SendProxy or QueryProxy so far. A plain value.
+/// The counters of one SendProxy or QueryProxy, from its start until now. A plain value.
 struct RequestCounters {
   std::uint64_t sent = 0;       ///< Objects or questions that left.
-  std::uint64_t answered = 0;   ///< Accepted by the server, or answered well.
+  std::uint64_t answered = 0;   ///< Accepted by the server, or answered without an error.
   std::uint64_t failed = 0;     ///< Refused, or answered by an error.
-  std::uint64_t timed_out = 0;  ///< Given up at the caller's time limit.
+  std::uint64_t timed_out = 0;  ///< Abandoned at the caller's time limit.
 };
 
 }  // namespace orca

@@ -25,8 +25,8 @@ class PushServerHandle {
   PushServerHandle(const PushServerHandle&) = delete;
   PushServerHandle& operator=(const PushServerHandle&) = delete;
 
-  /// Announces the base period (thesis: start): from now on an object comes each `base_period` [s]; 0:
-  /// irregularly, as if start() had never been called. Subscribers are granted multiples of it.
+  /// Announces the base period (thesis: start): from now on an object comes every `base_period` [s]. 0:
+  /// irregularly, as if start() had never been called. Subscribers are granted multiples of the base period.
   void start(Duration base_period);
   [[nodiscard]] Duration base_period() const;
 
@@ -34,7 +34,7 @@ class PushServerHandle {
   [[nodiscard]] std::size_t subscriber_count() const;
 
  protected:
-  /// Stamps the object as an answer to what the component handles, and pushes it.
+  /// Stamps the object as an answer to what the component currently handles, and pushes it.
   void push_loan(ObjectLoan loan);
   /// Stamps an object that answers nothing, pushes it, and returns it.
   /// @thread  the device's strand, for a port that is declared with from_device.
@@ -46,7 +46,7 @@ class PushServerHandle {
   Endpoint* endpoint_ = nullptr;
 };
 
-/// Pushes objects of type T to whoever subscribed (thesis 7.3, Fig. 7.1).
+/// The server of a Push port. It pushes objects of type T to every subscriber (thesis 7.3, Fig. 7.1).
 ///
 /// Thread contract: the component's strand.
 template <class T>
@@ -55,11 +55,13 @@ class PushServer : public PushServerHandle {
   PushServer(PortOwner& owner, std::string name, const PortOptions& options = {})
       : PushServerHandle(owner, std::move(name), type_id(object_type<T>()), options) {}
 
-  /// An empty object to fill in and push, without a copy and, after warm-up, without memory from the heap.
+  /// Returns an empty object to fill in and push. There is no copy and, after warm-up, no allocation from the
+  /// heap.
   [[nodiscard]] Loan<T> loan() const { return make_object<T>(); }
 
-  /// Pushes a loaned object. Its header is filled in here. Waits only where the graph says overflow="block"
-  /// of an edge that is full: at most its block_limit, and after all other subscribers have the object.
+  /// Pushes a loaned object. Its header is filled in here. It waits only where the graph says
+  /// overflow="block" for an edge that is full: at most the edge's block_limit, and after all other
+  /// subscribers have the object.
   void push(Loan<T> object) { push_loan(std::move(object)); }
 
   /// Pushes a copy of a value.
@@ -81,22 +83,22 @@ class PushProxyHandle {
   void subscribe();
   void unsubscribe();
 
-  /// The name by which the component declares this port; the graph may call it otherwise.
+  /// Returns the name under which the component declares this port; the graph may use another name.
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// Whether the graph connects this port at all.
+  /// Returns whether the graph connects this port at all.
   [[nodiscard]] bool connected() const;
-  /// Whether an object has arrived that no get_update has returned yet (thesis: newDataArrived).
+  /// Returns whether an object has arrived that no get_update has returned yet (thesis: newDataArrived).
   [[nodiscard]] bool new_data_arrived() const;
-  /// Whether the deadline that the graph sets for the edge has passed without a new object; true until one
-  /// comes.
+  /// Returns whether the deadline that the graph sets for the edge has passed without a new object. It stays
+  /// true until one comes.
   [[nodiscard]] bool deadline_missed() const;
 
-  /// Asks for another update rate (thesis 7.3), before or while subscribed: at most one object per interval
-  /// [s], only every n-th object. The graph's interval is the limit. Without effect on a port that is not
+  /// Requests another update rate (thesis 7.3), before or while subscribed: at most one object per interval
+  /// [s], or only every n-th object. The graph's interval is the limit. Has no effect on a port that is not
   /// connected.
   void set_interval(Duration interval) { ask({interval, 1}); }
   void set_multiple(std::uint32_t multiple) { ask({Duration{0}, multiple}); }
-  /// Returns what the server granted; all zero for a port that is not connected.
+  /// Returns the rate that the server granted; all zero for a port that is not connected.
   [[nodiscard]] UpdateGrant granted() const;
   /// Returns the time between two objects that the server announces [s]; 0: none.
   [[nodiscard]] Duration base_period() const;
@@ -123,7 +125,7 @@ class PushProxyHandle {
   Endpoint* endpoint_ = nullptr;
 };
 
-/// Receives the objects that one PushServer pushes (thesis 7.3, Fig. 7.3).
+/// The client of a Push port. It receives the objects that one PushServer pushes (thesis 7.3, Fig. 7.3).
 ///
 /// Every blocking call throws Interrupted when the component must leave its lap; let it pass.
 /// Thread contract: the component's strand.
@@ -133,34 +135,34 @@ class PushProxy : public PushProxyHandle {
   PushProxy(PortOwner& owner, std::string name, const PortOptions& options = {})
       : PushProxyHandle(owner, std::move(name), type_id(object_type<T>()), options) {}
 
-  /// The next new object, or the last one again if there is none; blocks only before the first of this
-  /// subscription.
+  /// Returns the next new object, or the last one again if there is none. Blocks only before the first object
+  /// of this subscription.
   ObjectPtr<T> get_update() { return object_cast<T>(get_update_ref()); }
 
-  /// Blocks until there is a new object. Never null.
+  /// Blocks until there is a new object and returns it; never null.
   ObjectPtr<T> get_update_wait() { return object_cast<T>(get_update_wait_ref(kForever)); }
 
-  /// Blocks until there is a new object, at most `limit`. Null when the time has passed.
+  /// Blocks until there is a new object, at most `limit`, and returns it; null when the time has passed.
   ObjectPtr<T> get_update_wait_max(Duration limit) {
     return object_cast<T>(get_update_wait_ref(deadline_in(limit)));
   }
 
-  /// The newest object, without blocking and without taking it. Null before the first.
+  /// Returns the newest object, without blocking and without taking it; null before the first.
   [[nodiscard]] ObjectPtr<T> latest() const { return object_cast<T>(latest_ref()); }
 };
 
 /// The untyped part of a source of a port array.
 class PushSourceHandle {
  public:
-  /// "component.port" of the server.
+  /// Returns "component.port" of the server.
   [[nodiscard]] std::string path() const;
 
   void subscribe() const;
   void unsubscribe() const;
-  /// Whether an object has arrived that take_latest() has not returned yet.
+  /// Returns whether an object has arrived that take_latest() has not returned yet.
   [[nodiscard]] bool new_data_arrived() const;
 
-  /// Whether both are the same source of the same port.
+  /// Compares two sources: equal if they are the same source of the same port.
   friend bool operator==(const PushSourceHandle&, const PushSourceHandle&) = default;
 
  protected:
@@ -182,7 +184,7 @@ class PushSourceOf : public PushSourceHandle {
 
   /// Returns the newest object, without taking it; null before the first of this subscription.
   [[nodiscard]] ObjectPtr<T> latest() const { return object_cast<T>(latest_ref()); }
-  /// Takes everything that waits, and returns the newest object, new or not; null before the first.
+  /// Takes all waiting objects, and returns the newest object, new or not; null before the first.
   [[nodiscard]] ObjectPtr<T> take_latest() const { return object_cast<T>(take_latest_ref()); }
 };
 
@@ -193,7 +195,7 @@ class PushProxyArrayHandle {
   PushProxyArrayHandle(const PushProxyArrayHandle&) = delete;
   PushProxyArrayHandle& operator=(const PushProxyArrayHandle&) = delete;
 
-  /// "component.port" of this port.
+  /// Returns "component.port" of this port.
   [[nodiscard]] std::string path() const;
   void unsubscribe_all();
 
@@ -207,8 +209,8 @@ class PushProxyArrayHandle {
   Endpoint* endpoint_ = nullptr;
 };
 
-/// A port array: objects of one type from any number of PushServers, told apart by the servers' names. The
-/// component subscribes to them itself, by name, at run time.
+/// A port array: it receives objects of one type from any number of PushServers, distinguished by the
+/// servers' names. The component itself subscribes to them, by name, at run time.
 ///
 /// Thread contract: the component's strand.
 template <class T>

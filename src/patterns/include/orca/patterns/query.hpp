@@ -25,8 +25,9 @@ class QueryServerHandle {
   Endpoint* endpoint_ = nullptr;
 };
 
-/// Answers requests of type Q with objects of type A (thesis 7.3, Fig. 7.4). The handler is a member function
-/// `Result<Loan<A>> on_ask(const ObjectPtr<Q>&)`; it runs on the component's strand between two laps.
+/// The server of a Query port. It answers requests of type Q with objects of type A (thesis 7.3, Fig. 7.4).
+/// The handler is a member function `Result<Loan<A>> on_ask(const ObjectPtr<Q>&)`; it runs on the component's
+/// strand between two laps.
 template <class Q, class A>
 class QueryServer : public QueryServerHandle {
  public:
@@ -66,8 +67,8 @@ class QueryProxyHandle {
   Endpoint* endpoint_ = nullptr;
 };
 
-/// Asks one QueryServer (thesis 7.3, Fig. 7.5): blocking with query(), or in two steps with query_request()
-/// and query_receive() or query_receive_wait().
+/// The client of a Query port. It asks one QueryServer (thesis 7.3, Fig. 7.5): blocking with query(), or in
+/// two steps with query_request() and query_receive() or query_receive_wait().
 ///
 /// Thread contract: the component's strand.
 template <class Q, class A>
@@ -79,16 +80,16 @@ class QueryProxy : public QueryProxyHandle {
 
   [[nodiscard]] Loan<Q> loan() const { return make_object<Q>(); }
 
-  /// Asks and waits for the answer.
+  /// Sends a question and waits for the answer.
   /// @errors  failed_precondition if not connected, unavailable if refused, deadline_exceeded, or the
   /// server's own.
   Result<ObjectPtr<A>> query(Loan<Q> request, Duration timeout = 1s) {
     return typed(ask_loan(std::move(request), timeout));
   }
 
-  /// Asks without waiting for the answer.
-  /// @errors  failed_precondition if not connected; unavailable if refused within this process. Another
-  /// process refuses by its answer.
+  /// Sends a question without waiting for the answer.
+  /// @errors  failed_precondition if not connected; unavailable if refused within this process. A server in
+  /// another process sends its refusal as the answer.
   Result<QueryId> query_request(Loan<Q> request) { return request_loan(std::move(request)); }
 
   /// Returns the answer if it is there; nothing while it is not.
@@ -98,7 +99,7 @@ class QueryProxy : public QueryProxyHandle {
     return typed(std::move(*answer));
   }
 
-  /// Waits for the answer, at most `timeout`; then the question is forgotten.
+  /// Waits for the answer, at most `timeout`; after that the question is forgotten.
   Result<ObjectPtr<A>> query_receive_wait(QueryId id, Duration timeout = 1s) {
     return typed(receive_wait_ref(id, timeout));
   }

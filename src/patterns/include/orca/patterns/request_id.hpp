@@ -5,7 +5,7 @@
 
 namespace orca {
 
-/// The name of one question or sent object of one client, until its answer has been taken.
+/// The id of one question or sent object of one client, valid until its answer has been taken.
 using RequestId = std::uint64_t;
 using QueryId = RequestId;
 using SendId = RequestId;

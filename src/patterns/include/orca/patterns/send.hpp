@@ -25,8 +25,9 @@ class SendServerHandle {
   Endpoint* endpoint_ = nullptr;
 };
 
-/// Receives objects of type T that others send (thesis 7.3, Fig. 7.7). The handler is a member function
-/// `Status on_goal(const ObjectPtr<T>&)`; it runs on the component's strand between two laps.
+/// The server of a Send port. It receives objects of type T that others send (thesis 7.3, Fig. 7.7). The
+/// handler is a member function `Status on_goal(const ObjectPtr<T>&)`; it runs on the component's strand
+/// between two laps.
 template <class T>
 class SendServer : public SendServerHandle {
  public:
@@ -49,10 +50,11 @@ class SendProxyHandle {
   [[nodiscard]] bool connected() const;
   [[nodiscard]] RequestCounters counters() const;
 
-  /// Tells whether an object sent by send_request() was accepted or refused; nothing while that is open.
+  /// Reports whether an object sent by send_request() was accepted or refused; returns nothing while that is
+  /// open.
   /// @errors  not_found for an id that was never given or whose outcome has been taken.
   std::optional<Status> send_receive(SendId id);
-  /// Does the same, waiting at most `timeout` [s]; then the object is withdrawn.
+  /// Does the same, but waits at most `timeout` [s]; after that the object is withdrawn.
   /// @errors  deadline_exceeded; throws Interrupted.
   Status send_receive_wait(SendId id, Duration timeout = 1s);
 
@@ -67,8 +69,9 @@ class SendProxyHandle {
   Endpoint* endpoint_ = nullptr;
 };
 
-/// Sends objects of type T to one SendServer (thesis 7.3, Fig. 7.8): at once with send(), waiting for room
-/// with send_wait() and send_wait_max(), or in two steps with send_request() and send_receive().
+/// The client of a Send port. It sends objects of type T to one SendServer (thesis 7.3, Fig. 7.8): at once
+/// with send(), waiting for room with send_wait() and send_wait_max(), or in two steps with send_request()
+/// and send_receive().
 ///
 /// The waits throw Interrupted when the component must leave its lap; let it pass.
 /// Thread contract: the component's strand.
@@ -80,22 +83,22 @@ class SendProxy : public SendProxyHandle {
 
   [[nodiscard]] Loan<T> loan() const { return make_object<T>(); }
 
-  /// Sends; a full server refuses. Waits only where the graph says overflow="block", at most its block_limit,
-  /// and on links to other processes for their answer.
+  /// Sends an object; a full server refuses it. Waits only where the graph says overflow="block", at most the
+  /// edge's block_limit, and on links to other processes for their answer.
   /// @return ok once the server has accepted the object: from then on it is not lost.
   /// @errors  failed_precondition if not connected, unavailable with the server's reason if refused,
   /// deadline_exceeded after a wait.
   Status send(Loan<T> object) { return send_loan(std::move(object)); }
   Status send(const T& value) { return send(make_object(value)); }
 
-  /// Waits for room as long as it takes. Other refusals come at once.
+  /// Sends an object and waits for room for as long as it takes. Other refusals come at once.
   Status send_wait(Loan<T> object) { return send_wait_loan(std::move(object), std::nullopt); }
 
-  /// Waits for room, at most `limit`.
+  /// Sends an object and waits for room, at most `limit`.
   /// @errors  as send().
   Status send_wait_max(Loan<T> object, Duration limit) { return send_wait_loan(std::move(object), limit); }
 
-  /// Sends without waiting for anything; send_receive() tells what became of it.
+  /// Sends an object without waiting for anything; send_receive() reports what became of it.
   /// @errors  failed_precondition if not connected.
   Result<SendId> send_request(Loan<T> object) { return request_loan(std::move(object)); }
 };

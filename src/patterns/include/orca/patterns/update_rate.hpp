@@ -7,14 +7,15 @@
 
 namespace orca {
 
-/// How often a subscriber asks to be updated (thesis 7.3). Both may be asked for; the slower one counts.
+/// The rate at which a subscriber asks to be updated (thesis 7.3). If both members are set, the slower one
+/// counts.
 struct UpdateRate {
   Duration interval{0};        ///< At most one object per interval [s]; 0: any number.
   std::uint32_t multiple = 1;  ///< Only every n-th object.
   friend bool operator==(const UpdateRate&, const UpdateRate&) = default;
 };
 
-/// How often the server agrees to update a subscriber.
+/// The rate at which the server agrees to update a subscriber.
 struct UpdateGrant {
   Duration base_period{0};     ///< Of the server [s]; 0: it pushes irregularly.
   std::uint32_t multiple = 1;  ///< The subscriber gets every n-th object.
@@ -23,9 +24,9 @@ struct UpdateGrant {
   friend bool operator==(const UpdateGrant&, const UpdateGrant&) = default;
 };
 
-/// What a server with that base period grants: the interval rounded up to a multiple of the base period, so
-/// that nobody gets more than was asked for. A thousandth of a period is forgiven, because periods such as a
-/// third of a second are no whole number of nanoseconds.
+/// Returns the rate that a server with that base period grants: the interval rounded up to a multiple of the
+/// base period, so that nobody gets more than requested. A thousandth of a period is tolerated, because
+/// periods such as a third of a second are no whole number of nanoseconds.
 [[nodiscard]] UpdateGrant grant_rate(const UpdateRate& asked, Duration base_period);
 
 }  // namespace orca

@@ -13,27 +13,28 @@
 
 namespace orca::xml {
 
-/// Reads the attributes of one element as their rules want them, and reports whatever is wrong with them.
+/// The attributes of one element, read by their rules. Everything that is wrong with them is reported.
 ///
-/// A reading function returns nothing if the attribute is missing or wrong. A missing one is reported when the
-/// object is made, a wrong one when it is read. The object refers to all that it is made of.
+/// A reading function returns nothing if the attribute is missing or wrong. A missing attribute is reported
+/// when this object is constructed, a wrong one when it is read. The object refers to its constructor's
+/// arguments.
 ///
 /// Thread contract: not synchronised; one thread.
 class Attributes {
  public:
   /// Compares the attributes and the text of `element` with its rule, and reports where they differ.
   Attributes(const Element& element, const ElementRule& rule, const FileRules& file, Reporter& reporter);
-  /// Of an element without a rule, which may have any attributes.
+  /// Reads an element without a rule, which may have any attributes.
   Attributes(const Element& element, const FileRules& file, Reporter& reporter);
 
-  /// Values by the attribute's own rule; by one without limits if it has none.
+  /// Values by the attribute's own rule, or by a rule without limits if it has none.
   [[nodiscard]] std::optional<double> number(std::string_view name) const;
   [[nodiscard]] std::optional<double> number_or(std::string_view name, double otherwise) const;
   [[nodiscard]] std::optional<std::int64_t> integer(std::string_view name) const;
-  /// Of a number in seconds.
+  /// Returns a time that is written as a number in seconds.
   [[nodiscard]] std::optional<Duration> duration(std::string_view name) const;
   [[nodiscard]] std::optional<Duration> duration_or(std::string_view name, Duration otherwise) const;
-  /// A word out of the choices of the rule.
+  /// Returns one of the rule's choices.
   [[nodiscard]] std::optional<std::string> choice(std::string_view name) const;
   [[nodiscard]] std::optional<std::string> name(std::string_view attribute) const;
   [[nodiscard]] std::optional<std::string> text(std::string_view name) const;
@@ -42,26 +43,27 @@ class Attributes {
   [[nodiscard]] std::optional<std::int64_t> integer(std::string_view name, const ValueRule& rule) const;
   [[nodiscard]] std::optional<std::string> choice(std::string_view name, const ValueRule& rule) const;
 
-  /// A number without a unit, not even "%".
+  /// Returns a number without a unit, not even "%".
   [[nodiscard]] std::optional<double> bare_number(std::string_view name) const;
-  /// Bare numbers with blanks between them, exactly `n` of them.
+  /// Returns bare numbers with blanks between them, exactly `n` of them.
   [[nodiscard]] std::optional<std::vector<double>> bare_numbers(std::string_view name, std::size_t n) const;
-  /// Numbers with blanks between them, exactly `n`; the last word may be a unit for all: "90 45 0 deg".
+  /// Returns numbers with blanks between them, exactly `n`. The last word may be a unit for all: "90 45 0
+  /// deg".
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view name, std::size_t n) const;
 
   [[nodiscard]] bool has(std::string_view name) const { return attribute(name) != nullptr; }
-  /// Null if it is missing.
+  /// Returns the attribute; null if it is missing.
   [[nodiscard]] const Attribute* attribute(std::string_view name) const;
-  /// Null if it is missing, or an error in it is reported already.
+  /// Returns the attribute; null if it is missing or if an error in it has been reported already.
   [[nodiscard]] const Attribute* readable(std::string_view name) const;
-  /// All that have a rule, in document order.
+  /// Returns all attributes that have a rule, in document order.
   [[nodiscard]] const MatchedAttributes& matched() const { return matched_; }
   [[nodiscard]] const Element& element() const { return element_; }
 
-  /// Reports a missing attribute. True if it is there.
+  /// Reports a missing attribute. Returns true if it is there.
   bool require(std::string_view name) const;
 
-  /// Finds the rules of the children, and reports the ones that have none.
+  /// Finds the rules of the children, and reports children that have none.
   [[nodiscard]] std::vector<std::pair<const Element*, const ElementRule*>> children() const;
 
   /// Reports an error at the element, or at the value of one of its attributes.
@@ -70,7 +72,7 @@ class Attributes {
   /// Reports the same, and returns nothing.
   std::nullopt_t refuse(const char* code, std::string message) const;
   std::nullopt_t refuse_at(std::string_view attribute, const char* code, std::string message) const;
-  /// Reports that the value of an attribute is not of the form that is wanted.
+  /// Reports that the value of an attribute is not of the expected form.
   std::nullopt_t refuse_value(const Attribute& attribute, const ValueFault& fault) const;
 
  private:
@@ -85,9 +87,9 @@ class Attributes {
   MatchedAttributes matched_;
 };
 
-/// The pieces of a text, trimmed; "a; b" at ';' gives "a", "b".
+/// Returns the pieces of a text, trimmed; "a; b" split at ';' gives "a", "b".
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, std::string_view separators);
-/// The words of a text, which have blanks, tabs or line ends between them.
+/// Returns the words of a text, which are separated by blanks, tabs or line ends.
 [[nodiscard]] std::vector<std::string_view> words(std::string_view text);
 
 }  // namespace orca::xml

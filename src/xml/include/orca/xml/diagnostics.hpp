@@ -14,53 +14,54 @@ struct Position {
   int line = 0;
   int column = 0;
 
-  /// "graph.xml:12:7", or the file alone where there is no line.
+  /// Returns "graph.xml:12:7", or only the file where there is no line.
   [[nodiscard]] std::string text() const;
   friend bool operator==(const Position&, const Position&) = default;
 };
 
 enum class Severity { error, warning };
 
-/// One thing to tell the author of a file. docs/errors.md lists the codes; they stay what they are.
+/// A message to the author of a file. docs/errors.md lists the codes; they never change.
 struct Diagnostic {
   Severity severity = Severity::error;
   std::string code;  ///< E.g. "G017"; empty: `message` is a whole line made elsewhere, printed as it is.
   Position position;
   std::string message;
 
-  /// "graph.xml:12:7: error G017: ..."
+  /// Returns "graph.xml:12:7: error G017: ...".
   [[nodiscard]] std::string text() const;
   friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };
 
-/// Collects what is wrong with a file, so that all of it can be told at once.
+/// A collection of everything that is wrong with a file, so that all of it can be reported at once.
 ///
 /// Thread contract: not synchronised; one thread.
 class Diagnostics {
  public:
-  /// More lines than this help nobody.
+  /// The number of lines that are printed; more would help nobody.
   static constexpr std::size_t kPrinted = 50;
-  /// More than this are only counted: a file of 16 MB must not cost gigabytes.
+  /// The number of messages that are kept. Further ones are only counted, because a file of 16 MB must not
+  /// cost gigabytes.
   static constexpr std::size_t kKept = 20'000;
 
   void error(std::string code, Position position, std::string message);
   void warning(std::string code, Position position, std::string message);
 
-  /// Takes over a finished line, for instance about another file. `position` says where it sorts.
+  /// Adds a finished line, for instance about another file. `position` determines where it is sorted.
   void line(Position position, std::string finished_line);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   [[nodiscard]] std::size_t error_count() const { return errors_; }
 
-  /// Everything (the first kKept), ordered by file, line and column; in the order of reporting within one
-  /// place.
+  /// Returns all messages (the first kKept), ordered by file, line and column; in the order of reporting
+  /// within one place.
   [[nodiscard]] std::vector<Diagnostic> sorted() const;
 
-  /// The sorted lines, each ended by a newline; after kPrinted of them "... and N more".
+  /// Returns the sorted lines, each ended by a newline; after kPrinted of them "... and N more".
   [[nodiscard]] std::string text() const;
 
-  /// The same for programs: {errors, warnings, messages: [{severity, code, file, line, column, message}]},
-  /// sorted, and none left out of the first kKept.
+  /// Returns the same for programs: {errors, warnings, messages: [{severity, code, file, line, column,
+  /// message}]}, sorted, and none of the first kKept left out.
   [[nodiscard]] std::string json() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Compares an element with its rule. A misspelt name is reported once and then taken for what it was meant to
-// be, so that one slip gives one error.
+// Compares an element with its rule. A misspelt name is reported once and then treated as the name that was
+// meant, so that one slip gives one error.
 #pragma once
 
 #include <string_view>
@@ -13,16 +13,17 @@
 
 namespace orca::xml {
 
-/// Attributes of an element under the names of their rules, in document order.
+/// The attributes of an element under the names of their rules, in document order.
 using MatchedAttributes = std::vector<std::pair<std::string_view, const Attribute*>>;
 
-/// Finds the rule of each attribute. Reports attributes that have none, and required ones that are missing.
+/// Finds the rule of each attribute. Reports attributes that have none, and required attributes that are
+/// missing.
 [[nodiscard]] MatchedAttributes match_attributes(const Element& element, const ElementRule& rule,
                                                  const FileRules& file, Reporter& reporter);
 
 /// Finds the rule of `child` among those that `parent` allows. Reports an element that is unknown or belongs
 /// elsewhere.
-/// @return null if there is no telling what the element was meant to be.
+/// @return null if the intended element cannot be guessed.
 [[nodiscard]] const ElementRule* match_child(const Element& child, const ElementRule& parent,
                                              const FileRules& file, Reporter& reporter);
 

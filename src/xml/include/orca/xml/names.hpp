@@ -8,9 +8,10 @@
 
 namespace orca::xml {
 
-/// The candidate that a person most likely meant by `word`: the one with the fewest inserted, deleted,
-/// replaced or swapped characters (upper and lower case count as equal), the first of them if several are as
-/// near. Failing that, the first that begins with the word or that the word begins with.
+/// Returns the candidate that a person most likely meant by `word`: the one with the fewest inserted,
+/// deleted, replaced or swapped characters, where upper and lower case count as equal. If several are equally
+/// near, it is the first of them. Failing that, it is the first that begins with the word or that the word
+/// begins with.
 /// @return nothing if `word` is empty, or every candidate differs in more than about a third of the word's
 ///         characters and shares no beginning of three or more with it.
 /// @source  optimal string alignment distance; Damerau, "A technique for computer detection and correction
@@ -18,7 +19,7 @@ namespace orca::xml {
 [[nodiscard]] std::optional<std::string> nearest_name(std::string_view word,
                                                       std::span<const std::string> candidates);
 
-/// `; did you mean "laser"?`, or nothing: the end of a message about an unknown name.
+/// Returns `; did you mean "laser"?`, or nothing: the end of a message about an unknown name.
 [[nodiscard]] std::string did_you_mean(const std::optional<std::string>& nearest);
 
 }  // namespace orca::xml

@@ -8,22 +8,22 @@
 
 namespace orca::xml {
 
-/// A value in the unit written behind it, as a value in SI.
+/// Converts a value in the unit written behind it to SI.
 ///
 /// @param value    as written.
 /// @param written  the unit behind the number, e.g. "mm"; empty: the number is in SI already.
 /// @param si       the SI unit that is expected: "m", "rad", "s", "Hz", "m/s", "rad/s", "m/s2", "rad/s2",
-/// "kg",
-///                 "N", "Nm", "V", "A"; empty for a plain number, which may be written with "%". Any other
-///                 unit must be written exactly so.
+///                 "kg", "N", "Nm", "V", "A"; empty for a plain number, which may be written with "%". Any
+///                 other unit must be written exactly so.
 /// @errors  invalid_argument: the unit is unknown or measures something else; says what may be written.
 [[nodiscard]] Result<double> to_si(double value, std::string_view written, std::string_view si);
 
-/// "190 mm", "22.5 deg", "10 Hz", "0.5" as a value in SI; `si` as in to_si().
+/// Reads "190 mm", "22.5 deg", "10 Hz" or "0.5" as a value in SI; `si` as in to_si().
 /// @errors  as parse_leading_number() and to_si().
 [[nodiscard]] Result<double> parse_quantity(std::string_view text, std::string_view si);
 
-/// A span of time, "60s", "50 ms", "1.5" (seconds): not negative, at most a hundred years, to the nanosecond.
+/// Reads a span of time, "60s", "50 ms", "1.5" (seconds): not negative, at most a hundred years, to the
+/// nanosecond.
 /// @errors  as parse_quantity(), or invalid_argument with the allowed range.
 [[nodiscard]] Result<Duration> parse_duration(std::string_view text);
 

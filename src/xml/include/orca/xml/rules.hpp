@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a kind of file may hold, as tables: its elements, their attributes, and the values of these.
+// Tables of what a kind of file may hold: its elements, their attributes, and the values of the attributes.
 #pragma once
 
 #include <limits>
@@ -36,7 +36,7 @@ struct AttributeRule {
   ValueRule value = {};
 };
 
-/// What an element may hold.
+/// The content that an element may hold.
 struct ElementRule {
   std::string_view name;
   std::span<const AttributeRule> attributes = {};
@@ -44,19 +44,20 @@ struct ElementRule {
   std::string_view text = {};  ///< For people: what the element is.
   /// The element is not supported yet; its content can be looked at as if it stood outside.
   bool planned = false;
-  /// An unknown element with all these attributes is meant to be this one; empty: only its name tells.
+  /// Attributes that identify the element: an unknown element with all of them is taken for this one. Empty:
+  /// only the name identifies it.
   std::span<const std::string_view> telling = {};
   /// Attributes for other programs, which are skipped.
   std::span<const std::string_view> foreign = {};
 
-  /// The rule of an attribute or child, or null.
+  /// Returns the rule of an attribute or child, or null.
   [[nodiscard]] const AttributeRule* attribute(std::string_view wanted) const;
   [[nodiscard]] const ElementRule* child(std::string_view wanted) const;
   [[nodiscard]] std::vector<std::string> attribute_names() const;
   [[nodiscard]] std::vector<std::string> child_names() const;
 };
 
-/// The codes that a kind of file gives to what breaks its rules.
+/// The codes that a kind of file gives to violations of its rules.
 struct RuleCodes {
   const char* unknown_element;
   const char* misplaced_element;
@@ -75,9 +76,9 @@ struct FileRules {
   std::span<const ElementRule* const> elements;  ///< The root first.
   RuleCodes codes;
 
-  /// The first rule of that name, or null.
+  /// Returns the first rule of that name, or null.
   [[nodiscard]] const ElementRule* find(std::string_view element) const;
-  /// The elements that may contain `child`, for people: "<hardware> or <component>".
+  /// Returns the elements that may contain `child`, for people: "<hardware> or <component>".
   [[nodiscard]] std::string parents_of(std::string_view child) const;
 };
 

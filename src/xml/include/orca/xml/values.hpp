@@ -17,15 +17,15 @@ struct ValueFault {
   std::string message;
 };
 
-/// The code that a kind of file gives to such a fault.
+/// Returns the code that a kind of file gives to such a fault.
 [[nodiscard]] const char* code_of(ValueFault::Kind kind, const RuleCodes& codes);
 
-/// Reads a value as its rule wants it; the form of the rule is the caller's choice.
-/// @param fault  says why, where nothing is returned.
+/// Reads a value by its rule; the caller chooses the function that fits the rule's form.
+/// @param fault  receives the reason where nothing is returned.
 [[nodiscard]] std::optional<bool> read_boolean(std::string_view text, ValueFault& fault);
 [[nodiscard]] std::optional<std::int64_t> read_integer(std::string_view text, const ValueRule& rule,
                                                        ValueFault& fault);
-/// The value is in SI.
+/// Returns the value in SI.
 [[nodiscard]] std::optional<double> read_number(std::string_view text, const ValueRule& rule,
                                                 ValueFault& fault);
 

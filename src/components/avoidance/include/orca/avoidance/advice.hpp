@@ -17,15 +17,15 @@ struct Limits {
   double max_speed = 0.0;      ///< [m/s] with a free way of safe_distance.
 };
 
-/// What else an advice depends on.
+/// The other things that an advice depends on.
 struct Situation {
-  /// [rad] advised in the lap before, 0 if none: the side once chosen is kept, so that the robot does not
+  /// [rad] advised in the lap before, 0 if none. The side once chosen is kept, so that the robot does not
   /// dither in front of something symmetric.
   double last_direction = 0.0;
-  /// [rad] how far the robot will have turned before it can follow the advice: what lies there counts as
-  /// ahead, too.
+  /// [rad] how far the robot will have turned before it can follow the advice. Everything within this angle
+  /// also counts as ahead.
   double turning = 0.0;
-  /// [rad] robot frame, where the goal lies, if that is known: the free direction nearest to it is chosen.
+  /// [rad] robot frame, direction of the goal, if known: the free direction nearest to it is chosen.
   std::optional<double> goal = {};
 };
 
@@ -37,11 +37,12 @@ struct Advice {
   double urgency = 0.0;    ///< [0, 1] 0 at safe_distance, 1 at stop_distance.
 };
 
-/// How far the robot can go straight in a direction before its body, with margin, touches an echo, at most
-/// safe_distance [m].
+/// Returns how far [m] the robot can go straight in a direction before its body, with margin, touches an
+/// echo; at most safe_distance.
 ///
-/// A smooth wall that the robot nears at a flat angle sends back only the sonar beam that meets it squarely:
-/// nothing is heard from where the robot will touch it. So a near echo stands for a wall across its beam.
+/// A smooth wall that the robot nears at a flat angle reflects only the sonar beam that meets it squarely.
+/// Nothing is heard from the place where the robot will touch it. Therefore a near echo stands for a wall
+/// across its beam.
 [[nodiscard]] double free_way(std::span<const Vec2> echoes, double direction, const Limits& limits);
 
 /// Steers to the nearest direction with a long enough free way when the way ahead is blocked.

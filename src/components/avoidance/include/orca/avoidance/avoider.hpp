@@ -13,17 +13,18 @@
 
 namespace orca::avoid {
 
-/// The common part of all avoid behaviours (thesis 11.1): no opinion while the way is free, else a direction that is
-/// free, slower the nearer the obstacle. A derived class listens to its sensor.
+/// The common part of all avoid behaviours (thesis 11.1). It has no opinion while the way is free; otherwise
+/// it wishes for a free direction, slower the nearer the obstacle is. A derived class listens to its sensor.
 ///
-/// With odometry it remembers echoes and gives advice as often as odometry comes. Without odometry it gives advice as
-/// often as the sensor delivers, from those readings alone. With a goal it chooses the free direction nearest to the
-/// goal's; the pose comes from the localizer or, without one, from the odometry.
+/// With odometry it remembers echoes and gives advice as often as odometry comes. Without odometry it gives
+/// advice as often as the sensor delivers, from those readings alone. With a goal it chooses the free
+/// direction nearest to the direction of the goal. The pose comes from the localizer or, without one, from
+/// the odometry.
 ///
 /// Thread contract: as every component.
 class Avoider : public Component {
  protected:
-  /// @param echo_time  [s] default of the sensor: how long an echo counts that was heard once.
+  /// @param echo_time  [s] the sensor's default: how long an echo counts that was heard once.
   Avoider(ComponentHost& host, double echo_time);
 
   /// Returns the port of the sensor.

@@ -10,19 +10,19 @@
 
 namespace orca::avoid {
 
-/// Returns the place from which an echo came, in the robot frame: `range` [m] along the x axis of the sensor at
-/// `X_RS`. Below `min_range` the sensor cannot tell how near something is: it may be at the sensor itself. Returns
-/// nothing at or above `max_range`, and for what is no number.
+/// Returns the place from which an echo came, in the robot frame: `range` [m] along the x axis of the sensor
+/// at `X_RS`. Below `min_range` the sensor cannot measure the distance: the obstacle may be at the sensor
+/// itself. Returns nothing at or above `max_range`, and if `range` is not a number.
 [[nodiscard]] std::optional<Vec2> echo_of(double range, double min_range, double max_range,
                                           const Pose2& X_RS);
 
-/// The echoes of the last seconds, carried along as the robot moves: a corner between two beams, or a smooth wall
-/// that has turned its face away, is still there although nothing is heard of it now.
+/// The echoes of the last seconds, carried along as the robot moves. A corner between two beams, or a smooth
+/// wall that has turned its face away, is still there although the sensor no longer hears it.
 ///
-/// A single echo counts for a moment only, because a sonar also invents some. An echo that was heard near the same
-/// place before is kept for longer.
+/// A single echo counts for a moment only, because a sonar also reports false ones. An echo that was heard
+/// near the same place before is kept for longer.
 ///
-/// Thread contract: not synchronised. Takes no memory after construction.
+/// Thread contract: not synchronised. Allocates nothing after construction.
 class EchoMemory {
  public:
   struct Limits {
@@ -40,7 +40,7 @@ class EchoMemory {
   /// @param time [s]  between the two.
   void advance(const Pose2& X_RN, double time, const Limits& limits);
 
-  /// Takes an echo, robot frame.
+  /// Adds an echo, given in the robot frame.
   void hear(Vec2 echo, const Limits& limits);
 
   /// Forgets the echoes for which `unwanted(echo)` is true.

@@ -20,27 +20,27 @@ namespace orca::hw {
 class HardwareLifecycle;
 class HardwareLoop;
 
-/// What a process offers to a hardware container.
+/// The services that a process offers to a hardware container.
 class HardwareHost : public PluginHost {
  public:
-  /// The seed of the run, for what belongs to no single stream: the simulated world.
+  /// Returns the seed of the run, for things that belong to no single stream: the simulated world.
   [[nodiscard]] virtual std::uint64_t run_seed() const = 0;
-  /// Tells whoever runs the system that a robot has touched something. The framework stamps the header.
+  /// Reports to whoever runs the system that a robot has touched something. The framework stamps the header.
   virtual void report(const idl::Contact& contact) = 0;
-  /// For traces: the container's state has changed.
+  /// Reports a change of the container's state, for traces.
   virtual void state_changed(HardwareState state) = 0;
-  /// The container's strand has done something and is about to wait.
+  /// Reports that the container's strand has done something and is about to wait.
   virtual void pausing() = 0;
   [[nodiscard]] virtual Executive& executive() = 0;
 };
 
-/// All hardware behind one port or bus: it opens, starts, stops and closes the device, and has sensor and
+/// All hardware behind one port or bus. It opens, starts, stops and closes the device, and has sensor and
 /// motion endpoints (thesis 10.2, Fig. 10.1-10.2). A server component (RobotBaseServer, LaserServer) wraps
 /// it.
 ///
-/// A driver overrides the protected functions; they run on the container's own strand and never overlap. The
-/// constructor only declares parameters; prepare() declares endpoints from them and opens nothing, so that a
-/// graph can be checked without the device.
+/// A driver overrides the protected functions. They run on the container's own strand and never overlap. The
+/// constructor only declares parameters. prepare() declares endpoints from them and opens nothing, so a graph
+/// can be checked without the device.
 ///
 /// Thread contract: the public functions from any strand.
 class HardwareContainer : public Device {
@@ -51,20 +51,21 @@ class HardwareContainer : public Device {
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 
   /// Reads what the parameters name, and declares the endpoints.
-  /// @return what is wrong; empty: all is well.
+  /// @return the faults that were found; empty: none.
   virtual std::vector<HardwareFault> prepare() = 0;
 
   [[nodiscard]] const std::vector<SensorEndpoint*>& sensors() const { return sensors_; }
   [[nodiscard]] MotionHW* motion() const { return motion_; }
-  /// What this hardware is, for whoever asks by Query.
+  /// Returns what this hardware is, for clients that ask by Query.
   [[nodiscard]] virtual idl::Robot description() const = 0;
-  /// Returns what draws this hardware; null for real hardware.
+  /// Returns the interface that draws this hardware; null for real hardware.
   [[nodiscard]] virtual Drawable* drawable() { return nullptr; }
 
   /// Starts the container's strand, which opens the device.
   void run();
   /// Stops the motors, closes the device and ends the strand.
   void shut_down();
+  /// Waits until the strand has ended, at most until the deadline.
   /// @return true if the strand has ended by the deadline, or has never run.
   [[nodiscard]] bool join_until(TimePoint deadline);
 
@@ -74,8 +75,8 @@ class HardwareContainer : public Device {
 
   /// Takes a command for the motion endpoint, to be carried out at once.
   /// @tparam Command  what MotionHW takes: idl::MotionCommand, HolonomicVelocity, TurretCommand.
-  /// @errors  failed_precondition without a motion endpoint, unavailable unless active, and
-  /// MotionHW::command()'s.
+  /// @errors  failed_precondition without a motion endpoint, unavailable unless active, and those of
+  /// MotionHW::command().
   template <class Command>
   Status command(const Command& command) {
     if (Status able = check_active(); !able.ok()) return able;
@@ -85,7 +86,7 @@ class HardwareContainer : public Device {
   }
 
   [[nodiscard]] HardwareState state() const;
-  /// Why the state is Fault.
+  /// Returns why the state is Fault.
   [[nodiscard]] std::string fault() const;
   /// Wakes `strand` at every change of state.
   void watch(Strand& strand);
@@ -98,9 +99,9 @@ class HardwareContainer : public Device {
   virtual Status open() { return ok(); }
   virtual Status start() { return ok(); }
   virtual void stop() {}
-  /// Also after open() has failed.
+  /// Closes the device. Also called after open() has failed.
   virtual void close() {}
-  /// Called at next_poll() while ready or active: read the device, publish readings.
+  /// Reads the device and publishes readings. Called at next_poll() while ready or active.
   virtual Status poll() = 0;
   [[nodiscard]] virtual TimePoint next_poll() const = 0;
   /// Carries out a set-point.
@@ -118,7 +119,7 @@ class HardwareContainer : public Device {
   HardwareHost& host_;
   std::vector<SensorEndpoint*> sensors_;
   MotionHW* motion_ = nullptr;
-  // All that changes while the container runs; drivers are compiled without knowing it.
+  // Everything that changes while the container runs; drivers are compiled without knowing it.
   const std::unique_ptr<HardwareLoop> loop_;
 };
 

@@ -7,14 +7,15 @@ struct Scene;
 
 namespace orca::hw {
 
-/// Hardware that can be drawn, because it is simulated: nothing tells where a real robot truly was. A container that can
-/// do so also derives from this, and returns itself from HardwareContainer::drawable().
+/// Hardware that can be drawn because it is simulated; the true pose of a real robot is not known. A
+/// container that can be drawn also derives from this class, and returns itself from
+/// HardwareContainer::drawable().
 ///
-/// Thread contract: both functions while the container's strand does not run.
+/// Thread contract: both functions only while the container's strand does not run.
 class Drawable {
  public:
-  /// Keeps from now on what draw() needs of the course of the run. Without this draw() adds the walls and where the
-  /// robot ended, and no memory is spent meanwhile.
+  /// Starts to record the parts of the run that draw() needs. Without this call draw() adds only the walls
+  /// and the robot's final pose, and the run uses no memory for records.
   /// @pre  called before the container is opened.
   virtual void keep_moments() = 0;
 

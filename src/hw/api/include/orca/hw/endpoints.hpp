@@ -17,16 +17,17 @@
 
 namespace orca::hw {
 
-/// What a sensor endpoint measures with: the robot's own senses, or the simulator's knowledge of the truth.
+/// The origin of a sensor endpoint's readings: the robot's own senses, or the simulator's knowledge of the
+/// truth.
 enum class Source { sensor, truth };
 
 /// One kind of reading that a hardware container delivers, whatever its type (thesis 10.2, Fig. 10.5). The
 /// server that wraps the container turns it into a Push and a Query port named after the object type.
 ///
-/// Thread contract: publish() from the container's strand; the rest from any.
+/// Thread contract: publish() from the container's strand; the rest from any strand.
 class SensorEndpoint {
  public:
-  /// Pushes the reading on and returns what it sealed.
+  /// A function that pushes the reading on and returns the object that it sealed.
   using Sink = std::function<ObjectRef(ObjectLoan)>;
 
   SensorEndpoint(const ObjectType& type, Duration period, Source source)
@@ -35,17 +36,18 @@ class SensorEndpoint {
   SensorEndpoint& operator=(const SensorEndpoint&) = delete;
 
   [[nodiscard]] const ObjectType& type() const { return type_; }
-  /// Time between two readings [s]; what subscribers may ask for is a multiple of it.
+  /// Returns the time between two readings [s]; subscribers may ask for multiples of it.
   [[nodiscard]] Duration period() const { return period_; }
   [[nodiscard]] Source source() const { return source_; }
 
-  /// Where readings go for `owner`, which has one sink at most; null takes it back. Several servers may wrap
-  /// one sensor: each gets an object of its own.
+  /// Sets where readings go for `owner`, which has at most one sink; null removes it. Several servers may
+  /// wrap one sensor: each gets its own object.
   void set_sink(const void* owner, Sink sink);
 
-  /// The last reading since the hardware was started, or null.
+  /// Returns the last reading since the hardware was started, or null.
   [[nodiscard]] ObjectRef latest() const;
-  /// Forgets it: called when the hardware stops, so that nobody takes an old reading for a new one.
+  /// Forgets the last reading. Called when the hardware stops, so that nobody takes an old reading for a new
+  /// one.
   void forget();
 
  protected:
@@ -71,7 +73,7 @@ class SensorHW final : public SensorEndpoint {
   void publish(Loan<T> reading) { publish_loan(std::move(reading)); }
 };
 
-/// What a base can do (thesis appendix A, <drive>).
+/// The limits of a base (thesis appendix A, <drive>).
 struct DriveLimits {
   double max_speed = 0.0;      ///< [m/s]
   double max_turn_rate = 0.0;  ///< [rad/s]
@@ -92,8 +94,8 @@ struct DriveSetpoint {
   friend bool operator==(const DriveSetpoint&, const DriveSetpoint&) = default;
 };
 
-/// The motion endpoint of a container (thesis 10.2, Fig. 10.6): takes crisp commands, keeps them within the
-/// limits, and lets none live longer than `max_command_age`.
+/// The motion endpoint of a container (thesis 10.2, Fig. 10.6). It takes crisp commands, keeps them within
+/// the limits, and lets no command live longer than `max_command_age`.
 ///
 /// Thread contract: command() from any strand; due() from the container's.
 class MotionHW {
@@ -101,34 +103,36 @@ class MotionHW {
   MotionHW(const DriveLimits& limits, Duration max_command_age);
 
   /// Checks whether any base can carry out the command.
-  /// @errors  invalid_argument for DONTCARE (fuse first), and check_command()'s.
+  /// @errors  invalid_argument for DONTCARE (fuse first), and those of check_command().
   [[nodiscard]] static Status check(const idl::MotionCommand& command);
 
   /// Takes a command, to be carried out at the container's next turn.
-  /// @errors  check()'s.
+  /// @errors  those of check().
   Status command(const idl::MotionCommand& command, TimePoint now);
 
   /// Takes a velocity, to be carried out at the container's next turn. A velocity beyond the limits keeps its
   /// direction.
-  /// @errors  failed_precondition unless the base is holonomic, and check_command()'s.
+  /// @errors  failed_precondition unless the base is holonomic, and those of check_command().
   Status command(const idl::HolonomicVelocity& velocity, TimePoint now);
 
-  /// Points the turret, which then stays so: no age, for a turret carries nobody away.
-  /// @errors  failed_precondition without turret, and check_command()'s.
+  /// Points the turret. The turret then stays there: its command never becomes too old, because a turret does
+  /// not move the robot.
+  /// @errors  failed_precondition without turret, and those of check_command().
   Status command(const idl::TurretCommand& turret, TimePoint now);
 
-  /// The set-point that holds now: it stands when the last command is older than max_command_age.
+  /// Returns the set-point that holds now. The base stands when the last command is older than
+  /// max_command_age.
   [[nodiscard]] DriveSetpoint due(TimePoint now);
 
-  /// The base stands from now on until the next command.
+  /// Makes the base stand from now on until the next command.
   void halt();
 
-  /// When the present command becomes too old; kForever when the base stands.
+  /// Returns when the present command becomes too old; kForever when the base stands.
   [[nodiscard]] TimePoint expiry() const;
 
   [[nodiscard]] const DriveLimits& limits() const { return limits_; }
   [[nodiscard]] Duration max_command_age() const { return max_command_age_; }
-  /// How often a command grew too old while the base was moving.
+  /// Returns how often a command became too old while the base was moving.
   [[nodiscard]] std::uint64_t expired_count() const;
 
  private:

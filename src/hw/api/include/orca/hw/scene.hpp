@@ -9,8 +9,8 @@
 
 namespace orca {
 
-/// Plain shapes to draw, in the world frame [m] unless a member says otherwise: x to the right, y up. A Drawable adds
-/// the world and the robots, the host adds what they reported.
+/// Plain shapes to draw, in the world frame [m] unless a member says otherwise: x to the right, y up. A
+/// Drawable adds the world and the robots; the host adds what they reported.
 ///
 /// A plain value.
 struct Scene {
@@ -30,7 +30,7 @@ struct Scene {
     Vec2 at;
     std::vector<Vec2> ends;  ///< Of the beams, in their order.
   };
-  /// What a robot did and sensed last at one time.
+  /// The motion and the readings of a robot at one time.
   struct Moment {
     TimePoint time;  ///< Of the run's clock.
     Pose2 pose;

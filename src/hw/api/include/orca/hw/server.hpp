@@ -15,21 +15,21 @@
 
 namespace orca::hw {
 
-/// Wraps a hardware container in a component, whatever endpoints it has (thesis 10.2-10.3): each sensor of
+/// A component that wraps a hardware container, whatever endpoints it has (thesis 10.2-10.3). Each sensor of
 /// the chosen source becomes a Push and a Query port named after its object type (`OdometryPush`,
-/// `OdometryQuery`), the motion endpoint a Send port `MotionCommandSend`, and what only some bases can do a
-/// port on those bases alone: `HolonomicVelocitySend` on one that moves sideways, `TurretCommandSend` on one
-/// with a turret. A new sensor type needs no change here. RobotBaseServer, LaserServer and TruthLocalizer are
-/// this with a few lines of their own.
+/// `OdometryQuery`). The motion endpoint becomes a Send port `MotionCommandSend`. Abilities of some bases
+/// become ports on those bases alone: `HolonomicVelocitySend` on one that moves sideways, `TurretCommandSend`
+/// on one with a turret. A new sensor type needs no change here. RobotBaseServer, LaserServer and
+/// TruthLocalizer add a few lines of their own.
 ///
 /// The hardware is active while somebody subscribes, for a moment after a motion command, and while a query
 /// waits.
 ///
-/// Thread contract: as every component, its own strand.
+/// Thread contract: its own strand, as for every component.
 class HardwareServer : public Component {
  public:
-  /// @param source  which of the container's sensors to offer.
-  /// @param only    of these, the ones that deliver objects of this type; null: all.
+  /// @param source  the source whose sensors it offers.
+  /// @param only    the type of the objects that the offered sensors deliver; null: any.
   HardwareServer(ComponentHost& host, Source source, const ObjectType* only = nullptr);
   ~HardwareServer() override;
 
@@ -39,9 +39,10 @@ class HardwareServer : public Component {
   void stop() override;
 
  protected:
-  /// The container that the graph binds to this component; null while a type is described without hardware.
+  /// Returns the container that the graph binds to this component; null while a type is described without
+  /// hardware.
   [[nodiscard]] HardwareContainer* container() const { return container_; }
-  /// Offers what the container's motion endpoint can do, if it has one.
+  /// Offers the commands that the container's motion endpoint can carry out, if it has one.
   void offer_motion();
 
  private:

@@ -14,15 +14,15 @@
 
 namespace orca {
 
-/// What all ports of one component share.
+/// The surroundings that all ports of one component share.
 struct PortHome {
   Strand& strand;
   std::string component;
   LinkObserver* observer = nullptr;  ///< May be null.
-  Provenance provenance{};           ///< Touched by the component's strand only.
+  Provenance provenance{};           ///< Used on the component's strand only.
 };
 
-/// One end of a link, as long as it serves a port. Its destructor cuts the link at this end: afterwards
+/// One end of a link, for as long as it serves a port. Its destructor cuts the link at this end; afterwards
 /// nothing of the link touches the port any more.
 class LinkEnd {
  public:
@@ -30,7 +30,7 @@ class LinkEnd {
 };
 
 /// The part of a port that belongs to the host process and survives a swap of the plugin behind it. The
-/// handles that an author sees (PushProxy and friends) only point here.
+/// handles that an author sees (PushProxy and others) only refer to it.
 class Endpoint {
  public:
   Endpoint(PortHome& home, PortContract contract);
@@ -43,14 +43,14 @@ class Endpoint {
   [[nodiscard]] std::string path() const { return home_.component + "." + contract_.name; }
   [[nodiscard]] PortHome& home() const { return home_; }
 
-  /// Whether there is an observer.
+  /// Returns whether there is an observer.
   [[nodiscard]] bool observed() const { return home_.observer != nullptr; }
-  /// Tells the observer, if there is one, that an object has come to this port.
+  /// Reports to the observer, if there is one, that an object has arrived at this port.
   void observe(const ObjectRef& object) const {
     if (home_.observer != nullptr) home_.observer->delivered(home_.component, contract_.name, object);
   }
 
-  /// Keeps the end of a link that serves this port; the port ends it before it ends itself.
+  /// Keeps the end of a link that serves this port. The port destroys it before its own members go.
   /// @thread  before the component runs.
   void adopt(std::unique_ptr<LinkEnd> end) { link_ends_.push_back(std::move(end)); }
 
@@ -58,7 +58,7 @@ class Endpoint {
   /// Fills the header of an object that leaves through this port.
   void stamp(ObjectLoan& loan, const Provenance* provenance);
 
-  /// Ends all links of this port. Each final class calls it in its destructor, before its members go.
+  /// Destroys all link ends of this port. Each final class calls it in its destructor, before its members go.
   void cut_links() { link_ends_.clear(); }
 
  private:

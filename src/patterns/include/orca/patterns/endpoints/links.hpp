@@ -12,7 +12,7 @@
 
 namespace orca {
 
-/// A factory of edges: one kind of link between two ports. Whoever wires a system asks it for each edge.
+/// A factory of edges of one kind of link. Whoever wires a system asks it for each edge.
 ///
 /// Thread contract: before the components of either end run.
 class Links {
@@ -23,15 +23,15 @@ class Links {
   ///
   /// @param from    a PushServer, QueryProxy or SendProxy, as in <connect from= to=>.
   /// @param to      the other end.
-  /// @param policy  how the edge buffers, for Push and Send; without it, as the author of the receiving port
-  /// wants.
+  /// @param policy  how the edge buffers, for Push and Send; without it, the policy of the receiving port's
+  /// author.
   /// @errors  invalid_argument if the ends do not fit each other, or if the policy lets a device wait;
   /// already_exists if the proxy is taken.
   Status connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy);
   Status connect(Endpoint& from, Endpoint& to) { return connect(from, to, to.contract().queue); }
 
  private:
-  // Of ends that fit each other and are free.
+  // Connect two ends that fit each other and are free.
   virtual void push(PushServerEndpoint& server, PushClientEndpoint& client, const QueuePolicy& policy) = 0;
   virtual void query(QueryClientEndpoint& client, QueryServerEndpoint& server) = 0;
   virtual void send(SendClientEndpoint& client, SendServerEndpoint& server, const QueuePolicy& policy) = 0;

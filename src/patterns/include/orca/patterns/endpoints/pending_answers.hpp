@@ -10,8 +10,8 @@
 
 namespace orca {
 
-/// The answers that one client waits for, each under an id of its own. They are few, so they are searched one
-/// by one, and after warm-up nothing is taken from the heap.
+/// The answers that one client waits for, each under its own id. They are few, so they are searched one by
+/// one. After warm-up nothing is allocated from the heap.
 ///
 /// Thread contract: any thread.
 template <class Answer>
@@ -19,7 +19,7 @@ class PendingAnswers {
  public:
   enum class State { unknown, waiting, answered };
 
-  /// A new id, to be answered.
+  /// Returns a new id that waits for its answer.
   [[nodiscard]] std::uint64_t add() {
     const std::lock_guard lock(mutex_);
     entries_.push_back({next_id_, std::nullopt});
@@ -42,7 +42,7 @@ class PendingAnswers {
     return entry->answer ? State::answered : State::waiting;
   }
 
-  /// The answer, once; nothing while there is none.
+  /// Returns the answer, once; nothing while there is none.
   [[nodiscard]] std::optional<Answer> take(std::uint64_t id) {
     const std::lock_guard lock(mutex_);
     const auto entry = find(id);
@@ -52,7 +52,7 @@ class PendingAnswers {
     return answer;
   }
 
-  /// Its answer will be thrown away.
+  /// Discards the answer to this id, now or when it comes.
   void forget(std::uint64_t id) {
     const std::lock_guard lock(mutex_);
     const auto entry = find(id);

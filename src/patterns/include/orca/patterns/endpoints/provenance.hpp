@@ -8,24 +8,25 @@
 
 namespace orca {
 
-/// The cause and the mission of what a component is doing, stamped on everything that it sends meanwhile.
+/// The cause and the mission of a component's present activity, stamped on everything that it sends
+/// meanwhile.
 ///
 /// The cause is the object taken last. The mission is that of the last object that had one; an object without
 /// a mission, such as most sensor readings, does not change it. A lap starts with the mission of the
-/// component's task, which is that of the object that a Send handler took last.
+/// component's task, which is the mission of the object that a Send handler took last.
 ///
 /// Thread contract: the component's strand.
 class Provenance {
  public:
   void begin_lap() { mission_ = task_mission_; }
-  /// Begins to handle an object: what is sent meanwhile belongs to its mission, or to none.
+  /// Begins to handle an object: everything sent meanwhile belongs to its mission, or to none.
   void begin_handling(const idl::OrcaObject& object);
   /// Does the same for a Send handler, whose object gives the component its task.
   void begin_task(const idl::OrcaObject& object);
-  /// Forgets the task: the component has nothing more to do.
+  /// Forgets the task, because the component has nothing more to do.
   void end_task() { task_mission_ = mission_ = 0; }
 
-  /// Makes a received object the cause of what is sent from now on.
+  /// Makes a received object the cause of everything sent from now on.
   void note(const idl::OrcaObject& received);
   /// Writes cause and mission into the header of an object to be sent.
   void stamp(idl::OrcaObject& sent) const;

@@ -5,7 +5,8 @@
 
 namespace orca {
 
-/// A number that one thread at a time writes, at the price of a plain one, and that any may read.
+/// A number that one thread at a time writes and any thread may read. A write costs no more than that of a
+/// plain number.
 template <class T>
 class Published {
  public:

@@ -9,7 +9,8 @@
 
 namespace orca {
 
-/// The client side of Push: the edges that end at one PushProxy; at most one unless the port is an array.
+/// The client side of Push: the edges that end at one PushProxy. There is at most one unless the port is an
+/// array.
 class PushClientEndpoint final : public Endpoint {
  public:
   PushClientEndpoint(PortHome& home, PortContract contract);

@@ -18,8 +18,8 @@ namespace orca {
 
 /// The client side of one Push edge: the subscription and its queue.
 ///
-/// Thread contract: deliver(), give_up(), granted() and lost() from the server's side; counters(), grant() and the
-/// paths from anywhere; the rest from the client's strand.
+/// Thread contract: deliver(), give_up(), granted() and lost() from the server's side; counters(), grant()
+/// and the paths from any thread; the rest from the client's strand.
 class PushEdge final : public PushSink {
  public:
   PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy);
@@ -28,8 +28,8 @@ class PushEdge final : public PushSink {
   void unsubscribe();
   [[nodiscard]] bool subscribed() const { return subscribed_.load(std::memory_order_acquire); }
 
-  /// Asks to be updated at another rate, now or from the next subscription on. The rate that the graph gives
-  /// the edge is the limit.
+  /// Requests another update rate, from now on or from the next subscription on. The rate that the graph
+  /// gives the edge is the limit.
   void ask(const UpdateRate& rate);
   /// Returns the rate that the server granted in this subscription, or in the last one.
   [[nodiscard]] UpdateGrant grant() const;
@@ -39,14 +39,14 @@ class PushEdge final : public PushSink {
   void granted(const UpdateGrant& grant) override;
   void lost(std::uint64_t objects) override;
 
-  /// Takes the oldest object not yet taken; null if there is none.
+  /// Takes the oldest object that has not been taken yet; null if there is none.
   [[nodiscard]] ObjectRef take();
   /// Returns the newest object, taken or not; null before the first.
   [[nodiscard]] ObjectRef latest() const;
   [[nodiscard]] bool has_new() const { return count_.load(std::memory_order_acquire) > 0; }
 
-  /// Whether the edge's deadline has passed since the last object, or since the subscription; true until the
-  /// next object comes. Always false without a deadline.
+  /// Returns whether the edge's deadline has passed since the last object, or since the subscription. It
+  /// stays true until the next object comes. It is always false without a deadline.
   [[nodiscard]] bool deadline_missed() const;
 
   [[nodiscard]] EdgeCounters counters() const;

@@ -11,24 +11,24 @@
 
 namespace orca {
 
-/// The client's side of one Push edge, as its link sees it: where pushed objects go.
+/// The client's side of one Push edge, as its link sees it: the destination of pushed objects.
 ///
 /// Thread contract: tasks of the client's executive; a link that receives on a thread of its own hands over
-/// to a task. Called with the server's lock held, so nothing here may block or call the source back.
+/// to a task. It is called with the server's lock held, so nothing here may block or call the source back.
 class PushSink {
  public:
   virtual ~PushSink() = default;
 
   /// Takes the object, or drops and counts it; never blocks.
-  /// @return nothing when that is done. Otherwise the queue is full and its policy asks the publisher to wait
-  /// for room, at most this long [s], and to try again; `object` is then as it was.
+  /// @return nothing if the object was taken or dropped. Otherwise the queue is full and its policy asks the
+  /// publisher to wait for room, at most this long [s], and to try again; `object` is then unchanged.
   /// @thread  the server's strand.
   virtual std::optional<Duration> deliver(ObjectRef&& object) = 0;
 
   /// Drops and counts an object for which the publisher has waited long enough.
   virtual void give_up(const ObjectRef& object) = 0;
 
-  /// Takes note of the update rate that the server grants, at attach() and whenever it changes.
+  /// Stores the update rate that the server grants. Called at attach() and whenever the rate changes.
   /// @thread  any.
   virtual void granted(const UpdateGrant& grant) = 0;
 
@@ -36,23 +36,23 @@ class PushSink {
   virtual void lost(std::uint64_t objects) = 0;
 };
 
-/// The server's side of one Push edge, as its link sees it: where the client subscribes.
+/// The server's side of one Push edge, as its link sees it: the place where the client subscribes.
 ///
 /// Thread contract: any task of the server's executive; base_period() and path() from any thread.
 class PushSource {
  public:
   virtual ~PushSource() = default;
-  /// Subscribes; an edge has one subscription at most.
+  /// Subscribes. An edge has at most one subscription.
   virtual void attach(PushSink& sink, const UpdateRate& rate) = 0;
-  /// Ends the subscription: nothing more is delivered after it.
+  /// Ends the subscription. Nothing is delivered afterwards.
   virtual void detach() = 0;
-  /// Asks for another rate while subscribed.
+  /// Requests another rate while subscribed.
   virtual void change(const UpdateRate& rate) = 0;
-  /// Reports that there is room again at the sink, for which the publisher waits.
+  /// Reports that the sink has room again, for which the publisher waits.
   virtual void room() = 0;
-  /// Time between two objects [s], if the server is regular and has said so; otherwise 0.
+  /// Returns the time between two objects [s] if the server is regular and has announced it; otherwise 0.
   [[nodiscard]] virtual Duration base_period() const = 0;
-  /// "component.port" of the server.
+  /// Returns "component.port" of the server.
   [[nodiscard]] virtual std::string path() const = 0;
 };
 

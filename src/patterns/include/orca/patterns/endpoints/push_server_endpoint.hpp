@@ -13,7 +13,7 @@
 
 namespace orca {
 
-/// The server side of Push: hands every object to all subscribers, each of which has a queue of its own.
+/// The server side of Push. It hands every object to all subscribers, each of which has its own queue.
 ///
 /// Thread contract: connect() before the component runs; seal() and publish() from one task at a time;
 /// announce() and the sources from any task; the rest from any thread.
@@ -25,23 +25,24 @@ class PushServerEndpoint final : public Endpoint {
   /// Adds an edge, not yet subscribed.
   PushSource& connect();
 
-  /// Announces how often objects come from now on; 0: irregularly. All subscribers are granted their rates anew.
+  /// Announces the time between two objects from now on [s]; 0: irregular. All subscribers get new grants of
+  /// their rates.
   void announce(Duration base_period);
   [[nodiscard]] Duration base_period() const { return Duration(base_period_); }
 
-  /// Stamps an object that is to be published: from now on nobody can change it.
+  /// Stamps an object that is to be published. From now on nobody can change it.
   /// @param provenance  what the object answers; null: nothing.
   /// @thread  the component's strand; any other only if the contract says from_device.
   [[nodiscard]] ObjectRef seal(ObjectLoan loan, const Provenance* provenance);
 
   /// Hands a sealed object to all subscribers. Only edges whose policy is `block` can make it wait, after all
-  /// others have the object; that wait ends early when the component must leave its lap, and the object is
-  /// dropped there.
+  /// others have the object. That wait ends early when the component must leave its lap; the object is then
+  /// dropped on those edges.
   /// @thread  as seal(), which it follows.
   void publish(ObjectRef object);
 
   [[nodiscard]] std::size_t subscriber_count() const { return subscribers_.load(std::memory_order_acquire); }
-  /// Objects pushed so far, with or without subscribers.
+  /// Returns the number of objects pushed so far, with or without subscribers.
   [[nodiscard]] std::uint64_t pushed_count() const { return pushed_; }
 
  private:

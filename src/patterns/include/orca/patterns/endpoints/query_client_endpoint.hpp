@@ -13,12 +13,14 @@ class QueryClientEndpoint final : public RequestClient<Result<ObjectRef>> {
   QueryClientEndpoint(PortHome& home, PortContract contract);
   ~QueryClientEndpoint() override { cut_links(); }
 
-  /// Asks.
-  /// @errors  failed_precondition if not connected; unavailable with the server's reason if it refuses at once,
-  /// as within a process it does. Where the server is another process, its refusal is the answer.
+  /// Sends a question.
+  /// @errors  failed_precondition if not connected; unavailable with the server's reason if the server
+  /// refuses at once, as it does within a process. A server in another process sends its refusal as the
+  /// answer.
   Result<QueryId> request(ObjectLoan loan, const Provenance* provenance);
 
-  /// Asks and waits for the answer, at most `timeout` [s]; a question whose wait is interrupted is withdrawn.
+  /// Sends a question and waits for the answer, at most `timeout` [s]. If the wait is interrupted, the
+  /// question is withdrawn.
   /// @errors  as request() and receive_until().
   Result<ObjectRef> ask(ObjectLoan loan, const Provenance* provenance, Duration timeout);
 };

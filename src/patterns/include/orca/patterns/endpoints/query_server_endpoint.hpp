@@ -17,8 +17,8 @@
 
 namespace orca {
 
-/// The server side of Query: questions wait here until the component's strand answers them between two laps.
-/// Each edge has room for as many as the port's depth says.
+/// The server side of Query. Questions wait here until the component's strand answers them between two laps.
+/// Each edge has room for as many questions as the port's depth.
 ///
 /// Thread contract: connect() before the components run; the targets from any task; the rest from the server's
 /// strand.
@@ -33,7 +33,7 @@ class QueryServerEndpoint final : public Endpoint {
   QueryTarget& connect();
 
   void open(Handler handler);
-  /// Closes the intake and answers what still waits with `reason` as the error.
+  /// Closes the intake and answers the questions that still wait with `reason` as the error.
   void close(const std::string& reason);
 
   /// Answers one waiting question.
@@ -41,9 +41,9 @@ class QueryServerEndpoint final : public Endpoint {
   /// error as its answer.
   bool handle_one();
 
-  /// Whether something waits to be handled.
+  /// Returns whether something waits to be handled.
   [[nodiscard]] bool has_waiting() const;
-  /// Of all edges together.
+  /// Returns the counters of all edges together.
   [[nodiscard]] IntakeCounters counters() const;
 
  private:

@@ -12,11 +12,11 @@
 
 namespace orca {
 
-/// What the clients of Query and Send have in common: an object is offered to the server under an id, and its
-/// answer is waited for.
+/// The common part of the clients of Query and Send: it offers an object to the server under an id and waits
+/// for the answer.
 ///
-/// @tparam Answer  as of ReplySink.
-/// Thread contract: reply() from the server's side of the link, counters() from anywhere, the rest from the
+/// @tparam Answer  the same as for ReplySink.
+/// Thread contract: reply() from the server's side of the link, counters() from any thread, the rest from the
 /// client's strand.
 template <class Answer>
 class RequestClient : public Endpoint, public ReplySink<Answer> {
@@ -28,11 +28,11 @@ class RequestClient : public Endpoint, public ReplySink<Answer> {
   /// @errors  not_found for an id that was never given or whose answer has been taken.
   std::optional<Answer> receive(RequestId id);
 
-  /// Blocks until the answer is there; at the deadline the object is withdrawn and its answer forgotten.
+  /// Blocks until the answer is there. At the deadline it withdraws the object and forgets its answer.
   /// @errors  deadline_exceeded; throws Interrupted.
   Answer receive_until(RequestId id, TimePoint deadline);
 
-  /// Withdraws the object: nobody waits for its answer any more, which is thrown away, now or when it comes.
+  /// Withdraws the object. Its answer is discarded, now or when it comes.
   void withdraw(RequestId id);
 
   void reply(RequestId id, Answer answer) override;

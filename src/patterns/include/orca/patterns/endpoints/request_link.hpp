@@ -12,10 +12,10 @@
 
 namespace orca {
 
-/// The client's side of one Query or Send edge, as its link sees it: where answers go.
+/// The client's side of one Query or Send edge, as its link sees it: the destination of answers.
 ///
-/// @tparam Answer  Result<ObjectRef> for Query: the reply, or why there is none. Status for Send: the object
-/// was accepted and is not lost from now on, or it was refused, with the reason.
+/// @tparam Answer  Result<ObjectRef> for Query: the reply, or the reason why there is none. Status for Send:
+/// the object was accepted and is not lost from now on, or it was refused, with the reason.
 template <class Answer>
 class ReplySink {
  public:
@@ -25,7 +25,8 @@ class ReplySink {
   virtual void reply(RequestId id, Answer answer) = 0;
 };
 
-/// The server's side of one Query or Send edge, as its link sees it: where questions and sent objects go.
+/// The server's side of one Query or Send edge, as its link sees it: the destination of questions and sent
+/// objects.
 ///
 /// Thread contract: one task at a time.
 template <class Answer>
@@ -34,17 +35,18 @@ class RequestTarget {
   virtual ~RequestTarget() = default;
 
   /// Accepts or refuses the object; never blocks.
-  /// @param may_wait  a full Send server keeps the offer until it has room, as it does for every offer where
-  /// the edge's policy is `block`.
+  /// @param may_wait  whether a full Send server keeps the offer until it has room. Where the edge's policy
+  /// is `block`, it keeps every offer.
   /// @return the answer if it is there at once, as every refusal is within a process; otherwise it comes
   /// through `reply_to`.
   virtual std::optional<Answer> offer(const ObjectRef& object, ReplySink<Answer>& reply_to, RequestId id,
                                       bool may_wait) = 0;
-  /// Takes back an offer for which the client waits no longer: if it was not accepted by now, it never will be.
+  /// Takes back an offer for which the client no longer waits. If it has not been accepted by now, it never
+  /// will be.
   virtual void withdraw(RequestId id) = 0;
-  /// How long a client should wait for an outcome of Send that does not come at once [s].
+  /// Returns how long a client should wait for an outcome of Send that does not come at once [s].
   [[nodiscard]] virtual Duration patience() const = 0;
-  /// "component.port" of the server.
+  /// Returns "component.port" of the server.
   [[nodiscard]] virtual std::string path() const = 0;
 };
 

@@ -17,14 +17,14 @@ class SendClientEndpoint final : public RequestClient<Status> {
   /// @errors  failed_precondition if not connected; unavailable with the server's reason if refused;
   /// deadline_exceeded. Throws Interrupted.
   Status send(ObjectLoan loan, const Provenance* provenance);
-  /// Does the same, but where the server is full, waits for room until the deadline.
+  /// Does the same, but waits for room until the deadline where the server is full.
   Status send_until(ObjectLoan loan, const Provenance* provenance, TimePoint deadline);
 
   /// Sends without waiting for the outcome.
   /// @errors  failed_precondition if not connected.
   Result<SendId> request(ObjectLoan loan, const Provenance* provenance);
 
-  /// Does what RequestClient does, and withdraws the object also when the wait is interrupted.
+  /// Does what RequestClient does, and also withdraws the object when the wait is interrupted.
   Status receive_until(SendId id, TimePoint deadline);
 };
 

@@ -15,11 +15,11 @@
 
 namespace orca {
 
-/// The server side of Send: accepted objects wait here until the component's strand handles them between two
-/// laps. Each edge has room of its own, so a sender that floods the server costs the others nothing.
+/// The server side of Send. Accepted objects wait here until the component's strand handles them between two
+/// laps. Each edge has its own room, so a sender that floods the server costs the others nothing.
 ///
 /// Thread contract: connect() before the components run; handle_one() from the server's strand; the rest from
-/// any.
+/// any thread.
 class SendServerEndpoint final : public Endpoint {
  public:
   using Handler = std::function<Status(const ObjectRef&)>;
@@ -31,7 +31,8 @@ class SendServerEndpoint final : public Endpoint {
   /// @param client  path of the SendProxy, for messages.
   SendTarget& connect(std::string client, const QueuePolicy& policy);
 
-  /// Opens or closes the intake. Closed, everything is refused with `reason`; what was accepted stays.
+  /// Opens or closes the intake. While it is closed, everything is refused with `reason`; accepted objects
+  /// stay.
   void open(Handler handler);
   void close(const std::string& reason);
 
@@ -40,11 +41,11 @@ class SendServerEndpoint final : public Endpoint {
   /// an exception of the handler is counted and passed on.
   bool handle_one(Status& outcome);
 
-  /// Whether something waits to be handled.
+  /// Returns whether something waits to be handled.
   [[nodiscard]] bool has_waiting() const;
-  /// Of all edges together.
+  /// Returns the counters of all edges together.
   [[nodiscard]] IntakeCounters counters() const;
-  /// Of one edge, in the order of connect().
+  /// Returns the counters of one edge; edges count in the order of connect().
   [[nodiscard]] IntakeCounters counters(std::size_t edge) const;
   [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
 

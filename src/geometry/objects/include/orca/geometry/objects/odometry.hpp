@@ -13,24 +13,25 @@ struct DifferentialBase {
   double right_noise = 0.0;  ///< [m2/m] the same for the right wheel
 };
 
-/// How far the wheels rolled between two readings.
+/// The distance that the wheels rolled between two readings.
 struct WheelTravel {
   double left = 0.0;     ///< [m] forward positive
   double right = 0.0;    ///< [m] forward positive
   idl::TimeValue stamp;  ///< of the second reading
 };
 
-/// Integrates wheel travel to a pose, with its uncertainty. Between two readings the wheels roll at a constant ratio,
-/// so the base drives along an arc of a circle (along_arc()). The wheels' errors are independent of each other and of
-/// the pose, with variances that grow with the way rolled.
+/// Integrates wheel travel to a pose, with its uncertainty. The wheels roll at a constant ratio between two
+/// readings, so the base drives along an arc of a circle (along_arc()). The wheels' errors are independent of
+/// each other and of the pose, with variances that grow with the distance rolled.
 ///
 /// @param X_WB  pose of body B in world W at the previous reading.
 /// @return X_WB at the new reading, with its stamp; covariance to first order.
 /// @errors  invalid_argument if the track is not positive, a noise is negative, or any of them or the travel
 ///          is not finite.
 /// @thread  pure function; any thread.
-/// @source  Siegwart and Nourbakhsh, "Introduction to Autonomous Mobile Robots", MIT Press 2004, 5.2.4, for the error
-///          model; there the chord stands for the arc, here the arc is exact (docs/geometry.md).
+/// @source  Siegwart and Nourbakhsh, "Introduction to Autonomous Mobile Robots", MIT Press 2004, 5.2.4, for
+/// the
+///          error model. They approximate the arc by its chord; here the arc is exact (docs/geometry.md).
 [[nodiscard]] Result<idl::Pose2D> integrate_arc(const idl::Pose2D& X_WB, const WheelTravel& travel,
                                                 const DifferentialBase& base);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// Values of the plane from objects that travel, and back. What the plane has no place for (heights, roll, pitch,
-/// stamps, covariances) is left out.
+/// Conversions between values of the plane and objects that travel. Heights, roll, pitch, stamps and
+/// covariances, which the plane has no place for, are left out.
 #pragma once
 
 #include "orca/geometry/pose2.hpp"
@@ -10,18 +10,18 @@
 
 namespace orca {
 
-/// Returns X_RS, a sensor in the robot frame, seen from above.
+/// Returns X_RS, the pose of a sensor in the robot frame, seen from above.
 /// @thread  pure function, as all of this file; any thread.
 [[nodiscard]] inline Pose2 plane_pose(const idl::Frame3D& mount) {
   return {mount.position().x(), mount.position().y(), mount.rotation().yaw()};
 }
 
-/// Returns X_WR, the robot in the world.
+/// Returns X_WR, the pose of the robot in the world.
 [[nodiscard]] inline Pose2 plane_pose(const idl::RobotPose& pose) {
   return {pose.x(), pose.y(), pose.orientation()};
 }
 
-/// Returns X_OR, the robot in the frame of its odometry.
+/// Returns X_OR, the pose of the robot in the frame of its odometry.
 [[nodiscard]] inline Pose2 plane_pose(const idl::Odometry& odometry) {
   return {odometry.x(), odometry.y(), odometry.steer_angle()};
 }

@@ -14,18 +14,19 @@ class Courier;
 struct Traffic;
 }  // namespace bytes
 
-/// What has happened on the links of one ByteLinks so far. A plain value.
+/// The counters of the links of one ByteLinks, from its start until now. A plain value.
 struct ByteLinkCounters {
   std::uint64_t frames_received = 0;
   std::uint64_t objects_lost = 0;   ///< Pushed objects for which the link had no room.
   std::uint64_t peers_cut_off = 0;  ///< Ends whose peer sent what cannot be, or did not read.
 };
 
-/// Links between ports of one process that share nothing but bytes: every object is written as CDR, goes through
-/// a bounded queue of bytes, is carried by a thread that no executive knows, and is read again at the other end.
-/// Links to other processes differ only in where the queues lie. No run uses it yet; the contract suite does.
+/// Links between ports of one process that share nothing but bytes. Every object is written as CDR, passes
+/// through a bounded queue of bytes, is carried by a thread unknown to any executive, and is read again at
+/// the other end. Links to other processes differ only in the location of the queues. No run uses it yet; the
+/// contract suite does.
 ///
-/// Works with the steady clock only: virtual time would not wait for the carrying thread.
+/// Works with the steady clock only, because virtual time would not wait for the carrying thread.
 /// Thread contract: as Links. It must outlive the ports that it connects.
 class ByteLinks final : public Links {
  public:

@@ -5,7 +5,8 @@
 
 namespace orca {
 
-/// The links between ports of one process: objects are handed over as they are, without copy or serialisation.
+/// The links between ports of one process. They hand over objects as they are, without copying or serialising
+/// them.
 ///
 /// Thread contract: as Links.
 class LocalLinks final : public Links {
