@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kSide = 30;
 constexpr double kCell = 0.15;  // [m]
-constexpr double kLeft = -4.5;  // [m] Of the field and of its first row.
+constexpr double kLeft = -4.5;  // [m] Left end of the field and of its first row.
 constexpr double kFront = 5.1;
 
 class Cells {
@@ -37,7 +37,7 @@ void for_each_cell(const Visit& visit) {
     for (int column = 0; column < kSide; ++column) visit(column, row);
 }
 
-// A cellular automaton that gathers what is scattered. What lies outside counts as free.
+// Gathers scattered cells by one round of a cellular automaton. Cells outside the field count as free.
 Cells smoothed(const Cells& before) {
   Cells after = before;
   for_each_cell([&](int column, int row) {
@@ -56,7 +56,7 @@ void add_cylinder(WorldModel& world, Vec2 center) {
   world.obstacles.push_back({"cylinder", Circle{center, 0.5 * kCell}, kTall});
 }
 
-// Rows of cylinders on all four sides, in the outermost cells.
+// Adds rows of cylinders on all four sides, in the outermost cells.
 void add_rim(WorldModel& world) {
   const int rows = 100;  // From y = 0 to the end of the strip behind the field, at 15 m.
   for (int row = 0; row < rows; ++row)

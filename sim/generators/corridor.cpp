@@ -9,7 +9,7 @@
 namespace orca::sim::detail {
 namespace {
 
-// Every other leg goes to the east, so that the corridor never meets itself.
+// Draws the centre line. Every other leg goes to the east, so that the corridor never meets itself.
 std::vector<Vec2> centre_line(const Corridor& family, RandomStream& random) {
   std::vector<Vec2> line{{0.0, 0.0}};
   for (std::size_t leg = 0; leg < family.legs; ++leg) {
@@ -25,7 +25,8 @@ Vec2 towards(const std::vector<Vec2>& line, std::size_t leg) {
   return 1.0 / norm(way) * way;
 }
 
-// The line `offset` to the left of a line with right angles; its ends are drawn out by as much.
+// Returns the line `offset` [m] to the left of a line with right angles; its ends are extended by the same
+// length.
 std::vector<Vec2> beside(const std::vector<Vec2>& line, double offset) {
   const auto left = [](Vec2 v) { return Vec2{-v.y, v.x}; };
   const double out = std::fabs(offset);

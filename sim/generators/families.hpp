@@ -8,24 +8,25 @@
 
 namespace orca::sim::detail {
 
-// Each draws one world of its family, whether there is a way through it or not.
+// Draw one world of a family, even if there is no way through it.
 [[nodiscard]] WorldModel draw(const BarnField& family, RandomStream& random);
 [[nodiscard]] WorldModel draw(const UTrap& family, RandomStream& random);
 [[nodiscard]] WorldModel draw(const NarrowDoors& family, RandomStream& random);
 [[nodiscard]] WorldModel draw(const Corridor& family, RandomStream& random);
 [[nodiscard]] WorldModel draw(const OfficeFloor& family, RandomStream& random);
 
-// Why no world can have these values; empty if one can. `radius` [m] is that of the robot to get through.
+// Return the reason why no world can have these values; empty if one can. `radius` [m] is that of the robot
+// that has to get through.
 [[nodiscard]] std::string fault_of(const BarnField& family, double radius);
 [[nodiscard]] std::string fault_of(const UTrap& family, double radius);
 [[nodiscard]] std::string fault_of(const NarrowDoors& family, double radius);
 [[nodiscard]] std::string fault_of(const Corridor& family, double radius);
 [[nodiscard]] std::string fault_of(const OfficeFloor& family, double radius);
 
-// A whole number in [low, high].
+// Draws a whole number in [low, high].
 [[nodiscard]] std::size_t pick(RandomStream& random, std::size_t low, std::size_t high);
 
-// "door is 0.4 m; a robot of radius 0.3 m needs more than 0.65 m", or empty if it is wide enough.
+// Returns "door is 0.4 m; a robot of radius 0.3 m needs more than 0.65 m", or empty if it is wide enough.
 [[nodiscard]] std::string too_narrow(const std::string& what, double width, double radius);
 
 }  // namespace orca::sim::detail

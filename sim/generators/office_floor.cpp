@@ -15,7 +15,7 @@ constexpr double kJamb = 0.4;      // [m] Least wall beside a door.
 constexpr double kKeepFree = 0.8;  // [m] Around a room's middle, for the place there.
 constexpr double kMargin = 1.0;    // [m] From the corridor's end to the start.
 
-// Rooms of one side: their walls' centre lines along x, first and last included.
+// The rooms of one side, as the places of their walls' centre lines along x [m], first and last included.
 using Cuts = std::vector<double>;
 
 Cuts cuts(std::size_t rooms, RandomStream& random) {
@@ -24,7 +24,7 @@ Cuts cuts(std::size_t rooms, RandomStream& random) {
   return at;
 }
 
-// The same rooms stretched to end at `length`.
+// Returns the same rooms, stretched to end at `length` [m].
 Cuts stretched(Cuts at, double length) {
   const double ratio = length / at.back();
   for (double& x : at) x *= ratio;
@@ -46,7 +46,7 @@ void add_doors(WorldModel& world, const Side& side, double door, RandomStream& r
   add_wall(world, {side.at.front(), side.inner}, {side.at.back(), side.inner}, std::move(doors));
 }
 
-// A table, shelf or column somewhere in the room, off its middle.
+// Adds a table, shelf or column somewhere in the room, away from its middle.
 void add_piece(WorldModel& world, const Bounds& room, RandomStream& random) {
   const double length = random.uniform(0.4, 1.6);
   const double width = random.uniform(0.3, 0.8);

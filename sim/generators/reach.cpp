@@ -7,7 +7,7 @@
 namespace orca::sim::detail {
 namespace {
 
-// As distance(), without making a list of a box's edges for each point.
+// Returns the same as distance(), but without making a list of a box's edges for each point.
 double distance_to(const Shape& shape, Vec2 p) {
   const auto* box = std::get_if<Box>(&shape);
   if (box == nullptr) return distance(shape, p);
@@ -19,7 +19,7 @@ int nearest(double v) { return static_cast<int>(std::lround(v / Reach::kPitch));
 
 }  // namespace
 
-// A rim of one pitch lies around everything.
+// Returns a lattice that leaves a rim of one pitch around everything.
 Reach::Lattice Reach::lattice_of(const WorldModel& world) {
   const Bounds b = world.bounds();
   if (b.empty()) return {0, 0, 1, 1};

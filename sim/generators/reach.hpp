@@ -9,25 +9,25 @@
 
 namespace orca::sim::detail {
 
-// Where a round robot can get to from a place: a flood fill over the points of a lattice of 5 cm, each of
-// which must lie so far from every obstacle that the robot keeps its radius also between two points.
+// The area that a round robot can reach from a place, found by a flood fill over a lattice of 5 cm. Each free
+// point lies so far from every obstacle that the robot keeps its radius even between two points.
 class Reach {
  public:
   static constexpr double kPitch = 0.05;  // [m]
   static constexpr std::size_t kMostPoints = 20'000'000;
 
-  // True if the world is small enough for the lattice.
+  // Returns true if the world is small enough for the lattice.
   [[nodiscard]] static bool fits(const WorldModel& world);
 
   // @pre  fits(world).
   Reach(const WorldModel& world, Vec2 from, double radius);
 
-  // True for the lattice's point next to `p`.
+  // Returns true if the robot can reach the lattice point nearest to `p`.
   [[nodiscard]] bool reaches(Vec2 p) const;
 
  private:
   struct Lattice {
-    int left, bottom;  // Of the lowest point, in pitches.
+    int left, bottom;  // Coordinates of the lowest point, in pitches.
     int columns, rows;
   };
   enum class State : unsigned char { free, blocked, reached };

@@ -16,14 +16,16 @@ Vec3 between(const Vec3& from, const Vec3& to, double height) {
   return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), height};
 }
 
-// Where the side between two corners, one above the plane and one not, goes through it. Always reckoned from
-// below: the two triangles that share the side get the same point, bit for bit.
+// Returns the point where the side between two corners, one above the plane and one not, crosses the plane.
+// It is always computed from below, so that the two triangles that share the side get the same point, bit for
+// bit.
 Vec2 crossing(const Vec3& one, const Vec3& other, double height) {
   const Vec3 p = one.z > height ? between(other, one, height) : between(one, other, height);
   return {p.x, p.y};
 }
 
-// The solid lies to the left of the section: the two sides that cross are taken in the triangle's own order.
+// Adds a triangle's section. The crossing sides are taken in the triangle's own order, so that the solid lies
+// to the left of the section.
 void add_section(const Triangle& t, double height, std::vector<Segment>& edges) {
   Segment edge;
   bool crossed = false;
@@ -39,7 +41,8 @@ void add_section(const Triangle& t, double height, std::vector<Segment>& edges) 
   if (crossed && !(edge.a == edge.b)) edges.push_back(edge);
 }
 
-// The part of a convex polygon where side(corner) >= 0 (Sutherland and Hodgman, Comm. ACM 17(1), 1974).
+// Returns the part of a convex polygon where side(corner) >= 0 (Sutherland and Hodgman, Comm. ACM 17(1),
+// 1974).
 template <class Side>
 std::vector<Vec3> clipped(const std::vector<Vec3>& corners, double height, const Side& side) {
   std::vector<Vec3> kept;
@@ -52,7 +55,8 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& corners, double height, const
   return kept;
 }
 
-// The plan of what of a triangle lies between two heights; fewer than three corners: nothing.
+// Returns the plan of the part of a triangle between two heights [m]; fewer than three corners if there is
+// none.
 std::vector<Vec2> plan_between(const Triangle& t, double bottom, double top) {
   std::vector<Vec3> part(t.begin(), t.end());
   part = clipped(part, bottom, [&](const Vec3& p) { return p.z - bottom; });

@@ -47,7 +47,7 @@ bool edges_overlap(const Shape& one, const Shape& other) {
 
 }  // namespace
 
-// Andrew's monotone chain (Inf. Proc. Letters 9(5), 1979).
+// Uses Andrew's monotone chain (Inf. Proc. Letters 9(5), 1979).
 std::vector<Vec2> hull_of(std::vector<Vec2> points) {
   std::ranges::sort(points, [](Vec2 a, Vec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
   std::vector<Vec2> hull;

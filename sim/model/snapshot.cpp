@@ -4,9 +4,10 @@
 namespace orca::sim {
 namespace {
 
-constexpr double kDrawnHeight = 0.3;  // [m] Where sensors look, of what reaches over it.
+constexpr double kDrawnHeight = 0.3;  // [m] About the height of sensors.
 
-// A mesh is drawn as its section there, or half way up.
+// Returns the edges to draw. A mesh is drawn as its section at kDrawnHeight, or half way up if it does not
+// reach across that height.
 std::vector<Segment> drawn_edges(const Obstacle& o) {
   if (o.mesh == nullptr) return edges_of(o.shape);
   const bool reaches = o.bottom <= kDrawnHeight && kDrawnHeight < o.height;

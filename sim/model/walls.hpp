@@ -10,21 +10,23 @@
 
 namespace orca::sim::detail {
 
+// An opening in a wall.
 struct Opening {
-  double at = 0.0;     // [m] Of its middle, from the wall's beginning.
+  double at = 0.0;     // [m] Distance of its middle from the wall's beginning.
   double width = 0.0;  // [m]
 };
 
+// A straight wall with openings.
 struct WallPlan {
   std::string name;
-  Vec2 from, to;  // On the centre line.
+  Vec2 from, to;  // Ends of the centre line.
   double thickness = 0.0;
   double height = 0.0;
   std::vector<Opening> openings;
 };
 
-// The pieces of a wall between its openings. The outer ends reach half a thickness further, so that walls
-// that meet in a point close the corner.
+// Returns the pieces of a wall between its openings. The outer ends reach half a thickness further, so that
+// walls that meet in a point close the corner.
 // @errors  invalid_argument: no length; an opening reaches over an end or into another.
 [[nodiscard]] Result<std::vector<Obstacle>> pieces_of(WallPlan plan);
 

@@ -11,8 +11,8 @@ void make_shape_of_mesh(OwnedShape& owned) {
   owned.shape->setMargin(0);
 }
 
-// The boundary as upright rectangles of two triangles each. It is hollow, which does no harm: robots start
-// outside.
+// Returns the boundary as upright rectangles of two triangles each. The shape is hollow, which does no harm,
+// because robots start outside.
 OwnedShape extruded(const Outline& outline, double bottom, double top) {
   OwnedShape owned;
   owned.mesh = std::make_unique<btTriangleMesh>();

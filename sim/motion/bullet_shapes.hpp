@@ -12,19 +12,20 @@
 
 namespace orca::sim::detail {
 
-// A Bullet shape together with what Bullet only points at.
+// A Bullet shape together with the objects that Bullet only points at.
 struct OwnedShape {
   std::unique_ptr<btTriangleMesh> mesh;
   std::vector<std::unique_ptr<btCollisionShape>> children;
   std::unique_ptr<btCollisionShape> shape;
 };
 
-// An obstacle as a shape that stands on the floor; `X` becomes its place in the world.
+// Returns the collision shape of an obstacle and sets `X` to its pose in the world.
 [[nodiscard]] OwnedShape obstacle_shape(const Obstacle& obstacle, btTransform& X);
 
-// A robot's parts as one compound, in the base frame.
+// Returns a robot's parts as one compound shape in the base frame.
 [[nodiscard]] OwnedShape robot_shape(const RobotModel& model);
 
+// Returns the transform of an upright body at a pose in the plane and a height [m].
 [[nodiscard]] btTransform upright(const Pose2& pose, double z);
 
 }  // namespace orca::sim::detail

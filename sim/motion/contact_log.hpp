@@ -10,12 +10,13 @@
 
 namespace orca::sim::detail {
 
-// Tells when a touch begins, once. It ends only when the two are well apart, because a robot that pushes
-// against a wall hovers about distance zero; and Bullet knows no distance there, but only who is in contact.
-// So it ends as soon as one of them has gone or turned away from where they were last in contact.
+// The touches that last, so that each is reported once, when it begins. A touch ends only when the two are
+// well apart, because a robot that pushes against a wall hovers about distance zero. Bullet reports a
+// distance only for near pairs. For other pairs the touch ends when one of the two has moved or turned away
+// from the relative pose at which they were last near.
 class ContactLog {
  public:
-  // The pairs that began to touch in this tick.
+  // Returns the pairs that began to touch in this tick.
   std::vector<Pair> update(const Physics& physics) {
     const std::map<Pair, double> near = physics.near_pairs();
     std::erase_if(touching_, [&](const auto& touch) {
@@ -47,7 +48,7 @@ class ContactLog {
            std::fabs(wrapped(now.other_yaw - before.other_yaw)) > kTurned;
   }
 
-  std::map<Pair, Standing> touching_;  // And how the two stood when they were last in contact.
+  std::map<Pair, Standing> touching_;  // With the relative pose at which the two were last near.
 };
 
 }  // namespace orca::sim::detail

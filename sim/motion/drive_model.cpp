@@ -6,7 +6,7 @@
 namespace orca::sim::detail {
 namespace {
 
-// The same direction, not longer than `longest`.
+// Returns a vector of the same direction, not longer than `longest`.
 Vec2 shortened(Vec2 v, double longest) {
   const double length = norm(v);
   return length > longest ? (longest / length) * v : v;

@@ -10,14 +10,14 @@
 
 namespace orca::sim::detail {
 
-// What a base was last told.
+// A command to a base and its turret.
 struct BaseCommand {
   Twist2 velocity;
   double turret_angle = 0.0;  // [rad] In the robot's frame.
 };
 
-// From commanded to driven velocity, tick by tick: dead time, speed limits, first-order lag, acceleration
-// limits. Alike for all kinds of base: what moves them differs, not what holds them back.
+// The dynamics from commanded to driven velocity, tick by tick: dead time, speed limits, first-order lag and
+// acceleration limits. The model is the same for all kinds of base.
 class DriveModel {
  public:
   DriveModel(const Drive& drive, const ErrorLevels& errors, Duration tick);
@@ -25,12 +25,12 @@ class DriveModel {
   void command(const Twist2& wanted);
   void point_turret(double angle) { pending_.back().turret_angle = angle; }
 
-  // The velocity to drive in the tick that begins now.
+  // Returns the velocity to drive in the tick that begins now.
   Twist2 step();
-  // Where the turret shall point in that tick.
+  // Returns the commanded angle [rad] of the turret in that tick, in the robot's frame.
   [[nodiscard]] double turret_angle() const { return target_.turret_angle; }
 
-  // Something stood in the way: the base really moved like this. The next step starts from it.
+  // Reports the real velocity of a base that was held by an obstacle. The next step starts from it.
   void held_to(const Twist2& real) { velocity_ = real; }
 
  private:
@@ -39,7 +39,7 @@ class DriveModel {
 
   Drive drive_;
   double tick_s_;
-  double share_;  // Of the difference to its target that the velocity covers in a tick.
+  double share_;  // Part of the difference to its target that the velocity covers in a tick.
   Twist2 velocity_;
   BaseCommand target_;
   std::deque<BaseCommand> pending_;  // One per tick of dead time, the oldest first, the newest command last.

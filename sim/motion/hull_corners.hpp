@@ -7,7 +7,7 @@
 
 namespace orca::sim::detail {
 
-// The corners of the convex hull of a mesh, ordered by their coordinates.
+// Returns the corners of the convex hull of a mesh, ordered by their coordinates.
 [[nodiscard]] std::vector<Vec3> hull_corners(const Mesh& mesh);
 
 }  // namespace orca::sim::detail

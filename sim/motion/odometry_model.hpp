@@ -11,16 +11,16 @@
 
 namespace orca::sim::detail {
 
-// Dead reckoning: what the wheels' encoders tell, integrated by the exact arc model.
+// Dead reckoning: the readings of the wheels' encoders, integrated by the exact arc model.
 class OdometryModel {
  public:
   OdometryModel(const Drive& drive, const ErrorLevels& errors, RandomStream random)
       : random_(random), wheels_(drive, WheelErrors::drawn(drive.kind, errors, random_)) {}
-  // With errors that are given, not drawn.
+  // Uses the given errors instead of drawn ones.
   OdometryModel(const Drive& drive, const WheelErrors& errors, RandomStream random)
       : random_(random), wheels_(drive, errors) {}
 
-  // The base moved so in `seconds`.
+  // Adds a motion of the base that took `seconds`.
   void add(const Travel2& real, double seconds);
 
   [[nodiscard]] OdometryReading reading(TimePoint stamp) const { return {stamp, pose_, velocity_}; }

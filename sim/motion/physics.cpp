@@ -14,17 +14,17 @@ constexpr double kFriction = 0.4;
 struct Body {
   OwnedShape shape;
   std::unique_ptr<btRigidBody> body;
-  // Kept beside Bullet's rotation, which loses some bits each step.
+  // [rad] Stored separately, because Bullet's rotation loses some bits in each step.
   double yaw = 0.0;
 };
 
-// Something kinematic, and where Bullet's shape lies in its frame.
+// A kinematic thing, and the place of Bullet's shape in its frame.
 struct Mover {
   Body body;
   btTransform offset;
 };
 
-// Which kind of thing a Bullet body is stands in its second user index.
+// Returns the kind of a Bullet body, which is stored in its second user index.
 Kind kind_of(const btCollisionObject& body) { return static_cast<Kind>(body.getUserIndex2()); }
 
 Body make_body(OwnedShape shape, double mass, const btVector3& inertia, const btTransform& X) {
@@ -56,7 +56,7 @@ struct Physics::Impl {
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<Body> obstacles;
   std::vector<Body> robots;
-  std::vector<Mover> movers;  // Without a body: gone.
+  std::vector<Mover> movers;  // One without a body was removed.
 
   void insert(std::vector<Body>& list, Body body, Kind kind) {
     enter(*body.body, list.size(), kind);
@@ -71,7 +71,7 @@ struct Physics::Impl {
 
 Physics::Physics(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
   impl_->world.setGravity(btVector3(0, 0, 0));
-  // What stands does not move: its boxes need no update in each step.
+  // Standing things do not move, so their bounding boxes need no update in each step.
   impl_->world.setForceUpdateAllAabbs(false);
   for (const Obstacle& o : world.obstacles) {
     btTransform X;
@@ -116,7 +116,7 @@ void Physics::place_mover(std::size_t mover, const Pose2& X_WO) {
   body.setInterpolationWorldTransform(body.getWorldTransform());
 }
 
-// Bullet finds the velocity of something kinematic from where it stood before.
+// Bullet computes the velocity of a kinematic body from its former pose.
 void Physics::carry_mover(std::size_t mover, const Pose2& X_WO) {
   const Mover& m = impl_->movers[mover];
   m.body.body->setWorldTransform(upright(X_WO, 0) * m.offset);
@@ -152,7 +152,7 @@ Pose2 Physics::pose(std::size_t robot) const {
 
 Standing Physics::standing(const Pair& pair) const {
   const Pose2 robot = pose(pair.robot);
-  Pose2 other;  // What stands for ever is where it is.
+  Pose2 other;  // Stays zero for fixed obstacles, which never move.
   if (pair.kind == Kind::robot) other = pose(pair.other);
   if (pair.kind == Kind::mover && impl_->movers[pair.other].body.body != nullptr) {
     const btTransform& X = impl_->movers[pair.other].body.body->getWorldTransform();

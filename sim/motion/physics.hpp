@@ -14,26 +14,27 @@
 
 namespace orca::sim::detail {
 
-// What a robot can touch: what stands for ever, another robot, what comes and goes.
+// The kinds of things that a robot can touch: a fixed obstacle, another robot, or a mover that comes and
+// goes.
 enum class Kind { obstacle, robot, mover };
 
 // Two things that touch or nearly do: a robot and something else.
 struct Pair {
   std::size_t robot = 0;
-  Kind kind = Kind::obstacle;  // Of the other.
+  Kind kind = Kind::obstacle;  // Kind of the other.
   std::size_t other = 0;
   friend auto operator<=>(const Pair&, const Pair&) = default;
 };
 
-// How two things stand to each other.
+// The relative pose of two things.
 struct Standing {
-  Vec2 apart;                               // Of the robot from the other; axes as the world's.
+  Vec2 apart;  // [m] The robot's position minus the other's, in the world's axes.
   double robot_yaw = 0.0, other_yaw = 0.0;  // [rad]
 };
 
-// Bullet's rigid bodies, kept in the plane. Robots are driven by setting their velocity before each step;
-// what they run into takes part of it away. A fresh object for each run: Bullet's caches survive a reset in
-// place.
+// The rigid bodies of a world, simulated by Bullet and kept in the plane. Robots are driven by setting their
+// velocity before each step; collisions take part of it away. Each run needs a new object, because Bullet's
+// caches survive a reset in place.
 class Physics {
  public:
   explicit Physics(const WorldModel& world);
@@ -43,12 +44,12 @@ class Physics {
 
   std::size_t add_robot(const RobotModel& model, const Pose2& X_WB);
 
-  // Something that robots do not push: `shape` in a frame of its own that stands at `X_WO`.
+  // Adds a thing that robots cannot push. `shape` is in its own frame, whose pose is `X_WO`.
   // @return  its number; numbers are not used again.
   std::size_t add_mover(const Shape& shape, double height, const Pose2& X_WO);
-  // Takes it there at once.
+  // Puts the mover at a pose at once.
   void place_mover(std::size_t mover, const Pose2& X_WO);
-  // Has it go there in the next step, and push what is in the way.
+  // Moves the mover to a pose in the next step, so that it pushes the robots in its way.
   void carry_mover(std::size_t mover, const Pose2& X_WO);
   void remove_mover(std::size_t mover);
 
@@ -56,12 +57,13 @@ class Physics {
   void step(double seconds);
   [[nodiscard]] Pose2 pose(std::size_t robot) const;
 
-  // The distance of all near pairs [m], negative when they overlap; ordered, whatever order Bullet keeps.
+  // Returns the distances of all near pairs [m], negative if they overlap. Their order does not depend on
+  // Bullet's.
   [[nodiscard]] std::map<Pair, double> near_pairs() const;
 
   [[nodiscard]] Standing standing(const Pair& pair) const;
 
-  // Where the robot touches or nearly touches something, in its own frame.
+  // Returns the places where the robot touches or nearly touches something, in its base frame.
   [[nodiscard]] std::vector<Touch> touches(std::size_t robot) const;
 
  private:

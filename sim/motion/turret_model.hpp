@@ -9,16 +9,18 @@
 
 namespace orca::sim::detail {
 
-// A turret under position control: it goes to its angle with full acceleration, at most at full speed, and
-// brakes so as to stop there. Angles are of the turret on the body.
+// A turret under position control. It turns to its angle with full acceleration, at most at full speed, and
+// brakes to stop there. Angles are those of the turret relative to the body.
 class TurretModel {
  public:
   explicit TurretModel(const Turret& turret) : turret_(turret) {}
 
-  // One tick towards `target` [rad], where it will be at the tick's end, turning at `target_rate` [rad/s].
+  // Turns for one tick of `seconds` towards a moving target: its angle `target` [rad] at the tick's end, and
+  // its rate `target_rate` [rad/s].
   void step(double target, double target_rate, double seconds) {
     const double off = wrapped(target - target_rate * seconds - angle_);
-    // Braking with a from rate r takes r^2 / 2a; half a tick's change is kept back, since time goes in ticks.
+    // Braking from rate r with acceleration a takes the angle r^2 / 2a. Half a tick's change of rate is kept
+    // in reserve, because time advances in ticks.
     const double step_rate = 0.5 * turret_.max_acceleration * seconds;
     const double braking =
         std::sqrt(step_rate * step_rate + 2.0 * turret_.max_acceleration * std::fabs(off)) - step_rate;

@@ -8,7 +8,7 @@
 namespace orca::sim::detail {
 namespace {
 
-// The corners of a whole round, the first not repeated.
+// Returns the corners of a whole round; the first is not repeated.
 std::vector<Vec2> round_of(const Walker& walker) {
   std::vector<Vec2> corners = walker.track;
   if (!walker.round)

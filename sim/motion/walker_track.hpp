@@ -9,7 +9,7 @@
 
 namespace orca::sim::detail {
 
-// Where a walker is, as a function of how long it has walked.
+// The track of a walker: its place as a function of the time for which it has walked.
 class WalkerTrack {
  public:
   // @pre  the track has two corners and a length, the speed is positive.
@@ -24,7 +24,7 @@ class WalkerTrack {
  private:
   struct Leg {
     Vec2 from, to;
-    Duration begin, walk;  // The rest until the next leg begins is spent at its end.
+    Duration begin, walk;  // After `walk`, the walker waits at `to` until the next leg begins.
   };
   void add_leg(const Walker& walker, Vec2 from, Vec2 to, Duration rest);
 

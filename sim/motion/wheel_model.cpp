@@ -5,7 +5,7 @@ namespace orca::sim::detail {
 namespace {
 
 constexpr double kSin60 = 0.8660254037844386;
-// Three wheels stand at 60, 180 and 300 degrees; where each rolls when the base turns to the left.
+// Rolling directions of three wheels at 60, 180 and 300 degrees when the base turns to the left.
 constexpr std::array<Vec2, 3> kTangents{Vec2{-kSin60, 0.5}, Vec2{0.0, -1.0}, Vec2{kSin60, 0.5}};
 
 }  // namespace

@@ -10,20 +10,21 @@
 
 namespace orca::sim::detail {
 
-// How far the wheels of one robot are from what its odometry takes them for.
+// The differences between one robot's wheels and the dimensions that its odometry assumes.
 struct WheelErrors {
-  // Relative, of the diameter. Differential: left and right; the others have three.
+  // Relative errors of the diameters. A differential base has two, left and right; the other kinds have
+  // three.
   std::array<double, 3> diameter{};
-  double track = 0.0;  // Relative: the odometry calculates with (1 + track) times the true one.
-  double slip = 0.0;   // [m] Deviation of a wheel's measured travel after 1 m; grows with its root.
+  double track = 0.0;  // Relative error: the odometry calculates with (1 + track) times the true track.
+  double slip = 0.0;   // [m] Standard deviation of a wheel's measured travel after 1 m; grows with its root.
 
-  // What this robot got.
+  // Draws the errors of one robot.
   [[nodiscard]] static WheelErrors drawn(DriveKind kind, const ErrorLevels& errors, RandomStream& random);
 };
 
-// What the encoders make of a true motion: the travel of each wheel with its own wrong diameter and slip, put
-// together again by the robot's (wrong) dimensions. Being pushed sideways turns no wheel but a holonomic
-// base's.
+// The motion that the encoders report for a true motion. Each wheel's travel has its own diameter error and
+// slip; the robot's (wrong) dimensions combine the travels again. A sideways push turns only the wheels of a
+// holonomic base.
 class WheelModel {
  public:
   WheelModel(const Drive& drive, const WheelErrors& errors)

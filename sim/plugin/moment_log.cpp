@@ -36,7 +36,7 @@ void MomentLog::add(const SharedWorld::Inbox& inbox) {
   }
 }
 
-// Of several rings the first is drawn.
+// Records what the robot sensed. If it has several rings, the first is drawn.
 void MomentLog::see(const SharedWorld::Inbox& inbox) {
   for (const auto& [ring, scan] : inbox.sonar)
     if (ring == 0) now_.sonar = cones_of(scan, robot_.sonars[ring]);

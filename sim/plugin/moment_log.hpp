@@ -9,8 +9,8 @@
 
 namespace orca::sim {
 
-/// What a robot did and sensed in the course of a run, for pictures. At most 512 moments: of a longer run
-/// every second is forgotten, again and again; the first and the last are always there.
+/// The record of what a robot did and sensed in a run, for pictures. It keeps at most 512 moments: in a
+/// longer run every second one is discarded, repeatedly. The first and the last moment are always kept.
 ///
 /// Thread contract: not synchronised.
 class MomentLog {
@@ -27,8 +27,8 @@ class MomentLog {
   const RobotModel& robot_;
   Scene::Moment now_;
   std::vector<Scene::Moment> kept_;
-  std::size_t step_ = 1;   // of so many moments one is kept
-  std::size_t count_ = 0;  // of moments so far
+  std::size_t step_ = 1;   // One of this many moments is kept.
+  std::size_t count_ = 0;  // Number of moments so far.
 };
 
 }  // namespace orca::sim

@@ -21,16 +21,17 @@ void fill(idl::Odometry& object, const OdometryReading& reading);
 void fill(idl::TurretAngle& object, const TurretReading& reading);
 void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
 
-/// What commands the robot's base takes.
+/// Returns the limits of the commands that the robot's base accepts.
 [[nodiscard]] hw::DriveLimits limits_of(const RobotModel& robot);
 
-/// The robot's description for whoever asks.
+/// Returns the description of the robot that its clients can query.
 [[nodiscard]] idl::Robot describe(const RobotModel& model, const std::string& name);
 
 /// Adds the sensors to the robot's description.
 void describe_sensors(const RobotModel& model, idl::Robot& robot);
 
-/// Adds the walls, if no other robot of the same world has done so, and the robot of that name.
+/// Adds the robot of that name to the scene, and the walls if no other robot of the same world has added
+/// them.
 void draw(const Snapshot& from, const std::string& name, const RobotModel& model,
           std::vector<Scene::Moment> moments, Scene& to);
 

@@ -5,7 +5,7 @@
 namespace orca::sim {
 namespace {
 
-// What every sensor's description holds.
+// Returns a description with the parts that all sensors have in common.
 template <class Object, class Device>
 Object named(const Device& device, const char* type) {
   Object object;

@@ -17,7 +17,7 @@ void shift(SonarScan& scan, Duration by) {
   for (SonarReading& reading : scan.readings) reading.stamp += by;
 }
 
-// Puts a reading, if there is one, into the box with its stamp moved.
+// Puts a reading, if there is one, into the inbox with its stamp moved.
 template <class Reading>
 void take(const std::optional<Reading>& reading, std::size_t device, Duration by,
           SharedWorld::Inbox::Readings<Reading>& box) {

@@ -16,19 +16,19 @@ namespace orca::sim {
 
 /// The world that the simulated robots of one run share, tied to the run's clock.
 ///
-/// Whoever of them polls first advances it; what happened to each robot meanwhile waits in its Inbox.
+/// The first of them that polls advances it. The events of each robot wait in its Inbox until it polls.
 ///
 /// Thread contract: any strand; synchronised.
 class SharedWorld {
  public:
-  /// What one robot sensed and felt since it looked last.
+  /// The readings and contacts of one robot since it last polled.
   struct Inbox {
     struct Truth {
       TimePoint stamp;
       Pose2 pose;
       Twist2 velocity;
     };
-    /// What a device measured, and its number among those of its kind.
+    /// The readings, each with the number of its device among those of its kind.
     template <class Reading>
     using Readings = std::vector<std::pair<std::size_t, Reading>>;
     Readings<SonarScan> sonar;
@@ -40,15 +40,15 @@ class SharedWorld {
     std::vector<Truth> truth;
     struct Contact {
       ContactEvent event;
-      Pose2 robot;  ///< Where the robot was.
+      Pose2 robot;  ///< Pose of the robot in the world at that time.
     };
     std::vector<Contact> contacts;
   };
 
-  /// The world of that key, made by `make` if nobody holds it yet. The key names the run and the world's
-  /// file.
+  /// Returns the world of that key, made by `make` if nobody holds it yet. The key names the run and the
+  /// world's file.
   ///
-  /// @param settings  what else makes the world, for people, e.g. "realism harsh".
+  /// @param settings  the other settings of the world in words, e.g. "realism harsh".
   /// @errors  failed_precondition if it was made with other settings.
   static Result<std::shared_ptr<SharedWorld>> join(const std::string& key, const std::string& settings,
                                                    TimePoint now, const std::function<World()>& make);
@@ -64,14 +64,13 @@ class SharedWorld {
   /// @errors  as World::set_velocity_command() and, for a robot with a turret, set_turret_command().
   Status command(RobotId robot, const Twist2& wanted, double turret_angle);
 
-  /// Simulates up to `now` [run's clock] and returns what the robot has sensed; its stamps are of the run's
-  /// clock.
+  /// Simulates up to `now` [run's clock] and returns what the robot has sensed, stamped by the run's clock.
   ///
   /// A world that has fallen far behind, because the process was stopped or the machine is too slow, does not
-  /// catch up: its clock stands still meanwhile, so that no robot runs on with an old command.
+  /// catch up. Its clock stands still for that long, so that no robot continues with an old command.
   Inbox advance(RobotId robot, TimePoint now);
 
-  /// When the next tick is due [run's clock].
+  /// Returns the time at which the next tick is due [run's clock].
   [[nodiscard]] TimePoint next_tick() const;
   [[nodiscard]] Snapshot snapshot() const;
 
@@ -94,7 +93,7 @@ class SharedWorld {
   mutable std::mutex mutex_;
   World world_;
   const std::string settings_;
-  Duration epoch_;  // run's clock when the world's clock was zero
+  Duration epoch_;  // The run's clock when the world's clock was zero.
   std::vector<Member> members_;
 };
 

@@ -25,7 +25,7 @@ using orca::TimePoint;
 // Longest time that a motion command holds (DESIGN 11).
 constexpr orca::Duration kMaxCommandAge = std::chrono::milliseconds(200);
 
-/// A robot in the simulated world: behind the same container as real hardware. Robots whose graph entries
+/// A robot in the simulated world, behind the same interface as real hardware. Robots whose graph entries
 /// name the same world file share one world.
 class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::Drawable {
  public:
@@ -63,8 +63,8 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     return diagnostics.has_errors() ? std::nullopt : std::move(robot);
   }
 
-  // Reports a fault inside a file with its place there, and a fault of the file as a whole, for instance that it is
-  // missing, at the parameter that names the file.
+  // Reports a fault inside a file with its place there, and a fault of the file as a whole, for instance that
+  // it is missing, at the parameter that names the file.
   static void append(const orca::xml::Diagnostics& diagnostics, const char* param,
                      std::vector<orca::HardwareFault>& errors) {
     for (const auto& diagnostic : diagnostics.sorted()) {
@@ -121,7 +121,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   }
 
   Status open() override {
-    // One world per run: two systems in one process do not meet.
+    // The key contains the run, so that two systems in one process have separate worlds.
     const std::string key =
         std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
     auto joined = SharedWorld::join(key, settings(), host().now(), [this] {
@@ -152,7 +152,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
 
   [[nodiscard]] TimePoint next_poll() const override { return shared_->next_tick(); }
 
-  // The world goes on also while nobody listens.
+  // Advances the world, even if nobody listens.
   Status poll() override {
     const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
     for (const auto& contact : inbox.contacts) report(contact);

@@ -13,7 +13,7 @@
 
 namespace orca::sim {
 
-/// Time between two true poses.
+/// Time between two readings of the true pose.
 inline constexpr Duration kTruthPeriod = std::chrono::milliseconds(100);
 
 /// The sensor endpoints of a simulated robot: one per device that its file lists, and one for its true pose.
@@ -23,10 +23,10 @@ class SimSensors {
  public:
   explicit SimSensors(const RobotModel& robot);
 
-  /// In the order of the robot's file, kind by kind.
+  /// Returns the endpoints kind by kind, in the order of the robot's file.
   [[nodiscard]] std::vector<hw::SensorEndpoint*> endpoints();
 
-  /// Hands out what was sensed.
+  /// Publishes the readings through the endpoints.
   void publish(const SharedWorld::Inbox& inbox);
 
  private:
@@ -49,8 +49,8 @@ class SimSensors {
   hw::SensorHW<idl::RobotPose> truth_{kTruthPeriod, hw::Source::truth};
 };
 
-/// What keeps the robot's sensors from being served, in words; empty: nothing does. A server names its ports
-/// after the object type, so a robot can have one device of each kind.
+/// Returns in words why the robot's sensors cannot be served; empty if they can. A server names its ports
+/// after the object type, so a robot can have only one device of each kind.
 [[nodiscard]] std::string unserved(const RobotModel& robot);
 
 }  // namespace orca::sim

@@ -9,14 +9,14 @@
 namespace orca::sim::detail {
 namespace {
 
-constexpr double kCell = 1.0;   // [m] A few robots' size.
-constexpr double kRoom = 10.0;  // [m] Around all bodies, so that they rarely leave the cells.
+constexpr double kCell = 1.0;   // [m] The size of a few robots.
+constexpr double kRoom = 10.0;  // [m] Margin around all bodies, so that they rarely leave the cells.
 constexpr double kMaxCells = 1e5;
-constexpr std::size_t kFew = 6;  // So many are looked at sooner than cells.
-// So many are looked at for a view; of more, each ray finds its own by the cells.
+constexpr std::size_t kFew = 6;  // Up to this many bodies, testing each is faster than walking the cells.
+// Up to this many bodies, a view chooses among them; with more, each ray finds its own through the cells.
 constexpr std::size_t kMany = 300;
-constexpr std::uint64_t kMostEdges = 1U << 20U;    // Of a body, for numbers.
-constexpr double kWide = 0.25 * std::numbers::pi;  // [rad] A view is narrower.
+constexpr std::uint64_t kMostEdges = 1U << 20U;    // Element numbers reserved for each body.
+constexpr double kWide = 0.25 * std::numbers::pi;  // [rad] The half angle of a view is smaller.
 
 template <class Visit>
 void for_cells_of(const Cells& cells, const Cells::Range& range, const Visit& visit) {
@@ -62,7 +62,7 @@ bool Bodies::Moving::cast(const Ray& ray, Hit& hit) const {
   return met;
 }
 
-// After each change of the body.
+// Updates the circle and heights around a body after the body has changed.
 void Bodies::surround(std::size_t number) {
   outer_[number] = Outer(bodies_[number]);
   discs_.set(number, outer_[number].around);
@@ -109,7 +109,7 @@ void Bodies::choose_cells() {
     all.add(m.bounds.low);
     all.add(m.bounds.high);
   }
-  // Half as far again to each side: a body that goes on and on makes this happen ever more seldom.
+  // Adds half the extent to each side: for a body that keeps moving away this happens ever more seldom.
   const Vec2 room = Vec2{kRoom, kRoom} + 0.5 * (all.high - all.low);
   all.add(all.low - room);
   all.add(all.high + room);

@@ -10,29 +10,31 @@
 
 namespace orca::sim::detail {
 
-// What moves, listed in the cells of a uniform grid of its own. Few moves change a list, so a move costs
-// little.
+// The bodies that can move, listed by the cells of their own uniform grid. Few moves change a list, so a move
+// costs little.
 class Bodies {
  public:
   std::size_t add(Body body);
   void move(std::size_t number, Shape shape);
   void remove(std::size_t number);
 
-  // Replaces the hit by the nearest body on the ray if that is closer. Each edge of each body has a number of its own.
+  // Replaces the hit by the nearest body on the ray if that is closer. Each edge of each body has its own
+  // number.
   void cast(const Ray& ray, Hit& hit) const;
   // Does the same for the bodies with these numbers only.
   void cast(const Ray& ray, std::span<const std::uint32_t> numbers, Hit& hit) const;
 
-  // Collects the bodies that rays within the cone can hit; the rays equal the axis but for origin and direction.
-  // Returns false if the cone is too wide for the search to pay off.
+  // Collects the bodies that rays within the cone can hit; the rays equal the axis but for origin and
+  // direction. Returns false if the cone is too wide for the search to pay off.
   bool choose(const Ray& axis, const Cone& cone, std::vector<std::uint32_t>& found) const;
 
  private:
-  // A body, with its edges and its surroundings worked out once per move.
+  // A body with its edges and bounds, which are computed once per move.
   struct Moving {
     explicit Moving(Body b);
     void refresh();
-    // True if it is closer than the hit, which then has the edge's number within the body.
+    // Returns true if the ray meets the body before the hit, and sets the hit to the edge's number in the
+    // body.
     bool cast(const Ray& ray, Hit& hit) const;
 
     Body body;
@@ -42,13 +44,13 @@ class Bodies {
     Cells::Range listed{};
   };
 
-  // What tells of most bodies that a ray passes them by; small, since rays look at many.
+  // The circle and heights around a body, which rule out most bodies. It is small because rays look at many.
   struct Outer {
     explicit Outer(const Moving& moving);
     [[nodiscard]] bool in_reach(const Ray& ray, double best) const;
     [[nodiscard]] bool at(double height) const { return bottom <= height && height < top; }
     Circle around;
-    double bottom, top;  // The same for what is not there.
+    double bottom, top;  // [m] Equal for a removed body.
   };
 
   void cast_at(std::size_t number, const Ray& ray, Hit& hit) const;
@@ -59,10 +61,10 @@ class Bodies {
   void surround(std::size_t number);
 
   std::vector<Moving> bodies_;
-  std::vector<Outer> outer_;  // Of each body.
-  Discs discs_;               // What lies around each.
+  std::vector<Outer> outer_;  // One per body.
+  Discs discs_;               // The circle around each body.
   Cells cells_;
-  std::vector<std::vector<std::uint32_t>> lists_;  // Of the bodies' numbers, per cell.
+  std::vector<std::vector<std::uint32_t>> lists_;  // The bodies' numbers, per cell.
 };
 
 }  // namespace orca::sim::detail

@@ -10,7 +10,7 @@
 namespace orca::sim {
 namespace {
 
-// What the numbers of elements begin with.
+// First number of each kind of element.
 constexpr std::uint64_t kMesh = 1;
 constexpr std::uint64_t kStanding = std::uint64_t{1} << 62U;
 constexpr std::uint64_t kBodies = std::uint64_t{2} << 62U;
@@ -37,7 +37,7 @@ struct Caster::Impl {
   detail::MeshSections meshes;
   detail::Bodies bodies;
 
-  // After the bodies, where nothing else is met before `from` [m].
+  // Completes a hit among the bodies by what stands; nothing that stands is nearer than `from` [m].
   void finish(const Ray& ray, Hit& hit, double from) const {
     const double bodies_at = hit.range;
     if (hit.found()) hit.element += kBodies;
@@ -45,7 +45,7 @@ struct Caster::Impl {
     const double grid_at = hit.range;
     if (grid_at < bodies_at) hit.element += kStanding;
     meshes.cast(ray, hit);
-    if (hit.range < grid_at) hit.element = kMesh;  // its sections at several heights have other edges
+    if (hit.range < grid_at) hit.element = kMesh;  // Sections at different heights have different edges.
     hit.point = ray.origin + hit.range * ray.direction;
     hit.direction = ray.direction;
   }

@@ -9,11 +9,11 @@
 
 namespace orca::sim::detail {
 
-// A rectangle of the plane, cut into square cells. What is kept in a grid is listed in each cell that it
-// touches and, by a margin, in those that it nearly touches, so that rounding cannot hide it.
+// A rectangle of the plane, cut into square cells. A grid lists each thing in every cell that it touches, and
+// in those that it misses by less than a margin, so that rounding cannot hide it.
 class Cells {
  public:
-  // [m] Far above the rounding of a walk in worlds of up to 100 km.
+  // [m] Far above the rounding error of a walk in worlds of up to 100 km.
   static constexpr double kMargin = 1e-6;
 
   struct Range {
@@ -21,8 +21,8 @@ class Cells {
     friend bool operator==(const Range&, const Range&) = default;
   };
 
-  Cells() = default;  // None at all.
-  // At least `bounds` and twice the margin around it.
+  Cells() = default;  // Has no cells.
+  // Covers at least `bounds` and twice the margin around it, with cells of side `size` [m].
   Cells(const Bounds& bounds, double size)
       : origin_(bounds.low - Vec2{2.0 * kMargin, 2.0 * kMargin}),
         size_(size),
@@ -44,7 +44,7 @@ class Cells {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
-  // Those that the rectangle touches or nearly touches.
+  // Returns the cells that the rectangle touches or nearly touches.
   [[nodiscard]] Range range(const Bounds& b) const {
     return {column(b.low.x - kMargin), column(b.high.x + kMargin), row(b.low.y - kMargin),
             row(b.high.y + kMargin)};
@@ -55,21 +55,21 @@ class Cells {
            b.high.y + kMargin < end.y;
   }
 
-  // Calls visit(cell) for the cells on the ray from the distance `from` [m] on, the nearest first, as long as
-  // they begin before `best`, which `visit` may lower.
+  // Calls visit(cell) for the cells on the ray beyond the distance `from` [m], nearest first. It stops at the
+  // first cell that begins at `best` [m] or later; `visit` may lower `best`.
   template <class Visit>
   void walk(const Ray& ray, double from, const double& best, const Visit& visit) const;
 
  private:
   // One direction of a ray.
   struct Slope {
-    double start;    // [m] Where the ray starts.
-    double along;    // Component of its direction,
-    double inverse;  // and one over it.
+    double start;    // [m] Coordinate of the ray's origin.
+    double along;    // Component of the ray's direction.
+    double inverse;  // 1 / along.
   };
 
-  // One direction of a walk: where the ray leaves the present cell, and how many cells follow. Rounding adds
-  // up to 1e-7 m at most over the 4000 cells that a side may have.
+  // One direction of a walk: where the ray leaves the present cell, and how many cells follow. Over the 4000
+  // cells that a side may have, rounding errors sum up to 1e-7 m at most.
   struct Axis {
     Axis(const Slope& ray, double low, double size, int at, int cells, std::ptrdiff_t stride)
         : exit((low + (ray.along > 0.0 ? size : 0.0) - ray.start) * ray.inverse),
@@ -89,12 +89,13 @@ class Cells {
     std::ptrdiff_t step;
   };
 
-  // Limited before it becomes an integer, so that no value, not even NaN, is out of range.
+  // Limits the value before the conversion to an integer, so that no value, not even NaN, is out of range.
   static int number(double cells, int count) {
     return static_cast<int>(std::min(std::max(0.0, cells), count - 1.0));
   }
 
-  // False if the ray passes by within `best`; else `t`, from where it counts, is where it enters.
+  // Raises `t` [m] to the distance at which the ray enters the rectangle. Returns false if the ray does not
+  // enter it before `best` [m].
   [[nodiscard]] bool enter(const Slope& x, const Slope& y, double best, double& t) const {
     const Vec2 end = low(columns_, rows_);
     double leave = best;

@@ -5,7 +5,7 @@
 
 namespace orca::sim::detail {
 
-// Rays from about one place in about one direction.
+// A bundle of rays from about one place in about one direction.
 struct Cone {
   Cone(Vec2 from, Vec2 towards, double half, double around_tip, double longest)
       : tip(from), axis(towards), half_angle(half), slack(around_tip), reach(longest) {
@@ -16,10 +16,10 @@ struct Cone {
 
   Vec2 tip;
   Vec2 axis;          // Of length 1.
-  double half_angle;  // [rad] Between the axis and any ray, at most a right angle.
-  double slack;       // [m] Between the tip and where any ray starts.
-  double reach;       // [m] Of any ray.
-  Vec2 left, right;   // Along both rims, of length 1.
+  double half_angle;  // [rad] Largest angle between the axis and any ray, at most a right angle.
+  double slack;       // [m] Largest distance between the tip and the origin of any ray.
+  double reach;       // [m] Largest length of any ray.
+  Vec2 left, right;   // Directions of both rims, of length 1.
 };
 
 }  // namespace orca::sim::detail

@@ -10,7 +10,7 @@
 namespace orca::sim::detail {
 namespace {
 
-// So many circles are asked about at a time.
+// Number of circles that are marked at a time.
 constexpr std::size_t kBlock = 64;
 static_assert(kBlock % kMarkGroup == 0);
 
@@ -58,7 +58,7 @@ void Discs::mark(const Question& asked, std::size_t first, std::size_t count, st
     const float y = Y[i] - one.tip_y;
     const float radius = R[i] + one.wider;
     const float along = one.axis_x * x + one.axis_y * y;
-    // It lies beside no rim, and neither behind the tip nor beyond the end.
+    // The circle lies outside neither rim, and neither behind the tip nor beyond the end.
     marks[i] = (one.left_x * y - one.left_y * x <= radius) & (one.right_x * y - one.right_y * x >= -radius) &
                (along >= -radius) & (along <= one.reach + radius);
   }

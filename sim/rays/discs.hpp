@@ -9,24 +9,24 @@
 
 namespace orca::sim::detail {
 
-// Many circles, of which all are asked for each cone: column by column and in single precision, so that the
-// compiler looks at four at once. It errs on the side of finding too many.
+// A set of circles that is searched whole for each cone. Its columns are in single precision, so that the
+// compiler handles four circles at once. Rounding may add circles to the result, but never removes one.
 class Discs {
  public:
-  // @param number  the next one, or one that is there already.
+  // Adds or replaces a circle. @param number  the next free one, or one in use.
   void set(std::size_t number, const Circle& circle);
 
-  // Adds the numbers of all that rays of the cone may meet, in their order.
+  // Appends to `found` the numbers of all circles that rays of the cone may meet, in ascending order.
   void find_near(const Cone& cone, std::vector<std::uint32_t>& found) const;
 
  private:
-  // The cone, as the columns have it.
+  // The cone in the precision of the columns.
   struct Question {
     explicit Question(const Cone& cone);
     float tip_x, tip_y, left_x, left_y, right_x, right_y, axis_x, axis_y, reach, wider;
   };
 
-  // Of the circles from `first` on.
+  // Marks which of the `count` circles that begin at `first` the cone may meet.
   void mark(const Question& asked, std::size_t first, std::size_t count, std::int32_t* marks) const;
 
   std::vector<float> x_, y_, radius_;

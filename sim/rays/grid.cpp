@@ -12,7 +12,8 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffU;
 constexpr double kMinCell = 0.1;
 constexpr double kMaxCells = 4e6;
-// So many cells of a cone are looked at: far across small cells it would cost more than its rays.
+// Largest number of cells that are searched for a cone: a wide search over small cells costs more than the
+// rays.
 constexpr int kMostLooks = 128;
 
 Bounds bounds_of(const Grid::Elements& elements) {
@@ -25,7 +26,7 @@ Bounds bounds_of(const Grid::Elements& elements) {
   return bounds;
 }
 
-// About one element per two cells; the side also keeps the number of cells in memory reasonable.
+// Returns cells for about one element per two cells; a limit on their side bounds the memory.
 Cells cells_for(const Grid::Elements& elements) {
   const Bounds bounds = bounds_of(elements);
   if (bounds.empty()) return {};
@@ -45,7 +46,7 @@ void Grid::Elements::add(const Shape& shape, Heights heights) {
 
 Grid::Grid(Elements elements) : elements_(std::move(elements)), cells_(cells_for(elements_)) { sort_in(); }
 
-// Row by row: the part of the segment inside the row (and a margin) spans a range of columns.
+// Visits the cells row by row: the part of the segment inside a row (and a margin) spans a range of columns.
 template <class Visit>
 void Grid::for_cells_of(const Segment& s, const Visit& visit) const {
   const Segment up = s.a.y <= s.b.y ? s : Segment{s.b, s.a};
@@ -91,7 +92,7 @@ void Grid::for_all_entries(const Visit& visit) const {
   }
 }
 
-// A counting sort: count, sum up, fill.
+// Sorts the elements into the cells by a counting sort: count, sum up, fill.
 void Grid::sort_in() {
   first_.assign(cells_.count() + 1, 0);
   for_all_entries([&](std::size_t c, std::uint32_t) { ++first_[c + 1]; });

@@ -9,17 +9,18 @@
 
 namespace orca::sim::detail {
 
-// From where to where a solid reaches [m]. A sensor at the height of its bottom sees it, one at its top not.
+// The heights between which a solid lies [m]. A sensor at exactly `bottom` sees it, one at exactly `top` does
+// not.
 struct Heights {
   double bottom = 0.0;
   double top = 0.0;
   [[nodiscard]] bool hold(double height) const { return bottom <= height && height < top; }
 };
 
-// What stands still, sorted into the cells of a uniform grid.
+// The boundaries that never move, sorted into the cells of a uniform grid.
 class Grid {
  public:
-  // Boundaries of upright solids.
+  // The boundaries of upright solids.
   struct Elements {
     void add(const Shape& shape, Heights heights);
     struct Edge {
@@ -36,11 +37,11 @@ class Grid {
 
   explicit Grid(Elements elements);
 
-  // The nearest element on the ray closer than the hit, which it then becomes, with its number.
-  // @pre  it meets none before `from` [m].
+  // Replaces the hit, with its element number, by the nearest element on the ray if that is closer.
+  // @pre  the ray meets no element before `from` [m].
   void cast(const Ray& ray, Hit& hit, double from = 0.0) const;
 
-  // No ray of the cone meets anything nearer [m]; it may be empty farther.
+  // Returns a distance [m] before which no ray of the cone meets anything. The true one may be larger.
   [[nodiscard]] double empty_depth(const Cone& cone) const;
 
  private:
@@ -52,10 +53,9 @@ class Grid {
   template <class Visit>
   void for_all_entries(const Visit& visit) const;
 
-  // Numbered: first the edges, then the circles.
-  Elements elements_;
+  Elements elements_;  // Numbered: first the edges, then the circles.
   Cells cells_;
-  std::vector<std::uint32_t> first_;  // Of cell c: the entries first_[c] .. first_[c + 1].
+  std::vector<std::uint32_t> first_;  // Cell c has the entries from first_[c] to before first_[c + 1].
   std::vector<std::uint32_t> entries_;
 };
 

@@ -9,11 +9,11 @@
 
 namespace orca::sim::detail {
 
-// So many marks are looked at together.
+// Number of marks that are tested together.
 inline constexpr std::size_t kMarkGroup = 8;
 
-// Calls visit(number) for all of `count` things that are marked with 1 and not with 0, in their order. There
-// is room for a full last group, whose rest is written.
+// Calls visit(number) for each of `count` things whose mark is 1 and not 0, in ascending order.
+// @param marks  with room for a full last group, whose rest is overwritten.
 template <class Visit>
 void for_all_marked(std::int32_t* marks, std::size_t count, const Visit& visit) {
   const std::size_t end = (count + kMarkGroup - 1) / kMarkGroup * kMarkGroup;

@@ -16,7 +16,7 @@ std::shared_ptr<const Grid> MeshSections::at(double height) const {
   Grid::Elements elements;
   for (const auto& mesh : meshes_)
     elements.add(section_of(*mesh, height), {height, std::numeric_limits<double>::infinity()});
-  // Casts that use a section hold it.
+  // A cast that uses a section keeps it alive, so erasing it here is safe.
   if (sections_.size() == kMaxSections) sections_.erase(sections_.begin());
   return sections_[height] = std::make_shared<const Grid>(std::move(elements));
 }

@@ -11,13 +11,13 @@
 
 namespace orca::sim::detail {
 
-// Meshes that stand still. A sensor sees their section at its height; sections are made when first needed and
-// kept, since sensors have few heights.
+// The meshes that never move. A sensor sees their section at its height. Sections are made when first needed
+// and then kept, because sensors have few different heights.
 class MeshSections {
  public:
   explicit MeshSections(std::vector<std::shared_ptr<const Mesh>> meshes) : meshes_(std::move(meshes)) {}
 
-  // As Grid::cast(). From many threads.
+  // Replaces the hit by the nearest edge on the ray if that is closer. Many threads may call it at once.
   void cast(const Ray& ray, Hit& hit) const {
     if (!meshes_.empty()) at(ray.sensor_height)->cast(ray, hit);
   }

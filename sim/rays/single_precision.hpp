@@ -9,8 +9,8 @@ namespace orca::sim::detail {
 
 inline float single(double value) { return static_cast<float>(value); }
 
-// What single precision may lose near a place, and generously more [m]: a search in it that allows for this
-// finds too many rather than too few.
+// Returns a generous bound [m] on the rounding error of single precision near a place. A search that allows
+// for it finds too many things rather than too few.
 inline double single_margin(Vec2 place) { return 1e-3 + 1e-6 * (std::fabs(place.x) + std::fabs(place.y)); }
 
 }  // namespace orca::sim::detail

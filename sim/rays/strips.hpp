@@ -10,8 +10,8 @@
 
 namespace orca::sim::detail {
 
-// The cells that rays of a cone may cross, strip by strip: by columns or by rows, whatever lies more across
-// the cone, the nearest first.
+// The cells that rays of a cone may cross, strip by strip, nearest first. The strips are columns or rows,
+// whichever lie more across the cone.
 class Strips {
  public:
   static constexpr double kWide = 0.2 * std::numbers::pi;  // [rad] The widest half angle.
@@ -19,10 +19,10 @@ class Strips {
   // @pre  the cells outlive it.
   Strips(const Cells& cells, const Cone& cone);
 
-  // No ray comes to this strip, or to one after it, any nearer [m]; infinite if none is left.
+  // Returns the distance [m] before which no ray enters this strip or a later one; infinite if none is left.
   [[nodiscard]] double begin() const { return begin_; }
 
-  // Calls visit(cell) for the cells of this strip, then goes to the next. @pre  there is one.
+  // Calls visit(cell) for the cells of this strip, then advances to the next. @pre  a strip is left.
   template <class Visit>
   void next(const Visit& visit) {
     const double from = std::max(0.0, entry_);
@@ -54,16 +54,16 @@ class Strips {
   const Cells* cells_ = nullptr;
   bool by_columns_ = true;
   int strips_ = 0;
-  int step_ = 1;             // To the next strip.
-  int strip_ = 0;            // The present one.
+  int step_ = 1;             // Difference from this strip's number to the next one's.
+  int strip_ = 0;            // Number of the present strip.
   double tip_along_ = 0.0;   // [m]
   double tip_across_ = 0.0;  // [m]
-  double low_ = 0.0;         // Slopes of the rims against the way across the strips.
+  double low_ = 0.0;         // Slopes of the two rims relative to the direction across the strips.
   double high_ = 0.0;
-  double aside_ = 0.0;     // [m] How far rays may start aside of the rims.
-  double slack_ = 0.0;     // [m]
-  double slowness_ = 1.0;  // How far any ray goes at least, per metre across the strips.
-  double entry_ = 0.0;     // [m] Where the present strip begins, from the tip across the strips.
+  double aside_ = 0.0;     // [m] Largest distance of a ray's origin from the rims, along the strips.
+  double slack_ = 0.0;     // [m] Largest distance of a ray's origin from the tip.
+  double slowness_ = 1.0;  // Smallest length of a ray per metre across the strips.
+  double entry_ = 0.0;     // [m] Distance from the tip to the present strip, across the strips.
   double begin_ = std::numeric_limits<double>::infinity();
 };
 

@@ -7,8 +7,8 @@
 namespace orca::sim::detail {
 namespace {
 
-// A switch closes at a touch and opens a little later than the touch ends, as a real one does: a robot that
-// pushes against a wall hovers about distance zero.
+// A switch closes at a touch and opens a little after the touch ends, as a real one does. Without that it
+// would flicker, because a robot that pushes against a wall hovers about distance zero.
 constexpr double kTouching = 0.0005;  // [m]
 constexpr double kReleased = 0.002;   // [m]
 

@@ -11,23 +11,24 @@
 
 namespace orca::sim::detail {
 
-// Where something touches or nearly touches a robot.
+// A place where something touches or nearly touches a robot.
 struct Touch {
   Vec2 point;             // In the base frame.
-  double distance = 0.0;  // [m] Between the two; negative: they overlap.
+  double distance = 0.0;  // [m] Between the two; negative if they overlap.
 };
 
-// A bumper in segments. A touch shorter than the period is not lost: a reading tells what was pressed at any
-// time since the one before.
+// A bumper in segments. A reading reports each segment that was pressed at any time since the reading before,
+// so that no touch shorter than the period is lost.
 class BumperModel {
  public:
   BumperModel(BumperRing ring, TimePoint start);
 
-  // @param touches  all of the robot's, at the end of the tick, which was `now`.
-  // @param X_RB     of the body in the robot's frame.
+  // Presses and releases the segments for one tick.
+  // @param touches  all touches of the robot at `now`, the end of the tick.
+  // @param X_RB     pose of the body in the robot's frame.
   void run(std::span<const Touch> touches, TimePoint now, const Pose2& X_RB);
 
-  // The reading that became due in the last run(), if one did.
+  // Returns the reading that became due in the last run(), if one did.
   [[nodiscard]] const std::optional<BumperReading>& completed() const { return completed_; }
 
  private:
@@ -35,8 +36,8 @@ class BumperModel {
 
   BumperRing ring_;
   TimePoint due_;
-  std::vector<bool> pressed_;  // Now.
-  std::vector<bool> felt_;     // Since the last reading.
+  std::vector<bool> pressed_;  // Segments that are pressed now.
+  std::vector<bool> felt_;     // Segments that were pressed since the last reading.
   std::optional<BumperReading> completed_;
 };
 

@@ -7,7 +7,7 @@
 namespace orca::sim::detail {
 namespace {
 
-constexpr int kRays = 5;  // Over the beam, its rims included.
+constexpr int kRays = 5;  // Number of rays across the beam, including its rims.
 
 }  // namespace
 

@@ -13,15 +13,16 @@
 
 namespace orca::sim::detail {
 
-// A ring of infrared sensors: each tells the closest thing in its narrow beam, the less exactly the farther
-// it is.
+// A ring of infrared sensors. Each measures the distance to the closest thing in its narrow beam, with an
+// error that grows with the distance.
 class InfraredModel {
  public:
   InfraredModel(InfraredRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start);
 
+  // Measures the round that is due in the span, if one is.
   void run(const Caster& caster, std::size_t own_body, const TickSpan& span);
 
-  // The round that was measured in the last run(), if one was.
+  // Returns the round that was measured in the last run(), if one was.
   [[nodiscard]] const std::optional<InfraredScan>& completed() const { return completed_; }
 
  private:

@@ -7,11 +7,11 @@
 namespace orca::sim::detail {
 namespace {
 
-// [m] A smaller difference of depth within one spot is not worth mixing: it is below the device's own step.
+// [m] A smaller difference of depth within one spot is not mixed: it is below the device's resolution.
 constexpr double kDepthEdge = 0.01;
-// Of the search for the edge within a spot: 2^-12 of its half width.
+// Number of halvings in the search for an edge within a spot: the result is exact to 2^-12 of its half width.
 constexpr int kHalvings = 12;
-// So many beams in turn share a view.
+// Number of successive beams that share a view.
 constexpr std::size_t kTogether = 16;
 
 Ray turned(Ray ray, double angle) {
@@ -54,7 +54,8 @@ void LaserModel::run(const Caster& caster, std::size_t own_body, const TickSpan&
   }
 }
 
-// To where the beams to come go, up to the next multiple of kTogether, wherever the robot is meanwhile.
+// Makes the view for the next beams, up to the next multiple of kTogether. It covers all poses that the robot
+// has meanwhile.
 void LaserModel::look(const Caster& caster, std::size_t own_body, const TickSpan& span) {
   const std::size_t left = kTogether - ranges_.size() % kTogether;
   const double turn = std::fabs(wrapped(span.X_to.yaw - span.X_from.yaw));
@@ -67,7 +68,7 @@ void LaserModel::look(const Caster& caster, std::size_t own_body, const TickSpan
 void LaserModel::shoot(const Caster& caster, const Beam& beam) {
   ranges_.push_back(returns(beam.hit) ? beam.hit.range : scanner_.max_range);
   const std::size_t k = ranges_.size() - 1;
-  // Only where two neighbours meet different surfaces there may be an edge in the spot of either.
+  // A spot can hold an edge only if two neighbouring beams meet different surfaces.
   if (errors_.mixed_pixels && k > 0 && beam.hit.surface != previous_.hit.surface) {
     const double rim = std::copysign(0.5 * scanner_.divergence, scanner_.pitch);
     mix(caster, previous_, rim, ranges_[k - 1]);
@@ -78,8 +79,8 @@ void LaserModel::shoot(const Caster& caster, const Beam& beam) {
 
 bool LaserModel::returns(const Hit& hit) const { return hit.found() && hit.steeper_than(drop_tangent_); }
 
-// A spot that lies on two surfaces reads as their mean, weighted by their shares of its width. `rim` [rad] is
-// where the spot ends on the side to look at; what returns nothing has no share.
+// Sets `range` to the mean of the two surfaces that the spot lies on, weighted by their shares of its width.
+// A surface that returns nothing has no share. `rim` [rad] is the spot's end on the side to look at.
 void LaserModel::mix(const Caster& caster, const Beam& beam, double rim, double& range) const {
   const Hit other = caster.cast(turned(beam.ray, rim));
   if (!returns(beam.hit) || !returns(other)) return;
@@ -105,7 +106,7 @@ void LaserModel::complete() {
 }
 
 double LaserModel::measured(double range) {
-  // Drawn for every beam, so that one return more does not shift all later noise.
+  // The noise is drawn for every beam, so that one more return does not shift all later noise.
   const double noise = random_.normal(0.0, errors_.laser_sigma);
   if (range >= scanner_.max_range) return scanner_.max_range;
   double reading = range + bias_ + noise;

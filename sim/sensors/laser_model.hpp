@@ -14,16 +14,16 @@
 
 namespace orca::sim::detail {
 
-// A scanning laser. Each beam is cast from where the robot is at that beam's own instant; the last one falls
-// at the end of the period.
+// A scanning laser. Each beam is cast from the robot's pose at that beam's own instant. The last beam of a
+// scan falls at the end of the period.
 class LaserModel {
  public:
   LaserModel(LaserScanner scanner, const ErrorLevels& errors, RandomStream random, TimePoint start);
 
-  // Shoots every beam due in the span.
+  // Shoots every beam that is due in the span.
   void run(const Caster& caster, std::size_t own_body, const TickSpan& span);
 
-  // The scan that was completed in the last run(), if one was.
+  // Returns the scan that was completed in the last run(), if one was.
   [[nodiscard]] const std::optional<LaserScan>& completed() const { return completed_; }
 
  private:
@@ -45,12 +45,12 @@ class LaserModel {
   ErrorLevels errors_;
   RandomStream random_;
   double drop_tangent_;
-  double bias_;  // [m] Of this device in this run.
+  double bias_;  // [m] Range error of this device in this run.
   TimePoint scan_end_;
   Caster::View view_;
   Beam previous_;
-  std::vector<double> ranges_;  // Of the present scan, without noise; max_range: nothing came back.
-  Pose2 X_RB_;                  // When the present scan began.
+  std::vector<double> ranges_;  // [m] The present scan without noise; max_range: nothing came back.
+  Pose2 X_RB_;                  // Pose of the carrier in the robot's frame when the present scan began.
   std::optional<LaserScan> completed_;
 };
 

@@ -8,11 +8,11 @@ namespace orca::sim::detail {
 namespace {
 
 constexpr double kSoundSpeed = 343.0;  // [m/s] In air of 20 degrees Celsius.
-// Older sound is too weak to be heard, or beyond the range of any ring.
+// Sound older than this is too weak to be heard, or beyond the range of any ring.
 constexpr double kFadesAfter = 0.040;  // [s]
-// [m] A transducer sits in its robot's body, whose boundary is what a ray meets.
+// [m] Largest depth of a transducer in its robot's body, whose boundary the rays meet.
 constexpr double kInBody = 0.1;
-// Elements that nothing in the air meets are kept up to about so many.
+// About this many elements that no chirp in the air meets are kept.
 constexpr std::size_t kMostForgotten = 1000;
 
 double seconds_of(TimePoint time) { return to_seconds(time.time_since_epoch()); }
@@ -22,21 +22,21 @@ double seconds_of(TimePoint time) { return to_seconds(time.time_since_epoch()); 
 // The points and walls off which the sound of other sonars can reach one listener.
 class SonarAir::Ear {
  public:
-  // Scatters sound to all sides.
+  // A point that scatters sound to all sides.
   struct Point {
     Vec2 at;
-    double length;  // [m] To the listener.
-    double loss;    // [Np] Of what it sends there.
+    double length;  // [m] Distance to the listener.
+    double loss;    // [Np] Loss between the point and the listener.
     enum class Sight { unknown, free, blocked } sight = Sight::unknown;
   };
-  // A surface that mirrors, with what does not depend on where the sound comes from.
+  // A surface that mirrors, with the values that do not depend on where the sound comes from.
   struct Wall {
     Vec2 begin;
-    Vec2 along;                                // To its end.
-    double square;                             // [m^2] Of its length.
-    double side;                               // Of the listener: positive on the left of it [m^2];
-    double at;                                 // and how far along the wall it is [m^2].
-    std::array<std::optional<Point>, 2> ends;  // That are heard.
+    Vec2 along;     // [m] From its beginning to its end.
+    double square;  // [m^2] Square of its length.
+    double side;  // [m^2] Cross product of `along` and the listener seen from `begin`: positive on the left.
+    double at;    // [m^2] Dot product of the same two.
+    std::array<std::optional<Point>, 2> ends;  // The ends that are heard.
   };
 
   Ear(const Caster& caster, const Cone& own, const Caster::View& view)
@@ -48,18 +48,18 @@ class SonarAir::Ear {
     return {edge.a,           along,          dot(along, along),
             cross(along, to), dot(along, to), {scattering(edge.a), scattering(edge.b)}};
   }
-  // Asked once: it takes a cast.
+  // Returns true if the listener sees the point. The answer is kept, because it takes a cast.
   bool sees(Point& point) const {
     if (point.sight == Point::Sight::unknown)
       point.sight =
           sees(view_, cone.beam, point.at, point.length) ? Point::Sight::free : Point::Sight::blocked;
     return point.sight == Point::Sight::free;
   }
-  // The same of another's beam.
+  // Returns true if the transducer of another beam sees the point.
   [[nodiscard]] bool is_seen(const Beam& beam, Vec2 point, double length) const {
     return sees(caster_, beam, point, length);
   }
-  // True if nothing but the robot that carries the other transducer is on the way there.
+  // Returns true if nothing but the robot that carries the other transducer is on the way there.
   [[nodiscard]] bool sees_transducer(Vec2 way, double length) const {
     return view_.cast(cone.beam.ray((1.0 / length) * way)).range >=
            std::fmin(length - kInBody, cone.beam.max_range);
@@ -89,14 +89,14 @@ class SonarAir::Ear {
 // Follows the ways from one transducer to another and keeps the shortest that arrives in the window.
 class SonarAir::Ways {
  public:
-  // @param nearest  what is heard already; it is changed.
+  // @param nearest  range [m] of what is heard already; shorter ways replace it.
   Ways(const Ear& ear, const Cone& from, std::optional<double>& nearest)
       : ear_(ear),
         from_(from),
         head_start_(kSoundSpeed * (ear.cone.sector.sent - from.sector.sent)),
         nearest_(nearest) {}
 
-  // False if even the straight way is longer than what is heard already.
+  // Returns false if even the straight way is longer than what is heard already.
   [[nodiscard]] bool may_be_heard() const {
     if (!nearest_) return true;
     const Vec2 way = sender() - listener();
@@ -112,14 +112,14 @@ class SonarAir::Ways {
     if (ear_.sees_transducer(way, length)) keep(length);
   }
 
-  // Off its flat side and its ends.
+  // Tries the ways off a wall's flat side and off its ends.
   void off_wall(Ear::Wall& wall) {
     off_mirror(wall);
     for (auto& end : wall.ends)
       if (end) off_point(*end);
   }
 
-  // Near enough where the two directions to its centre meet halfway.
+  // Tries the way off a circle. The point halfway between the directions to both transducers is near enough.
   void off_circle(const Circle& circle) {
     const Vec2 one = sender() - circle.center;
     const Vec2 other = listener() - circle.center;
@@ -128,8 +128,8 @@ class SonarAir::Ways {
   }
 
  private:
-  // Sound comes off a wall where it makes equal angles with it: there the distances of the two from the wall
-  // divide what lies between them along it.
+  // Tries the way that a wall mirrors. Both parts of it make equal angles with the wall, so the reflection
+  // point divides the distance along the wall in the ratio of the two distances from the wall.
   void off_mirror(const Ear::Wall& wall) {
     const Vec2 to = sender() - wall.begin;
     const double side = cross(wall.along, to);
@@ -147,7 +147,7 @@ class SonarAir::Ways {
     if (ear_.sees(point) && ear_.is_seen(from_.beam, point.at, length)) keep(length + point.length);
   }
 
-  // A point of a surface that turns there from the one to the other.
+  // Tries the way off a point at which a surface turns the sound towards the listener.
   void off_spot(Vec2 spot) {
     const Vec2 to = spot - listener();
     if (!ear_.cone.holds(to) || !from_.holds(spot - sender())) return;
@@ -166,7 +166,7 @@ class SonarAir::Ways {
 
   const Ear& ear_;
   const Cone& from_;
-  double head_start_;  // [m] How far the sound had gone already when the listener sent its own.
+  double head_start_;  // [m] Distance that the sound had gone when the listener sent its own.
   std::optional<double>& nearest_;
 };
 
@@ -196,7 +196,7 @@ void SonarAir::settle(TimePoint now) {
     if (cone.sector.silent >= heard_from) sectors_.add(cone.sector, cone.number);
 }
 
-// Elements come and go with the bodies that have them.
+// Discards elements that no chirp in the air meets, once there are many. Elements come and go with bodies.
 void SonarAir::forget_elements() {
   if (met_.size() < forget_at_) return;
   const std::uint64_t oldest = cones_.empty() ? sent_ : cones_.front().number;
@@ -210,7 +210,7 @@ bool SonarAir::is_in(const Window& window, const Cone& cone) const {
          cone.sector.silent >= window.silent_from;
 }
 
-// Calls visit(cone) for all that meet the element and can be heard.
+// Calls visit(cone) for all cones that meet the element and can be heard.
 template <class Visit>
 void SonarAir::for_all_off(std::uint64_t element, const Window& window, const Visit& visit) const {
   const auto found = met_.find(element);
@@ -228,7 +228,7 @@ std::optional<double> SonarAir::first_heard(const Caster& caster, std::uint64_t 
   const Ear ear(caster, cone(own), echo.view);
   const double now = ear.cone.sector.sent;
   std::optional<double> nearest = echo.range;
-  // A way is no longer than both cones.
+  // A way between two transducers is no longer than their two cones together.
   const Window window{own, now, now - (ear.cone.reach - 2.0 * ear.cone.beam.min_range) / kSoundSpeed};
   for (const std::uint64_t number : sectors_.facing(ear.cone.sector, window.silent_from, now, search))
     if (is_in(window, cone(number))) Ways(ear, cone(number), nearest).straight();

@@ -12,12 +12,12 @@
 
 namespace orca::sim::detail {
 
-// How far a transducer's cone opens, with what is asked of that again and again.
+// The opening of a transducer's cone, with the values that are often derived from it.
 struct Lobe {
   explicit Lobe(double half) : half_angle(half), rim(direction(half)), tangent(std::tan(half)) {}
   double half_angle;  // [rad] At most a right angle.
-  Vec2 rim;           // On the left, of length 1, if the axis is x;
-  double tangent;     // and its slope.
+  Vec2 rim;           // Direction of the left rim, of length 1, if the axis is x.
+  double tangent;     // Slope of that rim.
 };
 
 // The cone of one transducer at the moment it fires.
@@ -31,12 +31,12 @@ struct Beam {
         height(above_floor),
         own_body(body) {}
 
-  Pose2 sensor;  // In the world.
-  Vec2 axis;     // Of length 1.
+  Pose2 sensor;  // Pose in the world.
+  Vec2 axis;     // Direction in the world, of length 1.
   Lobe lobe;
-  double min_range;  // [m] It is deaf to what comes back sooner.
+  double min_range;  // [m] Echoes from nearer are not heard.
   double max_range;  // [m]
-  double height;     // [m]
+  double height;     // [m] Above the floor.
   std::size_t own_body;
 
   [[nodiscard]] Vec2 left() const { return rotated(axis, lobe.rim); }
@@ -44,7 +44,7 @@ struct Beam {
   [[nodiscard]] bool holds(Vec2 towards) const {
     return std::fabs(cross(axis, towards)) <= dot(axis, towards) * lobe.tangent;
   }
-  // [rad] To the left.
+  // Returns the angle [rad] from the axis to a direction, positive to the left.
   [[nodiscard]] double off_axis(Vec2 towards) const {
     return std::atan2(cross(axis, towards), dot(axis, towards));
   }
@@ -53,21 +53,23 @@ struct Beam {
   }
 };
 
-// How much weaker than on the axis sound is, as the logarithm of the ratio [Np]: losses add up.
-// What is lost in a direction off the axis, on one way. There and back that is a Gaussian over the angle
-// whose deviation is half the half lobe: exp(-2) = 0.135 at the rim.
+// Losses say how much weaker sound is than on the axis, as the logarithm of the ratio [Np], so that they add
+// up.
+//
+// Returns the one-way loss in a direction off the axis; both angles in [rad]. There and back the amplitude is
+// a Gaussian over the angle. Its standard deviation is half of `half_lobe`: exp(-2) = 0.135 at the rim.
 inline double lobe_loss(double off_axis, double half_lobe) {
   const double share = off_axis / half_lobe;
   return share * share;
 }
-// A tenth is still heard: a smooth wall at the rim of the lobe just so.
+// [Np] A tenth of the sound is still heard: barely that of a smooth wall at the rim of the lobe.
 inline const double kMostLoss = std::log(10.0);
-// An edge scatters three tenths of the sound only, so it is heard in the middle of the beam only.
+// [Np] An edge scatters only three tenths of the sound, so it is heard only in the middle of the beam.
 inline const double kEdgeLoss = -std::log(0.3);
 // [m] A point of a surface is seen if the ray to it ends this close to it.
 constexpr double kSeen = 1e-6;
 
-// What there is to hear of a transducer's own sound.
+// The echoes of a transducer's own sound, with the surfaces that the beam meets.
 struct Echo {
   // A surface that the beam meets, with its number.
   struct Met {
@@ -82,16 +84,16 @@ struct Echo {
     double off_axis;  // [rad]
   };
 
-  std::optional<double> range;     // [m] From where the first comes back that is strong enough.
-  std::vector<Met> met;            // All that the beam meets.
-  std::vector<Mirrored> mirrored;  // Of the rays that tell what it meets.
-  double reach = 0.0;              // [m] It meets nothing farther.
-  Caster::View view;               // Of the cone, until something moves.
+  std::optional<double> range;     // [m] Distance of the first echo that is strong enough.
+  std::vector<Met> met;            // All surfaces that the beam meets.
+  std::vector<Mirrored> mirrored;  // Those rays of the beam that are mirrored away.
+  double reach = 0.0;              // [m] The beam meets nothing farther.
+  Caster::View view;               // View of the cone, valid until something moves.
 };
 
-// Makes `echo` the first one, without noise; what it was before is used for its memory only. Surfaces met at
-// an angle of more than this tangent mirror the sound away; if nothing else is heard, what it meets behind
-// such a mirror counts, as far as the sound has gone.
+// Computes the beam's echo without noise; only the memory of the former `echo` is used again. A surface
+// mirrors the sound away if the tangent of its incidence is above `critical_tangent`. If nothing else is
+// heard, what the mirrored sound meets counts, at the whole distance that the sound has gone.
 void listen_for(const Caster& caster, const Beam& beam, double critical_tangent, Echo& echo);
 
 }  // namespace orca::sim::detail

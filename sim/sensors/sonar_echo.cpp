@@ -7,10 +7,10 @@ namespace orca::sim::detail {
 namespace {
 
 constexpr int kRays = 9;
-// [m] Where a mirrored ray starts off the wall that mirrors it.
+// [m] Distance from a mirroring wall at which the mirrored ray starts.
 constexpr double kOff = 1e-6;
 
-// Where two edges cross, if they do.
+// Returns the point where two edges cross, if they do.
 std::optional<Vec2> crossing(const Segment& one, const Segment& other) {
   const Vec2 d = one.b - one.a;
   const Vec2 e = other.b - other.a;
@@ -44,7 +44,7 @@ class Listener {
     }
   }
 
-  // What is met behind a mirror, if it sends the sound back the way it came. Only flat walls mirror.
+  // Looks for surfaces behind a mirror that send the sound back the way it came. Only flat walls mirror.
   void probe_mirrors() {
     for (const Echo::Mirrored& m : echo_.mirrored) {
       const auto* wall = std::get_if<Segment>(&m.hit.surface);
@@ -74,7 +74,7 @@ class Listener {
     }
   }
 
-  // Where two walls meet in a corner neither needs to end: they run into each other.
+  // Looks for corners between walls. Neither wall needs to end there: they may run into each other.
   void probe_corners() {
     for (std::size_t i = 0; i < echo_.met.size(); ++i)
       for (std::size_t k = i + 1; k < echo_.met.size(); ++k) {
@@ -86,8 +86,8 @@ class Listener {
   }
 
  private:
-  // A ray of the fan: a surface met steeply enough answers; its nearest and end points are looked at
-  // afterwards.
+  // Casts one ray of the fan. A surface that it meets steeply enough answers; the surface's nearest point and
+  // ends are examined afterwards.
   void probe(double off_axis, Vec2 towards) {
     const Ray ray = beam_.ray(towards);
     const Hit hit = echo_.view.cast(ray);
@@ -102,7 +102,8 @@ class Listener {
       echo_.met.push_back({hit.surface, hit.element});
   }
 
-  // Where the surface faces the sensor, if that point is not an end: sound comes straight back from there.
+  // Examines the point where the surface faces the sensor, if it is not an end: sound comes straight back
+  // from it.
   void probe_foot(const Segment& edge, Vec2 from) {
     const Vec2 foot = nearest_point(edge, from);
     if (!(foot == edge.a) && !(foot == edge.b)) probe_point(foot, 0.0);

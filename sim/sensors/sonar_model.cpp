@@ -17,7 +17,7 @@ SonarModel::SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream r
   scan_.readings.resize(ring_.count);
 }
 
-// The last of a round fire exactly at its end.
+// Returns the time at which the next transducers fire. The last of a round fire exactly at its end.
 TimePoint SonarModel::next_due() const {
   const auto slots = static_cast<std::int64_t>((ring_.count + ring_.parallel - 1) / ring_.parallel);
   const auto slot = static_cast<std::int64_t>(fired_ / ring_.parallel) + 1;
@@ -67,7 +67,8 @@ void SonarModel::listen(const Caster& caster, const SonarAir& air) {
 }
 
 SonarReading SonarModel::measured(std::optional<double> echo) {
-  // Drawn for every reading, needed or not, so that one echo more does not shift all later noise.
+  // The numbers are drawn for every reading, needed or not, so that one more echo does not shift all later
+  // noise.
   const bool outlier = random_.chance(errors_.sonar_outliers);
   const double anywhere = random_.uniform(ring_.min_range, ring_.max_range);
   const double noise = random_.normal(0.0, errors_.sonar_noise);

@@ -16,8 +16,8 @@
 
 namespace orca::sim::detail {
 
-// A ring whose transducers fire one after the other, or some at once, evenly over its period. All rings of a
-// world have sent before any of them listens, so that each hears the others.
+// A sonar ring whose transducers fire evenly over its period, one after the other or some at once. All rings
+// of a world send before any of them listens, so that each hears the others.
 class SonarModel {
  public:
   SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start);
@@ -29,7 +29,7 @@ class SonarModel {
   // Turns the first sound that each transducer hears into its reading.
   void listen(const Caster& caster, const SonarAir& air);
 
-  // The round that was completed in the last listen(), if one was.
+  // Returns the round that was completed in the last listen(), if one was.
   [[nodiscard]] const std::optional<SonarScan>& completed() const { return completed_; }
 
  private:
@@ -37,9 +37,9 @@ class SonarModel {
     std::size_t transducer = 0;
     TimePoint time;
     std::optional<Beam> beam;
-    Pose2 X_RS;               // Of the transducer in the robot's frame.
-    Echo echo;                // Its own.
-    std::uint64_t chirp = 0;  // Once it is sent.
+    Pose2 X_RS;               // Pose of the transducer in the robot's frame.
+    Echo echo;                // The transducer's own echo.
+    std::uint64_t chirp = 0;  // Number of the chirp, valid once it is sent.
   };
 
   [[nodiscard]] TimePoint next_due() const;
@@ -48,15 +48,15 @@ class SonarModel {
   [[nodiscard]] SonarReading measured(std::optional<double> echo);
 
   SonarRing ring_;
-  std::vector<Pose2> transducers_;  // On what carries the ring.
+  std::vector<Pose2> transducers_;  // Poses in the frame of the ring's carrier.
   Lobe lobe_;
   ErrorLevels errors_;
   double critical_tangent_;
   RandomStream random_;
   TimePoint round_start_;
-  std::size_t fired_ = 0;     // In the present round.
-  std::size_t listened_ = 0;  // Likewise.
-  std::vector<Shot> shots_;   // Of this tick, and others, kept for their memory.
+  std::size_t fired_ = 0;     // Transducers that have fired in the present round.
+  std::size_t listened_ = 0;  // Transducers that have listened in the present round.
+  std::vector<Shot> shots_;   // The first shot_count_ are this tick's; the others keep their memory.
   std::size_t shot_count_ = 0;
   Sectors::Search search_;
   SonarScan scan_;

@@ -11,7 +11,7 @@
 namespace orca::sim::detail {
 namespace {
 
-// What single precision may lose of times, which are small.
+// Bound on the rounding error of times in single precision; times relative to the base are small.
 constexpr float kTimeMargin = 1e-5F;  // [s]
 constexpr double kRounding = 1e-6;    // [bins]
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -55,7 +55,7 @@ void Sectors::mark(const Bin& bin, const Question& asked, std::int32_t* marks) {
     const float x = TX[i] - one.x;
     const float y = TY[i] - one.y;
     const float m = M[i] + one.margin;
-    // Neither's tip lies beside the other. Without branches: nobody can foresee how they go.
+    // Neither tip lies outside the other's sector. There are no branches, because they cannot be predicted.
     marks[i] = (one.left_x * y - one.left_y * x <= m) & (one.right_x * y - one.right_y * x >= -m) &
                (LX[i] * y - LY[i] * x >= -m) & (RX[i] * y - RY[i] * x <= m) & (E[i] >= one.silent_from) &
                (S[i] <= one.sent_until);
@@ -74,7 +74,7 @@ std::span<const std::uint64_t> Sectors::facing(const Sector& one, double silent_
                        single(silent_from - base_) - kTimeMargin,
                        single(sent_until - base_) + kTimeMargin};
   search.found.clear();
-  // Who faces the other looks the other way, but for both their half angles.
+  // A sector that faces `one` has the opposite direction, to within the sum of both half angles.
   const double bin = wrapped(one.yaw + 0.5 * kTurn) / kTurn * kBins + kBins;
   const double aside = (one.half_angle + widest_) / kTurn * kBins + kRounding;
   const int first = static_cast<int>(std::floor(bin - aside));

@@ -11,7 +11,7 @@
 
 namespace orca::sim::detail {
 
-// A cone in the air as far as it matters whether it faces another.
+// The part of a cone in the air that decides whether it faces another cone.
 struct Sector {
   Sector(const Beam& beam, double sent_at, double silent_at)
       : tip(beam.sensor.position()),
@@ -23,42 +23,43 @@ struct Sector {
         silent(silent_at) {}
 
   Vec2 tip;
-  Vec2 left, right;   // Of length 1, along both rims.
-  double yaw;         // [rad] Of the axis, in (-pi, pi].
+  Vec2 left, right;   // Directions of both rims, of length 1.
+  double yaw;         // [rad] Direction of the axis in the world, in (-pi, pi].
   double half_angle;  // [rad] At most a right angle.
-  double sent;        // [s]
-  double silent;      // [s] Its sound has left it then.
+  double sent;        // [s] Time at which the sound was sent.
+  double silent;      // [s] Time at which the sound has left the cone.
 };
 
-// Many sectors, which are asked for by each listener: sorted by where they look, column by column and in
-// single precision, so that the compiler looks at four at once. It errs on the side of finding too many.
+// A set of sectors, sorted by direction, that each listener searches. Its columns are in single precision, so
+// that the compiler handles four sectors at once. Rounding may add sectors to a result, but never removes
+// one.
 class Sectors {
  public:
-  // From now on times are kept relative to `base` [s], from which they must not be farther than some seconds;
-  // nothing is held any more.
+  // Removes all sectors. Later times are stored relative to `base` [s] and must be within some seconds of it.
   void clear(double base);
   void add(const Sector& sector, std::uint64_t number);
 
-  // What a search needs; kept by who asks often, for its memory.
+  // The working memory of a search. Callers that search often keep it.
   struct Search {
     std::vector<std::int32_t> marks;
     std::vector<std::uint64_t> found;
   };
-  // The numbers, in no order, of all sectors that hold the tip of `one` and whose tip it holds, that were
-  // sent by `sent_until` and are not silent before `silent_from` [s]. Valid until the next search.
+  // Returns the numbers, in no order, of all sectors that contain the tip of `one` and whose tip `one`
+  // contains. They were sent by `sent_until` [s] and are not silent before `silent_from` [s]. The result is
+  // valid until the next search with the same `search`.
   std::span<const std::uint64_t> facing(const Sector& one, double silent_from, double sent_until,
                                         Search& search) const;
 
  private:
   enum Column { tip_x, tip_y, left_x, left_y, right_x, right_y, margin, sent, silent, kColumns };
-  // Those that look about one way.
+  // The sectors with about the same direction.
   struct Bin {
     std::array<std::vector<float>, kColumns> columns;
     std::vector<std::uint64_t> numbers;
   };
   static constexpr int kBins = 16;
 
-  // What is asked for, as the columns have it.
+  // The search request in the precision of the columns.
   struct Question {
     float x, y, left_x, left_y, right_x, right_y, margin, silent_from, sent_until;
   };
@@ -66,7 +67,7 @@ class Sectors {
   static void mark(const Bin& bin, const Question& asked, std::int32_t* marks);
 
   double base_ = 0.0;
-  double widest_ = 0.0;  // [rad] Half angle.
+  double widest_ = 0.0;  // [rad] Largest half angle of any sector.
   std::array<Bin, kBins> bins_;
 };
 

@@ -16,27 +16,27 @@
 
 namespace orca::sim::detail {
 
-// What moves but is no robot: walkers, and obstacles put in, moved and taken out while the world runs. Their
-// numbers are those of Physics and are never used again.
+// The moving things that are not robots: walkers, and obstacles that are added, moved and removed while the
+// world runs. Their numbers are those of Physics and are never used again.
 class Movers {
  public:
   Movers(const WorldModel& world, std::uint64_t run_seed, Caster& caster, Physics& physics);
 
-  // `shape` in a frame of its own that stands at `X_WO`. @return  its number.
+  // Adds an obstacle; `shape` is in its own frame, whose pose is `X_WO`. @return  its number.
   std::size_t add(const std::string& name, Shape shape, double height, const Pose2& X_WO);
   void move(std::size_t number, const Pose2& X_WO);
   void remove(std::size_t number);
 
-  // Lets the walkers go on for a tick, but for those that stop for one of the robots.
+  // Moves the walkers for a tick, except those that stop for one of the robots.
   void walk(Duration tick, const std::deque<Robot>& robots);
 
-  // True if there is an obstacle of that number; walkers are none.
+  // Returns true if there is an obstacle of that number; walkers are not obstacles.
   [[nodiscard]] bool is_obstacle(std::size_t number) const;
   [[nodiscard]] bool has_name(const std::string& name) const;
   [[nodiscard]] const std::string& name(std::size_t number) const { return movers_.at(number).name; }
-  // The shape of an obstacle if it stood at `X_WO`.
+  // Returns the body that an obstacle would have at `X_WO`.
   [[nodiscard]] Body body_at(std::size_t number, const Pose2& X_WO) const;
-  // The name of what overlaps `body` and is taller than `bottom` [m], or null.
+  // Returns the name of a mover that overlaps `body` and is taller than `bottom` [m], or null.
   [[nodiscard]] const std::string* at(const Shape& body, double bottom) const;
 
   void draw(Snapshot& snapshot) const;
@@ -53,7 +53,7 @@ class Movers {
     Shape shape;
     double height = 0.0;
     Pose2 pose{};
-    std::size_t body = 0;  // In the caster.
+    std::size_t body = 0;  // Its number in the caster.
     bool present = true;
     std::optional<Walk> walk{};
     [[nodiscard]] Shape placed() const { return sim::placed(shape, pose); }

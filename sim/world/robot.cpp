@@ -45,7 +45,7 @@ void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
   const Pose2 X_WR{X_WB.x, X_WB.y, steers() ? wrapped(X_WB.yaw + steer_) : X_WB.yaw};
   const Travel2 real = arc_between(pose, X_WR);
   velocity = real / seconds;
-  // Whatever stands in the way holds the body, not the wheels' steering.
+  // An obstacle holds the body, but not the steering of the wheels.
   const bool slides = model.drive.kind == DriveKind::holonomic;
   if (blocked)
     drive.held_to({.forward = velocity.forward,
@@ -79,7 +79,7 @@ void Robot::carry(const Pose2& X_WB, const Pose2& X_WR, TimePoint now) {
   body = X_WB;
 }
 
-// The base frame as the turret has turned it about its axis.
+// Returns the pose of the base frame, turned by the turret about its axis.
 Pose2 Robot::turret_pose(const Pose2& X_WB) const {
   const Vec2 axis = turret_->axis();
   const Vec2 back = rotated(-1.0 * axis, turret_->angle());

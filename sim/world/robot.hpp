@@ -20,8 +20,7 @@
 
 namespace orca::sim::detail {
 
-// One robot of a running world: its model and everything about it that changes, but for what Physics and the
-// Caster keep.
+// A robot of a running world: its model and its changing state, except what Physics and the Caster keep.
 class Robot {
  public:
   struct Birth {
@@ -33,15 +32,16 @@ class Robot {
   };
   Robot(Birth birth, RobotModel model, const ErrorLevels& errors);
 
-  // Sets off for a tick. @return  how the robot's frame moves if nothing is in its way.
+  // Starts the motion of a tick. @return  the motion of the robot's frame if nothing is in its way.
   Travel2 set_off();
-  // How fast the body turns meanwhile [rad/s].
+  // Returns the turn rate of the body in that tick [rad/s].
   [[nodiscard]] double body_turn_rate() const { return steers() ? 0.0 : driving_.turn_rate; }
-  // The body has moved to `X_WB` in the tick that ended at `now`; `blocked`: something was in its way.
+  // Reports that the body has moved to `X_WB` in the tick that ended at `now`. `blocked` is true if something
+  // was in its way.
   void moved(const Pose2& X_WB, TimePoint now, bool blocked);
   // Lets the sonars fire. @pre  moved() was called for all robots.
   void fire(const Caster& caster, std::size_t own_body);
-  // What they have sent is in the air from now on.
+  // Puts the chirps that the sonars have fired into the air.
   void send(SonarAir& air);
   // Lets the sensors measure, in the world as it is now. @pre  send() was called for all robots.
   void sense(const Caster& caster, const SonarAir& air, std::size_t own_body);
@@ -56,9 +56,9 @@ class Robot {
   const std::string name;
   const RobotModel model;
   DriveModel drive;
-  Twist2 velocity;  // True, in the last tick, in the robot's frame.
-  Pose2 pose;       // Of the robot's frame: x is forward.
-  Pose2 body;       // The same but on a synchro base, which does not turn with its wheels.
+  Twist2 velocity;  // True velocity in the last tick, in the robot's frame.
+  Pose2 pose;       // Pose of the robot's frame: x is forward.
+  Pose2 body;       // Equals `pose` except on a synchro base, whose body does not turn with its wheels.
   std::vector<SonarModel> sonars;
   std::vector<LaserModel> lasers;
   std::vector<InfraredModel> infrareds;
@@ -74,11 +74,11 @@ class Robot {
   void sample(TimePoint now);
 
   Duration tick_;
-  Twist2 driving_;      // Of the drive, in the present tick.
-  double steer_ = 0.0;  // [rad] Of the wheels on the body.
+  Twist2 driving_;      // Velocity of the drive in the present tick.
+  double steer_ = 0.0;  // [rad] Angle of the wheels relative to the body.
   std::optional<TurretModel> turret_;
   OdometryModel odometry_model_;
-  TickSpan on_body_;  // The last tick.
+  TickSpan on_body_;  // The last tick, for sensors on the body.
   TickSpan on_turret_;
   TimePoint odometry_due_;
   std::vector<RobotSnapshot::Sample> trajectory_;

@@ -23,7 +23,7 @@ bool is_near(const Pose2& pose) {
   return std::fabs(pose.x) <= kFarthest && std::fabs(pose.y) <= kFarthest && std::isfinite(pose.yaw);
 }
 
-// True if it lies within the world that can be simulated.
+// Returns true if the shape lies within the largest world that can be simulated.
 bool is_near(const Shape& shape) {
   const auto near = [](Vec2 p) { return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest; };
   if (const auto* circle = std::get_if<Circle>(&shape))
@@ -31,7 +31,7 @@ bool is_near(const Shape& shape) {
   return std::ranges::all_of(edges_of(shape), [&](const Segment& s) { return near(s.a) && near(s.b); });
 }
 
-// True for a plan that something solid can have.
+// Returns true if the shape has an area, as the plan of a solid must have.
 bool has_area(const Shape& shape) {
   if (const auto* circle = std::get_if<Circle>(&shape)) return circle->radius > 0.0;
   if (const auto* box = std::get_if<Box>(&shape)) return box->half.x > 0.0 && box->half.y > 0.0;
@@ -66,8 +66,8 @@ struct World::Impl {
   detail::Physics physics;
   detail::ContactLog contact_log;
   detail::Movers movers;
-  std::deque<detail::Robot> robots;  // Robots do not move in memory. Same numbers as in physics.
-  std::vector<std::size_t> bodies;   // Of the robots, in the caster.
+  std::deque<detail::Robot> robots;  // Robots do not move in memory. Their numbers are those in physics.
+  std::vector<std::size_t> bodies;   // The robots' numbers in the caster.
   detail::SonarAir air;
   Team team;  // Each robot senses for itself.
   std::vector<ContactEvent> contacts;
@@ -117,7 +117,7 @@ Status World::Impl::check_room(const std::string& name, const Body& body, const 
   return ok();
 }
 
-// Bullet moves a body straight for a tick; the chord of the arc makes that exact.
+// Bullet moves a body straight for a tick; driving along the chord of the arc makes the result exact.
 void World::Impl::drive() {
   const double seconds = to_seconds(kTick);
   for (std::size_t i = 0; i < robots.size(); ++i) {

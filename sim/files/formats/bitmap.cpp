@@ -28,7 +28,7 @@ class Plan {
   const GreyImage& image_;
 };
 
-// What a boundary between two neighbouring cells is: none, or solid on the one or the other side.
+// The boundary between two neighbouring cells: none, or solid on the one or the other side.
 enum class Border { none, solid_after, solid_before };
 
 Border border(bool before, bool after) {

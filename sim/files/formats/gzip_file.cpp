@@ -18,7 +18,7 @@ struct Close {
 };
 using File = std::unique_ptr<gzFile_s, Close>;
 
-// Why reading ended early, or nothing.
+// Returns the reason why reading ended early, or nothing.
 std::string fault_of(gzFile file) {
   int code = Z_OK;
   const char* const text = gzerror(file, &code);

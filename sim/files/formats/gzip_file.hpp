@@ -7,7 +7,7 @@
 
 namespace orca::sim::detail {
 
-// The whole text of a file, unpacked if gzip has packed it.
+// Returns the whole text of a file, unpacked if gzip has packed it.
 // @errors  not_found: it cannot be opened; data_loss: it is empty, damaged or cut short; invalid_argument: it
 //          holds more than 64 MB.
 [[nodiscard]] Result<std::string> read_maybe_packed(const std::string& path);

@@ -10,11 +10,11 @@ namespace orca::sim::detail {
 
 inline constexpr std::size_t kMaxPixels = 100'000'000;
 
-/// Both take the whole file as bytes; `path` only serves the error texts.
+/// Decode an image from the bytes of the whole file; `path` only appears in errors.
 [[nodiscard]] Result<GreyImage> decode_png(std::string_view bytes, const std::string& path);
 [[nodiscard]] Result<GreyImage> decode_pgm(std::string_view bytes, const std::string& path);
 
-/// Size checks common to the formats.
+/// Checks the size of an image, in pixels, for all formats.
 [[nodiscard]] Status check_size(std::size_t width, std::size_t height, const std::string& path);
 
 }  // namespace orca::sim::detail

@@ -43,7 +43,7 @@ Error damaged(const std::string& what, const std::string& path) {
   return fail(Code::data_loss, "damaged PGM picture: " + what, path);
 }
 
-// The n-th binary pixel; two bytes, high one first, if the largest value needs them.
+// Returns the n-th binary pixel; two bytes, high one first, if the largest value needs them.
 std::size_t binary_pixel(std::string_view pixels, std::size_t n, bool wide) {
   const auto byte = [&](std::size_t i) {
     return static_cast<std::size_t>(static_cast<unsigned char>(pixels[i]));
@@ -86,7 +86,7 @@ Result<GreyImage> decode_pgm(std::string_view bytes, const std::string& path) {
   if (const Status size = check_size(*width, *height, path); !size) return size.error();
   if (*largest == 0 || *largest > 65535)
     return damaged("largest value " + std::to_string(*largest) + ", expected 1 to 65535", path);
-  // A short file must not make us reserve a huge picture.
+  // Checked before the allocation, so that a short file cannot reserve memory for a huge picture.
   if (bytes.size() < *width * *height) return damaged("fewer pixels than the header announces", path);
   GreyImage image{*width, *height, {}};
   image.grey.resize(*width * *height);

@@ -11,13 +11,14 @@ namespace orca::sim::detail {
 
 inline constexpr std::size_t kMaxFaces = 1'000'000;
 
-// The bytes of a file in each of the formats; `path` appears in errors only.
+// Decode a mesh from the bytes of a whole file; `path` only appears in errors.
 [[nodiscard]] Result<Mesh> decode_stl(std::string_view bytes, const std::string& path);
 [[nodiscard]] Result<Mesh> decode_obj(std::string_view bytes, const std::string& path);
 
 // Adds a triangle, unless it has no area.
 void add_triangle(Mesh& mesh, const Triangle& triangle);
-// @errors  invalid_argument: no face at all, or a corner that is not finite or beyond 100 km.
+// Checks a whole mesh. @errors  invalid_argument: no face at all, or a corner that is not finite or beyond
+// 100 km.
 [[nodiscard]] Status check_mesh(const Mesh& mesh, const std::string& path);
 [[nodiscard]] Error too_many_faces(const std::string& path);
 
@@ -25,9 +26,9 @@ void add_triangle(Mesh& mesh, const Triangle& triangle);
 class Words {
  public:
   explicit Words(std::string_view text) : text_(text) {}
-  // The next word; empty at the end.
+  // Returns the next word; empty at the end.
   std::string_view next();
-  // The next word of the same line; empty at its end.
+  // Returns the next word of the same line; empty at its end.
   std::string_view next_of_line();
   void skip_line();
   [[nodiscard]] bool at_end();
@@ -39,7 +40,7 @@ class Words {
   int line_ = 1;
 };
 
-// A whole word as a number; nothing if it is something else.
+// Returns a whole word as a number; nothing if it is not a number.
 [[nodiscard]] std::optional<double> number_of(std::string_view word);
 [[nodiscard]] Error wrong_at(int line, const std::string& what, std::string_view found,
                              const std::string& path);

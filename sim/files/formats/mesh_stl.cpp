@@ -114,7 +114,7 @@ class Text {
 
 }  // namespace
 
-// Some binary files begin with "solid", too: what fits exactly is binary.
+// Some binary files also begin with "solid", so a file whose size fits exactly is taken as binary.
 Result<Mesh> decode_stl(std::string_view bytes, const std::string& path) {
   const bool has_header = bytes.size() >= kHeader;
   const bool fits = has_header && bytes.size() == kHeader + std::size_t{word_at(bytes, 80)} * kRecord;

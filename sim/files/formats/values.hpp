@@ -11,7 +11,7 @@
 
 namespace orca::sim::detail {
 
-// [m] Far enough for any robot, near enough for coordinates exact to a nanometre's fraction.
+// [m] Far enough for any robot, and near enough for coordinates that are exact to a fraction of a nanometre.
 inline constexpr double kFarthest = 1e5;
 
 using xml::ValueRule;
@@ -46,15 +46,15 @@ constexpr xml::AttributeRule optional(std::string_view name, const ValueRule& va
   return {.name = name, .value = value};
 }
 
-// Takes over a value if there is one; if not, the error is reported already.
+// Assigns a value if there is one. If there is none, the error is reported already.
 template <class To, class From>
 void set(To& to, const std::optional<From>& from) {
   if (from) to = static_cast<To>(*from);
 }
 
-// A point [m]: "x y", or with units "1.5 m, 250 mm".
+// Reads a point [m]: "x y", or with units "1.5 m, 250 mm".
 [[nodiscard]] std::optional<Vec2> read_point(const xml::Attributes& element, std::string_view name);
-// Points with ';' between them.
+// Reads points [m] with ';' between them.
 [[nodiscard]] std::optional<std::vector<Vec2>> read_points(const xml::Attributes& element,
                                                            std::string_view name);
 

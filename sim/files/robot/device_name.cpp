@@ -11,7 +11,7 @@ bool holds(const std::vector<Device>& devices, const std::string& name) {
   return std::ranges::find(devices, name, &Device::name) != devices.end();
 }
 
-// What kind of device has this name; null: none.
+// Returns the kind of the device that has this name; null if none has it.
 const char* owner_of(const std::string& name, const RobotModel& model) {
   if (name == "odometry") return "device";  // Its errors are drawn by that name.
   if (holds(model.sonars, name)) return "sonar ring";

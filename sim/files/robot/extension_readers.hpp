@@ -18,7 +18,8 @@ void read_infrared_ring(const xml::Attributes& e, RobotModel& model);
 void read_bumper_ring(const xml::Attributes& e, RobotModel& model);
 void read_odometry(const xml::Attributes& e, RobotModel& model);
 
-// Reports a name that another device of the robot has, because noise is keyed by it. True if it is free.
+// Reports a name that another device of the robot has, because noise is keyed by it. Returns true if it is
+// free.
 [[nodiscard]] bool name_is_free(const xml::Attributes& e, const std::string& name, const RobotModel& model);
 
 // Reports a period that is shorter than the simulation's tick, or longer than an hour.

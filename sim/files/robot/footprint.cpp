@@ -11,7 +11,7 @@ namespace {
 constexpr double kOnAxis = 1e-9;
 constexpr int kCorners = 24;
 
-// The columns of the rotation, that is: the part's axes in the base frame.
+// Returns the columns of the rotation, which are the part's axes in the base frame.
 std::array<Vec3, 3> axes_of(const Pose3& q) {
   const double x = q.qx, y = q.qy, z = q.qz, w = q.qw;
   return {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
@@ -25,7 +25,7 @@ Vec3 in_base(const Pose3& X, const std::array<Vec3, 3>& axes, Vec3 p) {
           X.z + axes[0].z * p.x + axes[1].z * p.y + axes[2].z * p.z};
 }
 
-// Corners of a regular polygon drawn around, not inside, the circle.
+// Returns corner `i` of a regular polygon around, not inside, the circle.
 Vec2 around_circle(double radius, int i) {
   const double outer = radius / std::cos(std::numbers::pi / kCorners);
   return outer * direction(2.0 * std::numbers::pi * i / kCorners);

@@ -6,8 +6,8 @@
 
 namespace orca::sim::detail {
 
-// The radius of a part that looks round from above and is centred on the upright axis through `center`;
-// negative if it is not.
+// Returns the radius [m] of a part that looks round from above and is centred on the upright axis through
+// `center`. Returns a negative number for any other part.
 [[nodiscard]] double round_radius(const Part& part, Vec2 center);
 
 }  // namespace orca::sim::detail

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kUpright = 1.0 - 1e-9;
 
-// Reports an attribute that names something which `map` does not hold. True if it holds it.
+// Returns true if `map` contains the thing that an attribute names. Reports the attribute if not.
 template <class Map>
 bool names_one_of(const Map& map, const xml::Attributes& e, const char* attribute) {
   const xml::Attribute* a = e.readable(attribute);

@@ -99,7 +99,7 @@ std::optional<RobotModel> read_robot(const std::string& path, xml::Diagnostics& 
   const std::size_t before = diagnostics.error_count();
   const auto document = xml::read_file(path, diagnostics);
   if (!document || diagnostics.error_count() != before) return std::nullopt;
-  // urdfdom reads for itself and wants the text.
+  // urdfdom has its own parser and needs the text.
   std::ifstream file(path, std::ios::binary);
   return read_root(document->root, {std::istreambuf_iterator<char>(file), {}}, diagnostics);
 }

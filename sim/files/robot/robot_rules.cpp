@@ -99,7 +99,7 @@ constexpr xml::ValueRule kJointType = one_of(kJointTypes);
 
 namespace {
 
-// Only says where <orca> belongs: what else a <robot> may hold is URDF's matter.
+// Declares only the place of <orca>; the other content of <robot> is defined by URDF.
 constexpr std::array kInRobot{&kOrcaRule};
 constexpr ElementRule kRobotRule{.name = "robot", .children = kInRobot};
 

@@ -23,7 +23,7 @@ void read_order(const xml::Attributes& e, SonarRing& ring) {
   std::ranges::transform(*given, ring.order.begin(), [](double k) { return static_cast<std::size_t>(k); });
 }
 
-// Evenly on a circle, or as listed.
+// Reads the directions of the transducers: evenly on a circle, or as listed.
 void read_directions(const xml::Attributes& e, SonarRing& ring) {
   if (!e.has("angles")) {
     set(ring.first_angle, e.number_or("first_angle", 0.0));

@@ -41,7 +41,8 @@ Part part_of(const urdf::Collision& collision, const btTransform& X_BL, const Me
   return part;
 }
 
-// The moment about the base's z axis: turned into the base's axes, moved there by the parallel-axis theorem.
+// Adds a link's mass and its inertia about the base's z axis. The inertia is rotated into the base's axes and
+// moved there by the parallel-axis theorem.
 void add_inertial(const urdf::Inertial& inertial, const btTransform& X_BL, UrdfBody& body) {
   const btTransform X_BC = X_BL * transform_of(inertial.origin);
   const btMatrix3x3 about_center(inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy,

@@ -10,17 +10,17 @@
 
 namespace orca::sim::detail {
 
-// A joint and what moves with it.
+// A joint with the links and parts that move with it.
 struct UrdfJoint {
   Pose3 X_BJ;
   double upright = 0.0;            // z component of its unit axis.
-  bool continuous = false;         // It turns without end.
-  std::vector<std::string> links;  // All below it.
-  std::size_t first_part = 0;      // Of the body's parts, the ones below it: up to, not with, end_part.
+  bool continuous = false;         // True if it turns without end.
+  std::vector<std::string> links;  // All links below it.
+  std::size_t first_part = 0;      // First of the body's parts below it; end_part is one after the last.
   std::size_t end_part = 0;
 };
 
-// What of a URDF the simulation uses; everything in the frame of the root link.
+// The content of a URDF that the simulation uses, in the frame of the root link.
 struct UrdfBody {
   std::string name;
   double mass = 0.0;
@@ -30,8 +30,9 @@ struct UrdfBody {
   std::map<std::string, UrdfJoint> joints;
 };
 
-// @pre  check_urdf() found the text sound and gave `hulls`.
-// @errors  invalid_argument if urdfdom does not take the text, without saying where.
+// Reads a body from the text of a URDF.
+// @pre  check_urdf() found no error in the text and gave `hulls`.
+// @errors  invalid_argument if urdfdom rejects the text; it does not say where.
 [[nodiscard]] Result<UrdfBody> read_urdf_body(const std::string& text, const MeshHulls& hulls);
 
 }  // namespace orca::sim::detail

@@ -126,7 +126,7 @@ class UrdfChecker {
     }
   }
 
-  // Pictures of a robot are nobody's concern here: only meshes for collisions are read.
+  // Only meshes for collisions are read; visual meshes are not.
   void mesh(const xml::Attributes& a) const {
     const auto name = a.require("filename") ? a.text("filename") : std::nullopt;
     const auto scale = a.has("scale") ? numbers(a, "scale") : std::vector<double>{1.0, 1.0, 1.0};

@@ -15,9 +15,9 @@ namespace orca::sim::detail {
 // scaled.
 using MeshHulls = std::map<std::string, std::vector<Vec3>>;
 
-// Reports what is wrong with the links and joints of a <robot>, with line and column; urdfdom, which reads
-// the file afterwards, cannot tell where a mistake is. Reads the meshes of collision geometry, beside the
-// file, into `hulls`.
+// Reports the errors in the links and joints of a <robot>, with line and column; urdfdom, which reads the
+// file afterwards, does not report places. Reads the meshes of collision geometry, beside the file, into
+// `hulls`.
 void check_urdf(const xml::Element& robot, xml::Reporter& reporter, MeshHulls& hulls);
 
 }  // namespace orca::sim::detail

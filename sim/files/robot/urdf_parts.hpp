@@ -8,7 +8,7 @@
 
 namespace orca::sim::detail {
 
-// The first child of that name, or null.
+// Returns the first child of that name, or null.
 [[nodiscard]] const xml::Element* only_child(const xml::Element& element, std::string_view name);
 
 // Checks names, parents, roots, loops and mimics.

@@ -18,7 +18,7 @@ namespace codes = robot_codes;
 
 constexpr std::size_t kMaxLinks = 1000;
 
-// The links and joints of a file as a tree, which they are to be.
+// The links and joints of a file, checked to be a tree.
 class Tree {
  public:
   Tree(const xml::Element& robot, xml::Reporter& reporter) : robot_(robot), reporter_(reporter) {}
@@ -44,7 +44,7 @@ class Tree {
   using Named = std::map<std::string, const xml::Element*>;
   [[nodiscard]] xml::Attributes of(const xml::Element& e) const { return {e, kRobotFile, reporter_}; }
 
-  // A required attribute; a missing one is reported.
+  // Returns a required attribute. Reports a missing one.
   [[nodiscard]] std::optional<std::string> text(const xml::Element& e, const char* name) const {
     return of(e).require(name) ? of(e).text(name) : std::nullopt;
   }
@@ -54,13 +54,13 @@ class Tree {
     if (!name) return;
     const auto [first, is_new] = into.emplace(*name, &e);
     if (is_new) return;
-    complete_ = false;  // what a second joint of the name joins is not looked at
+    complete_ = false;  // The links of a second joint with the same name are ignored.
     of(e).error_at("name", codes::kDuplicate,
                    "there is a " + e.name() + " \"" + *name + "\" already, at " +
                        first->second->position().text() + "; choose another name");
   }
 
-  // The link that a joint's <parent> or <child> names, or empty after an error.
+  // Returns the link that a joint's <parent> or <child> names, or empty after an error.
   [[nodiscard]] std::string end_of(const xml::Element& joint, const std::string& which) const {
     const xml::Element* end = only_child(joint, which);
     if (end == nullptr) {
@@ -95,7 +95,8 @@ class Tree {
                                               "\"; a link has one parent");
   }
 
-  // With one parent at most per link, a link that leads up to no root stands in a loop or under one.
+  // Reports several roots and loops. Each link has at most one parent, so a link that leads up to no root is
+  // in a loop or below one.
   void check_roots() const {
     std::vector<std::string> roots;
     for (const auto& [name, link] : links_)
@@ -139,7 +140,7 @@ class Tree {
     of(*mimic).error(codes::kLoop, "joint \"" + name + "\" mimics itself in the end: " + text);
   }
 
-  // The joints that this one mimics, up to itself; empty if it does not come back to itself.
+  // Returns the joints that this one mimics, up to itself; empty if they do not lead back to it.
   [[nodiscard]] std::vector<std::string> mimic_circle(const std::string& name) const {
     std::vector<std::string> circle;
     std::string at = name;

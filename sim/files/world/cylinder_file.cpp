@@ -21,7 +21,7 @@ constexpr double kRadius = 0.075;       // [m]
 constexpr double kHeight = 2.5;         // [m]
 constexpr std::size_t kMost = 100'000;  // cylinders of one world
 
-// BARN's task: through the field from the free strip before it to the open behind it.
+// Returns the places of BARN's task: from the free strip before the field to the open space behind it.
 std::vector<Place> places() {
   const double ahead = 0.5 * std::numbers::pi;
   return {{"start", {-2.25, 3.0, ahead}}, {"goal", {-2.25, 13.0, ahead}}};

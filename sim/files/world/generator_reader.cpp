@@ -10,7 +10,7 @@
 namespace orca::sim::detail {
 namespace {
 
-// Takes values over into the parameters of a family and remembers whether all were good.
+// The values of a family's parameters, with a record of whether all were valid.
 class Values {
  public:
   explicit Values(const xml::Attributes& element) : element_(element) {}
@@ -95,7 +95,7 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-// Reports the attributes that other kinds have. True if there are none.
+// Reports the attributes that only other kinds have. Returns true if there are none.
 bool check_attributes(const xml::Attributes& element, const Kind& kind, xml::Reporter& reporter) {
   std::vector<std::string> names{"kind", "seed", "radius"};
   names.insert(names.end(), kind.attributes.begin(), kind.attributes.end());

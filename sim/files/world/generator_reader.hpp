@@ -9,14 +9,14 @@
 
 namespace orca::sim::detail {
 
-// What a <generate> asks for.
+// The world that a <generate> asks for.
 struct Order {
   Family family;
   std::uint64_t seed = 1;
   double radius = 0.3;  // [m]
 };
 
-// Reads a <generate>. Returns nothing if something in it is wrong, which is reported.
+// Reads a <generate>. Reports its errors and then returns nothing.
 [[nodiscard]] std::optional<Order> read_generate(const xml::Attributes& element, xml::Reporter& reporter);
 
 }  // namespace orca::sim::detail

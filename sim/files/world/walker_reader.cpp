@@ -15,7 +15,7 @@ constexpr double kSlowest = 0.01;    // [m/s]
 constexpr double kFastest = 20.0;
 constexpr Duration kLongest = std::chrono::hours{1000};
 
-// Why nobody can walk along these corners; empty if one can.
+// Returns the reason why nobody can walk along these corners; empty if one can.
 std::string track_fault(const std::vector<Vec2>& track) {
   if (track.size() < 2) return "a track needs at least 2 corners, found " + std::to_string(track.size());
   if (track.size() > kMaxCorners)
@@ -42,7 +42,7 @@ void check_limits(const xml::Attributes& element, const Walker& walker) {
     element.error_at("start", world_codes::kBadWalker, "a walker's start is at most 1000 h");
 }
 
-// What a circle covers on its way along a leg, but for the half circles at the ends.
+// Returns the area that a circle covers along a leg, without the half circles at the ends.
 Box swept(Vec2 from, Vec2 to, double radius) {
   const Vec2 middle = 0.5 * (from + to);
   const Vec2 way = to - from;

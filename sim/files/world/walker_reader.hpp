@@ -6,10 +6,10 @@
 
 namespace orca::sim::detail {
 
-// Reads a <walker>, reporting what is wrong; then it has a track that no obstacle is on, or none.
+// Reads a <walker> and reports its errors. A faulty track is left empty.
 [[nodiscard]] Walker read_walker(const xml::Attributes& element);
 
-// The first obstacle that a walker would run into on its track, or null.
+// Returns the first obstacle that a walker would run into on its track, or null.
 [[nodiscard]] const Obstacle* obstacle_on_track(const Walker& walker, const WorldModel& world);
 
 }  // namespace orca::sim::detail

@@ -22,7 +22,8 @@ Format format_of(std::string_view file) {
   return file.ends_with(".csv") || file.ends_with(".csv.gz") ? Format::cylinders : Format::xml;
 }
 
-// "FILE#N" taken apart. The name of a file may hold a # itself, unless what stands before it is one of ours.
+// The parts of "FILE#N". The name of a file may contain a # itself, unless the part before it is one of our
+// files.
 struct Reference {
   std::string file;
   std::optional<std::uint64_t> number;

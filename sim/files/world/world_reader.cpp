@@ -25,7 +25,7 @@ constexpr double kWallThickness = 0.1;
 constexpr double kWallHeight = 2.5;
 constexpr std::size_t kMaxCorners = 1000;
 
-// Why these corners do not bound an area; empty if they do.
+// Returns the reason why these corners do not bound an area; empty if they do.
 std::string polygon_fault(const std::vector<Vec2>& corners) {
   if (corners.size() < 3)
     return "a polygon needs at least 3 corners, found " + std::to_string(corners.size());
@@ -178,7 +178,7 @@ void WorldReader::wall(const Attributes& element) {
   add_wall(element, std::move(plan));
 }
 
-// Doors of a side count from its western or southern end.
+// Reads a room. The places of doors count from the western or southern end of their side.
 void WorldReader::room(const Attributes& element) {
   std::map<std::string, std::vector<Opening>> openings;
   for (const auto& [child, rule] : element.children()) {

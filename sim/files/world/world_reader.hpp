@@ -15,10 +15,10 @@
 
 namespace orca::sim::detail {
 
-// Turns the elements of a <world> into a WorldModel, reporting all errors on the way.
+// The reader of a <world>: turns its elements into a WorldModel and reports all errors.
 class WorldReader {
  public:
-  // @param seed  of all that is generated, instead of the file's own.
+  // @param seed  seed of all generated things, instead of the file's own.
   WorldReader(const std::string& file_name, std::optional<std::uint64_t> seed, xml::Diagnostics& diagnostics)
       : file_name_(file_name), seed_(seed), reporter_(diagnostics) {}
 

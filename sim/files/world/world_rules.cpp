@@ -12,7 +12,7 @@ namespace {
 using xml::ElementRule;
 
 constexpr ValueRule kSeed = whole(0.0, ValueRule::kUnlimited);
-constexpr ValueRule kCount = whole(0.0, 1e6);  // More than any generator allows, and says so itself.
+constexpr ValueRule kCount = whole(0.0, 1e6);  // Generators allow fewer, and report that themselves.
 constexpr std::array<std::string_view, 4> kSides{"south", "north", "west", "east"};
 constexpr std::array<std::string_view, 2> kLoops{"back", "round"};
 constexpr std::array<std::string_view, 5> kKinds{"barn", "u_trap", "narrow_doors", "corridor", "office"};
@@ -40,7 +40,7 @@ constexpr std::array kMesh{optional("name", kName),        required("file", kTex
                            optional("scale", positive(""))};
 constexpr std::array kPlace{required("name", kName), required("x", kCoordinate), required("y", kCoordinate),
                             optional("yaw", kAngle)};
-// Of all kinds; generator_reader.cpp says which kind has which.
+// The attributes of all kinds; generator_reader.cpp defines which kind has which.
 constexpr std::array kGenerate{
     required("kind", one_of(kKinds)), optional("seed", kSeed),      optional("radius", kLength),
     optional("fill", kText),          optional("rounds", kCount),   optional("width", kLength),

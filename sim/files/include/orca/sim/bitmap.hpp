@@ -19,28 +19,30 @@ struct GreyImage {
   std::vector<std::uint8_t> grey;
 };
 
-/// How large an occupancy bitmap is. Exactly one of the two is to be set.
+/// The scale of an occupancy bitmap. Exactly one of the two must be set.
 struct BitmapScale {
   std::optional<double> map_width;   ///< [m] Width of the whole picture, > 0.
   std::optional<double> resolution;  ///< [m] Side of one pixel, > 0.
 };
 
-/// Reads a PNG or PGM (P2, P5) file, told apart by its first bytes. Transparent pixels count as white.
+/// Reads a PNG or PGM (P2, P5) file, distinguished by its first bytes. Transparent pixels count as white.
 ///
 /// @errors  not_found if the file cannot be opened; data_loss if it is damaged; invalid_argument if it is
 ///          neither format or larger than 100 million pixels.
 [[nodiscard]] Result<GreyImage> read_image(const std::string& path);
 
-/// The boundary of everything dark as exact axis-aligned edges, neighbours merged to runs.
+/// Returns the boundary of the dark area as exact axis-aligned edges; neighbouring edges are merged to runs.
 ///
 /// Grey below 128 is occupied. The lower left corner of the picture is the origin, so the first row of the
-/// image lies at the largest y. @param pixel [m] side of one pixel.
-/// @errors  invalid_argument if there are more than 2,000,000 edges: that is noise, no plan.
+/// image lies at the largest y.
+///
+/// @param pixel [m]  side of one pixel.
+/// @errors  invalid_argument if there are more than 2,000,000 edges: the picture is noise, not a plan.
 [[nodiscard]] Result<Outline> outline_of(const GreyImage& image, double pixel);
 
-/// An occupancy bitmap as a world with one obstacle, "map", of the given height, and no places.
+/// Reads an occupancy bitmap as a world with one obstacle, "map", of the given height, and no places.
 ///
-/// @param height [m]  how tall everything dark stands, > 0.
+/// @param height [m]  height of the dark area above the floor, > 0.
 /// @errors  those of read_image; invalid_argument if the scale is missing, given twice or not positive.
 [[nodiscard]] Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale,
                                                    double height = 2.5);

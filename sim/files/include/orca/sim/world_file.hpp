@@ -15,16 +15,15 @@ namespace orca::sim {
 /// name ends in .png or .pgm, or one of the worlds of a .csv or .csv.gz file of cylinders.
 ///
 /// @param path         "FILE" or "FILE#N". N chooses one of the worlds of a CSV file; in an XML world it is
-///                     the seed of all that is generated.
-/// @param scale        of a bitmap; needed for bitmaps, an error for all others.
-/// @param diagnostics  receives everything that is wrong at once, each with file, line and column (codes W001
-/// ...).
+///                     the seed of all generated things.
+/// @param scale        scale of a bitmap; needed for bitmaps, an error for all other files.
+/// @param diagnostics  receives all errors at once, each with file, line and column (codes W001 ...).
 /// @return nothing if there was any error.
 [[nodiscard]] std::optional<WorldModel> read_world(const std::string& path, const BitmapScale& scale,
                                                    xml::Diagnostics& diagnostics);
 
-/// The same for XML in memory; `file_name` appears in positions, and bitmaps are searched beside it.
-/// @param seed  of all that is generated, instead of the file's own.
+/// Reads a world from XML in memory; `file_name` appears in positions, and bitmaps are searched beside it.
+/// @param seed  seed of all generated things, instead of the file's own.
 [[nodiscard]] std::optional<WorldModel> read_world_text(std::string_view text, const std::string& file_name,
                                                         xml::Diagnostics& diagnostics,
                                                         std::optional<std::uint64_t> seed = {});

@@ -12,23 +12,23 @@
 namespace orca::sim {
 
 /// Fields of cylinders like those of the BARN benchmark, in its frame: 30 x 30 cells of 0.15 m, x in
-/// [-4.5, 0], y in [5.1, 9.6], filled at random and smoothed; a free strip before it and one behind it.
-/// Unlike BARN's they are closed all round. What is not given is drawn anew in each attempt at a world with a
-/// way through it, so dense fields are rarer than thin ones.
+/// [-4.5, 0], y in [5.1, 9.6], filled at random and smoothed, with a free strip before it and one behind it.
+/// Unlike BARN's they are closed all round. Values that are not given are drawn anew in each attempt at a
+/// world with a way through it, so dense fields are rarer than thin ones.
 struct BarnField {
   std::optional<double> fill{};  ///< Share of the cells filled at first; drawn of 0.15, 0.2, 0.25, 0.3.
   std::optional<std::size_t> rounds{};  ///< Of smoothing; drawn of 2 to 4.
 };
 
-/// A hall with a U of walls across the straight way from start to goal, open towards the start. Drawn: where
-/// across the hall start and goal lie, by how much the U is wider or narrower and deeper or shallower (20 %).
+/// A hall with a U of walls across the straight way from start to goal, open towards the start. Drawn are the
+/// places of start and goal across the hall, and the changes of the U's width and depth (up to 20 %).
 struct UTrap {
   double width = 2.0;   ///< [m] Inside the U.
   double depth = 2.0;   ///< [m] Inside the U.
   double beside = 1.5;  ///< [m] Free way on either side of it.
 };
 
-/// A hall cut by walls with a door each. Drawn: where in its wall each door is.
+/// A hall divided by walls with one door each. The place of each door in its wall is drawn.
 struct NarrowDoors {
   double door = 0.8;      ///< [m] Width of each.
   std::size_t walls = 3;  ///< How many.
@@ -36,7 +36,7 @@ struct NarrowDoors {
   double width = 6.0;     ///< [m] Of the hall.
 };
 
-/// A corridor with right-angled bends. Drawn: the length of each leg and which way each bend goes.
+/// A corridor with right-angled bends. The length of each leg and the direction of each bend are drawn.
 struct Corridor {
   double width = 1.5;     ///< [m] Clear.
   std::size_t legs = 7;   ///< How many straight pieces.
@@ -44,8 +44,9 @@ struct Corridor {
   double longest = 6.0;   ///< [m]
 };
 
-/// A floor with a corridor and rooms on either side. Drawn: the rooms' widths, where their doors are, the
-/// furniture, and which room the goal is in. Also gives the places "room_1" and on, in the rooms' middles.
+/// A floor with a corridor and rooms on either side. The rooms' widths, the places of their doors, the
+/// furniture, and the room with the goal are drawn. The world also has the places "room_1" and so on, in the
+/// rooms' middles.
 struct OfficeFloor {
   std::size_t rooms = 3;      ///< On each side.
   double door = 0.95;         ///< [m] Width of each.
@@ -55,11 +56,12 @@ struct OfficeFloor {
 
 using Family = std::variant<BarnField, UTrap, NarrowDoors, Corridor, OfficeFloor>;
 
-/// The world number `seed` of a family, with the places "start" and "goal". A round robot of `radius` can get
-/// from its start to each of its places: a draw for which that is not so is thrown away for the next, at most
+/// Returns the world number `seed` of a family, with the places "start" and "goal". A round robot of `radius`
+/// can get from its start to each of its places. A draw without such ways is discarded for the next, at most
 /// 100 times.
 ///
-/// The same values give the same world everywhere: only integers and basic arithmetic take part in the draw.
+/// The same values give the same world on every machine, because the draw uses only integers and basic
+/// arithmetic.
 ///
 /// @param radius [m]  > 0.
 /// @errors  invalid_argument: a value that no such world can have. unavailable: 100 draws without a way.

@@ -15,6 +15,7 @@ struct Segment {
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
+/// A circle in the plane.
 struct Circle {
   Vec2 center;
   double radius = 0.0;  ///< [m]

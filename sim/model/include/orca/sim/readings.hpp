@@ -11,15 +11,15 @@
 
 namespace orca::sim {
 
-// Sensors sit in the frame B that the robot's file describes. On most robots that is the robot's frame R. The
-// body of a synchro base stays behind when the wheels, and with them R, turn; a turret turns too. X_RB is
-// where B was in R, of the body or of the turret, whichever carries the sensor.
+// Sensors are mounted in the frame B that the robot's file describes. On most robots that is the robot's
+// frame R. On a synchro base R turns with the wheels, but the body does not; a turret turns too. X_RB is the
+// pose in R of the frame B of the body or of the turret, whichever carries the sensor.
 
-/// What one sonar transducer measured.
+/// A reading of one sonar transducer.
 struct SonarReading {
   std::size_t transducer = 0;  ///< Its number in the ring.
-  TimePoint stamp;             ///< When it fired.
-  Pose2 sensor;                ///< Where it sat and looked when it fired, in the robot's frame.
+  TimePoint stamp;             ///< Time at which it fired.
+  Pose2 sensor;                ///< Pose of the transducer when it fired, in the robot's frame.
   double range = 0.0;          ///< [m] Between the ring's min_range and max_range.
   bool echo = false;           ///< False: nothing came back, `range` is max_range.
 };
@@ -31,40 +31,40 @@ struct SonarScan {
 
 /// One sweep of a laser.
 struct LaserScan {
-  TimePoint stamp;             ///< Of the first reading; the last came the scanner's `sweep` later.
+  TimePoint stamp;             ///< Time of the first range; the last came the scanner's `sweep` later.
   std::vector<double> ranges;  ///< [m] One per beam; the scanner's max_range: nothing came back.
   Pose2 X_RB;                  ///< See above; at the stamp.
 };
 
-/// What the sensors of an infrared ring measured, all at once.
+/// The readings of all sensors of an infrared ring, measured at once.
 struct InfraredScan {
   TimePoint stamp;
   std::vector<double> ranges;  ///< [m] One per sensor; the ring's max_range: nothing is near.
   Pose2 X_RB;                  ///< See above; at the stamp.
 };
 
-/// What a bumper felt since its last reading.
+/// The segments of a bumper that were pressed since its last reading.
 struct BumperReading {
   TimePoint stamp;
   std::vector<bool> pressed;  ///< One per segment.
   Pose2 X_RB;                 ///< See above; at the stamp.
 };
 
-/// What the wheel encoders tell: a pose that starts at zero where the robot was set down.
+/// The pose computed from the wheel encoders. It is zero where the robot was added to the world.
 struct OdometryReading {
   TimePoint stamp;
   Pose2 pose;  ///< In the odometry frame.
   Twist2 velocity;
 };
 
-/// Where a turret points.
+/// The direction of a turret.
 struct TurretReading {
   TimePoint stamp;
   double angle = 0.0;      ///< [rad] In the robot's frame, in (-pi, pi].
   double turn_rate = 0.0;  ///< [rad/s] Relative to the robot's frame.
 };
 
-/// A robot began to touch something.
+/// The beginning of a touch between a robot and something else.
 struct ContactEvent {
   std::string robot;
   TimePoint time;

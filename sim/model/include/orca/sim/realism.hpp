@@ -7,7 +7,7 @@
 
 namespace orca::sim {
 
-/// How unkind the simulated devices are. Every comparison says which level it used.
+/// The level of the simulated devices' errors. Every comparison of results names the level it used.
 enum class Realism {
   ideal,    ///< Exact sensors and odometry, a drive without lag and dead time.
   nominal,  ///< As measured on such devices.
@@ -15,26 +15,27 @@ enum class Realism {
 };
 
 [[nodiscard]] std::string_view to_string(Realism realism);
-/// "ideal", "nominal" or "harsh"; nothing for any other word.
+/// Returns the level "ideal", "nominal" or "harsh"; nothing for any other word.
 [[nodiscard]] std::optional<Realism> realism_from(std::string_view word);
 
 /// The numbers behind a level. docs/simulation.md gives the source of each.
 struct ErrorLevels {
   double wheel_mismatch = 0.0;  ///< Bound of the relative error of each wheel's diameter.
   double track_error = 0.0;     ///< Bound of the relative error of the track.
-  double slip = 0.0;         ///< [m] Deviation of a wheel's measured travel after 1 m; grows with its root.
-  double delay_scale = 0.0;  ///< Times the drive's lag and dead time.
-  double sonar_noise = 0.0;  ///< Deviation of a range, relative.
+  /// [m] Standard deviation of a wheel's measured travel after 1 m; grows with the root of the travel.
+  double slip = 0.0;
+  double delay_scale = 0.0;     ///< Factor on the drive's lag and dead time.
+  double sonar_noise = 0.0;     ///< Relative standard deviation of a range.
   double sonar_outliers = 0.0;  ///< Probability that a reading is arbitrary.
-  double critical_angle =
-      0.5 * std::numbers::pi;    ///< [rad] A smooth surface hit at more than this gives no echo.
-  bool sonar_crosstalk = false;  ///< Transducers hear what others have sent.
+  /// [rad] A smooth surface that is hit at a larger incidence gives no echo.
+  double critical_angle = 0.5 * std::numbers::pi;
+  bool sonar_crosstalk = false;  ///< Transducers hear each other's chirps.
   double laser_bias = 0.0;       ///< [m] Bound of the error that all ranges of a laser share in a run.
-  double laser_sigma = 0.0;      ///< [m] Deviation of a range.
-  double laser_drop_angle =
-      0.5 * std::numbers::pi;   ///< [rad] A surface hit at more than this returns nothing.
+  double laser_sigma = 0.0;      ///< [m] Standard deviation of a range.
+  /// [rad] A surface that is hit at a larger incidence returns nothing.
+  double laser_drop_angle = 0.5 * std::numbers::pi;
   bool mixed_pixels = false;    ///< A spot on two surfaces reads as something in between.
-  double infrared_noise = 0.0;  ///< [1/m] Deviation of an infrared range per square of the range.
+  double infrared_noise = 0.0;  ///< [1/m] Standard deviation of an infrared range per square of the range.
   bool quantised = false;       ///< Readings come in the device's steps.
 };
 

@@ -15,15 +15,15 @@
 
 namespace orca::sim {
 
-/// A pose in space: position [m] and unit quaternion. Here of a part in the robot's base frame B (x forward,
-/// y left, z up, origin on the floor between the wheels). On a synchro base B is the body's frame, which is
-/// the robot's frame R (x the way the wheels point) as long as they point ahead.
+/// A pose in space: position [m] and unit quaternion. It gives a part's pose in the robot's base frame B (x
+/// forward, y left, z up, origin on the floor between the wheels). On a synchro base B is the body's frame.
+/// It equals the robot's frame R (x in the direction of the wheels) as long as the wheels point ahead.
 struct Pose3 {
   double x = 0.0, y = 0.0, z = 0.0;
   double qx = 0.0, qy = 0.0, qz = 0.0, qw = 1.0;
 };
 
-/// One solid of the robot, centred at its own frame but for a hull.
+/// One solid of the robot. All forms but a hull are centred at the part's own frame.
 struct Part {
   struct Block {
     double x, y, z;  ///< Full lengths [m].
@@ -36,21 +36,21 @@ struct Part {
     double radius;  ///< [m]
   };
   struct Hull {
-    std::vector<Vec3> corners;  ///< Of a convex body, in the part's frame.
+    std::vector<Vec3> corners;  ///< [m] Corners of a convex body, in the part's frame.
   };
   std::variant<Block, Cylinder, Ball, Hull> form;
   Pose3 X_BP;
 };
 
-/// How the wheels of a base work together; docs/simulation.md has the models.
+/// The kinematics of a base; docs/simulation.md has the models.
 enum class DriveKind {
   differential,  ///< Two wheels on one axle.
   synchro,       ///< Three wheels, steered and driven together; the body does not turn with them.
   holonomic,     ///< Three omnidirectional wheels, 120 degrees apart.
 };
 
-/// How the base moves. Speeds and accelerations are limits, > 0; those of a holonomic base hold for its speed
-/// in whatever direction.
+/// The drive of a base. Speeds and accelerations are limits, > 0; those of a holonomic base hold in every
+/// direction.
 struct Drive {
   DriveKind kind = DriveKind::differential;
   double max_speed = 0.0;              ///< [m/s]
@@ -61,49 +61,49 @@ struct Drive {
   double wheel_diameter = 0.0;         ///< [m]
   Duration lag{0};                     ///< Time constant of the first-order answer to a command.
   Duration dead_time{0};               ///< From a command to the first effect.
-  // For those who steer the base (thesis 8.4.1); the simulation itself does not use these.
+  // Parameters for steering the base (thesis 8.4.1); the simulation itself does not use these.
   double steer_gain = 1.0;                         ///< [1/s] Turn rate per heading error.
   double speed_step = 0.0;                         ///< [m/s] Smallest change of speed worth a command.
-  double big_turn_angle = 0.5 * std::numbers::pi;  ///< [rad] Towards larger ones it slows down,
-  double big_turn_speed = 0.0;                     ///< [m/s] to this speed at most.
+  double big_turn_angle = 0.5 * std::numbers::pi;  ///< [rad] The base slows down for larger heading errors.
+  double big_turn_speed = 0.0;                     ///< [m/s] Largest speed in such a turn.
 };
 
-/// A turret: an upright axis of its own on top of the base, with sensors on it. It turns without end, and its
-/// collision geometry is round, so that turning moves nothing but sensors.
+/// A turret on top of the base, with its own upright axis and sensors. It turns without end. Its collision
+/// geometry is round, so that turning moves only sensors.
 struct Turret {
   std::string joint;              ///< The URDF joint that turns.
   double max_speed = 0.0;         ///< [rad/s]
   double max_acceleration = 0.0;  ///< [rad/s2]
   Duration period{0};             ///< From one reading of its angle to the next.
-  Vec2 axis;                      ///< [m] Where it stands in the base frame.
+  Vec2 axis;                      ///< [m] Place of its axis in the base frame.
 };
 
 /// A ring of sonar transducers. Number k looks along first_angle + k * pitch from the ring's centre and sits
-/// `radius` from it in that direction; an uneven ring lists where each looks, and may list where each sits.
+/// `radius` from it in that direction. An uneven ring lists the directions of all, and may list their places.
 struct SonarRing {
   std::string name;
   std::size_t count = 0;
   double first_angle = 0.0;        ///< [rad] In the base frame, counter-clockwise from ahead.
   double pitch = 0.0;              ///< [rad] Positive: counter-clockwise.
-  std::vector<double> angles;      ///< [rad] Of each transducer; empty: evenly spaced as above.
-  std::vector<Vec2> positions;     ///< [m] Of each transducer about the centre; empty: on the circle.
-  std::vector<double> heights;     ///< [m] Of each transducer above the link; empty: all at its height.
+  std::vector<double> angles;      ///< [rad] Direction of each transducer; empty: evenly spaced as above.
+  std::vector<Vec2> positions;     ///< [m] Place of each transducer about the centre; empty: on the circle.
+  std::vector<double> heights;     ///< [m] Height of each transducer above the link; empty: all 0.
   double half_lobe = 0.0;          ///< [rad] Half the opening of the cone.
   double min_range = 0.0;          ///< [m] Nearer echoes read as this.
-  double max_range = 0.0;          ///< [m] What no echo reads as.
+  double max_range = 0.0;          ///< [m] The reading if there is no echo.
   double quantum = 0.0;            ///< [m] Step of the device's readings; 0: none.
   double radius = 0.0;             ///< [m]
-  Duration period{0};              ///< For all of them, one after the other.
+  Duration period{0};              ///< Time in which all of them fire, one after the other.
   std::string link;                ///< The URDF link at the ring's centre.
   Pose2 center;                    ///< Of that link in the base frame.
   double height = 0.0;             ///< [m] Of that link above the floor.
   bool on_turret = false;          ///< Whether that link turns with the turret.
   std::vector<std::size_t> order;  ///< Firing order, a permutation of 0 .. count - 1.
-  std::size_t parallel = 1;        ///< So many that follow each other in `order` fire at once.
+  std::size_t parallel = 1;        ///< Number of successive transducers in `order` that fire at once.
 
-  /// Where transducer `k` sits and looks, in the base frame.
+  /// Returns the pose of transducer `k` in the base frame; it looks along its x axis.
   [[nodiscard]] Pose2 transducer(std::size_t k) const;
-  /// How high transducer `k` sits above the floor [m].
+  /// Returns the height of transducer `k` above the floor [m].
   [[nodiscard]] double height_of(std::size_t k) const {
     return heights.empty() ? height : height + heights[k];
   }
@@ -114,14 +114,14 @@ struct Odometer {
   Duration period{0};
 };
 
-/// Everything the simulation knows of a type of robot. A plain value; see read_robot().
+/// The description of a type of robot for the simulation. A plain value; see read_robot().
 struct RobotModel {
   std::string name;  ///< Of the URDF's <robot>.
   std::string vendor;
   std::string model;
-  double radius = 0.0;         ///< [m] Of the body.
-  double bumper_radius = 0.0;  ///< [m] Of what touches first.
-  double mass = 0.0;           ///< [kg] Of all links.
+  double radius = 0.0;         ///< [m] Radius of the body.
+  double bumper_radius = 0.0;  ///< [m] Radius of the parts that touch first.
+  double mass = 0.0;           ///< [kg] Mass of all links.
   double yaw_inertia = 0.0;    ///< [kg m2] About the base frame's z axis.
   std::vector<Part> parts;     ///< Collision geometry; never empty.
   Shape footprint;             ///< The parts' plan in the base frame: a circle or a convex outline.
@@ -136,15 +136,15 @@ struct RobotModel {
   std::optional<Odometer> odometer;
   std::string urdf;  ///< The file's text, for viewers.
 
-  /// The ring of that name, or null.
+  /// Returns the ring of that name, or null.
   [[nodiscard]] const SonarRing* sonar(std::string_view ring) const;
 };
 
-/// The plan of the parts: a circle if all are balls and upright cylinders centred on the z axis, else the
-/// convex hull, where a round part counts as the polygon with 24 corners around it.
+/// Returns the plan of the parts. It is a circle if all are balls and upright cylinders centred on the z
+/// axis; else it is the convex hull, where a round part counts as the polygon with 24 corners around it.
 [[nodiscard]] Shape footprint_of(const std::vector<Part>& parts);
 
-/// Lowest (first) and highest (second) point of the parts [m].
+/// Returns the heights of the lowest (first) and highest (second) point of the parts [m].
 [[nodiscard]] std::pair<double, double> height_range_of(const std::vector<Part>& parts);
 
 }  // namespace orca::sim

@@ -24,33 +24,33 @@ struct Outline {
 /// A solid area of the plane. A plain value.
 using Shape = std::variant<Circle, Box, Outline>;
 
-/// The outline through `corners`, closed by itself and turned counter-clockwise.
+/// Returns the closed outline through `corners`, turned counter-clockwise.
 [[nodiscard]] Outline outline_of(std::vector<Vec2> corners);
 
-/// The corners of the convex hull, counter-clockwise.
+/// Returns the corners of the convex hull, counter-clockwise.
 [[nodiscard]] std::vector<Vec2> hull_of(std::vector<Vec2> points);
 
-/// The boundary as edges; none for a circle, which is not made of edges.
+/// Returns the boundary as edges; none for a circle, which has no edges.
 [[nodiscard]] std::vector<Segment> edges_of(const Shape& shape);
 
-/// `shape`, given in a body's frame, where that body is at `X_WB`.
+/// Returns in the world frame a shape that is given in the frame of a body at `X_WB`.
 [[nodiscard]] Shape placed(const Shape& shape, const Pose2& X_WB);
 
 [[nodiscard]] Bounds bounds_of(const Shape& shape);
 
-/// True if `p` lies inside; on the boundary the answer is either.
+/// Returns true if `p` lies inside. The result is unspecified for a point on the boundary.
 [[nodiscard]] bool contains(const Shape& shape, Vec2 p);
 
-/// Distance from `p` to the shape [m]; 0 inside.
+/// Returns the distance from `p` to the shape [m]; 0 inside.
 [[nodiscard]] double distance(const Shape& shape, Vec2 p);
 
-/// The point of the segment nearest to `p`.
+/// Returns the point of the segment nearest to `p`.
 [[nodiscard]] Vec2 nearest_point(const Segment& segment, Vec2 p);
 
-/// True if the two cross, each inside the other's length.
+/// Returns true if the two cross, each between the other's ends.
 [[nodiscard]] bool cross_each_other(const Segment& one, const Segment& other);
 
-/// True if the two solids share a point.
+/// Returns true if the two solids share a point.
 [[nodiscard]] bool overlap(const Shape& one, const Shape& other);
 
 }  // namespace orca::sim

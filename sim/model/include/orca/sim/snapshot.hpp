@@ -10,7 +10,7 @@
 
 namespace orca::sim {
 
-/// A robot at one instant, and the way it came.
+/// A robot at one instant, with its trajectory until then.
 struct RobotSnapshot {
   std::string name;
   Pose2 pose;
@@ -22,7 +22,7 @@ struct RobotSnapshot {
   std::vector<Sample> trajectory;  ///< True poses: the first, one per 5 cm or 0.2 rad, the last.
 };
 
-/// A world at one instant, in world coordinates [m], for whoever draws it. A plain value.
+/// A picture of a world at one instant, in world coordinates [m]. A plain value.
 struct Snapshot {
   std::string name;
   Bounds bounds;  ///< Holds everything but the trajectories.

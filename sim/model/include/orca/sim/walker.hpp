@@ -13,20 +13,20 @@ namespace orca::sim {
 
 /// A person as an upright cylinder that walks along a track of straight legs for ever.
 ///
-/// Where one is depends on the time and the seed alone, unless it stops for robots. A robot in its way is
-/// pushed.
+/// Its place depends only on the time and the seed, unless it stops for robots. It pushes robots that are in
+/// its way.
 struct Walker {
-  std::string name;           ///< As contacts tell it.
+  std::string name;           ///< Name that contacts report.
   std::vector<Vec2> track{};  ///< Corners, at least two.
   double radius = 0.25;       ///< [m]
   double height = 1.7;        ///< [m]
   double speed = 1.0;         ///< [m/s]
   bool round = false;         ///< From the last corner straight to the first; else back along the track.
   Duration pause{0};          ///< Longest rest at a corner; each corner's own is drawn below that.
-  std::optional<Duration> start{};      ///< How far on its round it is at time 0; drawn if not given.
-  std::optional<std::uint64_t> seed{};  ///< Of what is drawn; the run's seed if not given.
-  double stops =
-      0.0;  ///< [m] Stands still while a robot is nearer than this ahead of it; 0: stops for nobody.
+  std::optional<Duration> start{};      ///< Time on its round at time 0; drawn if not given.
+  std::optional<std::uint64_t> seed{};  ///< Seed of the drawn values; the run's seed if not given.
+  /// [m] It stands still while a robot is nearer than this ahead of it; 0: it stops for no robot.
+  double stops = 0.0;
 };
 
 }  // namespace orca::sim

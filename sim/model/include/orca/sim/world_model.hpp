@@ -13,25 +13,26 @@
 
 namespace orca::sim {
 
-/// Something solid that never moves: an upright body over its plan.
+/// A solid that never moves: an upright body over its plan.
 struct Obstacle {
   std::string name;     ///< For people, e.g. "wall" or "desk_2"; need not be unique.
   Shape shape;          ///< Its plan, in the world frame.
-  double height = 0.0;  ///< [m] Its top above the floor; a sensor as high or higher does not see it.
-  double bottom = 0.0;  ///< [m] Its underside above the floor, e.g. of a table top; 0: it stands on it.
-  /// If it is a mesh, in the world frame: then `shape` is its convex hull seen from above, `bottom` and
-  /// `height` hold it, and only what the mesh says is solid. Shared, because models are copied and meshes are
-  /// large.
+  double height = 0.0;  ///< [m] Its top above the floor; a sensor at this height or higher does not see it.
+  double bottom = 0.0;  ///< [m] Its underside above the floor, e.g. of a table top; 0: it is on the floor.
+  /// The mesh in the world frame, if the obstacle has one. Then only the mesh is solid: `shape` is its convex
+  /// hull seen from above, and it lies between `bottom` and `height`. The mesh is shared, because models are
+  /// copied and meshes are large.
   std::shared_ptr<const Mesh> mesh{};
 };
 
-/// An obstacle of a mesh that is in its place already. @pre  the mesh has triangles.
+/// Returns an obstacle of a mesh that is given in the world frame. @pre  the mesh has triangles.
 [[nodiscard]] Obstacle mesh_obstacle(std::string name, Mesh mesh);
 
-/// True if the obstacle shares a point with the upright body over `plan` between `bottom` and `top` [m].
+/// Returns true if the obstacle shares a point with the upright body over `plan` between `bottom` and `top`
+/// [m].
 [[nodiscard]] bool overlap(const Obstacle& obstacle, const Shape& plan, double bottom, double top);
 
-/// A named pose, e.g. where a robot starts or is to go.
+/// A named pose, e.g. the start or the goal of a robot.
 struct Place {
   std::string name;
   Pose2 pose;
@@ -45,14 +46,14 @@ struct WorldModel {
   std::vector<Place> places;
   std::vector<Walker> walkers{};
 
-  /// The place of that name, or null.
+  /// Returns the place of that name, or null.
   [[nodiscard]] const Place* place(std::string_view name) const;
 
-  /// The rectangle that holds all obstacles and places.
+  /// Returns the rectangle that holds all obstacles and places.
   [[nodiscard]] Bounds bounds() const;
 
-  /// The first obstacle that shares a point with the upright body over `body` between `bottom` and `top` [m],
-  /// or null.
+  /// Returns the first obstacle that shares a point with the upright body over `body` between `bottom` and
+  /// `top` [m], or null.
   [[nodiscard]] const Obstacle* obstacle_at(const Shape& body, double bottom,
                                             double top = std::numeric_limits<double>::infinity()) const;
 };

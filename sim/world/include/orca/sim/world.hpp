@@ -20,17 +20,17 @@
 
 namespace orca::sim {
 
-/// Names a robot of one World; comes from add_robot.
+/// The number of a robot in one World; comes from add_robot.
 enum class RobotId : std::size_t {};
 
-/// Names an obstacle that was put into one World while it ran; comes from add_obstacle.
+/// The number of an obstacle that was added to one World while it ran; comes from add_obstacle.
 enum class ObstacleId : std::size_t {};
 
-/// A running simulation: a world, robots in it, and time that advances by step() and by nothing else.
+/// A running simulation: a world, the robots in it, and a time that only step() advances.
 ///
-/// Two worlds that are built and used alike with the same options are bit-identical at each tick. A World
-/// cannot be reset: build a new one for each run. It drives, measures and reports contacts; it does not
-/// steer, and a command holds until the next one (a watchdog belongs to the driver).
+/// Two worlds that are built and used in the same way with the same options are bit-identical at each tick. A
+/// World cannot be reset: build a new one for each run. It drives, measures and reports contacts, but does
+/// not steer. A command holds until the next one (a watchdog belongs to the driver).
 ///
 /// Thread contract: not synchronised; one strand.
 class World {
@@ -38,8 +38,8 @@ class World {
   struct Options {
     std::uint64_t seed = 1;
     Realism realism = Realism::nominal;
-    unsigned threads =
-        1;  ///< That compute sensor readings; 0: one per processor. Results do not depend on it.
+    /// Number of threads that compute sensor readings; 0: one per processor. Results do not depend on it.
+    unsigned threads = 1;
   };
   static constexpr Duration kTick = std::chrono::milliseconds{10};
 
@@ -48,51 +48,50 @@ class World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Sets a robot down, at rest, its wheels and turret ahead. Its sensors and odometry start now.
+  /// Adds a robot at rest, with its wheels and turret pointing ahead. Its sensors and odometry start now.
   ///
   /// @param name  not empty; the robot's random streams are keyed by it.
   /// @param X_WB  pose of its base frame in the world.
   /// @errors  already_exists: the name is taken. invalid_argument: the name is empty or the pose not finite.
-  ///          failed_precondition: something stands there already, and what.
+  ///          failed_precondition: something stands there already; the text says what.
   [[nodiscard]] Result<RobotId> add_robot(const std::string& name, const RobotModel& model,
                                           const Pose2& X_WB);
 
-  /// The robot of that name, if there is one.
+  /// Returns the robot of that name, if there is one.
   [[nodiscard]] std::optional<RobotId> find(std::string_view name) const;
 
-  /// Puts an obstacle in. Sensors see it and robots touch it from the next tick on.
+  /// Adds an obstacle that stands on the floor. Sensors see it and robots touch it from the next tick on.
   ///
-  /// @param name    as contacts tell it; not empty, no other such obstacle's and no walker's.
-  /// @param shape   in a frame of its own.
-  /// @param height  [m] how tall it stands on the floor.
-  /// @param X_WO    where that frame is in the world.
+  /// @param name    name that contacts report; not empty, not that of another such obstacle or of a walker.
+  /// @param shape   plan, in the obstacle's own frame.
+  /// @param height  [m] height of its top above the floor.
+  /// @param X_WO    pose of that frame in the world.
   /// @errors  already_exists: the name is taken. invalid_argument: no name, no area, no height, or a pose
-  /// that is
-  ///          not finite. failed_precondition: a robot is there, and which.
+  ///          that is not finite. failed_precondition: a robot is there; the text says which.
   [[nodiscard]] Result<ObstacleId> add_obstacle(const std::string& name, const Shape& shape, double height,
                                                 const Pose2& X_WO);
 
-  /// Takes such an obstacle elsewhere, at once: it pushes nothing on the way.
-  /// @errors  not_found: it was taken out. Else as add_obstacle().
+  /// Moves such an obstacle at once; it pushes nothing on the way.
+  /// @errors  not_found: it was removed. Otherwise as add_obstacle().
   Status move_obstacle(ObstacleId obstacle, const Pose2& X_WO);
 
-  /// @errors  not_found: it was taken out already.
+  /// Removes such an obstacle. @errors  not_found: it was removed already.
   Status remove_obstacle(ObstacleId obstacle);
 
-  /// What the base shall do from now on; the drive's limits, lag and dead time apply.
+  /// Sets the velocity that the base drives from now on; the drive's limits, lag and dead time apply.
   ///
   /// @param forward [m/s]  along the robot's x axis.
   /// @param turn_rate [rad/s]  counter-clockwise.
   /// @errors  invalid_argument if a number is not finite; the former command stays.
   Status set_velocity_command(RobotId robot, double forward, double turn_rate);
 
-  /// The same, with a sideways part.
+  /// Sets a velocity that may have a sideways part; otherwise as above.
   /// @errors  also failed_precondition for a sideways part if the base is not holonomic; the former command
   ///          stays.
   Status set_velocity_command(RobotId robot, const Twist2& wanted);
 
-  /// Where the turret shall point from now on; within its limits it goes there by the shorter way and keeps
-  /// to it while the robot turns. At first it points ahead.
+  /// Sets the direction in which the turret points from now on. Within its limits it turns there by the
+  /// shorter way and keeps the angle in the robot's frame while the robot turns. At first it points ahead.
   ///
   /// @param angle [rad]  in the robot's frame, counter-clockwise.
   /// @errors  failed_precondition if the robot has no turret, invalid_argument if the angle is not finite.
@@ -101,47 +100,50 @@ class World {
   /// Advances the time by exactly one tick.
   void step();
 
-  /// Time since the world was made: ticks times kTick.
+  /// Returns the time since the world was made: ticks times kTick.
   [[nodiscard]] TimePoint time() const;
 
-  /// True pose of the robot's frame in the world: x is forward, on a synchro base the way the wheels point.
+  /// Returns the true pose of the robot's frame in the world. Its x axis points forward, on a synchro base in
+  /// the direction of the wheels.
   [[nodiscard]] Pose2 pose(RobotId robot) const;
-  /// True pose of the body: pose() but on a synchro base, whose body does not turn with its wheels.
+  /// Returns the true pose of the body. It equals pose() except on a synchro base, whose body does not turn
+  /// with its wheels.
   [[nodiscard]] Pose2 body_pose(RobotId robot) const;
-  /// Where the turret points now; nothing without turret.
+  /// Returns the present angle of the turret; nothing if the robot has none.
   [[nodiscard]] std::optional<TurretReading> turret(RobotId robot) const;
-  /// True velocity in the last tick, in the robot's frame.
+  /// Returns the true velocity in the last tick, in the robot's frame.
   [[nodiscard]] Twist2 velocity(RobotId robot) const;
 
-  /// Contacts that began in the last tick: one for each touch, until the two have come apart again. If two
-  /// robots collide both report it.
+  /// Returns the contacts that began in the last tick. A touch is reported once, until the two have come
+  /// apart again. If two robots collide, both report it.
   [[nodiscard]] const std::vector<ContactEvent>& contacts() const;
 
-  /// The round that the robot's sonar ring number `ring` completed in the last tick, if it did.
+  /// Returns the round that the robot's sonar ring number `ring` completed in the last tick, if it did.
   [[nodiscard]] const std::optional<SonarScan>& sonar(RobotId robot, std::size_t ring = 0) const;
 
-  /// The scan that the robot's laser number `laser` completed in the last tick, if it did.
+  /// Returns the scan that the robot's laser number `laser` completed in the last tick, if it did.
   [[nodiscard]] const std::optional<LaserScan>& laser(RobotId robot, std::size_t laser = 0) const;
 
-  /// The round that the robot's infrared ring number `ring` measured in the last tick, if it did.
+  /// Returns the round that the robot's infrared ring number `ring` measured in the last tick, if it did.
   [[nodiscard]] const std::optional<InfraredScan>& infrared(RobotId robot, std::size_t ring = 0) const;
 
-  /// What the robot's bumper number `ring` tells, if a reading became due in the last tick.
+  /// Returns the reading of the robot's bumper number `ring`, if one became due in the last tick.
   [[nodiscard]] const std::optional<BumperReading>& bumper(RobotId robot, std::size_t ring = 0) const;
 
-  /// The odometry if it became due in the last tick. Never for a robot without odometer.
+  /// Returns the odometry, if it became due in the last tick; never anything for a robot without odometer.
   [[nodiscard]] const std::optional<OdometryReading>& odometry(RobotId robot) const;
 
   [[nodiscard]] const WorldModel& model() const;
   [[nodiscard]] const RobotModel& robot_model(RobotId robot) const;
-  /// For further sensors: casts see the robots, walkers and obstacles where they are now.
+  /// Returns the caster, for further sensors: it sees the robots, walkers and obstacles at their present
+  /// places.
   [[nodiscard]] const Caster& caster() const;
-  /// The robot's number among the caster's bodies.
+  /// Returns the robot's number among the caster's bodies.
   [[nodiscard]] std::size_t body(RobotId robot) const;
-  /// What to draw, with the way each robot has come.
+  /// Returns a picture of the world, with the trajectory of each robot.
   [[nodiscard]] Snapshot snapshot() const;
 
-  /// FNV-1a over time, poses, velocities and odometry, bit by bit: equal for equal runs.
+  /// Returns an FNV-1a hash over the bits of time, poses, velocities and odometry: equal for equal runs.
   [[nodiscard]] std::uint64_t state_hash() const;
 
  private:
