@@ -193,21 +193,21 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   orca::Param<std::string> robot_file_{
       *this, "robot", "", {.file = true, .text = "The robot (URDF with <orca>)."}};
   orca::Param<std::string> name_{
-      *this, "name", "Dewey", {.text = "Of this robot; each in a world has its own."}};
+      *this, "name", "Dewey", {.text = "Name of this robot; each robot of a world has its own."}};
   orca::Param<std::string> place_{
       *this, "place", "", {.text = "Start at this place of the world instead of x, y, heading."}};
-  orca::Param<double> x_{*this, "x", 0.0, {.unit = "m", .text = "Where the robot starts."}};
-  orca::Param<double> y_{*this, "y", 0.0, {.unit = "m", .text = "Where the robot starts."}};
+  orca::Param<double> x_{*this, "x", 0.0, {.unit = "m", .text = "Start position in the world frame."}};
+  orca::Param<double> y_{*this, "y", 0.0, {.unit = "m", .text = "Start position in the world frame."}};
   orca::Param<double> heading_{
       *this,
       "heading",
       0.0,
-      {.unit = "rad", .text = "Where it looks at the start, counter-clockwise from the world's x axis."}};
-  orca::Param<std::string> realism_{
-      *this,
-      "realism",
-      "nominal",
-      {.choices = {"ideal", "nominal", "harsh"}, .text = "How unkind sensors, motors and odometry are."}};
+      {.unit = "rad", .text = "Start heading, counter-clockwise from the world's x axis."}};
+  orca::Param<std::string> realism_{*this,
+                                    "realism",
+                                    "nominal",
+                                    {.choices = {"ideal", "nominal", "harsh"},
+                                     .text = "Level of the errors of sensors, motors and odometry."}};
   orca::Param<std::int64_t> threads_{*this,
                                      "threads",
                                      1,
