@@ -175,8 +175,8 @@ def check_completeness(tree):
     expect(unlisted(tree, tree.layouts()) == [], f"each class that a plugin can reach is listed: "
                                                  f"{unlisted(tree, tree.layouts())}")
     path = f"{API}/outcome.hpp"
-    tree.add(path, "/// How one lap", "struct Fresh {\n  int value;\n};\n")
-    tree.add(path, "/// How one lap", "template <class T>\nstruct FreshTemplate {\n  T value;\n};\n")
+    tree.add(path, "struct [[nodiscard]] Outcome", "struct Fresh {\n  int value;\n};\n")
+    tree.add(path, "struct [[nodiscard]] Outcome", "template <class T>\nstruct FreshTemplate {\n  T value;\n};\n")
     layouts = tree.layouts()
     expect("orca::Fresh" in layouts, "a new class is listed without anybody's doing")
     expect(unlisted(tree, layouts) == ["orca/component/outcome.hpp: FreshTemplate"],
