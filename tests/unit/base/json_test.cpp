@@ -26,8 +26,8 @@ TEST_CASE("objects and arrays are indented, members separated by commas", "[base
 
 TEST_CASE("characters that JSON reserves are escaped", "[base][json]") {
   JsonWriter json;
-  json.value("a\"b\\c\nd\te\x01");
-  CHECK(json.text() == "\"a\\\"b\\\\c\\nd\\te\\u0001\"\n");
+  json.value("a\"b\\c\nd\te\rf\x01");
+  CHECK(json.text() == "\"a\\\"b\\\\c\\nd\\te\\rf\\u0001\"\n");
 }
 
 TEST_CASE("numbers keep their value, and what is no number is null", "[base][json]") {

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What counts as a mutant, by example."""
+import unittest
+
+from mutants import mutants_of
+
+
+def changes(source):
+    return [(m.kind, m.old, m.new) for m in mutants_of("a.cpp", source)]
+
+
+class Mutants(unittest.TestCase):
+    def test_a_comparison_gets_its_neighbour(self):
+        self.assertEqual(changes("bool b = x < y;"), [("comparison", "<", "<=")])
+        self.assertEqual(changes("bool b = x != y;"), [("comparison", "!=", "==")])
+
+    def test_template_brackets_are_no_comparisons(self):
+        self.assertEqual(changes("std::vector<int> v;\ntemplate <class A>\nvoid f(A a);"), [])
+
+    def test_constants_grow_by_one_and_truths_turn_round(self):
+        self.assertEqual(changes("int n = 15;"), [("constant", "15", "16")])
+        self.assertEqual(changes("bool b = true;"), [("constant", "true", "false")])
+        self.assertEqual(changes("int x2 = v1; double d = 1.5;"), [])
+
+    def test_conditions_are_negated_and_joined_the_other_way(self):
+        self.assertIn(("condition", "a && f(b)", "!(a && f(b))"), changes("if (a && f(b)) go();"))
+        self.assertIn(("condition", "&&", "||"), changes("if (a && f(b)) go();"))
+
+    def test_a_condition_that_declares_is_not_negated(self):
+        self.assertEqual(changes("if (const auto x = find(y)) go();"), [])
+
+    def test_a_return_gives_the_opposite_or_nothing(self):
+        self.assertEqual(changes("return list.empty();"), [("return", "list.empty()", "!(list.empty())")])
+        self.assertEqual(changes("return name_;"), [("return", "name_", "{}")])
+
+    def test_comments_strings_assertions_and_directives_stay(self):
+        self.assertEqual(changes('// a < b\n/* 1 == 2 */ f("x < 5");\nassert(a < b);\n#if A == 1\nint c = R"(3 < 4)";'), [])
+
+    def test_a_mutant_is_applied_where_it_was_found(self):
+        source = "if (a < b) return true;\n"
+        mutant = next(m for m in mutants_of("a.cpp", source) if m.kind == "comparison")
+        self.assertEqual(mutant.applied_to(source), "if (a <= b) return true;\n")
+        self.assertEqual(mutant.text(), "a.cpp:1: comparison: '<' -> '<='")
+
+
+if __name__ == "__main__":
+    unittest.main()

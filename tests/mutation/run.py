@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""run.py [OPTION]...: would the tests notice?
+
+Changes one comparison, constant, condition or return of src/base, src/patterns or src/runtime at a time, in a copy of the
+sources, builds the tests of that module and runs them. A mutant that a test, the compiler's check of the whole or a time limit
+notices is caught; the others survive and are listed. A survivor gets a test, or a line in equal.txt that says why no
+test can tell it from the original.
+
+  --count N      mutants that compile (default 150)
+  --seed N       which ones (default 1); the same seed and sources give the same mutants
+  --only TEXT    only files whose path contains it
+  --build DIR    where the copy and its build live (default build/mutation below the root); kept for the next run
+  --jobs N       compilers and tests at a time (default: as many as processors)
+  --share P      exit status 1 if fewer than P percent are caught (default 85)
+  --list         only list the mutants that would be tried
+
+Exit status: 0 enough were caught, 1 too few were, 2 the unchanged sources do not build or pass.
+"""
+import argparse
+import os
+import random
+import shutil
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mutants import mutants_of
+
+ROOT = Path(__file__).resolve().parents[2]
+COMPILE_LIMIT, TEST_LIMIT = 900, 240  # [s]; a hang counts as noticed
+EQUAL = Path(__file__).with_name("equal.txt")
+
+
+@dataclass(frozen=True)
+class Module:
+    """Which tests answer for a folder, the quickest first."""
+    folder: str
+    targets: tuple
+    tests: tuple
+
+
+_DEPLOYER = ("deployer", "orca_run")
+MODULES = (
+    Module("src/base/", ("base_test", "patterns_contract_test", "host_test"), ("base_test", "patterns_contract_test", "host_test")),
+    Module("src/patterns/", ("patterns_test", "patterns_allocation_test", "patterns_contract_test"),
+           ("patterns_test", "patterns_allocation_test", "patterns_contract_test")),
+    Module("src/runtime/graph/", ("graph_test", "plugin_faults_test"), ("graph_test", "plugin_faults_test")),
+    Module("src/runtime/plugin/", ("plugin_test", "plugin_faults_test", "system_bad_plugins_test", *_DEPLOYER),
+           ("plugin_test", "plugin_faults_test", "system_bad_plugins_test")),
+    Module("src/runtime/host/",
+           ("host_test", "system_phases_test", "system_graph_features_test", "system_scout_goto_test", "system_signals_test",
+            "system_hooligan_test", "system_bad_plugins_test", *_DEPLOYER),
+           ("host_test", "system_phases_test", "system_graph_features_test", "system_scout_goto_test", "system_hooligan_test",
+            "system_signals_test", "system_bad_plugins_test")),
+)
+
+
+@dataclass
+class Tally:
+    caught: list = field(default_factory=list)
+    survived: list = field(default_factory=list)
+    equal: list = field(default_factory=list)
+    not_compiled: int = 0
+
+    def judged(self):
+        return len(self.caught) + len(self.survived) + len(self.equal)
+
+    def share(self):
+        """Percent caught of those that a test could have noticed."""
+        could = len(self.caught) + len(self.survived)
+        return 100.0 * len(self.caught) / could if could else 100.0
+
+
+def say(text):
+    print(text, flush=True)
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     usage=argparse.SUPPRESS)
+    parser.add_argument("--count", type=int, default=150)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--build", type=Path, default=ROOT / "build/mutation")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--share", type=float, default=85.0)
+    parser.add_argument("--list", action="store_true")
+    return parser.parse_args()
+
+
+def tracked_files():
+    listing = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+                             capture_output=True, check=True, text=True).stdout
+    return [name for name in listing.split("\0") if name and (ROOT / name).is_file()]
+
+
+def module_of(path):
+    return next((module for module in MODULES if path.startswith(module.folder)), None)
+
+
+def shuffled_mutants(seed, only):
+    """Each module's mutants in a random order, one module after the other, so that small modules count as much as large."""
+    chance = random.Random(seed)
+    of_module = {module: [] for module in MODULES}
+    for path in sorted(tracked_files()):
+        module = module_of(path)
+        if module and only in path and path.endswith((".cpp", ".hpp")):
+            of_module[module] += mutants_of(path, (ROOT / path).read_text())
+    for mutants in of_module.values():
+        chance.shuffle(mutants)
+    queues = [mutants for mutants in of_module.values() if mutants]
+    while queues:
+        for queue in queues:
+            yield queue.pop()
+        queues = [queue for queue in queues if queue]
+
+
+def known_as_equal():
+    """The mutants that no test can tell from the original; after " # " stands why."""
+    lines = EQUAL.read_text().splitlines()
+    return {line.split(" # ")[0] for line in lines if line.strip() and not line.startswith("#")}
+
+
+def without_line(mutant):
+    """A mutant's text as equal.txt compares it: lines move, so only file and change count."""
+    return f"{mutant.path}: {mutant.kind}: {mutant.old!r} -> {mutant.new!r}"
+
+
+class Workshop:
+    """A copy of the sources and its build."""
+
+    def __init__(self, folder, jobs):
+        self.sources, self.build, self.jobs = folder / "sources", folder / "build", jobs
+
+    def prepare(self):
+        for name in tracked_files():
+            target = self.sources / name
+            text = (ROOT / name).read_bytes()
+            if not target.exists() or target.read_bytes() != text:  # what has not changed is not compiled anew
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(text)
+                shutil.copymode(ROOT / name, target)
+        subprocess.run(["cmake", "-S", str(self.sources), "-B", str(self.build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DCMAKE_LINK_DEPENDS_NO_SHARED=ON"],
+                       check=True, stdout=subprocess.DEVNULL)
+
+    def compiles(self, targets):
+        command = ["cmake", "--build", str(self.build), "-j", str(self.jobs), "--target", *targets]
+        return self._run(command, COMPILE_LIMIT) == 0
+
+    def passes(self, tests):
+        names = "^(" + "|".join(tests) + ")$"
+        command = ["ctest", "--test-dir", str(self.build), "-R", names, "--stop-on-failure", "--timeout", str(TEST_LIMIT),
+                   "-j", str(self.jobs), "--no-tests=error"]
+        return self._run(command, TEST_LIMIT * len(tests)) == 0
+
+    def _run(self, command, limit):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
+                                   start_new_session=True)
+        try:
+            return process.wait(limit)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, 9)
+            process.wait()
+            return None
+
+    def try_out(self, mutant):
+        """"not compiled", "caught" or "survived"."""
+        module, place = module_of(mutant.path), self.sources / mutant.path
+        original = place.read_text()
+        place.write_text(mutant.applied_to(original))
+        try:
+            if not self.compiles(module.targets):
+                return "not compiled"
+            return "survived" if self.passes(module.tests) else "caught"
+        finally:
+            place.write_text(original)
+
+
+def judge_unchanged(workshop, only):
+    """Exits when the unchanged sources fail: then nothing could be learnt."""
+    for module in MODULES:
+        if only and not any(only in path for path in tracked_files() if module_of(path) is module):
+            continue
+        say(f"unchanged: building and running {', '.join(module.tests)}")
+        if not workshop.compiles(module.targets) or not workshop.passes(module.tests):
+            say(f"the unchanged {module.folder} does not build or pass; see {workshop.build}")
+            sys.exit(2)
+
+
+def judge(workshop, mutants, count):
+    tally, equal = Tally(), known_as_equal()
+    for mutant in mutants:
+        if tally.judged() == count:
+            break
+        began = time.monotonic()
+        if without_line(mutant) in equal:
+            verdict = "equal"
+        else:
+            verdict = workshop.try_out(mutant)
+        if verdict == "not compiled":
+            tally.not_compiled += 1
+            continue
+        {"caught": tally.caught, "survived": tally.survived, "equal": tally.equal}[verdict].append(mutant)
+        say(f"[{tally.judged()}/{count}] {verdict:8} {time.monotonic() - began:5.0f} s  {mutant.text()}")
+    return tally
+
+
+def report(tally):
+    say(f"\n{tally.judged()} mutants: {len(tally.caught)} caught, {len(tally.survived)} survived, {len(tally.equal)} known as "
+        f"equal; {tally.not_compiled} more did not compile. Caught: {tally.share():.1f} %")
+    for mutant in tally.survived:
+        say(f"survived: {mutant.text()}")
+
+
+def main():
+    options = parse_arguments()
+    mutants = shuffled_mutants(options.seed, options.only)
+    if options.list:
+        for mutant, _ in zip(mutants, range(options.count)):
+            say(mutant.text())
+        return 0
+    workshop = Workshop(options.build, options.jobs)
+    workshop.prepare()
+    judge_unchanged(workshop, options.only)
+    tally = judge(workshop, mutants, options.count)
+    report(tally)
+    return 0 if tally.share() >= options.share else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
