@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "push_over_bytes.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace orca::bytes {
@@ -13,20 +15,60 @@ Error unexpected(const FrameReader& frame) {
 
 FrameWriter with_rate(FrameKind kind, std::uint64_t subscription, const UpdateRate& rate) {
   FrameWriter frame(kind, subscription);
-  frame.add(static_cast<std::uint64_t>(rate.interval.count()));
-  frame.add(std::uint64_t{rate.multiple});
+  // What a component asks for may make no sense; what travels does, or the peer would cut this end off.
+  frame.add(static_cast<std::uint64_t>(std::max(rate.interval, Duration{0}).count()));
+  frame.add(std::uint64_t{std::max(rate.multiple, 1U)});
   return frame;
 }
 
-Duration read_duration(FrameReader& frame) {
-  return Duration(static_cast<Duration::rep>(frame.read_number()));
+// Reads a field that must be between two bounds.
+template <class Bounded>
+Status read_bounded(FrameReader& frame, std::uint64_t least, Bounded most, std::uint64_t& value) {
+  value = frame.read_number();
+  if (value >= least && value <= static_cast<std::uint64_t>(most)) return ok();
+  return fail(Code::data_loss, "a frame of kind " + std::to_string(static_cast<int>(frame.kind())) +
+                                   " says " + std::to_string(value) + " where at least " +
+                                   std::to_string(least) + " and at most " + std::to_string(most) +
+                                   " is possible");
 }
 
-UpdateRate read_rate(FrameReader& frame) {
+Status read_duration(FrameReader& frame, Duration& duration) {
+  std::uint64_t ns = 0;
+  if (Status read = read_bounded(frame, 0, Duration::max().count(), ns); !read.ok()) return read;
+  duration = Duration(static_cast<Duration::rep>(ns));
+  return ok();
+}
+
+Status read_multiple(FrameReader& frame, std::uint32_t& multiple) {
+  std::uint64_t number = 0;
+  constexpr auto kMost = std::numeric_limits<std::uint32_t>::max();
+  if (Status read = read_bounded(frame, 1, kMost, number); !read.ok()) return read;
+  multiple = static_cast<std::uint32_t>(number);
+  return ok();
+}
+
+Result<UpdateRate> read_rate(FrameReader& frame) {
   UpdateRate rate;
-  rate.interval = read_duration(frame);
-  rate.multiple = static_cast<std::uint32_t>(frame.read_number());
+  if (Status read = read_duration(frame, rate.interval); !read.ok()) return read.error();
+  if (Status read = read_multiple(frame, rate.multiple); !read.ok()) return read.error();
+  if (Status whole = frame.status(); !whole.ok()) return whole.error();
   return rate;
+}
+
+Result<UpdateGrant> read_grant(FrameReader& frame) {
+  UpdateGrant grant;
+  if (Status read = read_duration(frame, grant.base_period); !read.ok()) return read.error();
+  if (Status read = read_multiple(frame, grant.multiple); !read.ok()) return read.error();
+  if (Status read = read_duration(frame, grant.interval); !read.ok()) return read.error();
+  if (Status whole = frame.status(); !whole.ok()) return whole.error();
+  return grant;
+}
+
+// Reads the only field of a frame.
+Result<std::uint64_t> read_single(FrameReader& frame) {
+  const std::uint64_t number = frame.read_number();
+  if (Status whole = frame.status(); !whole.ok()) return whole.error();
+  return number;
 }
 
 }  // namespace
@@ -82,26 +124,18 @@ void PushSourceOverBytes::deliver(ObjectRef object, std::uint64_t ticket) {
 }
 
 Status PushSourceOverBytes::receive(FrameReader& frame) {
-  if (frame.kind() == FrameKind::object) return receive_object(frame);
-  const std::lock_guard lock(mutex_);
-  const bool current = sink_ != nullptr && frame.number() == subscription_;
-  if (frame.kind() == FrameKind::granted) {
-    UpdateGrant grant;
-    grant.base_period = read_duration(frame);
-    grant.multiple = static_cast<std::uint32_t>(frame.read_number());
-    grant.interval = read_duration(frame);
-    if (current) receive_grant(grant);
-  } else if (frame.kind() == FrameKind::give_up) {
-    const std::uint64_t ticket = frame.read_number();
-    if (current && held_ && held_->ticket == ticket)
-      sink_->give_up(std::exchange(held_, std::nullopt)->object);
-  } else if (frame.kind() == FrameKind::lost) {
-    const std::uint64_t objects = frame.read_number();
-    if (current) sink_->lost(objects);
-  } else {
-    return unexpected(frame);
+  switch (frame.kind()) {
+    case FrameKind::object: return receive_object(frame);
+    case FrameKind::granted: return receive_grant(frame);
+    case FrameKind::give_up: return receive_give_up(frame);
+    case FrameKind::lost: return receive_loss(frame);
+    default: return unexpected(frame);
   }
-  return ok();
+}
+
+// Returns whether the frame belongs to the present subscription. Called with the lock held.
+bool PushSourceOverBytes::is_current(const FrameReader& frame) const {
+  return sink_ != nullptr && frame.number() == subscription_;
 }
 
 Status PushSourceOverBytes::receive_object(FrameReader& frame) {
@@ -109,13 +143,35 @@ Status PushSourceOverBytes::receive_object(FrameReader& frame) {
   Result<ObjectRef> object = frame.read_object(type_);
   if (!object) return object.error();
   const std::lock_guard lock(mutex_);
-  if (sink_ != nullptr && frame.number() == subscription_) deliver(std::move(object).value(), ticket);
+  if (is_current(frame)) deliver(std::move(object).value(), ticket);
   return ok();
 }
 
-void PushSourceOverBytes::receive_grant(const UpdateGrant& grant) {
-  base_period_ = grant.base_period;
-  sink_->granted(grant);
+Status PushSourceOverBytes::receive_grant(FrameReader& frame) {
+  const Result<UpdateGrant> grant = read_grant(frame);
+  if (!grant) return grant.error();
+  const std::lock_guard lock(mutex_);
+  if (!is_current(frame)) return ok();
+  base_period_ = grant->base_period;
+  sink_->granted(*grant);
+  return ok();
+}
+
+Status PushSourceOverBytes::receive_give_up(FrameReader& frame) {
+  const Result<std::uint64_t> ticket = read_single(frame);
+  if (!ticket) return ticket.error();
+  const std::lock_guard lock(mutex_);
+  if (is_current(frame) && held_ && held_->ticket == *ticket)
+    sink_->give_up(std::exchange(held_, std::nullopt)->object);
+  return ok();
+}
+
+Status PushSourceOverBytes::receive_loss(FrameReader& frame) {
+  const Result<std::uint64_t> objects = read_single(frame);
+  if (!objects) return objects.error();
+  const std::lock_guard lock(mutex_);
+  if (is_current(frame)) sink_->lost(*objects);
+  return ok();
 }
 
 PushSinkOverBytes::PushSinkOverBytes(Connection connection, PushSource& source, const QueuePolicy& policy)
@@ -138,30 +194,38 @@ std::uint64_t PushSinkOverBytes::subscription() const {
 }
 
 Status PushSinkOverBytes::receive(FrameReader& frame) {
-  if (frame.kind() == FrameKind::attach || frame.kind() == FrameKind::change) {
-    const UpdateRate rate = read_rate(frame);
-    if (Status whole = frame.status(); !whole.ok()) return whole;
-    if (frame.kind() == FrameKind::change) {
-      source_.change(rate);
-      return ok();
-    }
-    {
-      const std::lock_guard lock(mutex_);
-      subscription_ = frame.number();
-    }
-    source_.attach(*this, rate);
-  } else if (frame.kind() == FrameKind::detach) {
-    source_.detach();
-  } else if (frame.kind() == FrameKind::taken) {
-    const std::uint64_t ticket = frame.read_number();
-    {
-      const std::lock_guard lock(mutex_);
-      taken_ = taken_ || ticket == ticket_;
-    }
-    source_.room();
-  } else {
-    return unexpected(frame);
+  switch (frame.kind()) {
+    case FrameKind::attach:
+    case FrameKind::change: return receive_rate(frame);
+    case FrameKind::detach: source_.detach(); return ok();
+    case FrameKind::taken: return receive_taken(frame);
+    default: return unexpected(frame);
   }
+}
+
+Status PushSinkOverBytes::receive_rate(FrameReader& frame) {
+  const Result<UpdateRate> rate = read_rate(frame);
+  if (!rate) return rate.error();
+  if (frame.kind() == FrameKind::change) {
+    source_.change(*rate);
+    return ok();
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    subscription_ = frame.number();
+  }
+  source_.attach(*this, *rate);
+  return ok();
+}
+
+Status PushSinkOverBytes::receive_taken(FrameReader& frame) {
+  const Result<std::uint64_t> ticket = read_single(frame);
+  if (!ticket) return ticket.error();
+  {
+    const std::lock_guard lock(mutex_);
+    taken_ = taken_ || *ticket == ticket_;
+  }
+  source_.room();
   return ok();
 }
 

@@ -38,7 +38,10 @@ class PushSourceOverBytes final : public PushSource, public LinkEnd {
 
   Status receive(FrameReader& frame);
   Status receive_object(FrameReader& frame);
-  void receive_grant(const UpdateGrant& grant);
+  Status receive_grant(FrameReader& frame);
+  Status receive_give_up(FrameReader& frame);
+  Status receive_loss(FrameReader& frame);
+  [[nodiscard]] bool is_current(const FrameReader& frame) const;
   void deliver(ObjectRef object, std::uint64_t ticket);
 
   const ObjectType& type_;
@@ -70,6 +73,8 @@ class PushSinkOverBytes final : public PushSink, public LinkEnd {
 
  private:
   Status receive(FrameReader& frame);
+  Status receive_rate(FrameReader& frame);
+  Status receive_taken(FrameReader& frame);
   void push(const ObjectRef& object);
   std::optional<Duration> push_and_wait(const ObjectRef& object);
   [[nodiscard]] std::uint64_t subscription() const;

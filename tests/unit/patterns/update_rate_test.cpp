@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
+#include <cstdint>
+#include <limits>
 
 #include "orca/patterns/update_rate.hpp"
 
@@ -33,4 +35,7 @@ TEST_CASE("senseless wishes are granted as the next sensible ones", "[patterns][
   CHECK(grant_rate({0s, 0}, 50ms).multiple == 1);
   CHECK(grant_rate({-1s, 1}, 50ms).multiple == 1);
   CHECK(grant_rate({24h * 365 * 100, 1}, 1ns).multiple == 1'000'000'000);
+  CHECK(grant_rate({Duration::max(), 1}, 50ms).multiple == 1'000'000'000);
+  CHECK(grant_rate({Duration::min(), 1}, 50ms).multiple == 1);
+  CHECK(grant_rate({0s, std::numeric_limits<std::uint32_t>::max()}, 1h).interval == Duration::max());
 }

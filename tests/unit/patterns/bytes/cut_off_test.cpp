@@ -76,10 +76,10 @@ class Wires {
 
 std::vector<std::byte> rubbish() { return std::vector<std::byte>(100, std::byte{0xee}); }
 
-FrameWriter attach_frame() {
+FrameWriter attach_frame(std::uint64_t interval_ns = 0, std::uint64_t multiple = 1) {
   FrameWriter frame(FrameKind::attach, 1);
-  frame.add(std::uint64_t{0});
-  frame.add(std::uint64_t{1});
+  frame.add(interval_ns);
+  frame.add(multiple);
   return frame;
 }
 
@@ -100,6 +100,25 @@ TEST_CASE("a subscriber that sends rubbish is cut off, counted, and costs the pu
     REQUIRE(wires.cuts_off());
     CHECK(eventually(executive, [&] { return source.out.subscriber_count() == 0; }));
     source.out.push(full_stop());  // does not wait
+  });
+}
+
+TEST_CASE("a subscriber that asks for an impossible rate is cut off before anybody acts on it",
+          "[patterns][bytes]") {
+  constexpr std::uint64_t kNegative = ~std::uint64_t{0};  // as an interval: -1 ns
+  struct Asked {
+    std::uint64_t interval_ns;
+    std::uint64_t multiple;
+  };
+  const Asked asked = GENERATE(Asked{kNegative, 1}, Asked{0, 0}, Asked{0, std::uint64_t{1} << 32});
+  run_on_each(steady_executives(), [&](Executive& executive) {
+    Wires wires(executive);
+    Source source(executive);
+    auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
+    server.adopt(std::make_unique<PushSinkOverBytes>(wires.connection(), server.connect(), QueuePolicy{}));
+    wires.say(attach_frame(asked.interval_ns, asked.multiple));
+    REQUIRE(wires.cuts_off());
+    CHECK(source.out.subscriber_count() == 0);
   });
 }
 
