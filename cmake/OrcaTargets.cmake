@@ -3,8 +3,8 @@
 # The headers of the standard library that most sources include. They are parsed once for all libraries and once for
 # all plugins, whose flags differ; they took more than a third of the time to compile a source. Headers of Orca are
 # not among them, so that a changed header recompiles only its users. Nor is <filesystem>, which makes std::quoted
-# visible wherever a std::string is an argument. Preset "dev" has no precompiled headers; there a forgotten #include
-# shows.
+# visible wherever a std::string is an argument. Preset "dev" has no precompiled headers, so that a forgotten #include
+# shows there; nor has "fuzz", where some libraries are compiled with flags of their own.
 set(ORCA_STANDARD_HEADERS
   <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstdlib> <deque> <functional> <limits> <map>
   <memory> <mutex> <numbers> <optional> <set> <span> <sstream> <stdexcept> <string> <string_view> <thread> <tuple>
