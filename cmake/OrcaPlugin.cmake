@@ -7,6 +7,8 @@ set(ORCA_PLUGIN_OPTIONS -fvisibility=hidden -fvisibility-inlines-hidden $<$<CXX_
 orca_add_precompiled_headers(orca_plugin_headers ${ORCA_PLUGIN_OPTIONS})
 
 # Everything that a plugin compiles in has a hash of its layout in a generated header, which plugins and loader share.
+# That of binutils, also with clang: llvm-readelf, which CMake would choose there, does not show debug information.
+find_program(ORCA_READELF readelf REQUIRED)
 function(orca_add_plugin_layouts)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   add_library(orca_layout_probe OBJECT ${ORCA_PLUGIN_SUPPORT_DIR}/layout_probe.cpp)
@@ -18,7 +20,7 @@ function(orca_add_plugin_layouts)
   cmake_path(GET header PARENT_PATH folder)
   file(MAKE_DIRECTORY ${folder})
   add_custom_command(OUTPUT ${header}
-    COMMAND ${Python3_EXECUTABLE} -B ${ORCA_PLUGIN_SUPPORT_DIR}/list_layouts.py --readelf ${CMAKE_READELF}
+    COMMAND ${Python3_EXECUTABLE} -B ${ORCA_PLUGIN_SUPPORT_DIR}/list_layouts.py --readelf ${ORCA_READELF}
             --object $<TARGET_OBJECTS:orca_layout_probe> --out ${header} --text ${CMAKE_BINARY_DIR}/layouts/layouts.txt
     DEPENDS ${ORCA_PLUGIN_SUPPORT_DIR}/list_layouts.py orca_layout_probe $<TARGET_OBJECTS:orca_layout_probe>
     COMMENT "Layouts of what crosses the plugin boundary" VERBATIM)
