@@ -36,10 +36,18 @@ const Manifest* manifest_of(void* handle) {
   return static_cast<const Manifest*>(dlsym(handle, "orca_plugin_manifest"));
 }
 
+// Opens a plugin for a trial, and calls std::terminate() if its static initialisation throws, as a process without a
+// handler does. dlopen() is declared not to throw, so the compiler may leave out what would stop the exception here. It
+// would then reach some handler far out, and the plugin would seem to have survived.
+void* try_open(const char* file) noexcept {
+  void* (*volatile const open)(const char*, int) = dlopen;
+  return open(file, RTLD_NOW | RTLD_LOCAL);
+}
+
 // Does everything that loading and describing the plugin would do, for a trial.
 void load_and_describe(const std::string& path, const std::function<void(const std::string&)>& step) {
   step("its static initialisation");
-  void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const handle = try_open(path.c_str());
   if (handle == nullptr) return;
   const Manifest& manifest = *manifest_of(handle);
   for (const TypeEntry* const* type = manifest.first_type; type != manifest.end_of_types; ++type) {
