@@ -18,9 +18,11 @@ test can tell it from the original.
 Exit status: 0 enough were caught, 1 too few were, 2 the unchanged sources do not build or pass.
 """
 import argparse
+import contextlib
 import os
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -134,12 +136,15 @@ class Workshop:
 
     def __init__(self, folder, jobs):
         self.sources, self.build, self.jobs = folder / "sources", folder / "build", jobs
+        self.changed = folder / "changed.txt"  # names the source that is mutated at present
 
     def prepare(self):
+        killed_at = self.changed.read_text() if self.changed.exists() else ""  # its object may be that of a mutant
         for name in tracked_files():
             target = self.sources / name
             text = (ROOT / name).read_bytes()
-            if not target.exists() or target.read_bytes() != text:  # what has not changed is not compiled anew
+            # What has not changed is not compiled anew.
+            if name == killed_at or not target.exists() or target.read_bytes() != text:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(text)
                 shutil.copymode(ROOT / name, target)
@@ -163,14 +168,17 @@ class Workshop:
         try:
             return process.wait(limit)
         except subprocess.TimeoutExpired:
-            os.killpg(process.pid, 9)
-            process.wait()
             return None
+        finally:  # also when this program is interrupted: nobody may compile a mutant after its source was put back
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
 
     def try_out(self, mutant):
         """"not compiled", "caught" or "survived"."""
         module, place = module_of(mutant.path), self.sources / mutant.path
         original = place.read_text()
+        self.changed.write_text(mutant.path)
         place.write_text(mutant.applied_to(original))
         try:
             if not self.compiles(module.targets):
@@ -178,6 +186,7 @@ class Workshop:
             return "survived" if self.passes(module.tests) else "caught"
         finally:
             place.write_text(original)
+            self.changed.unlink()
 
 
 def judge_unchanged(workshop, only):
