@@ -14,6 +14,7 @@
 #include "orca/xml/number.hpp"
 #include "shared_world.hpp"
 #include "sim_sensors.hpp"
+#include "touch_guard.hpp"
 
 namespace {
 
@@ -110,6 +111,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     for (orca::hw::SensorEndpoint* endpoint : sensors_->endpoints()) add_sensor(*endpoint);
     motion_ = std::make_unique<orca::hw::MotionHW>(limits_of(*robot_), kMaxCommandAge);
     set_motion(*motion_);
+    if (*stop_on_touch_) guard_.emplace(*robot_, *motion_);
   }
 
   [[nodiscard]] orca::idl::Robot description() const override { return describe(*robot_, *name_); }
@@ -147,6 +149,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   }
 
   Status drive(const orca::hw::DriveSetpoint& setpoint) override {
+    if (guard_) guard_->driven(setpoint.velocity, host().now());
     return shared_->command(id_, setpoint.velocity, setpoint.turret_angle);
   }
 
@@ -156,6 +159,10 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   Status poll() override {
     const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
     for (const auto& contact : inbox.contacts) report(contact);
+    if (guard_)
+      guard_->look(inbox, [this](std::string_view text) {
+        host().write_log(orca::log::Level::warning, *name_ + " " + std::string(text));
+      });
     if (keeps_moments_) moments_->add(inbox);
     if (state() == orca::hw::HardwareState::active) sensors_->publish(inbox);
     return orca::ok();
@@ -208,6 +215,13 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
                                     "nominal",
                                     {.choices = {"ideal", "nominal", "harsh"},
                                      .text = "Level of the errors of sensors, motors and odometry."}};
+  orca::Param<bool> stop_on_touch_{*this,
+                                   "stop_on_touch",
+                                   true,
+                                   {.fixed = true,
+                                    .text = "Whether the base stands after it has touched something, while a "
+                                            "bumper is pressed, or when its motors "
+                                            "are stalled, until a command asks for another direction."}};
   orca::Param<std::int64_t> threads_{*this,
                                      "threads",
                                      1,
@@ -221,6 +235,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   Pose2 start_;
   std::unique_ptr<SimSensors> sensors_;
   std::unique_ptr<orca::hw::MotionHW> motion_;
+  std::optional<TouchGuard> guard_;
   std::shared_ptr<SharedWorld> shared_;
   RobotId id_{};
   bool keeps_moments_ = false;

@@ -104,6 +104,8 @@ void PushSourceHandle::unsubscribe() const { edge_->unsubscribe(); }
 
 bool PushSourceHandle::new_data_arrived() const { return edge_->has_new(); }
 
+Duration PushSourceHandle::base_period() const { return edge_->base_period(); }
+
 ObjectRef PushSourceHandle::latest_ref() const { return edge_->latest(); }
 
 ObjectRef PushSourceHandle::take_latest_ref() const {

@@ -65,7 +65,13 @@ void write_trigger(std::ostream& out, const Contract& contract) {
   const Trigger& trigger = contract.default_trigger;
   if (trigger.kind == Trigger::Kind::period)
     out << "  a lap every " << xml::number_text(to_seconds(trigger.period)) << " s\n";
-  if (trigger.kind == Trigger::Kind::on_port) out << "  a lap for each object on " << trigger.port << "\n";
+  if (!trigger.waits_for_ports()) return;
+  out << (trigger.kind == Trigger::Kind::on_all ? "  a lap for new objects on all of "
+                                                : "  a lap for each object on ")
+      << joined(trigger.ports, ", ");
+  if (trigger.period > Duration{0})
+    out << ", at least every " << xml::number_text(to_seconds(trigger.period)) << " s";
+  out << "\n";
 }
 
 void write_contract(std::ostream& out, const Contract& contract) {

@@ -48,7 +48,10 @@ void write(const ParamContract& param, JsonWriter& json) {
 
 void write(const Trigger& trigger, JsonWriter& json) {
   if (trigger.kind == Trigger::Kind::period) json.member("period", to_seconds(trigger.period));
-  if (trigger.kind == Trigger::Kind::on_port) json.member("on", trigger.port);
+  if (!trigger.waits_for_ports()) return;
+  json.member("on", trigger.ports);
+  json.member("fuse", trigger.kind == Trigger::Kind::on_all ? "all" : "any");
+  if (trigger.period > Duration{0}) json.member("at_least_every", to_seconds(trigger.period));
 }
 
 void write(const Contract& contract, JsonWriter& json) {

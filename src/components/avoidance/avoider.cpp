@@ -73,6 +73,7 @@ Status Avoider::configure() {
 }
 
 Status Avoider::start() {
+  motion_.start(lap_period());
   memory_.clear();
   heard_at_.reset();
   moved_at_.reset();

@@ -36,6 +36,11 @@ class Goto final : public orca::Component {
     return orca::ok();
   }
 
+  Status start() override {
+    motion_.start(lap_period());
+    return orca::ok();
+  }
+
   Status on_goal(const ObjectPtr<orca::idl::GoalPoint>& goal) {
     if (const char* fault = fault_of(*goal); fault != nullptr)
       return orca::fail(orca::Code::invalid_argument, "the goal \"" + goal->name() + "\" " + fault);

@@ -9,14 +9,13 @@
 namespace orca::fuse {
 namespace {
 
-// Returns a required behaviour that is silent; null if all are heard.
+// Returns a behaviour that must be heard and is not; null if there is none.
 const std::string* silent(std::span<const Voice> voices, const Rules& rules) {
-  for (const std::string& name : rules.required) {
-    const bool heard = std::any_of(voices.begin(), voices.end(), [&](const Voice& voice) {
-      return voice.name == name && voice.age <= rules.required_max_age;
-    });
-    if (!heard) return &name;
-  }
+  for (const Voice& voice : voices)
+    if (voice.age > voice.silence_limit) return &voice.name;
+  for (const std::string& name : rules.required)
+    if (std::none_of(voices.begin(), voices.end(), [&](const Voice& voice) { return voice.name == name; }))
+      return &name;
   return nullptr;
 }
 

@@ -24,10 +24,9 @@ struct Rules {
   Mode mode = Mode::weighted;
   double max_age = 0.0;  ///< [s] older wishes do not count.
   Ballot ballot;
-  std::vector<std::string> order;  ///< Mode priority: the first named comes first.
-  Wiring wiring;                   ///< Mode subsumption.
-  std::vector<std::string> required;
-  double required_max_age = 0.0;  ///< [s] silence of a required behaviour that stops the robot.
+  std::vector<std::string> order;     ///< Mode priority: the first named comes first.
+  Wiring wiring;                      ///< Mode subsumption.
+  std::vector<std::string> required;  ///< Must be among the voices.
 };
 
 enum class Verdict { fused, no_wish, told_to_stop, required_silent };
@@ -40,8 +39,8 @@ struct Decision {
   std::string decided_by;              ///< Who had the largest share, said stop, or was silent; or empty.
 };
 
-/// Decides on a command; safety comes before any mode. The robot stops if a required behaviour has been
-/// silent for too long or is not listened to, and if any behaviour has said full stop. Messages without an
+/// Decides on a command; safety comes before any mode. The robot stops if any behaviour has said full stop, if
+/// one has been silent for longer than its limit, or if a required one is not listened to. Messages without an
 /// opinion, messages that are too old and wishes without weight never count.
 ///
 /// @param last_rate  [rad/s] decided in the lap before.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <chrono>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,12 +24,21 @@ using orca::fuse::Wish;
 using MotionPort = orca::PushProxyArray<orca::idl::MotionCommand>;
 using Source = MotionPort::Source;
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// How often the fuser looks for behaviours that have fallen silent.
+constexpr orca::Duration kWatchPeriod = std::chrono::milliseconds(20);
+// [s] A shorter silence is no sign of a fault on a machine without real-time scheduling.
+constexpr double kShortestSilence = 0.1;
+constexpr double kSilentPeriods = 3.0;
+
 // A behaviour that the fuser listens to, and its last messages.
 struct Listened {
   Source source;
   std::string name;
-  ObjectPtr<orca::idl::MotionCommand> last;
-  ObjectPtr<orca::idl::MotionCommand> last_wish;  // opinions only
+  orca::TimePoint since{};  // when the fuser began to listen to it
+  ObjectPtr<orca::idl::MotionCommand> last = {};
+  ObjectPtr<orca::idl::MotionCommand> last_wish = {};  // opinions only
 };
 
 /// The component that fuses the wishes of the behaviours in a client's list into one crisp command (thesis
@@ -41,7 +52,7 @@ class MotionCommandFuser final : public orca::Component {
     if (*sync_ == "period") {
       lap_every(orca::from_seconds(*period_));
     } else {
-      lap_on("motion");
+      lap_on("motion", kWatchPeriod);
     }
     if (Status sound = params_changed(); !sound.ok()) return sound;
     return first_clients_->empty() ? orca::ok() : choose(*first_clients_);
@@ -54,19 +65,23 @@ class MotionCommandFuser final : public orca::Component {
     if (Status read = read_nodes(*suppress_, rules.wiring.suppress); !read.ok()) return read;
     if (Status read = read_nodes(*inhibit_, rules.wiring.inhibit); !read.ok()) return read;
     // A required behaviour that is absent would keep the robot standing for good.
-    for (const std::string& name : rules.required)
-      if (!source_of(name)) return not_connected(name);
+    for (const std::vector<std::string>* names : {&*required_, &*optional_})
+      for (const std::string& name : *names)
+        if (!source_of(name)) return not_connected(name);
     rules_ = std::move(rules);
     return orca::ok();
   }
 
   Status start() override {
-    for (const Listened& behaviour : listened_) behaviour.source.subscribe();
+    for (Listened& behaviour : listened_) {
+      behaviour.source.subscribe();
+      behaviour.since = now();
+    }
     return orca::ok();
   }
 
   void stop() override {
-    for (Listened& behaviour : listened_) behaviour = {behaviour.source, behaviour.name, {}, {}};
+    for (Listened& behaviour : listened_) behaviour = {behaviour.source, behaviour.name};
     decision_ = {};
     voices_.clear();
     refused_ = true;  // at the very end the base takes nothing any more
@@ -90,7 +105,7 @@ class MotionCommandFuser final : public orca::Component {
       const std::optional<Source> source = source_of(name);
       if (!source) return not_connected(name);
       const auto same = [&](const Listened& behaviour) { return behaviour.source == *source; };
-      if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back({*source, name, {}, {}});
+      if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back({*source, name, now()});
     }
     listened_ = std::move(chosen);
     stay_active(!listened_.empty());
@@ -98,16 +113,23 @@ class MotionCommandFuser final : public orca::Component {
   }
 
   orca::Outcome work() override {
-    if (*sync_ == "all") wait_for_all();
+    const bool heard = *sync_ == "period" || has_news();
+    if (heard && *sync_ == "all") wait_for_all();
     if (listened_.empty()) return orca::again();
     voices_.clear();
     for (Listened& behaviour : listened_) voices_.push_back(hear(behaviour));
     const double last_rate = decision_.command.kind == Wish::Kind::turn_rate ? decision_.command.value : 0.0;
     Decision decision = decide(voices_, rules_, last_rate);
     tell_change(decision);
+    if (!heard && decision.verdict == decision_.verdict) return orca::again();  // it only looked for silence
     decision_ = std::move(decision);
     explain(send());
     return orca::again();
+  }
+
+  [[nodiscard]] bool has_news() const {
+    return std::any_of(listened_.begin(), listened_.end(),
+                       [](const Listened& behaviour) { return behaviour.source.new_data_arrived(); });
   }
 
   // Implements the first policy of thesis 7.4, with two exceptions: a full stop is not delayed, and a silent
@@ -135,6 +157,7 @@ class MotionCommandFuser final : public orca::Component {
     }
     Voice voice;
     voice.name = behaviour.name;
+    voice.silence_limit = silence_limit(behaviour);
     if (!behaviour.last) return voice;
     voice.said = said(*behaviour.last);
     voice.age = age_of(*behaviour.last);
@@ -142,6 +165,14 @@ class MotionCommandFuser final : public orca::Component {
     voice.wish = wish_of(*behaviour.last_wish);
     voice.wish_age = age_of(*behaviour.last_wish);
     return voice;
+  }
+
+  // Returns how long the behaviour may be silent [s].
+  [[nodiscard]] double silence_limit(const Listened& behaviour) const {
+    if (std::find(optional_->begin(), optional_->end(), behaviour.name) != optional_->end()) return kNever;
+    if (*silence_limit_ > 0.0) return *silence_limit_;
+    const double announced = orca::to_seconds(behaviour.source.base_period());
+    return announced > 0.0 ? std::clamp(kSilentPeriods * announced, kShortestSilence, *max_age_) : *max_age_;
   }
 
   static Voice::Said said(const orca::idl::MotionCommand& command) {
@@ -199,13 +230,20 @@ class MotionCommandFuser final : public orca::Component {
     voice.share(decision_.shares[i]);
   }
 
-  void tell_change(const Decision& decision) const {
-    const bool was_silent = decision_.verdict == Verdict::required_silent;
-    const bool is_silent = decision.verdict == Verdict::required_silent;
-    if (is_silent && !was_silent)
-      log_warning("stops the robot: nothing is heard of the required behaviour \"" + decision.decided_by +
-                  "\"");
-    if (was_silent && !is_silent) log_info("all required behaviours are heard again");
+  // Reports silence and its end, but not the moment before all have spoken for the first time.
+  void tell_change(const Decision& decision) {
+    const bool is_silent = decision.verdict == Verdict::required_silent && has_had_time(decision.decided_by);
+    if (is_silent && !told_silence_)
+      log_warning("stops the robot: nothing is heard of the behaviour \"" + decision.decided_by + "\"");
+    if (told_silence_ && !is_silent) log_info("all behaviours are heard again");
+    told_silence_ = is_silent;
+  }
+
+  [[nodiscard]] bool has_had_time(const std::string& name) const {
+    for (const Listened& behaviour : listened_)
+      if (behaviour.name == name)
+        return now() - behaviour.since > orca::from_seconds(silence_limit(behaviour));
+    return true;
   }
 
   static Status read_nodes(const std::vector<std::string>& texts, std::vector<orca::fuse::Node>& nodes) {
@@ -226,8 +264,7 @@ class MotionCommandFuser final : public orca::Component {
             .ballot = {*steer_gain_, *max_turn_rate_, *rate_spread_, *speed_spread_, *inertia_},
             .order = *order_,
             .wiring = {{}, {}, *max_age_, *hold_},
-            .required = *required_,
-            .required_max_age = *required_max_age_};
+            .required = *required_};
   }
 
   // Returns whether the source is the behaviour or port `name`, seen from the fuser's own context or from the
@@ -291,14 +328,25 @@ class MotionCommandFuser final : public orca::Component {
   orca::Param<std::vector<std::string>> first_clients_{
       *this, "clients", {}, {.fixed = true, .text = "Behaviours to listen to until a client list comes."}};
   orca::Param<std::vector<std::string>> required_{
-      *this, "required", {}, {.text = "Behaviours without which the robot must not move."}};
-  orca::Param<double> required_max_age_{
       *this,
-      "required_max_age",
-      0.5,
-      {.unit = "s", .min = 0.0, .text = "Silence of a required behaviour that stops the robot."}};
+      "required",
+      {},
+      {.text = "Behaviours without which the robot must not move, even if a client list leaves them out."}};
+  orca::Param<std::vector<std::string>> optional_{
+      *this,
+      "optional",
+      {},
+      {.text =
+           "Behaviours that may fall silent; the silence of any other in the client list stops the robot."}};
+  orca::Param<double> silence_limit_{*this,
+                                     "silence_limit",
+                                     0.0,
+                                     {.unit = "s",
+                                      .min = 0.0,
+                                      .text = "Silence of a behaviour that stops the robot; 0: three of the "
+                                              "periods that it announces, at least 0.1 s, at most max_age."}};
   orca::Param<double> max_age_{
-      *this, "max_age", 0.5, {.unit = "s", .min = 0.0, .text = "Older wishes are disregarded."}};
+      *this, "max_age", 0.3, {.unit = "s", .min = 0.1, .text = "Older wishes are disregarded."}};
   orca::Param<double> steer_gain_{
       *this,
       "steer_gain",
@@ -344,6 +392,7 @@ class MotionCommandFuser final : public orca::Component {
   std::vector<Listened> listened_;
   std::vector<Voice> voices_;
   Decision decision_;  // the last one
+  bool told_silence_ = false;
   bool refused_ = false;
 };
 

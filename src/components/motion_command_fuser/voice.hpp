@@ -17,6 +17,8 @@ struct Voice {
   double age = std::numeric_limits<double>::infinity();       ///< [s] since then.
   Wish wish = {};                                             ///< The last one, if it ever had one.
   double wish_age = std::numeric_limits<double>::infinity();  ///< [s] since then.
+  /// [s] silence of this behaviour that stops the robot; infinity: it may be silent.
+  double silence_limit = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace orca::fuse

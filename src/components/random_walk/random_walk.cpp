@@ -37,6 +37,11 @@ class RandomWalk final : public orca::Component {
     return orca::fail(orca::Code::invalid_argument, "least_turn must not be above greatest_turn");
   }
 
+  orca::Status start() override {
+    motion_.start(lap_period());
+    return orca::ok();
+  }
+
   orca::Outcome work() override {
     hear();
     if (!heard_at_ || orca::to_seconds(now() - *heard_at_) > *deaf_after_) {

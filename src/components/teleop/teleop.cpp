@@ -74,6 +74,7 @@ class Teleop final : public orca::Component {
   }
 
   Status start() override {
+    motion_.start(lap_period());
     keys_ = {};
     stick_.release();
     if (!keyboard_->empty())

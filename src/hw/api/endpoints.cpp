@@ -40,8 +40,7 @@ Status MotionHW::check(const idl::MotionCommand& command) {
 
 Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
   if (Status checked = check(command); !checked.ok()) return checked;
-  move(command.kind() == idl::FULLSTOP ? Twist2{} : within_limits(command), now);
-  return ok();
+  return move(command.kind() == idl::FULLSTOP ? Twist2{} : within_limits(command), now);
 }
 
 Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) {
@@ -49,8 +48,7 @@ Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) 
     return fail(Code::failed_precondition,
                 "this base cannot move sideways; send it a MotionCommand, not a HolonomicVelocity");
   if (Status checked = check_command(velocity); !checked.ok()) return checked;
-  move(within_limits(velocity), now);
-  return ok();
+  return move(within_limits(velocity), now);
 }
 
 Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
@@ -61,10 +59,33 @@ Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
   return ok();
 }
 
-void MotionHW::move(const Twist2& wanted, TimePoint now) {
+Status MotionHW::move(const Twist2& wanted, TimePoint now) {
   const std::lock_guard lock(mutex_);
+  if (const auto reason = obstruction_.against(wanted)) {
+    stand();
+    return fail(Code::unavailable, "the base stands: " + *reason + "; ask for another direction");
+  }
   setpoint_.velocity = wanted;
   received_ = now;
+  return ok();
+}
+
+bool MotionHW::obstruct(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  const bool moved = !setpoint_.stands();
+  obstruction_.meet(setpoint_.velocity, reason);
+  stand();
+  return moved;
+}
+
+bool MotionHW::press(const std::vector<Obstruction::Pressed>& bumpers) {
+  const std::lock_guard lock(mutex_);
+  obstruction_.press(bumpers);
+  const auto reason = obstruction_.against(setpoint_.velocity);
+  if (!reason) return false;
+  obstruction_.meet(setpoint_.velocity, *reason);
+  stand();
+  return true;
 }
 
 // @pre  mutex_ is held.

@@ -20,6 +20,11 @@ bool PushClientEndpoint::has_new() const {
   return std::any_of(edges_.begin(), edges_.end(), [](const auto& edge) { return edge->has_new(); });
 }
 
+bool PushClientEndpoint::has_new_from_all() const {
+  return has_new() && std::all_of(edges_.begin(), edges_.end(),
+                                  [](const auto& edge) { return edge->has_new() || !edge->subscribed(); });
+}
+
 void PushClientEndpoint::subscribe_all() {
   for (const auto& edge : edges_) edge->subscribe();
 }

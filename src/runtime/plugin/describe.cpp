@@ -71,6 +71,7 @@ class ComponentDescriber final : public Describer<ComponentHost> {
     contract_.ports.push_back(std::move(declaration.contract));
   }
   void set_default_trigger(const Trigger& trigger) override { contract_.default_trigger = trigger; }
+  [[nodiscard]] Duration lap_period() const override { refuse("asked for the time between its laps"); }
   [[nodiscard]] Device* hardware() override {
     contract_.needs_hardware = true;
     return hardware_;

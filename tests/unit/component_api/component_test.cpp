@@ -27,6 +27,7 @@ class Host final : public ComponentHost {
   void declare_port(PortDeclaration declaration) override { peer_.declare_port(std::move(declaration)); }
   void declare_param(ParamDeclaration /*declaration*/) override {}
   void set_default_trigger(const Trigger& trigger) override { trigger_ = trigger; }
+  [[nodiscard]] Duration lap_period() const override { return trigger_.period; }
   [[nodiscard]] const std::string& name() const override { return peer_.strand().name(); }
   [[nodiscard]] TimePoint now() const override { return peer_.executive().now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override { return {1, name(), stream}; }
@@ -61,7 +62,7 @@ TEST_CASE("a component may name the port that starts its laps by the port itself
     Host host(executive, "both");
     const Both both(host);
     CHECK(both.right.name() == "right");
-    CHECK(host.trigger() == Trigger{Trigger::Kind::on_port, Duration{0}, "right"});
+    CHECK(host.trigger() == Trigger{Trigger::Kind::on_any, Duration{0}, {"right"}});
   });
 }
 

@@ -23,8 +23,7 @@ Rules rules_of(const std::string& mode) {
                      .inertia = 0.2},
           .order = {"avoid", "goto"},
           .wiring = {.suppress = {{"avoid", "goto"}}, .inhibit = {}, .max_age = 0.5, .hold = 0.3},
-          .required = {},
-          .required_max_age = 0.4};
+          .required = {}};
 }
 
 Voice wishes(const std::string& name, double direction, double weight = 1.0, double age = 0.05) {
@@ -32,6 +31,10 @@ Voice wishes(const std::string& name, double direction, double weight = 1.0, dou
 }
 Voice has_no_opinion(const std::string& name, double age = 0.05) {
   return {name, Said::dont_care, age, {}, std::numeric_limits<double>::infinity()};
+}
+Voice must_be_heard(Voice voice) {
+  voice.silence_limit = 0.4;
+  return voice;
 }
 Voice stops(const std::string& name, double age = 0.05) {
   return {name, Said::full_stop, age, {}, std::numeric_limits<double>::infinity()};
@@ -72,20 +75,34 @@ TEST_CASE("in every mode what has no opinion, no weight or too many years does n
   }
 }
 
-TEST_CASE("in every mode a required behaviour that is silent, unheard or not listened to stops the robot",
+TEST_CASE("in every mode a behaviour that is silent for longer than its limit stops the robot",
+          "[components][fuser]") {
+  for (const std::string& mode : kModes) {
+    CAPTURE(mode);
+    const Rules rules = rules_of(mode);
+    const std::vector heard{must_be_heard(has_no_opinion("avoid", 0.39)), wishes("goto", 0.0)};
+    CHECK(decide(heard, rules, 0.0).verdict == Verdict::fused);
+    for (const Voice& avoid :
+         {has_no_opinion("avoid", 0.41), wishes("avoid", 0.0, 1.0, 0.41), Voice{.name = "avoid"}}) {
+      const Decision decision = decide(std::vector{wishes("goto", 0.0), must_be_heard(avoid)}, rules, 0.0);
+      CHECK(decision.verdict == Verdict::required_silent);
+      CHECK(decision.decided_by == "avoid");
+      CHECK(decide(std::vector{wishes("goto", 0.0), avoid}, rules, 0.0).verdict == Verdict::fused);
+    }
+  }
+}
+
+TEST_CASE("in every mode a required behaviour that is not listened to stops the robot",
           "[components][fuser]") {
   for (const std::string& mode : kModes) {
     CAPTURE(mode);
     Rules rules = rules_of(mode);
     rules.required = {"avoid"};
-    CHECK(decide(std::vector{has_no_opinion("avoid"), wishes("goto", 0.0)}, rules, 0.0).verdict ==
+    CHECK(decide(std::vector{wishes("goto", 0.0), has_no_opinion("avoid")}, rules, 0.0).verdict ==
           Verdict::fused);
-    for (const Voice& avoid : {has_no_opinion("avoid", 0.41), wishes("avoid", 0.0, 1.0, 0.41),
-                               Voice{.name = "avoid"}, wishes("other", 0.0)}) {
-      const Decision decision = decide(std::vector{wishes("goto", 0.0), avoid}, rules, 0.0);
-      CHECK(decision.verdict == Verdict::required_silent);
-      CHECK(decision.decided_by == "avoid");
-    }
+    const Decision decision = decide(std::vector{wishes("goto", 0.0), wishes("other", 0.0)}, rules, 0.0);
+    CHECK(decision.verdict == Verdict::required_silent);
+    CHECK(decision.decided_by == "avoid");
   }
 }
 

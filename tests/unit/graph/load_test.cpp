@@ -84,8 +84,8 @@ TEST_CASE("how a component runs is set on it", "[graph][load]") {
   CHECK(a.autonomous == false);
   CHECK(a.process == "control");
   const ComponentNode& b = *graph.find_component("b");
-  CHECK(b.trigger->kind == Trigger::Kind::on_port);
-  CHECK(b.trigger->port == "odometry");
+  CHECK(b.trigger->kind == Trigger::Kind::on_any);
+  CHECK(b.trigger->ports == std::vector<std::string>{"odometry"});
   CHECK(b.start_after == std::vector<std::string>{"a"});
   const ComponentNode& c = *graph.find_component("c");
   CHECK_FALSE(c.trigger.has_value());

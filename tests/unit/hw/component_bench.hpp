@@ -31,6 +31,7 @@ class ComponentBench final : public ComponentHost {
   void declare_port(PortDeclaration declaration) override { peer_.declare_port(std::move(declaration)); }
   void declare_param(ParamDeclaration /*declaration*/) override {}
   void set_default_trigger(const Trigger& trigger) override { period_ = trigger.period; }
+  [[nodiscard]] Duration lap_period() const override { return period_; }
   [[nodiscard]] const std::string& name() const override { return peer_.strand().name(); }
   [[nodiscard]] TimePoint now() const override { return peer_.strand().executive().now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override { return {1, name(), stream}; }

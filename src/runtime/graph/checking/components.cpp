@@ -147,15 +147,28 @@ class ComponentReader {
     }
     if (const auto period = attribute<double>("period"))
       checked_.value.trigger = Trigger{Trigger::Kind::period, from_seconds(*period), {}};
-    const Text* on = node_.known("on");
-    if (on == nullptr) return;
-    checked_.value.trigger = Trigger{Trigger::Kind::on_port, {}, on->value};
-    if (checked_.contract && checked_.ports_known) check_trigger_port(*on);
+    if (const Text* on = node_.known("on")) return read_port_trigger(*on);
+    for (const char* name : {"fuse", "at_least_every"})
+      if (node_.find("on") == nullptr && node_.find(name) != nullptr)
+        report_.error(codes::kTwoTriggers, node_.place(name),
+                      node_.title() + ": " + name + " is for laps that start on ports; name them with on");
   }
 
-  void check_trigger_port(const Text& on) {
-    const PortContract* const refused = checked_.refused_port(on.value);
-    const std::string& wanted = refused == nullptr ? on.value : refused->name;
+  void read_port_trigger(const Text& on) {
+    const Text* const fuse = node_.known("fuse");
+    const bool all = fuse != nullptr && fuse->value == "all";
+    const auto limit = attribute<double>("at_least_every");
+    const Trigger trigger{all ? Trigger::Kind::on_all : Trigger::Kind::on_any,
+                          from_seconds(limit.value_or(0.0)), split_names(on.value)};
+    if (trigger.ports.empty()) check_trigger_port(on, "");
+    for (const std::string& port : trigger.ports) check_trigger_port(on, port);
+    checked_.value.trigger = trigger;
+  }
+
+  void check_trigger_port(const Text& on, const std::string& name) {
+    if (!checked_.contract || !checked_.ports_known) return;
+    const PortContract* const refused = checked_.refused_port(name);
+    const std::string& wanted = refused == nullptr ? name : refused->name;
     std::vector<std::string> inputs;
     for (const PortContract& port : checked_.contract->ports) {
       if (port.pattern != Pattern::push || port.role != Role::proxy) continue;
@@ -164,10 +177,10 @@ class ComponentReader {
     }
     const bool exists = checked_.contract->port(wanted) != nullptr;
     report_.error(codes::kTriggerPort, on.position,
-                  node_.title() + ": on=" + in_quotes(on.value) +
+                  node_.title() + ": on=" + in_quotes(name) +
                       (exists ? " is not a PushProxy, only what is pushed to a component can start its laps"
                               : " is not a port of it") +
-                      "; its PushProxies are: " + listed(inputs) + report_.hint(on.value, inputs));
+                      "; its PushProxies are: " + listed(inputs) + report_.hint(name, inputs));
   }
 
   void read_content() {

@@ -66,17 +66,25 @@ class Influence {
                         "; if it works all the same, say so with autonomous=\"true\"");
   }
 
-  // Checks the trigger; the author's own trigger uses the author's name of the port.
   void check_trigger(const CheckedComponent& component, const std::set<std::string>& connected) {
     const Trigger& trigger = component.value.trigger.value_or(component.contract->default_trigger);
-    if (trigger.kind != Trigger::Kind::on_port) return;
-    const auto renamed = component.renamed.find(trigger.port);
-    const std::string& port = renamed == component.renamed.end() ? trigger.port : renamed->second.name;
-    if (connected.contains(port)) return;
+    if (!trigger.waits_for_ports() || trigger.period > Duration{0}) return;
+    std::vector<std::string> silent;
+    for (const std::string& name : trigger.ports)
+      if (const std::string port = name_in_graph(component, name); !connected.contains(port))
+        silent.push_back(in_quotes(port));
+    const bool needs_all = trigger.kind == Trigger::Kind::on_all;
+    if (silent.empty() || (!needs_all && silent.size() < trigger.ports.size())) return;
     report_.warning(codes::kNeverTriggered, component.value.position,
                     "component " + in_quotes(component.value.name) + ": its laps start on port " +
-                        in_quotes(port) + ", to which nothing is connected, so it never does one; " +
+                        listed(silent) + ", to which nothing is connected, so it never does one; " +
                         "connect it, or set period or on");
+  }
+
+  // Returns the graph's name of a port; the author's own trigger uses the author's name.
+  static std::string name_in_graph(const CheckedComponent& component, const std::string& port) {
+    const auto renamed = component.renamed.find(port);
+    return renamed == component.renamed.end() ? port : renamed->second.name;
   }
 
   const Model& model_;

@@ -14,6 +14,7 @@ using xml::ValueRule;
 
 constexpr std::array<std::string_view, 2> kYesNo{"true", "false"};
 constexpr std::array<std::string_view, 2> kStart{"at_once", "on_demand"};
+constexpr std::array<std::string_view, 2> kFuse{"any", "all"};
 constexpr std::array<std::string_view, 2> kStay{"cold", "warm"};
 constexpr std::array<std::string_view, 4> kOverflow{"drop_oldest", "drop_newest", "block", "refuse"};
 
@@ -55,7 +56,13 @@ constexpr std::array kComponent{
                   integer(-100, 100)},
     AttributeRule{"autonomous", false, "Whether it works without clients.", kBoolean},
     AttributeRule{"period", false, "A lap each such time, for example 50 ms.", seconds(kMicrosecond)},
-    AttributeRule{"on", false, "A lap for each object that comes to this PushProxy."},
+    AttributeRule{"on", false, "PushProxies whose new objects start the laps."},
+    AttributeRule{
+        "fuse", false,
+        "With several ports in on: whether an object on any of them starts a lap, or new ones on all.",
+        one_of(kFuse)},
+    AttributeRule{"at_least_every", false, "With on: longest time between two laps, for example 0.2 s.",
+                  seconds(kMicrosecond)},
     AttributeRule{"start_after", false, "Components that must be up before."},
     AttributeRule{"start", false, "When its plugin is loaded: on_demand is when it is first asked for.",
                   one_of(kStart)},

@@ -23,6 +23,13 @@ void add(Attributes& attributes, const char* name, const std::string& value) {
   if (!value.empty()) attributes.emplace_back(name, value);
 }
 
+void add_trigger(Attributes& attributes, const Trigger& trigger) {
+  if (!trigger.waits_for_ports()) return add(attributes, "period", seconds_text(trigger.period));
+  add(attributes, "on", joined(trigger.ports, " "));
+  if (trigger.kind == Trigger::Kind::on_all) add(attributes, "fuse", "all");
+  if (trigger.period > Duration{0}) add(attributes, "at_least_every", seconds_text(trigger.period));
+}
+
 }  // namespace
 
 std::string value_text(const ParamValue& value) { return std::visit(ValueText{}, value); }
@@ -44,9 +51,7 @@ Attributes attributes_of(const ComponentNode& node) {
   add(result, "process", node.process);
   if (node.priority != 0) add(result, "priority", std::to_string(node.priority));
   if (node.autonomous) add(result, "autonomous", value_text(*node.autonomous));
-  if (node.trigger && node.trigger->kind == Trigger::Kind::on_port) add(result, "on", node.trigger->port);
-  if (node.trigger && node.trigger->kind == Trigger::Kind::period)
-    add(result, "period", seconds_text(node.trigger->period));
+  if (node.trigger) add_trigger(result, *node.trigger);
   add(result, "start", node.on_demand ? "on_demand" : "");
   add(result, "stay", node.stay_warm ? "warm" : "");
   if (node.on_demand && !node.stay_warm) add(result, "idle_time", seconds_text(node.idle_time));

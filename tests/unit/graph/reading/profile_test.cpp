@@ -81,7 +81,7 @@ TEST_CASE("a profile's period takes the place of on, and the other way round", "
       "on='odometry'/></profile></graph>";
   const Graph graph = must_load(text, {{"p"}, {}});
   CHECK(graph.find_component("a")->trigger->kind == Trigger::Kind::period);
-  CHECK(graph.find_component("b")->trigger->kind == Trigger::Kind::on_port);
+  CHECK(graph.find_component("b")->trigger->kind == Trigger::Kind::on_any);
 }
 
 TEST_CASE("hardware=\"\" in a profile takes the hardware away", "[graph][profile]") {

@@ -105,11 +105,14 @@ struct Trigger {
   enum class Kind {
     free_running,  ///< The next lap follows at once; work() blocks by itself.
     period,        ///< One lap each `period`.
-    on_port,       ///< One lap per new object on `port`.
+    on_any,  ///< One lap per new object on one of the `ports` (thesis 7.4: with the latest of the others).
+    on_all,  ///< One lap when every server that the `ports` listen to has sent something new.
   };
   Kind kind = Kind::free_running;
-  Duration period{0};
-  std::string port;
+  Duration period{0};              ///< With ports: the longest time between two laps; 0: no limit.
+  std::vector<std::string> ports;  ///< PushProxies and PushProxyArrays.
+
+  [[nodiscard]] bool waits_for_ports() const { return kind == Kind::on_any || kind == Kind::on_all; }
   friend bool operator==(const Trigger&, const Trigger&) = default;
 };
 

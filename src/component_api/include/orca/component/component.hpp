@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "orca/base/result.hpp"
 #include "orca/component/host.hpp"
@@ -69,12 +71,22 @@ class Component : public PortOwner {
  protected:
   /// Sets what starts a lap unless the graph sets it: a period [s], or a new object on a port. Without these,
   /// the next lap follows at once.
+  /// @param at_least_every  [s] a lap also starts that long after the last one; 0: it does not.
   /// @pre  called from the constructor or from configure().
   void lap_every(Duration period) { host_.set_default_trigger({Trigger::Kind::period, period, {}}); }
-  void lap_on(std::string port) {
-    host_.set_default_trigger({Trigger::Kind::on_port, Duration{0}, std::move(port)});
+  void lap_on(std::string port, Duration at_least_every = Duration{0}) {
+    host_.set_default_trigger({Trigger::Kind::on_any, at_least_every, {std::move(port)}});
   }
   void lap_on(const PushProxyHandle& port) { lap_on(port.name()); }
+  /// Sets that a lap starts when all these ports have something new.
+  void lap_on_all(std::vector<std::string> ports, Duration at_least_every = Duration{0}) {
+    host_.set_default_trigger({Trigger::Kind::on_all, at_least_every, std::move(ports)});
+  }
+
+  /// Returns the time between two laps as far as it is known in advance, for PushServer::start(): the period,
+  /// or the one that the servers announce whose objects start the laps; 0: not known.
+  /// @pre  called from start() or later, when the component is subscribed to its servers.
+  [[nodiscard]] Duration lap_period() const { return host_.lap_period(); }
 
   [[nodiscard]] const std::string& name() const { return host_.name(); }
   [[nodiscard]] TimePoint now() const { return host_.now(); }

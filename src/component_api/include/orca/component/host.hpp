@@ -45,6 +45,8 @@ class ComponentHost : public PluginHost {
  public:
   virtual void declare_port(PortDeclaration declaration) = 0;
   virtual void set_default_trigger(const Trigger& trigger) = 0;
+  /// Returns the time between two laps [s]; 0: not known in advance.
+  [[nodiscard]] virtual Duration lap_period() const = 0;
 
   /// Returns the hardware that the graph binds to this component, or null. This declaration makes it part of
   /// the contract.

@@ -161,6 +161,8 @@ class PushSourceHandle {
   void unsubscribe() const;
   /// Returns whether an object has arrived that take_latest() has not returned yet.
   [[nodiscard]] bool new_data_arrived() const;
+  /// Returns the time between two objects that the server announces [s]; 0: none.
+  [[nodiscard]] Duration base_period() const;
 
   /// Compares two sources: equal if they are the same source of the same port.
   friend bool operator==(const PushSourceHandle&, const PushSourceHandle&) = default;

@@ -41,7 +41,8 @@ void override_node(Node& base, const Node& over) {
   if (both_typed && over.value("type") != base.value("type")) {
     std::erase_if(base.children, [](const Node& child) { return child.is("param"); });
   }
-  if (over.find("period") != nullptr) base.attributes.erase("on");
+  if (over.find("period") != nullptr)
+    for (const char* name : {"on", "fuse", "at_least_every"}) base.attributes.erase(name);
   if (over.find("on") != nullptr) base.attributes.erase("period");
   for (const auto& [name, text] : over.attributes) base.attributes.insert_or_assign(name, text);
   for (const Node& child : over.children) override_child(base, child);

@@ -32,10 +32,10 @@ struct ComponentParts {
   Strand strand;
   PortHome home;
   PortSet ports;
+  LapTrigger laps;
   ComponentSite site;
   HookCaller hooks;
   Parameters params;
-  LapTrigger laps;
   OrderQueue orders;
 };
 

@@ -6,10 +6,11 @@
 namespace orca::host {
 
 ComponentSite::ComponentSite(RunContext& run, const ComponentSettings& settings, Strand& strand,
-                             Device* hardware)
+                             const LapTrigger& laps, Device* hardware)
     : run_(run),
       settings_(settings),
       strand_(strand),
+      laps_(laps),
       hardware_(hardware),
       stays_active_(settings.autonomous.value_or(false)) {}
 
@@ -34,7 +35,7 @@ void ComponentSite::declare_param(ParamDeclaration declaration) {
 
 void ComponentSite::set_default_trigger(const Trigger& trigger) {
   declared_.trigger = trigger;
-  declared_.trigger.port = settings_.name_in_graph(trigger.port);
+  for (std::string& port : declared_.trigger.ports) port = settings_.name_in_graph(port);
 }
 
 RandomStream ComponentSite::random(std::string_view stream) const {

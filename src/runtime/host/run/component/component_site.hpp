@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "component_settings.hpp"
+#include "lap_trigger.hpp"
 #include "orca/component/host.hpp"
 #include "run/run_context.hpp"
 
@@ -24,8 +25,10 @@ struct Declarations {
 /// Thread contract: as ComponentHost; the rest on the component's strand, or before that starts.
 class ComponentSite final : public ComponentHost {
  public:
+  /// @param laps      what starts the component's laps; outlives this object.
   /// @param hardware  the hardware that the graph binds to the component, or null.
-  ComponentSite(RunContext& run, const ComponentSettings& settings, Strand& strand, Device* hardware);
+  ComponentSite(RunContext& run, const ComponentSettings& settings, Strand& strand, const LapTrigger& laps,
+                Device* hardware);
 
   [[nodiscard]] const Declarations& declared() const { return declared_; }
   /// Returns whether the component is to work without clients.
@@ -39,6 +42,7 @@ class ComponentSite final : public ComponentHost {
   void declare_port(PortDeclaration declaration) override;
   void declare_param(ParamDeclaration declaration) override;
   void set_default_trigger(const Trigger& trigger) override;
+  [[nodiscard]] Duration lap_period() const override { return laps_.period(); }
   [[nodiscard]] const std::string& name() const override { return settings_.name; }
   [[nodiscard]] TimePoint now() const override { return run_.executive.now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override;
@@ -51,6 +55,7 @@ class ComponentSite final : public ComponentHost {
   RunContext& run_;
   const ComponentSettings& settings_;
   Strand& strand_;
+  const LapTrigger& laps_;
   Device* const hardware_;
   Declarations declared_;
   bool stays_active_;

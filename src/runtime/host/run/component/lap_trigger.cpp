@@ -7,27 +7,57 @@ namespace orca::host {
 
 Status LapTrigger::choose(const Trigger& trigger, const PortSet& ports) {
   trigger_ = trigger;
-  port_ = nullptr;
-  if (trigger_.kind != Trigger::Kind::on_port) return ok();
-  port_ = dynamic_cast<PushClientEndpoint*>(ports.find(trigger_.port));
-  if (port_ != nullptr) return ok();
-  return fail(Code::invalid_argument,
-              "its laps start on port \"" + trigger_.port + "\", which is no PushProxy of it");
+  ports_.clear();
+  for (const std::string& name : trigger.ports) {
+    const auto* port = dynamic_cast<const PushClientEndpoint*>(ports.find(name));
+    if (port == nullptr)
+      return fail(Code::invalid_argument,
+                  "its laps start on port \"" + name + "\", which is no PushProxy of it");
+    ports_.push_back(port);
+  }
+  return ok();
+}
+
+void LapTrigger::begin(TimePoint now) {
+  next_ = trigger_.waits_for_ports() ? saturating_add(now, trigger_.period) : now;
 }
 
 bool LapTrigger::is_due(TimePoint now) const {
-  switch (trigger_.kind) {
-    case Trigger::Kind::free_running: return true;
-    case Trigger::Kind::period: return now >= next_;
-    case Trigger::Kind::on_port: return port_->has_new();
-  }
-  return false;
+  if (trigger_.kind == Trigger::Kind::free_running) return true;
+  return (trigger_.waits_for_ports() && has_objects()) || now >= next();
+}
+
+bool LapTrigger::has_objects() const {
+  const auto any = [](const auto* port) { return port->has_new(); };
+  const auto all = [](const auto* port) { return port->has_new_from_all(); };
+  return trigger_.kind == Trigger::Kind::on_all ? std::all_of(ports_.begin(), ports_.end(), all)
+                                                : std::any_of(ports_.begin(), ports_.end(), any);
 }
 
 void LapTrigger::lap_begins(TimePoint now) {
   if (trigger_.kind == Trigger::Kind::period) next_ = std::max(saturating_add(next_, trigger_.period), now);
+  if (trigger_.waits_for_ports()) next_ = saturating_add(now, trigger_.period);
 }
 
-TimePoint LapTrigger::next() const { return trigger_.kind == Trigger::Kind::period ? next_ : kForever; }
+TimePoint LapTrigger::next() const { return trigger_.period > Duration{0} ? next_ : kForever; }
+
+// Returns the periods that the servers announce to which the trigger's ports are subscribed.
+std::vector<Duration> LapTrigger::announced() const {
+  std::vector<Duration> periods;
+  for (const PushClientEndpoint* port : ports_)
+    for (const auto& edge : port->edges())
+      if (edge->subscribed() && edge->grant().base_period > Duration{0})
+        periods.push_back(edge->grant().interval);
+  return periods;
+}
+
+Duration LapTrigger::period() const {
+  const std::vector<Duration> periods = announced();
+  if (!trigger_.waits_for_ports() || periods.empty()) return trigger_.period;
+  const bool all = trigger_.kind == Trigger::Kind::on_all;
+  const Duration found = all ? *std::max_element(periods.begin(), periods.end())
+                             : *std::min_element(periods.begin(), periods.end());
+  return trigger_.period > Duration{0} ? std::min(found, trigger_.period) : found;
+}
 
 }  // namespace orca::host

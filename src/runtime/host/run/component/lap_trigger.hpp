@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "orca/base/contract.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
@@ -8,25 +10,30 @@
 
 namespace orca::host {
 
-/// The trigger that starts the laps of one component: the last lap's end, a period, or an object on a port.
+/// The trigger that starts the laps of one component: the last lap's end, a period, or objects on its ports.
 ///
 /// Thread contract: the component's strand.
 class LapTrigger {
  public:
-  /// @errors  invalid_argument if the trigger's port is no PushProxy of the component.
+  /// @errors  invalid_argument if one of the trigger's ports is no PushProxy of the component.
   Status choose(const Trigger& trigger, const PortSet& ports);
 
-  /// Makes the first lap due now.
-  void begin(TimePoint now) { next_ = now; }
+  /// Notes that the laps begin now, with the first one at once if a period starts them.
+  void begin(TimePoint now);
   [[nodiscard]] bool is_due(TimePoint now) const;
   /// Notes that a lap begins now. Missed laps are not made up for.
   void lap_begins(TimePoint now);
   /// Returns when the next lap is due; kForever if no time starts it.
   [[nodiscard]] TimePoint next() const;
+  /// Returns the time between two laps as far as it is known in advance [s]; 0: not known.
+  [[nodiscard]] Duration period() const;
 
  private:
+  [[nodiscard]] bool has_objects() const;
+  [[nodiscard]] std::vector<Duration> announced() const;
+
   Trigger trigger_;
-  PushClientEndpoint* port_ = nullptr;  // Trigger::Kind::on_port only
+  std::vector<const PushClientEndpoint*> ports_;  // of a trigger that waits for ports
   TimePoint next_{};
 };
 

@@ -11,6 +11,7 @@
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/geometry/twist2.hpp"
+#include "orca/hw/obstruction.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/object.hpp"
@@ -95,9 +96,10 @@ struct DriveSetpoint {
 };
 
 /// The motion endpoint of a container (thesis 10.2, Fig. 10.6). It takes crisp commands, keeps them within
-/// the limits, and lets no command live longer than `max_command_age`.
+/// the limits, and lets no command live longer than `max_command_age`. When the driver reports that the base has met
+/// something, the base stands until a command asks for another direction.
 ///
-/// Thread contract: command() from any strand; due() from the container's.
+/// Thread contract: command() from any strand; the rest from the container's.
 class MotionHW {
  public:
   MotionHW(const DriveLimits& limits, Duration max_command_age);
@@ -107,12 +109,12 @@ class MotionHW {
   [[nodiscard]] static Status check(const idl::MotionCommand& command);
 
   /// Takes a command, to be carried out at the container's next turn.
-  /// @errors  those of check().
+  /// @errors  those of check(); unavailable, with the reason, if the base must not move so now: it then stands.
   Status command(const idl::MotionCommand& command, TimePoint now);
 
   /// Takes a velocity, to be carried out at the container's next turn. A velocity beyond the limits keeps its
   /// direction.
-  /// @errors  failed_precondition unless the base is holonomic, and those of check_command().
+  /// @errors  failed_precondition unless the base is holonomic, those of check_command(), and unavailable as above.
   Status command(const idl::HolonomicVelocity& velocity, TimePoint now);
 
   /// Points the turret. The turret then stays there: its command never becomes too old, because a turret does
@@ -127,6 +129,15 @@ class MotionHW {
   /// Makes the base stand from now on until the next command.
   void halt();
 
+  /// Reports that the base has met something, or that its motors are stalled. If it is moving it stands until a command
+  /// asks for another direction.
+  /// @param reason  for people, e.g. "it touched a wall".
+  /// @return whether it was moving.
+  bool obstruct(const std::string& reason);
+  /// Reports which bumpers are pressed now. A base that moves towards one is obstructed, and no command moves it there.
+  /// @return whether it was moving there.
+  bool press(const std::vector<Obstruction::Pressed>& bumpers);
+
   /// Returns when the present command becomes too old; kForever when the base stands.
   [[nodiscard]] TimePoint expiry() const;
 
@@ -139,13 +150,14 @@ class MotionHW {
   [[nodiscard]] Twist2 within_limits(const idl::MotionCommand& command) const;
   [[nodiscard]] Twist2 within_limits(const idl::HolonomicVelocity& velocity) const;
   [[nodiscard]] double within_limits(double turn_rate) const;
-  void move(const Twist2& wanted, TimePoint now);
+  Status move(const Twist2& wanted, TimePoint now);
   void stand();
 
   const DriveLimits limits_;
   const Duration max_command_age_;
   mutable std::mutex mutex_;
   DriveSetpoint setpoint_;
+  Obstruction obstruction_;
   TimePoint received_{};
   std::uint64_t expired_ = 0;
 };

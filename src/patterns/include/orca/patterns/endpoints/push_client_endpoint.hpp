@@ -21,7 +21,10 @@ class PushClientEndpoint final : public Endpoint {
 
   [[nodiscard]] bool connected() const { return !edges_.empty(); }
   [[nodiscard]] const std::vector<std::unique_ptr<PushEdge>>& edges() const { return edges_; }
+  /// Returns whether an object waits, from any server.
   [[nodiscard]] bool has_new() const;
+  /// Returns whether an object waits from every server that the port is subscribed to, and there is one.
+  [[nodiscard]] bool has_new_from_all() const;
 
   void subscribe_all();
   void unsubscribe_all();

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "orca/hw/endpoints.hpp"
+#include "orca/sim/robot_model.hpp"
+#include "shared_world.hpp"
+
+namespace orca::sim {
+
+/// The reflex of a simulated base: it stands when it touches something, when a bumper is pressed, or when its wheels do
+/// not turn although they should, until a command asks for another direction.
+///
+/// Thread contract: one strand.
+class TouchGuard {
+ public:
+  /// @param robot, motion  outlive this object.
+  TouchGuard(const RobotModel& robot, hw::MotionHW& motion) : robot_(robot), motion_(motion) {}
+
+  /// Looks at what the base has sensed since the last call.
+  /// @param report  called with a sentence for people when the base was stopped.
+  void look(const SharedWorld::Inbox& inbox, const std::function<void(std::string_view)>& report);
+
+  /// Notes what the motors were told last.
+  void driven(const Twist2& velocity, TimePoint now);
+
+ private:
+  [[nodiscard]] std::vector<hw::Obstruction::Pressed> pressed(std::size_t ring,
+                                                              const BumperReading& reading) const;
+  [[nodiscard]] bool is_stalled(const OdometryReading& reading) const;
+
+  const RobotModel& robot_;
+  hw::MotionHW& motion_;
+  Twist2 driven_;
+  std::optional<TimePoint> turned_at_;  // last time at which the wheels stood as they should, or turned
+};
+
+}  // namespace orca::sim

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What starts a lap: time, an object on one of several ports, or objects on all of them.
+#include <catch2/catch.hpp>
+
+#include "executives.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/patterns/local/local_links.hpp"
+#include "peer.hpp"
+#include "run/component/lap_trigger.hpp"
+
+using namespace orca;
+using namespace orca::host;
+using namespace orca::test;
+using idl::MotionCommand;
+
+namespace {
+
+constexpr TimePoint kStart{100s};
+
+PortContract input(const std::string& name, bool many = false) {
+  return {.name = name,
+          .pattern = Pattern::push,
+          .role = Role::proxy,
+          .type = type_id(object_type<MotionCommand>()),
+          .many = many};
+}
+
+struct Speaker : Peer {
+  Speaker(Executive& executive, const std::string& name) : Peer(executive, name) {}
+  PushServer<MotionCommand> out{*this, "out"};
+};
+
+// A component with two PushProxies and a port array, and three peers that push to them.
+struct Listener {
+  explicit Listener(Executive& executive)
+      : left(executive, "left"),
+        right(executive, "right"),
+        third(executive, "third"),
+        strand(executive, {"listener", 0}),
+        home{strand, "listener"},
+        ports(home) {
+    ports.add(input("left"));
+    ports.add(input("right"));
+    ports.add(input("many", true));
+    connect(left, "left");
+    connect(right, "right");
+    connect(left, "many");
+    connect(third, "many");
+  }
+  void connect(Speaker& from, const std::string& to) {
+    REQUIRE(links.connect(from.endpoint("out"), *ports.find(to)).ok());
+  }
+  PushClientEndpoint& port(const std::string& name) {
+    return dynamic_cast<PushClientEndpoint&>(*ports.find(name));
+  }
+
+  Speaker left, right, third;
+  Strand strand;
+  PortHome home;
+  PortSet ports;
+  LocalLinks links;
+  LapTrigger trigger;
+};
+
+void with_listener(const std::function<void(Listener&)>& check) {
+  run_on({}, [&](Executive& executive) {
+    Listener listener(executive);
+    for (const char* name : {"left", "right", "many"}) listener.port(name).subscribe_all();
+    check(listener);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("on any of several ports each new object starts a lap", "[host][trigger]") {
+  with_listener([](Listener& listener) {
+    REQUIRE(listener.trigger.choose({Trigger::Kind::on_any, {}, {"left", "right"}}, listener.ports).ok());
+    listener.trigger.begin(kStart);
+    CHECK_FALSE(listener.trigger.is_due(kStart + 1h));
+    CHECK(listener.trigger.next() == kForever);
+    listener.right.out.push(MotionCommand{});
+    CHECK(listener.trigger.is_due(kStart));
+    (void)listener.port("right").edges()[0]->take();
+    CHECK_FALSE(listener.trigger.is_due(kStart));
+  });
+}
+
+TEST_CASE("on all of several ports a lap starts when each server has sent something", "[host][trigger]") {
+  with_listener([](Listener& listener) {
+    REQUIRE(listener.trigger.choose({Trigger::Kind::on_all, {}, {"right", "many"}}, listener.ports).ok());
+    listener.trigger.begin(kStart);
+    listener.right.out.push(MotionCommand{});
+    listener.left.out.push(MotionCommand{});
+    CHECK_FALSE(listener.trigger.is_due(kStart));
+    listener.third.out.push(MotionCommand{});
+    CHECK(listener.trigger.is_due(kStart));
+  });
+}
+
+TEST_CASE("a server that a port array has left does not hold up the others", "[host][trigger]") {
+  with_listener([](Listener& listener) {
+    REQUIRE(listener.trigger.choose({Trigger::Kind::on_all, {}, {"many"}}, listener.ports).ok());
+    listener.port("many").edges()[1]->unsubscribe();
+    CHECK_FALSE(listener.trigger.is_due(kStart));
+    listener.left.out.push(MotionCommand{});
+    CHECK(listener.trigger.is_due(kStart));
+  });
+}
+
+TEST_CASE("with a longest time between two laps one starts without objects too", "[host][trigger]") {
+  with_listener([](Listener& listener) {
+    REQUIRE(listener.trigger.choose({Trigger::Kind::on_any, 50ms, {"left"}}, listener.ports).ok());
+    listener.trigger.begin(kStart);
+    CHECK_FALSE(listener.trigger.is_due(kStart + 49ms));
+    CHECK(listener.trigger.next() == kStart + 50ms);
+    CHECK(listener.trigger.is_due(kStart + 50ms));
+    listener.trigger.lap_begins(kStart + 30ms);  // an object came before
+    CHECK_FALSE(listener.trigger.is_due(kStart + 79ms));
+    CHECK(listener.trigger.is_due(kStart + 80ms));
+  });
+}
+
+TEST_CASE("the time between two laps is the period, or what the servers announce that start them",
+          "[host][trigger]") {
+  with_listener([](Listener& listener) {
+    const auto period_of = [&](const Trigger& trigger) {
+      CHECK(listener.trigger.choose(trigger, listener.ports).ok());
+      return listener.trigger.period();
+    };
+    CHECK(period_of({}) == 0ms);
+    CHECK(period_of({Trigger::Kind::period, 40ms, {}}) == 40ms);
+    CHECK(period_of({Trigger::Kind::on_any, {}, {"left"}}) == 0ms);
+    listener.left.out.start(100ms);
+    listener.right.out.start(30ms);
+    CHECK(period_of({Trigger::Kind::on_any, {}, {"left"}}) == 100ms);
+    CHECK(period_of({Trigger::Kind::on_any, {}, {"left", "right"}}) == 30ms);
+    CHECK(period_of({Trigger::Kind::on_all, {}, {"left", "right"}}) == 100ms);
+    CHECK(period_of({Trigger::Kind::on_any, 20ms, {"left"}}) == 20ms);
+    listener.port("left").edges()[0]->ask({Duration{0}, 3});
+    CHECK(period_of({Trigger::Kind::on_any, {}, {"left"}}) == 300ms);
+  });
+}
+
+TEST_CASE("a trigger on what is no PushProxy of the component is refused by name", "[host][trigger]") {
+  with_listener([](Listener& listener) {
+    const Status refused =
+        listener.trigger.choose({Trigger::Kind::on_any, {}, {"left", "lft"}}, listener.ports);
+    CHECK_THAT(refused.error().text(), Catch::Contains("\"lft\""));
+  });
+}
