@@ -8,6 +8,11 @@
 #include "orca/base/exception_text.hpp"
 
 namespace orca::hw {
+namespace {
+
+constexpr Duration kExpiryReportPeriod = 10s;
+
+}  // namespace
 
 HardwareLoop::HardwareLoop(HardwareContainer& container, HardwareHost& host)
     : container_(container), host_(host), life_(container, host) {}
@@ -65,8 +70,20 @@ void HardwareLoop::guarded(const std::function<void()>& step) {
 }
 
 void HardwareLoop::apply_motion() {
-  if (container_.motion() != nullptr && life_.state() == HardwareState::active)
-    life_.drive(container_.motion()->due(host_.now()));
+  if (container_.motion() == nullptr || life_.state() != HardwareState::active) return;
+  MotionHW& motion = *container_.motion();
+  const std::uint64_t expired = motion.expired_count();
+  life_.drive(motion.due(host_.now()));
+  if (motion.expired_count() != expired) report_expiry(motion);
+}
+
+// Reports that the commands have ceased, now and then while that goes on happening.
+void HardwareLoop::report_expiry(const MotionHW& motion) {
+  if (host_.now() < next_expiry_report_) return;
+  next_expiry_report_ = host_.now() + kExpiryReportPeriod;
+  const auto age = std::chrono::duration_cast<std::chrono::milliseconds>(motion.max_command_age());
+  host_.write_log(log::Level::warning,
+                  "the base stands: no motion command for " + std::to_string(age.count()) + " ms");
 }
 
 bool HardwareLoop::works() const {

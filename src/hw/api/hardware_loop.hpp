@@ -41,6 +41,7 @@ class HardwareLoop {
   void turn();
   void guarded(const std::function<void()>& step);
   void apply_motion();
+  void report_expiry(const MotionHW& motion);
   [[nodiscard]] bool works() const;
   [[nodiscard]] TimePoint next_turn() const;
 
@@ -48,6 +49,7 @@ class HardwareLoop {
   HardwareHost& host_;
   HardwareLifecycle life_;
   std::optional<Strand> strand_;
+  TimePoint next_expiry_report_{};
   std::atomic<int> users_{0};
   std::atomic<bool> shutting_down_{false};
 };
