@@ -104,15 +104,17 @@ def module_of(path):
 
 
 def shuffled_mutants(seed, only):
-    """Each module's mutants in a random order, one module after the other, so that small modules count as much as large."""
-    chance = random.Random(seed)
+    """Each module's mutants in a random order, one module after the other, so that small modules count as much as large.
+
+    A module's order depends on no other module: runs with --only of each module together are a run of the whole.
+    """
     of_module = {module: [] for module in MODULES}
     for path in sorted(tracked_files()):
         module = module_of(path)
         if module and only in path and path.endswith((".cpp", ".hpp")):
             of_module[module] += mutants_of(path, (ROOT / path).read_text())
-    for mutants in of_module.values():
-        chance.shuffle(mutants)
+    for module, mutants in of_module.items():
+        random.Random(f"{seed} {module.folder}").shuffle(mutants)
     queues = [mutants for mutants in of_module.values() if mutants]
     while queues:
         for queue in queues:
