@@ -50,6 +50,7 @@ Scene sensing() {
 using IsColour = std::function<bool(int red, int green, int blue)>;
 const IsColour kYellow = [](int r, int g, int b) { return r > 200 && g > 140 && b < 60; };
 const IsColour kBlue = [](int r, int g, int b) { return r < 60 && g < 110 && b > 200; };
+const IsColour kDark = [](int r, int g, int b) { return r < 80 && g < 80 && b < 80; };
 const IsColour kRed = [](int r, int g, int b) { return r > 180 && g < 60 && b < 60; };
 
 /// A picture that was written, read back.
@@ -125,6 +126,15 @@ TEST_CASE("in the robot's view ahead is up, whatever its heading in the world", 
     CHECK(view.count(kYellow, 0, 0, middle, middle) > 10);  // the sonar looks to the left
     CHECK(view.count(kYellow, middle + 20, 0, view.width(), view.height()) == 0);
   }
+}
+
+TEST_CASE("a robot is its outline with a line from the middle to the front, and nothing beyond",
+          "[host][picture]") {
+  const Pixels view(sensing(), {"", View::robot, {Layer::walls, Layer::track, Layer::motion, Layer::marks}});
+  const int middle = view.width() / 2;
+  CHECK(view.count(kDark, middle - 3, middle - 15, middle + 3, middle - 3) >= 12);  // the line
+  CHECK(view.count(kDark, middle - 3, middle + 3, middle + 3, middle + 15) == 0);
+  CHECK(view.count(kDark, middle - 40, middle - 155, middle + 40, middle - 30) == 0);
 }
 
 TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments between",
