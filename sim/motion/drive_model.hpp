@@ -13,7 +13,7 @@ namespace orca::sim::detail {
 // A command to a base and its turret.
 struct BaseCommand {
   Twist2 velocity;
-  double turret_angle = 0.0;  // [rad] In the robot's frame.
+  double turret_angle = 0.0;  // [rad] Angle in the robot's frame.
 };
 
 // The dynamics from commanded to driven velocity, tick by tick: dead time, speed limits, first-order lag and

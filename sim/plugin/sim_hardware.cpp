@@ -184,14 +184,14 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
       *this,
       "map_width",
       0.0,
-      {.unit = "m", .min = 0.0, .text = "Width of the whole picture; a bitmap needs it or map_resolution."}};
+      {.unit = "m", .min = 0.0, .text = "Width of the whole bitmap; a bitmap needs this or map_resolution."}};
   orca::Param<double> map_resolution_{
       *this,
       "map_resolution",
       0.0,
       {.unit = "m", .min = 0.0, .text = "Side of one pixel of a bitmap, instead of map_width."}};
   orca::Param<std::string> robot_file_{
-      *this, "robot", "", {.file = true, .text = "The robot (URDF with <orca>)."}};
+      *this, "robot", "", {.file = true, .text = "Description of the robot: URDF with an <orca> element."}};
   orca::Param<std::string> name_{
       *this, "name", "Dewey", {.text = "Name of this robot; each robot of a world has its own."}};
   orca::Param<std::string> place_{

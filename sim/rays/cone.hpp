@@ -15,7 +15,7 @@ struct Cone {
   }
 
   Vec2 tip;
-  Vec2 axis;          // Of length 1.
+  Vec2 axis;          // Unit vector.
   double half_angle;  // [rad] Largest angle between the axis and any ray, at most a right angle.
   double slack;       // [m] Largest distance between the tip and the origin of any ray.
   double reach;       // [m] Largest length of any ray.

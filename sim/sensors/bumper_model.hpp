@@ -13,8 +13,8 @@ namespace orca::sim::detail {
 
 // A place where something touches or nearly touches a robot.
 struct Touch {
-  Vec2 point;             // In the base frame.
-  double distance = 0.0;  // [m] Between the two; negative if they overlap.
+  Vec2 point;             // Place in the base frame.
+  double distance = 0.0;  // [m] Distance between the two; negative if they overlap.
 };
 
 // A bumper in segments. A reading reports each segment that was pressed at any time since the reading before,

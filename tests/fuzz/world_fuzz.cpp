@@ -11,7 +11,7 @@
 
 namespace {
 
-// A world that was read has an extent that can be reckoned with.
+// Checks that every obstacle of a world that was read has finite, ordered bounds.
 void check(const orca::sim::WorldModel& world) {
   for (const orca::sim::Obstacle& obstacle : world.obstacles) {
     const orca::sim::Bounds bounds = bounds_of(obstacle.shape);

@@ -77,7 +77,7 @@ void check_robot(const Damage& damage) { check_part("sim/robots/nomad_scout.urdf
 
 }  // namespace
 
-TEST_CASE("the graph, world and robot that the damage is done to are good", "[system][bad]") {
+TEST_CASE("the graph, world and robot that these tests damage are good before", "[system][bad]") {
   const TempFolder folder;
   const Run run = run_deployer({folder.write("graph.xml", scout_graph()), "--check"});
   INFO(run.err);

@@ -79,7 +79,7 @@ TEST_CASE("a component whose destructor throws is named, and the run ends as if 
   }
 }
 
-TEST_CASE("a component that sends to or asks a failed component gets an answer that says why",
+TEST_CASE("a component that sends to a failed component, or queries it, gets the reason",
           "[system][plugins]") {
   const Run asked = misbehave("query", "exception");
   INFO(asked.err);
@@ -105,7 +105,7 @@ TEST_CASE("a component that throws in configure() keeps the system from starting
 }
 
 TEST_CASE(
-    "a component that throws in its constructor makes the graph wrong: named with its place, nothing started",
+    "a component that throws in its constructor is an error of the graph at its place, and nothing starts",
     "[system][plugins]") {
   for (const auto& [type, text] : {std::pair{"test.ThrowsInConstructor", "the wheels came off"},
                                    std::pair{"test.ThrowsIntInConstructor", "the int 42"}}) {
@@ -120,8 +120,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("under the virtual clock a component that never lets go is named and ends the run within seconds",
-          "[system][plugins]") {
+TEST_CASE(
+    "with the virtual clock a component that never ends its lap is named, and the run ends within seconds",
+    "[system][plugins]") {
   for (const char* how : {"one_lap", "many_laps"}) {
     const Run run = run_deployer(Words{system_graph("hog.xml"), "--set", std::string("how=") + how} +
                                      with_test_plugins() + virtual_clock(),
@@ -135,7 +136,7 @@ TEST_CASE("under the virtual clock a component that never lets go is named and e
   }
 }
 
-TEST_CASE("with a thread of its own a component that never lets go costs the others nothing",
+TEST_CASE("a component that never ends its lap delays no other component if each has a thread of its own",
           "[system][plugins]") {
   const Run run =
       run_deployer(Words{system_graph("hog.xml"), "--set", "how=one_lap"} + with_test_plugins(), Seconds(15));
@@ -145,7 +146,7 @@ TEST_CASE("with a thread of its own a component that never lets go costs the oth
   CHECK(run.says("greedy"));
 }
 
-TEST_CASE("a component that says in configure() that it cannot is named with its words, exit 3",
+TEST_CASE("a component that returns an error from configure() is named with its text, and the exit code is 3",
           "[system][plugins]") {
   const Run run = run_deployer(Words{system_graph("slow_starter.xml"), "--set", "refuses=true"} +
                                with_test_plugins() + virtual_clock());
@@ -155,7 +156,8 @@ TEST_CASE("a component that says in configure() that it cannot is named with its
   CHECK_FALSE(run.says("counted"));
 }
 
-TEST_CASE("a component that is not up in time is named, and all is taken down again", "[system][plugins]") {
+TEST_CASE("a component that is not up in time is named, and the system is shut down again",
+          "[system][plugins]") {
   const Run run = run_deployer(Words{system_graph("slow_starter.xml"), "--set", "delay=1000 s"} +
                                with_test_plugins() + virtual_clock());
   INFO(run.err);
@@ -189,8 +191,8 @@ TEST_CASE("--describe of a file that is not a plugin is refused with its name", 
 }
 
 TEST_CASE(
-    "with the virtual clock a plugin that uses the machine's time is refused where it stands, with all that "
-    "it uses",
+    "with the virtual clock a plugin that uses the machine's time is refused, with its place in the graph "
+    "and all that it uses",
     "[system][plugins]") {
   const Run run = alone("test.WallClock");
   INFO(run.err);
@@ -205,8 +207,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a plugin for the steady clock only is refused with its own words, and runs with the steady clock",
-          "[system][plugins]") {
+TEST_CASE(
+    "a plugin for the steady clock only is refused with its author's reason, and runs with the steady clock",
+    "[system][plugins]") {
   const Run refused = alone("test.Joystick");
   INFO(refused.err);
   CHECK(refused.exit_code() == 2);

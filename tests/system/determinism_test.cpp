@@ -74,7 +74,7 @@ TEST_CASE("two traces of the same run are the same, byte for byte", "[system][de
   CHECK(trace == read_text(folder.file("b")));
 }
 
-TEST_CASE("where the run starts and whether it is traced does not change its hash", "[system][determinism]") {
+TEST_CASE("neither the folder in which a run starts nor tracing changes its hash", "[system][determinism]") {
   const TempFolder folder;
   const Words words{source_file("graphs/scout_goto.xml"),
                     "--clock",

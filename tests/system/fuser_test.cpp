@@ -51,7 +51,8 @@ TEST_CASE("a vote takes one of the two sides, passes the pillar and arrives", "[
   CHECK(run.arrivals().size() == 1);
 }
 
-TEST_CASE("so do priority and subsumption, where one of them decides alone", "[system][fuser]") {
+TEST_CASE("priority and subsumption pass the pillar too, because one behaviour decides alone",
+          "[system][fuser]") {
   for (const char* mode : {"priority", "subsumption"}) {
     const Run run = past_the_pillar(mode);
     INFO(run.err);

@@ -130,7 +130,7 @@ TEST_CASE("the copy that a component makes by fork() is ended, the component is 
         }) == 1);
 }
 
-TEST_CASE("what belongs to the whole process is put back, and an alarm names component and hook, once",
+TEST_CASE("what belongs to the whole process is restored, and one alarm names component and hook",
           "[system][plugins]") {
   struct Case {
     std::string deed;
@@ -191,7 +191,7 @@ TEST_CASE("a component that takes all descriptors is named", "[system][plugins]"
 }
 #endif
 
-TEST_CASE("memory that a component takes is laid to nobody", "[system][plugins]") {
+TEST_CASE("memory that a component takes is blamed on nobody", "[system][plugins]") {
   for (const Words& clock : {virtual_clock(), kSteady}) {
     const Run run =
         run_deployer(Words{system_graph("hooligan.xml"), "--set", "where=work", "--set", "deed=memory"} +
@@ -203,8 +203,7 @@ TEST_CASE("memory that a component takes is laid to nobody", "[system][plugins]"
 }
 
 TEST_CASE(
-    "a hard limit that a component lowers and that nobody can raise again is laid to that component alone, "
-    "once",
+    "a hard limit that a component lowers, and that nobody can raise again, is blamed on it alone, once",
     "[system][plugins]") {
   for (const std::string where : {"configure", "start", "work"}) {
     const Run run = act(where, "hard_limit");

@@ -22,7 +22,7 @@ TEST_CASE("with LaserAvoid a robot passes a pillar on its way and touches nothin
   CHECK(run.contacts().empty());
 }
 
-TEST_CASE("without it the robot drives into the pillar", "[system][laser]") {
+TEST_CASE("without LaserAvoid the robot drives into the pillar", "[system][laser]") {
   const Run run = behind_the_pillar({"--set", "behaviours=goto", "--until", "30 s"});
   INFO(run.err);
   CHECK_FALSE(run.contacts().empty());

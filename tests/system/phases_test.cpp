@@ -139,9 +139,8 @@ TEST_CASE("closing, Fig. 11.9: after the last goal every connection is shut down
   CHECK(trace().state_before("scout", end) == "Ready");
 }
 
-TEST_CASE(
-    "closing: the last that the base hears of the fuser is before it goes idle, and no reading comes after",
-    "[system][phases]") {
+TEST_CASE("closing: the fuser's last command reaches the base before it goes idle, and no reading follows",
+          "[system][phases]") {
   const std::size_t idle = trace().find("state", {"scout", "Active", "Ready"}, arrival(3));
   REQUIRE(idle != TraceFile::kNever);
   CHECK(trace().find("deliver", {"base", "MotionCommandSend"}, arrival(3)) < idle);

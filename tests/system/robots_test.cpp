@@ -14,7 +14,7 @@ std::string robot_arg(const std::string& robot) {
 
 }  // namespace
 
-TEST_CASE("the thesis's run is driven by a synchro base with a turret, and by a holonomic one",
+TEST_CASE("a synchro base with a turret and a holonomic base drive the run of the thesis",
           "[system][robots]") {
   for (const char* robot : {"nomad_200", "omni"}) {
     const Run run = run_deployer(Words{source_file("graphs/scout_goto.xml"), "--set", robot_arg(robot)} +
@@ -26,7 +26,7 @@ TEST_CASE("the thesis's run is driven by a synchro base with a turret, and by a 
   }
 }
 
-TEST_CASE("a holonomic base steps sideways when it is told to", "[system][robots]") {
+TEST_CASE("a holonomic base moves sideways on command", "[system][robots]") {
   const Run run = run_deployer(Words{system_graph("sidestep.xml")} + with_test_plugins() + virtual_clock());
   INFO(run.err);
   CHECK(run.exit_code() == 0);

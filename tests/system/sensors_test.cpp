@@ -7,8 +7,8 @@
 using namespace orca::test;
 
 TEST_CASE(
-    "the generic base server hands out laser, infrared, bumper and 100 Hz of odometry, each with its own "
-    "stamp",
+    "the generic base server delivers laser, infrared, bumper and 100 Hz odometry readings, each with its "
+    "own stamp",
     "[system][sensors]") {
   // The run ends when the listener has heard all objects that it waits for; otherwise the test times out.
   const Run run = run_deployer(Words{system_graph("sensors.xml")} + with_test_plugins() + virtual_clock());

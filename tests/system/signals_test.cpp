@@ -144,8 +144,9 @@ TEST_CASE("two signals at once end a driving robot within a second, with 0", "[s
   CHECK(std::chrono::steady_clock::now() - sent < Seconds(kSanitized ? 5.0 : 1.0));
 }
 
-TEST_CASE("a component that never lets go is named when the run is stopped, and the program ends within 3 s",
-          "[system][signals]") {
+TEST_CASE(
+    "a component that never ends its lap is named when the run is stopped, and the program ends within 3 s",
+    "[system][signals]") {
   Subprocess program(deployer(greedy()));
   sleep_for(0.5);
   program.send(SIGINT);

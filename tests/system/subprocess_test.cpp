@@ -58,7 +58,7 @@ TEST_CASE("a signal reaches the subprocess, and its ending says which one it was
   CHECK(ending->exit_code == -1);
 }
 
-TEST_CASE("the CPU time of a busy subprocess is measured, that of a sleeping one is not wall time",
+TEST_CASE("the CPU time of a subprocess is measured, and is not wall time: a sleeping one uses none",
           "[support]") {
   Subprocess busy(shell("i=0; while [ $i -lt 300000 ]; do i=$((i+1)); done"));
   Subprocess idle(shell("sleep 0.3"));

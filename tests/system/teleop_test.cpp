@@ -181,7 +181,7 @@ TEST_CASE("a device that is not there is named, and describing teleop opens none
   CHECK(described.out.find("dead_man = 0.3 s") != std::string::npos);
 }
 
-TEST_CASE("the shipped graph for a person is sound", "[system][teleop]") {
+TEST_CASE("the shipped graph for teleop is sound", "[system][teleop]") {
   const Run run = run_deployer({source_file("graphs/scout_teleop.xml"), "--check"});
   INFO(run.err);
   CHECK(run.exit_code() == 0);

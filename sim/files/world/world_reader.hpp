@@ -63,11 +63,11 @@ class WorldReader {
   std::optional<std::uint64_t> seed_;
   xml::Reporter reporter_;
   WorldModel world_;
-  std::map<std::string, xml::Position> taken_;  // By kind and name.
+  std::map<std::string, xml::Position> taken_;  // Places of the elements by kind and name.
   std::vector<xml::Position> place_positions_;
   std::vector<xml::Position> walker_positions_;
-  std::size_t faces_ = 0;                   // Of all meshes.
-  std::optional<xml::Position> generated_;  // Where <generate> stands.
+  std::size_t faces_ = 0;                   // Number of faces of all meshes.
+  std::optional<xml::Position> generated_;  // Place of the <generate> element.
 };
 
 }  // namespace orca::sim::detail

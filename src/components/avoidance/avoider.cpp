@@ -19,44 +19,60 @@ double insistence(double urgency) { return urgency / (1.001 - urgency); }
 
 Avoider::Avoider(ComponentHost& host, double echo_time)
     : Component(host),
-      odometry_(
-          *this, "odometry",
-          {.text = "How the robot moves; lets it remember what it heard a moment ago.", .optional = true}),
+      odometry_(*this, "odometry",
+                {.text = "Motion of the robot; with it recent echoes are remembered and carried along.",
+                 .optional = true}),
       goal_(*this, "goal",
-            {.text = "Where the robot is going, so that it gives way to that side.", .optional = true}),
+            {.text = "Place that the robot drives to; directions near it are preferred.", .optional = true}),
       localizer_(*this, "localizer",
-                 {.text = "Where the robot is, in the frame of the goal; without one odometry counts.",
+                 {.text = "Pose of the robot in the frame of the goal; if not connected, odometry gives it.",
                   .optional = true}),
-      motion_(*this, "motion", {.text = "A wish per odometry, or per sensor reading without."}),
-      robot_radius_(*this, "robot_radius", 0.205,
-                    {.unit = "m", .min = 0.0, .text = "Circle that holds the robot, bumpers too."}),
-      margin_(*this, "margin", 0.1, {.unit = "m", .min = 0.0, .text = "Kept free on both sides."}),
+      motion_(*this, "motion",
+              {.text = "One command per odometry object (if not connected, per sensor object)."}),
+      robot_radius_(
+          *this, "robot_radius", 0.205,
+          {.unit = "m", .min = 0.0, .text = "Radius of the circle that holds the robot and its bumpers."}),
+      margin_(*this, "margin", 0.1,
+              {.unit = "m", .min = 0.0, .text = "Free space to keep on both sides of the robot."}),
       side_distance_(
           *this, "side_distance", 0.2,
-          {.unit = "m", .min = 0.0, .text = "Nearer than this an echo stands for a wall across its beam."}),
-      safe_distance_(*this, "safe_distance", 0.8,
-                     {.unit = "m", .min = 0.1, .text = "A free way this long needs no avoiding."}),
+          {.unit = "m",
+           .min = 0.0,
+           .text = "An echo nearer to the robot's circle than this counts as a wall across its beam."}),
+      safe_distance_(
+          *this, "safe_distance", 0.8,
+          {.unit = "m", .min = 0.1, .text = "Free way ahead from which on there is nothing to avoid."}),
       stop_distance_(*this, "stop_distance", 0.15,
-                     {.unit = "m", .min = 0.0, .text = "With a free way this short the robot only turns."}),
-      max_speed_(*this, "max_speed", 0.4, {.unit = "m/s", .min = 0.0, .text = "Speed while avoiding."}),
-      weight_(*this, "weight", 2.0,
-              {.min = 0.0, .text = "Share of its wishes when fused, half way to the stop distance."}),
-      reaction_time_(*this, "reaction_time", 0.25,
-                     {.unit = "s", .min = 0.0, .text = "From an echo to the robot's following the advice."}),
+                     {.unit = "m", .min = 0.0, .text = "Free way ahead at which the robot only turns."}),
+      max_speed_(
+          *this, "max_speed", 0.4,
+          {.unit = "m/s", .min = 0.0, .text = "Speed at safe_distance; it falls to 0 at stop_distance."}),
+      weight_(
+          *this, "weight", 2.0,
+          {.min = 0.0,
+           .text =
+               "Weight of its wishes half way between safe_distance (weight 0) and stop_distance (1000 times "
+               "this); 0: they never count."}),
+      reaction_time_(
+          *this, "reaction_time", 0.25,
+          {.unit = "s", .min = 0.0, .text = "Time from an echo until the robot follows the advice."}),
       memory_time_(*this, "memory_time", 4.0,
-                   {.unit = "s", .min = 0.0, .text = "How long an echo counts that was heard twice."}),
+                   {.unit = "s", .min = 0.0, .text = "Time for which an echo heard at least twice is kept."}),
       echo_time_(*this, "echo_time", echo_time,
-                 {.unit = "s", .min = 0.0, .text = "How long a single echo counts."}),
+                 {.unit = "s", .min = 0.0, .text = "Time for which an echo heard once is kept."}),
       same_place_(
           *this, "same_place", 0.15,
-          {.unit = "m", .min = 0.0, .text = "Echoes from places nearer than this confirm each other."}),
+          {.unit = "m", .min = 0.0, .text = "Echoes nearer to each other than this confirm each other."}),
       memory_range_(
           *this, "memory_range", 0.8,
-          {.unit = "m", .min = 0.0, .text = "Only echoes from nearer to the robot's centre are kept."}),
-      deaf_after_(*this, "deaf_after", 0.6,
-                  {.unit = "s", .min = 0.0, .text = "Without sensor readings for so long the robot stops."}),
+          {.unit = "m",
+           .min = 0.0,
+           .text = "Echoes farther from the robot's centre are never confirmed: they count for echo_time."}),
+      deaf_after_(
+          *this, "deaf_after", 0.6,
+          {.unit = "s", .min = 0.0, .text = "The robot stops after this time without sensor readings."}),
       goal_max_age_(*this, "goal_max_age", 0.5,
-                    {.unit = "s", .min = 0.0, .text = "An older goal is disregarded."}) {}
+                    {.unit = "s", .min = 0.0, .text = "Age beyond which a goal is disregarded."}) {}
 
 Status Avoider::params_changed() {
   if (*stop_distance_ < *safe_distance_) return ok();

@@ -129,41 +129,59 @@ class Goto final : public orca::Component {
   }
 
   orca::SendServer<orca::idl::GoalPoint> goal_{
-      *this, "GotoCoordinateSend", &Goto::on_goal, {.text = "Where to go."}};
-  orca::PushServer<orca::idl::MotionCommand> motion_{*this, "MotionCmdPush", {.text = "A wish per lap."}};
-  orca::PushServer<orca::idl::Arrived> arrived_{*this, "ArrivedPush", {.text = "Once per goal reached."}};
+      *this, "GotoCoordinateSend", &Goto::on_goal, {.text = "Via points and goals to drive to."}};
+  orca::PushServer<orca::idl::MotionCommand> motion_{
+      *this,
+      "MotionCmdPush",
+      {.text = "One command per lap: a wish, full stop on arrival, no opinion without a goal."}};
+  orca::PushServer<orca::idl::Arrived> arrived_{
+      *this, "ArrivedPush", {.text = "One object per goal reached; none for via points."}};
   orca::PushServer<orca::idl::GoalPoint> goal_push_{
-      *this, "GoalPush", {.text = "Where it drives now, per lap: via points and goals."}};
+      *this, "GoalPush", {.text = "The via point or goal that it drives to now, once per lap."}};
   orca::PushProxy<orca::idl::Odometry> odometry_{
-      *this, "odometry", {.text = "Where the robot is, if no localizer is connected.", .optional = true}};
+      *this, "odometry", {.text = "Pose of the robot, used if no localizer is connected.", .optional = true}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
-      *this, "localizer", {.text = "Where the robot is.", .optional = true}};
+      *this, "localizer", {.text = "Pose of the robot, in the frame of the goals.", .optional = true}};
 
   orca::Param<double> max_speed_{
-      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Speed on the way."}};
+      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed on the way."}};
   orca::Param<double> min_speed_{
-      *this, "min_speed", 0.08, {.unit = "m/s", .min = 0.01, .text = "Speed just before the goal."}};
+      *this,
+      "min_speed",
+      0.08,
+      {.unit = "m/s", .min = 0.01, .text = "Smallest speed of the approach to a goal."}};
   orca::Param<double> slow_down_{
-      *this, "slow_down", 0.8, {.unit = "1/s", .min = 0.0, .text = "Speed per metre left, near the goal."}};
+      *this,
+      "slow_down",
+      0.8,
+      {.unit = "1/s",
+       .min = 0.0,
+       .text = "Near a goal the speed is this times the distance left, at least min_speed."}};
   orca::Param<double> turn_in_place_{
       *this,
       "turn_in_place",
       1.0,
-      {.unit = "rad", .min = 0.05, .max = 3.15, .text = "Directions further off are turned to on the spot."}};
+      {.unit = "rad",
+       .min = 0.05,
+       .max = 3.15,
+       .text = "Angle to the target beyond which the robot turns on the spot first."}};
   orca::Param<double> deceleration_{
       *this,
       "deceleration",
       0.5,
-      {.unit = "m/s2", .min = 0.01, .text = "How evenly it comes to rest within reach of a goal."}};
+      {.unit = "m/s2", .min = 0.01, .text = "Deceleration to rest within reach of a goal."}};
   orca::Param<double> circle_radius_{
       *this,
       "circle_radius",
       0.6,
-      {.unit = "m", .min = 0.05, .text = "Of the way around a goal whose reach_radius is 0."}};
+      {.unit = "m", .min = 0.05, .text = "Radius of the circle around a goal whose reach_radius is 0."}};
   orca::Param<double> height_{
-      *this, "height", 0.0, {.unit = "m", .text = "Of the robot in the frame of goals in space."}};
+      *this, "height", 0.0, {.unit = "m", .text = "Height (z) of the robot in the frame of the goals."}};
   orca::Param<double> weight_{
-      *this, "weight", 1.0, {.min = 0.0, .text = "Share of its wishes when they are fused."}};
+      *this,
+      "weight",
+      1.0,
+      {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
   std::deque<ObjectPtr<orca::idl::GoalPoint>> route_;
   orca::go::Before before_;

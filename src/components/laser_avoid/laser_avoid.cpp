@@ -32,7 +32,7 @@ class LaserAvoid final : public orca::avoid::Avoider {
     orca::avoid::see(scan, kSector, farthest(), keep(), memory);
   }
 
-  orca::PushProxy<orca::idl::LaserRangeReadings> laser_{*this, "laser", {.text = "What the laser sees."}};
+  orca::PushProxy<orca::idl::LaserRangeReadings> laser_{*this, "laser", {.text = "Scans of the laser."}};
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ class LaserServer final : public orca::hw::HardwareServer {
       *this,
       "LaserSensorQuery",
       &LaserServer::on_describe,
-      {.text = "Where the laser is mounted and what it can measure."}};
+      {.text = "Description of the laser: mounting pose, beams and range."}};
 };
 
 }  // namespace

@@ -259,72 +259,91 @@ class MotionCommandFuser final : public orca::Component {
   MotionPort motion_{
       *this,
       "motion",
-      {.text = "Wishes of the behaviours that may be named in a client list.", .optional = true}};
-  orca::SendServer<orca::idl::ClientList> clients_{*this,
-                                                   "ClientListSend",
-                                                   &MotionCommandFuser::on_client_list,
-                                                   {.text = "Which behaviours to listen to from now on."}};
-  orca::SendProxy<orca::idl::MotionCommand> base_{*this, "base", {.text = "Where the fused command goes."}};
+      {.text = "Commands of the behaviours; a client list chooses among them.", .optional = true}};
+  orca::SendServer<orca::idl::ClientList> clients_{
+      *this,
+      "ClientListSend",
+      &MotionCommandFuser::on_client_list,
+      {.text = "List of the behaviours to listen to from now on."}};
+  orca::SendProxy<orca::idl::MotionCommand> base_{
+      *this, "base", {.text = "Receiver of the fused command: a robot base."}};
 
   orca::PushServer<orca::idl::FusionReason> reason_{
-      *this, "FusionReasonPush", {.text = "Why it commanded what it did, for every command."}};
+      *this,
+      "FusionReasonPush",
+      {.text = "Reason of each command: the mode and what each behaviour contributed."}};
 
   orca::Param<std::string> mode_{
-      *this, "mode", "weighted", {.choices = orca::fuse::kModes, .text = "How wishes become one command."}};
+      *this,
+      "mode",
+      "weighted",
+      {.choices = orca::fuse::kModes, .text = "Rule by which the wishes become one command."}};
   orca::Param<std::string> sync_{
       *this,
       "sync",
       "any",
       {.choices = {"any", "all", "period"},
        .fixed = true,
-       .text = "Fuse when any behaviour speaks, when all have spoken, or once a period."}};
+       .text = "Time to fuse: when any behaviour has sent a command, when all have, or once a period."}};
   orca::Param<double> period_{
       *this,
       "period",
       0.05,
-      {.unit = "s", .min = 0.001, .fixed = true, .text = "Between two commands, with sync period."}};
+      {.unit = "s", .min = 0.001, .fixed = true, .text = "Time between two commands, with sync period."}};
   orca::Param<double> all_wait_{
       *this,
       "all_wait",
       0.2,
-      {.unit = "s", .min = 0.001, .text = "With sync all, how long the others wait for one that is silent."}};
+      {.unit = "s", .min = 0.001, .text = "Longest wait for silent behaviours, with sync all."}};
   orca::Param<std::vector<std::string>> first_clients_{
       *this, "clients", {}, {.fixed = true, .text = "Behaviours to listen to until a client list comes."}};
   orca::Param<std::vector<std::string>> required_{
-      *this, "required", {}, {.text = "Behaviours without which the robot must not move."}};
+      *this, "required", {}, {.text = "Behaviours without which the robot does not move."}};
   orca::Param<double> required_max_age_{
       *this,
       "required_max_age",
       0.5,
-      {.unit = "s", .min = 0.0, .text = "Silence of a required behaviour that stops the robot."}};
+      {.unit = "s",
+       .min = 0.0,
+       .text = "The robot stops when a required behaviour has been silent for longer."}};
   orca::Param<double> max_age_{
-      *this, "max_age", 0.5, {.unit = "s", .min = 0.0, .text = "Older wishes are disregarded."}};
+      *this, "max_age", 0.5, {.unit = "s", .min = 0.0, .text = "Age beyond which a command is disregarded."}};
   orca::Param<double> steer_gain_{
       *this,
       "steer_gain",
       1.0,
-      {.unit = "1/s", .min = 0.01, .text = "Turn rate per radian when directions and rates are mixed."}};
+      {.unit = "1/s",
+       .min = 0.01,
+       .text = "Turn rate per radian of direction, where one is converted into the other."}};
 
   orca::Param<double> max_turn_rate_{
       *this,
       "max_turn_rate",
       1.0,
-      {.unit = "rad/s", .min = 0.01, .text = "Mode vote: the fastest turns that are voted on."}};
+      {.unit = "rad/s",
+       .min = 0.01,
+       .text = "Mode vote: largest turn rate among the candidates, to either side."}};
   orca::Param<double> rate_spread_{
       *this,
       "rate_spread",
       0.15,
-      {.unit = "rad/s", .min = 0.01, .text = "Mode vote: how far a wish's votes reach over turn rates."}};
+      {.unit = "rad/s",
+       .min = 0.01,
+       .text = "Mode vote: standard deviation of a wish's votes over the turn rates."}};
   orca::Param<double> speed_spread_{
       *this,
       "speed_spread",
       0.1,
-      {.unit = "m/s", .min = 0.01, .text = "Mode vote: how far a wish's votes reach over speeds."}};
+      {.unit = "m/s",
+       .min = 0.01,
+       .text = "Mode vote: standard deviation of a wish's votes over the speeds."}};
   orca::Param<double> inertia_{
       *this,
       "inertia",
       0.2,
-      {.min = 0.0, .max = 1.0, .text = "Mode vote: share of the votes that its last choice has."}};
+      {.min = 0.0,
+       .max = 1.0,
+       .text = "Mode vote: votes for its last choice; 0: none, 1: as many as all wishes have together."}};
   orca::Param<std::vector<std::string>> order_{
       *this, "order", {}, {.text = "Mode priority: behaviours in order of priority, highest first."}};
   orca::Param<std::vector<std::string>> suppress_{
@@ -333,12 +352,14 @@ class MotionCommandFuser final : public orca::Component {
       {},
       {.text = "Mode subsumption: with \"avoid > goto\" a wish of avoid replaces the wish of goto."}};
   orca::Param<std::vector<std::string>> inhibit_{
-      *this, "inhibit", {}, {.text = "Mode subsumption: \"arm > goto\" silences goto while arm has a wish."}};
+      *this, "inhibit", {}, {.text = "Mode subsumption: with \"arm > goto\" a wish of arm silences goto."}};
   orca::Param<double> hold_{
       *this,
       "hold",
       0.5,
-      {.unit = "s", .min = 0.0, .text = "Mode subsumption: how long a node acts after the last wish."}};
+      {.unit = "s",
+       .min = 0.0,
+       .text = "Mode subsumption: time for which a node still acts after the last wish."}};
 
   orca::fuse::Rules rules_;
   std::vector<Listened> listened_;

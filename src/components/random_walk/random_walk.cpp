@@ -90,39 +90,51 @@ class RandomWalk final : public orca::Component {
   }
 
   orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{
-      *this, "sonar", {.text = "What the sonars hear.", .optional = true}};
+      *this,
+      "sonar",
+      {.text = "Readings of the sonars; sonar or laser must be connected.", .optional = true}};
   orca::PushProxy<orca::idl::LaserRangeReadings> laser_{
-      *this, "laser", {.text = "What the laser sees.", .optional = true}};
-  orca::PushServer<orca::idl::MotionCommand> motion_{*this, "motion", {.text = "A wish per lap."}};
+      *this, "laser", {.text = "Scans of the laser; sonar or laser must be connected.", .optional = true}};
+  orca::PushServer<orca::idl::MotionCommand> motion_{
+      *this, "motion", {.text = "One command per lap: a wish, or full stop while no readings come."}};
 
-  orca::Param<double> speed_{*this, "speed", 0.3, {.unit = "m/s", .min = 0.0, .text = "Straight on."}};
+  orca::Param<double> speed_{
+      *this, "speed", 0.3, {.unit = "m/s", .min = 0.0, .text = "Speed while it drives straight on."}};
   orca::Param<double> turn_rate_{
-      *this, "turn_rate", 0.8, {.unit = "rad/s", .min = 0.01, .text = "Of its turns on the spot."}};
+      *this, "turn_rate", 0.8, {.unit = "rad/s", .min = 0.01, .text = "Turn rate of its turns on the spot."}};
   orca::Param<double> least_turn_{
       *this, "least_turn", 0.8, {.unit = "rad", .min = 0.0, .max = 6.3, .text = "Smallest random turn."}};
   orca::Param<double> greatest_turn_{
       *this, "greatest_turn", 2.6, {.unit = "rad", .min = 0.0, .max = 6.3, .text = "Largest random turn."}};
   orca::Param<double> blocked_at_{
-      *this,
-      "blocked_at",
-      0.5,
-      {.unit = "m", .min = 0.05, .text = "A free way this short is turned away from."}};
+      *this, "blocked_at", 0.5, {.unit = "m", .min = 0.05, .text = "Free way ahead at which it turns away."}};
   orca::Param<double> longest_way_{
       *this,
       "longest_way",
       20.0,
-      {.unit = "s", .min = 0.0, .text = "It turns after a random part of this anyway; 0: never."}};
+      {.unit = "s",
+       .min = 0.0,
+       .text = "Longest time straight on; each time is drawn below it. 0: until the way is blocked."}};
   orca::Param<double> robot_radius_{
-      *this, "robot_radius", 0.205, {.unit = "m", .min = 0.0, .text = "Circle that holds the robot."}};
+      *this,
+      "robot_radius",
+      0.205,
+      {.unit = "m", .min = 0.0, .text = "Radius of the circle that holds the robot."}};
   orca::Param<double> margin_{
-      *this, "margin", 0.1, {.unit = "m", .min = 0.0, .text = "Kept free on both sides."}};
+      *this,
+      "margin",
+      0.1,
+      {.unit = "m", .min = 0.0, .text = "Free space to keep on both sides of the robot."}};
   orca::Param<double> deaf_after_{
       *this,
       "deaf_after",
       0.6,
-      {.unit = "s", .min = 0.0, .text = "Without sensor readings for so long the robot stops."}};
+      {.unit = "s", .min = 0.0, .text = "The robot stops after this time without sensor readings."}};
   orca::Param<double> weight_{
-      *this, "weight", 1.0, {.min = 0.0, .text = "Share of its wishes when they are fused."}};
+      *this,
+      "weight",
+      1.0,
+      {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
   orca::walk::Walk walk_;
   std::optional<orca::RandomStream> random_;

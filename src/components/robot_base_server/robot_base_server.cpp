@@ -21,7 +21,10 @@ class RobotBaseServer final : public orca::hw::HardwareServer {
   }
 
   orca::QueryServer<orca::idl::Ask, orca::idl::Robot> description_{
-      *this, "RobotQuery", &RobotBaseServer::on_describe, {.text = "What the robot is and what it can do."}};
+      *this,
+      "RobotQuery",
+      &RobotBaseServer::on_describe,
+      {.text = "Description of the robot and all devices on it."}};
 };
 
 }  // namespace

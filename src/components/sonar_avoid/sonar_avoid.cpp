@@ -33,7 +33,7 @@ class SonarAvoid final : public orca::avoid::Avoider {
     }
   }
 
-  orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{*this, "sonar", {.text = "What the sonars hear."}};
+  orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{*this, "sonar", {.text = "Readings of the sonars."}};
 };
 
 }  // namespace

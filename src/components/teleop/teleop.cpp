@@ -162,7 +162,10 @@ class Teleop final : public orca::Component {
       0,
       {.min = 0, .max = 255, .text = "Joystick button that must be held to drive."}};
   orca::Param<double> weight_{
-      *this, "weight", 1.0, {.min = 0.0, .text = "Share of its wishes when they are fused."}};
+      *this,
+      "weight",
+      1.0,
+      {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
   Input keyboard_input_;
   Input joystick_input_;

@@ -57,7 +57,7 @@ TEMPLATE_LIST_TEST_CASE(
 }
 
 TEMPLATE_LIST_TEST_CASE(
-    "a publisher waits no longer than the edge says, then its object is dropped there and counted",
+    "a publisher waits at most for the edge's block limit, then its object is dropped there and counted",
     "[contract][push][block]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);
@@ -75,7 +75,7 @@ TEMPLATE_LIST_TEST_CASE(
 }
 
 TEMPLATE_LIST_TEST_CASE(
-    "a subscriber that let one wait pass is taken for stuck: nobody waits for it until it takes an object "
+    "a subscriber that let one wait run out counts as stuck: nobody waits for it until it takes an object "
     "again",
     "[contract][push][block]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
@@ -97,7 +97,7 @@ TEMPLATE_LIST_TEST_CASE(
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("a component that must leave its lap is not held by an edge that blocks",
+TEMPLATE_LIST_TEST_CASE("an edge that blocks does not hold a component that must leave its lap",
                         "[contract][push][block]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);
@@ -111,7 +111,7 @@ TEMPLATE_LIST_TEST_CASE("a component that must leave its lap is not held by an e
     REQUIRE(eventually(kit.executive, [&] { return edge.counters().waits == 1; }));
     source.leave();
     REQUIRE(push.ends_within(5s));
-    CHECK(pushed_all);  // push() itself does not throw: what it was to stop may depend on what follows
+    CHECK(pushed_all);  // push() does not throw: the code after it may be needed to stop something
     CHECK(eventually(kit.executive, [&] { return edge.counters().dropped_blocked == 3; }));
   });
 }
@@ -141,7 +141,7 @@ struct Mirror : Peer {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("two components that wait for room at each other come free at the time limit",
+TEMPLATE_LIST_TEST_CASE("two components that wait for room at each other are freed at the time limit",
                         "[contract][push][block]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Mirror one(kit.executive, "one");
@@ -210,7 +210,7 @@ TEMPLATE_LIST_TEST_CASE(
     CHECK(listener.in.deadline_missed());
     source.push_numbers(1, 1);
     CHECK(missed_after(50ms) == 1);
-    source.push_numbers(2, 2);  // at the deadline is in time
+    source.push_numbers(2, 2);  // exactly at the deadline is in time
     CHECK(missed_after(151ms) == 4);
     listener.in.unsubscribe();
     CHECK_FALSE(listener.in.deadline_missed());

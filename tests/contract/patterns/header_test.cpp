@@ -58,8 +58,9 @@ TEMPLATE_LIST_TEST_CASE("an object carries the name of its sender, its number an
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("what a component pushes after it took an object belongs to that object's mission",
-                        "[contract][header]", LinkKits) {
+TEMPLATE_LIST_TEST_CASE(
+    "objects that a component pushes after it took an object belong to that object's mission",
+    "[contract][header]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);
     Relay relay(kit.executive);
@@ -84,7 +85,7 @@ TEMPLATE_LIST_TEST_CASE("what a component pushes after it took an object belongs
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("what a handler sends names the object that it handles as its cause",
+TEMPLATE_LIST_TEST_CASE("an object that a handler sends names the handled object as its cause",
                         "[contract][header]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Sender sender(kit.executive);

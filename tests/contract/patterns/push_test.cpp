@@ -89,7 +89,7 @@ TEMPLATE_LIST_TEST_CASE("get_update_wait_max returns as soon as there is a new o
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("new_data_arrived tells of an object that was not taken yet, without taking it",
+TEMPLATE_LIST_TEST_CASE("new_data_arrived reports an object that was not taken yet, without taking it",
                         "[contract][push]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);
@@ -105,7 +105,7 @@ TEMPLATE_LIST_TEST_CASE("new_data_arrived tells of an object that was not taken 
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("latest is nothing before the first object, then the newest, and takes none",
+TEMPLATE_LIST_TEST_CASE("latest returns nothing before the first object, then the newest, and takes none",
                         "[contract][push]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);
@@ -171,8 +171,8 @@ TEMPLATE_LIST_TEST_CASE("a subscriber that is asleep costs the publisher and its
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("only what is pushed between subscribe and unsubscribe arrives", "[contract][push]",
-                        LinkKits) {
+TEMPLATE_LIST_TEST_CASE("only objects that are pushed between subscribe and unsubscribe arrive",
+                        "[contract][push]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);
     Listener listener(kit.executive);
@@ -193,8 +193,9 @@ TEMPLATE_LIST_TEST_CASE("only what is pushed between subscribe and unsubscribe a
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("what arrived in an earlier subscription is no news in the next, nor the last object",
-                        "[contract][push]", LinkKits) {
+TEMPLATE_LIST_TEST_CASE(
+    "an object from an earlier subscription is neither new data nor the last object in the next one",
+    "[contract][push]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);
     Listener listener(kit.executive);
@@ -287,7 +288,7 @@ TEMPLATE_LIST_TEST_CASE("objects cross from strand to strand in order and comple
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("a component that must leave its lap is not held by a wait for an object",
+TEMPLATE_LIST_TEST_CASE("a wait for an object does not hold a component that must leave its lap",
                         "[contract][push]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);

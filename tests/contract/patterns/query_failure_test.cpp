@@ -6,8 +6,8 @@ using namespace orca;
 using namespace orca::test;
 using Catch::Contains;
 
-TEMPLATE_LIST_TEST_CASE("a query that is not answered in time fails then, and names both ends",
-                        "[contract][query]", LinkKits) {
+TEMPLATE_LIST_TEST_CASE("a query that is not answered in time fails and names both ends", "[contract][query]",
+                        LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Counter counter(kit);
     counter.answerer.open();
@@ -22,7 +22,7 @@ TEMPLATE_LIST_TEST_CASE("a query that is not answered in time fails then, and na
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("a late answer is thrown away and does not answer the next question",
+TEMPLATE_LIST_TEST_CASE("a late answer is discarded and does not answer the next question",
                         "[contract][query]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Counter counter(kit);
@@ -110,8 +110,8 @@ TEMPLATE_LIST_TEST_CASE("an exception of the handler is an answer too, and reach
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("a server that closes answers what still waits, with the reason", "[contract][query]",
-                        LinkKits) {
+TEMPLATE_LIST_TEST_CASE("a server that closes answers the questions that still wait, with the reason",
+                        "[contract][query]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Counter counter(kit);
     counter.answerer.open();
@@ -129,7 +129,7 @@ TEMPLATE_LIST_TEST_CASE("a server that closes answers what still waits, with the
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("an answer for a question that was never put is not found", "[contract][query]",
+TEMPLATE_LIST_TEST_CASE("an answer to a question that was never asked is not found", "[contract][query]",
                         LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Counter counter(kit);

@@ -51,7 +51,8 @@ TEMPLATE_LIST_TEST_CASE("query_receive_wait blocks until the answer to that ques
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("answers of one server go to whoever asked", "[contract][query]", LinkKits) {
+TEMPLATE_LIST_TEST_CASE("each answer of a server goes to the client that asked", "[contract][query]",
+                        LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Counter counter(kit);
     Asker other(kit.executive, "other");

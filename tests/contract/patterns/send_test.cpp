@@ -70,7 +70,7 @@ TEMPLATE_LIST_TEST_CASE("a server that has not been opened, or was closed, refus
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("what was accepted before the server was closed is handled when it opens again",
+TEMPLATE_LIST_TEST_CASE("objects accepted before the server closed are handled when it opens again",
                         "[contract][send]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Line line(kit);
@@ -109,7 +109,7 @@ TEMPLATE_LIST_TEST_CASE("everything that was accepted is handled, once and in or
 }
 
 TEMPLATE_LIST_TEST_CASE(
-    "an error of the handler is counted, and the sender has been told that it was accepted",
+    "an error of the handler is counted, but the sender learns only that the object was accepted",
     "[contract][send]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Line line(kit);

@@ -9,7 +9,7 @@ using Overflow = QueuePolicy::Overflow;
 
 namespace {
 
-// A line whose server is open and has room for one object, which is taken.
+// A line whose server is open and whose only place is taken.
 template <class Kit>
 struct FullLine : Line<Kit> {
   explicit FullLine(Kit& kit) : Line<Kit>(kit, {.depth = 1, .overflow = Overflow::refuse}) {
@@ -76,7 +76,7 @@ TEMPLATE_LIST_TEST_CASE("send_wait_max returns at once when the server is closed
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("an edge that blocks lets a plain send wait, at most as long as it says",
+TEMPLATE_LIST_TEST_CASE("an edge that blocks lets a plain send wait, at most for its block limit",
                         "[contract][send][block]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     FullLine line(kit, {.depth = 1, .overflow = Overflow::block, .block_limit = 30ms});
@@ -98,7 +98,8 @@ TEMPLATE_LIST_TEST_CASE("an edge that blocks lets a plain send wait, at most as 
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("a sender that waits is told when the server closes", "[contract][send]", LinkKits) {
+TEMPLATE_LIST_TEST_CASE("a sender that waits gets an error when the server closes", "[contract][send]",
+                        LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     FullLine line(kit);
     Status outcome;
@@ -112,7 +113,7 @@ TEMPLATE_LIST_TEST_CASE("a sender that waits is told when the server closes", "[
 }
 
 TEMPLATE_LIST_TEST_CASE(
-    "a component that must leave its lap is not held by a full server, and its object is gone",
+    "a full server does not hold a component that must leave its lap, and the object is withdrawn",
     "[contract][send]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     FullLine line(kit);
@@ -127,7 +128,7 @@ TEMPLATE_LIST_TEST_CASE(
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("send_request does not wait, and send_receive tells what became of the object",
+TEMPLATE_LIST_TEST_CASE("send_request does not wait, and send_receive returns the outcome of the object",
                         "[contract][send]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     FullLine line(kit, {.depth = 1, .overflow = Overflow::block, .block_limit = 1h});

@@ -62,7 +62,7 @@ TEMPLATE_LIST_TEST_CASE("wait for one subject ends when that one has new data, w
 }
 
 TEMPLATE_LIST_TEST_CASE(
-    "wait for any subject names the one that has new data, of several the one added first",
+    "wait for any subject names the one with new data; of several, the one that was added first",
     "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Behaviours robot(kit);
@@ -90,7 +90,7 @@ TEMPLATE_LIST_TEST_CASE("wait_all ends when all subjects have new data", "[contr
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("wait_all with a limit tells whether all subjects had new data in time",
+TEMPLATE_LIST_TEST_CASE("wait_all with a limit reports whether all subjects had new data in time",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Behaviours robot(kit);
@@ -150,7 +150,7 @@ TEMPLATE_LIST_TEST_CASE("a removed subject is waited for no longer, and one adde
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("a component that must leave its lap is not held by a synchronizer",
+TEMPLATE_LIST_TEST_CASE("a synchronizer does not hold a component that must leave its lap",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Behaviours robot(kit);

@@ -135,7 +135,7 @@ TEMPLATE_LIST_TEST_CASE("an irregular server measures the interval by the times 
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("a rate asked for between two subscriptions holds for the next",
+TEMPLATE_LIST_TEST_CASE("a rate requested between two subscriptions holds for the next one",
                         "[contract][push][rate]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);

@@ -3,7 +3,7 @@
 
 namespace {
 
-/// Would read a joystick, so it says that virtual time is nothing for it.
+/// Declares that it needs the steady clock, as a component that reads a joystick would.
 class Joystick final : public orca::Component {
  public:
   using Component::Component;

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Sends and asks whoever the graph connects, each lap, and says what came back.
+/// Sends to and queries the components that the graph connects, in each lap, and logs the results.
 class Poker final : public orca::Component {
  public:
   explicit Poker(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(200)); }

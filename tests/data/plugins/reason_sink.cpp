@@ -17,7 +17,7 @@ const char* name_of(orca::idl::FusionVerdict verdict) {
   return "?";
 }
 
-/// Says what a fuser's reasons are, a line whenever verdict, speed or turn change:
+/// Logs a fuser's reasons, one line per change of mode, verdict, culprit, speed, turn or voices:
 /// "t=2.150 vote TOLD_TO_STOP by guard speed 0.00 turn 0.00 voices 2".
 class ReasonSink final : public orca::Component {
  public:

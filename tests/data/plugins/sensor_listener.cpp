@@ -5,8 +5,8 @@
 
 namespace {
 
-/// Listens to all kinds of sensors of a simulated robot for a while, and is done if each has given as many
-/// readings as its period says, each as old as it should be, and the robot stands where something is felt.
+/// Listens to all kinds of sensors of a simulated robot for a while. It is done if each has delivered as many
+/// readings as its period implies, each of the right age, and the infrared sensor ahead sees the wall.
 class SensorListener final : public orca::Component {
  public:
   explicit SensorListener(orca::ComponentHost& host) : Component(host) { lap_on("odometry"); }
@@ -44,7 +44,7 @@ class SensorListener final : public orca::Component {
     ++rounds_;
     check_age("infrared", round->stamps().at(0), 0.0);
     if (round->ranges().size() != 8 || round->poses().size() != 8) wrong_ = "an infrared round is not of 8";
-    // The place looks at a wall from near by.
+    // The robot stands close to a wall and faces it.
     if (round->ranges()[0] >= round->max_range()) wrong_ = "the infrared sensor ahead sees nothing";
   }
 

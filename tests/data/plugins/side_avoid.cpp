@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Half an avoid behaviour: turns away from what the sonars of its side hear, the one straight ahead
+/// Half an avoid behaviour: turns away from echoes of the sonars on its side, the one straight ahead
 /// included.
 class SideAvoid final : public orca::Component {
  public:

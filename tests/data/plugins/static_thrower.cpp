@@ -9,7 +9,7 @@ struct Smoke {
   Smoke() { throw std::runtime_error("the static initialisation smokes"); }
 } smoke;
 
-/// Never comes to life.
+/// Is never loaded, because the static initialisation of its plugin throws.
 class StaticThrower final : public orca::Component {
  public:
   using Component::Component;

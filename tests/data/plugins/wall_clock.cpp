@@ -7,7 +7,7 @@
 
 namespace {
 
-/// What nobody should write: the machine's time and a random number from nowhere.
+/// Uses the machine's time and random numbers without a seed, as no component should.
 class WallClock final : public orca::Component {
  public:
   using Component::Component;

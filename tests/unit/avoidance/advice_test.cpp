@@ -65,7 +65,7 @@ TEST_CASE("echoes behind, beside or far away leave the way free", "[avoidance]")
   CHECK(free_way(echoes, 0.0, kLimits) == kLimits.safe_distance);
 }
 
-TEST_CASE("the free way lies between nothing and the safe distance, and an echo more makes it no longer",
+TEST_CASE("the free way lies between 0 and the safe distance, and another echo never makes it longer",
           "[avoidance]") {
   orca::RandomStream random(1, "test", "way");
   for (int i = 0; i < 1000; ++i) {
@@ -101,7 +101,7 @@ TEST_CASE("an advised direction is at least as free as the way ahead", "[avoidan
   }
 }
 
-TEST_CASE("an obstacle on one side is avoided to the other", "[avoidance]") {
+TEST_CASE("an obstacle on one side is avoided towards the other side", "[avoidance]") {
   const std::vector<Vec2> on_the_left{{0.7, 0.15}, {0.7, 0.25}};
   const std::vector<Vec2> on_the_right{{0.7, -0.15}, {0.7, -0.25}};
   const Advice right = avoid(on_the_left, {}, kLimits);
@@ -139,8 +139,9 @@ TEST_CASE("noise that shifts a symmetric obstacle a little does not change the s
   CHECK(last != 0.0);
 }
 
-TEST_CASE("the nearer the obstacle, the slower and the more urgent, to a stand at the stop distance",
-          "[avoidance]") {
+TEST_CASE(
+    "the advice is slower and more urgent the nearer the obstacle is, down to speed 0 at the stop distance",
+    "[avoidance]") {
   double last_speed = kLimits.max_speed;
   double last_urgency = 0.0;
   for (double ahead = 0.79; ahead > 0.0; ahead -= 0.01) {
@@ -158,7 +159,7 @@ TEST_CASE("the nearer the obstacle, the slower and the more urgent, to a stand a
   }
 }
 
-TEST_CASE("of the free directions the one nearest to the goal is chosen", "[avoidance]") {
+TEST_CASE("the free direction nearest to the goal is chosen", "[avoidance]") {
   const std::vector<Vec2> ahead = wall(0.6, 0.2);
   const Advice left = avoid(ahead, {.goal = 1.2}, kLimits);
   const Advice right = avoid(ahead, {.goal = -1.2}, kLimits);
@@ -186,7 +187,7 @@ TEST_CASE("beside a wall with the goal behind it, the robot goes the way that le
   CHECK(std::abs(back.direction) > 2.5);
 }
 
-TEST_CASE("the advice does not depend on which of two mirrored worlds it is given in", "[avoidance]") {
+TEST_CASE("mirrored worlds give mirrored advice", "[avoidance]") {
   orca::RandomStream random(5, "test", "mirror");
   for (int i = 0; i < 500; ++i) {
     std::vector<Vec2> echoes = random_echoes(random);

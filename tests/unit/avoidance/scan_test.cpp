@@ -57,7 +57,7 @@ TEST_CASE("a scan that sees nothing leaves nothing to avoid", "[avoidance][laser
   CHECK(memory_of({}).echoes().empty());
 }
 
-TEST_CASE("a beam ends where sensor, mount and angle say", "[avoidance][laser]") {
+TEST_CASE("the end of a beam follows from range, mount and angle", "[avoidance][laser]") {
   std::vector<double> ranges = nothing();
   ranges[90] = 1.0;
   const EchoMemory ahead = memory_of(ranges, {0.1, 0.0, 0.0});
@@ -70,7 +70,7 @@ TEST_CASE("a beam ends where sensor, mount and angle say", "[avoidance][laser]")
   CHECK(aside.echoes()[0].y == Approx(1.2));
 }
 
-TEST_CASE("a reading below the shortest range stands for something at the sensor itself",
+TEST_CASE("a reading below the shortest range counts as something at the sensor itself",
           "[avoidance][laser]") {
   std::vector<double> ranges = nothing();
   ranges[90] = 0.01;
@@ -79,7 +79,7 @@ TEST_CASE("a reading below the shortest range stands for something at the sensor
   CHECK(memory.echoes()[0].x == Approx(0.1));
 }
 
-TEST_CASE("what is not a number, or farther away than matters, is no echo", "[avoidance][laser]") {
+TEST_CASE("a reading that is not a number, or too far away to matter, is no echo", "[avoidance][laser]") {
   std::vector<double> ranges = nothing();
   ranges[80] = std::nan("");
   ranges[90] = 2.5;
@@ -87,7 +87,7 @@ TEST_CASE("what is not a number, or farther away than matters, is no echo", "[av
   CHECK(memory_of(ranges).echoes().size() == 1);  // the negative one counts as too near to tell
 }
 
-TEST_CASE("of the beams in a sector the nearest is kept, so a scan costs no more than a ring of sonars",
+TEST_CASE("only the nearest reading in a sector is kept, so a scan costs no more than a ring of sonars",
           "[avoidance][laser]") {
   orca::RandomStream random(1, "test", "scan");
   for (int i = 0; i < 200; ++i) {
@@ -105,7 +105,7 @@ TEST_CASE("of the beams in a sector the nearest is kept, so a scan costs no more
   }
 }
 
-TEST_CASE("what has gone from the field of view is forgotten, what lies behind is remembered",
+TEST_CASE("a scan forgets echoes that it no longer sees in its field of view, and keeps those behind",
           "[avoidance][laser]") {
   EchoMemory memory = memory_of(wall(0.6, 0.3));
   memory.hear({-0.5, 0.0}, kKeep);

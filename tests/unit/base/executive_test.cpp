@@ -45,7 +45,7 @@ std::unique_ptr<Executive> make(const ExecutiveOptions& options) { return make_e
 
 }  // namespace
 
-TEST_CASE("free-running threads in virtual time are refused with a way out", "[base][executive]") {
+TEST_CASE("free-running threads in virtual time are refused with a hint", "[base][executive]") {
   const auto refused = make_executive({ClockKind::virtual_time, Backend::thread});
   REQUIRE_FALSE(refused.has_value());
   CHECK(refused.error().code == Code::invalid_argument);
@@ -160,7 +160,8 @@ TEST_CASE("virtual time stands still while tasks run and jumps when they all wai
   }
 }
 
-TEST_CASE("of the tasks ready at one time the one with the higher priority runs first", "[base][executive]") {
+TEST_CASE("the task with the highest priority runs first of those ready at the same time",
+          "[base][executive]") {
   for (const auto& kind : virtual_kinds()) {
     const auto executive = make(kind);
     std::string order;
@@ -294,7 +295,8 @@ TEST_CASE("a task that waits as it should is not named, however long", "[base][e
   }
 }
 
-TEST_CASE("of many tasks ready at one time those of one priority keep their order", "[base][executive]") {
+TEST_CASE("tasks of the same priority that are ready at the same time keep their order",
+          "[base][executive]") {
   for (const auto& kind : virtual_kinds()) {
     const auto executive = make(kind);
     const std::vector<int> priorities{0, 5, 0, -3, 5, 100, 0, -3, 7, 5};
@@ -308,7 +310,7 @@ TEST_CASE("of many tasks ready at one time those of one priority keep their orde
   }
 }
 
-TEST_CASE("an event that strangers notify without pause loses no notification", "[base][executive]") {
+TEST_CASE("an event that unknown threads notify without pause loses no notification", "[base][executive]") {
   for (const auto& kind : all_kinds()) {
     if (kind.clock == ClockKind::virtual_time) continue;
     const auto executive = make(kind);

@@ -30,7 +30,7 @@ TEST_CASE("characters that JSON reserves are escaped", "[base][json]") {
   CHECK(json.text() == "\"a\\\"b\\\\c\\nd\\te\\rf\\u0001\"\n");
 }
 
-TEST_CASE("numbers keep their value, and what is no number is null", "[base][json]") {
+TEST_CASE("numbers keep their value, and values that are not finite become null", "[base][json]") {
   const auto text = [](auto value) {
     JsonWriter json;
     json.value(value);

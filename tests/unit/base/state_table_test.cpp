@@ -39,7 +39,7 @@ TEST_CASE("a row keeps its actions in their order, and may have none", "[base][s
   CHECK(actions(kDoor.rows()[1]).empty());
 }
 
-TEST_CASE("two rows for one state and event are no table", "[base][state_table]") {
+TEST_CASE("two rows for one state and event are refused", "[base][state_table]") {
   const auto rows =
       std::to_array<Row>({{Door::shut, Push::in, Door::open, {}}, {Door::shut, Push::in, Door::shut, {}}});
   using Table = StateTable<Door, Push, Do, 2, 3, 2>;

@@ -18,14 +18,14 @@ using namespace orca;
 
 namespace {
 
-// How often work(i) was called, for each i.
+// Returns how often work(i) was called, for each i.
 std::vector<int> calls_of(Team& team, std::size_t count) {
   std::vector<int> calls(count);
   team.for_all(count, [&](std::size_t i) { ++calls[i]; });
   return calls;
 }
 
-// Two that are at work at once: each waits, for long enough, until the other has begun.
+// Returns whether two parts run at the same time: each waits, for long enough, until the other has begun.
 bool meet_at_work(Team& team) {
   std::atomic<int> begun{0};
   std::atomic<int> met{0};
@@ -38,7 +38,7 @@ bool meet_at_work(Team& team) {
   return met == 2;
 }
 
-// As long as it lives, this process gets no more than so much memory beyond what it has.
+// Limits the memory that this process can take beyond what it has, while this object lives.
 class MemoryLimit {
  public:
   explicit MemoryLimit(rlim_t bytes) {
@@ -87,7 +87,7 @@ TEST_CASE("a loop ends only when a helper that is slower than the caller has don
   }
 }
 
-TEST_CASE("a team of nobody else needs no thread", "[base][team]") {
+TEST_CASE("a team of one starts no thread", "[base][team]") {
   Team team(1);
   CHECK(team.threads() == 1);
   const std::thread::id caller = std::this_thread::get_id();
@@ -98,7 +98,8 @@ TEST_CASE("a team without a number has as many threads as the processor", "[base
   CHECK(Team(0).threads() == std::max(1U, std::thread::hardware_concurrency()));
 }
 
-TEST_CASE("of what parts of a loop throw the first arrives, when all others are done", "[base][team]") {
+TEST_CASE("the exception of the first part that throws is rethrown, after all other parts are done",
+          "[base][team]") {
   Team team(GENERATE(1U, 3U));
   for (int again = 0; again < 100; ++again) {
     std::vector<int> calls(50);
@@ -112,7 +113,7 @@ TEST_CASE("of what parts of a loop throw the first arrives, when all others are 
   CHECK(calls_of(team, 50) == std::vector<int>(50, 1));
 }
 
-TEST_CASE("what a helper does it does for who called", "[base][team]") {
+TEST_CASE("the work of a helper belongs to the activity of the caller", "[base][team]") {
   Team team(3);
   std::atomic<int> for_sim{0};
   {
@@ -132,10 +133,10 @@ TEST_CASE("what a helper does it does for who called", "[base][team]") {
 
 // A sanitizer needs more memory than this test leaves to the process.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST_CASE("a team that gets fewer threads than it wants does all the work all the same", "[base][team]") {
+TEST_CASE("a team that gets fewer threads than requested still does all the work", "[base][team]") {
   std::unique_ptr<Team> team;
   {
-    const MemoryLimit limit(40'000'000);  // Some five stacks.
+    const MemoryLimit limit(40'000'000);  // About five stacks.
     team = std::make_unique<Team>(64);
   }
   CHECK(team->threads() >= 1);

@@ -9,7 +9,7 @@ using namespace orca;
 
 using Names = std::vector<std::string>;
 
-TEST_CASE("a list of names for people stops at twenty, or where it is told to", "[base][text]") {
+TEST_CASE("a list of names for people stops at twenty, or at the given limit", "[base][text]") {
   CHECK(listed(Names{}) == "nothing");
   CHECK(listed(Names{"a", "b"}) == "a, b");
   CHECK(listed(Names(20, "x")).ends_with("x, x"));
@@ -23,7 +23,7 @@ TEST_CASE("parts are joined by a separator, which stands between them only", "[b
   CHECK(joined(Names{"a", "", "c"}, "; ") == "a; ; c");
 }
 
-TEST_CASE("a text in quotes is the text, with nothing escaped", "[base][text]") {
+TEST_CASE("a text in quotes is printed as it is, with nothing escaped", "[base][text]") {
   CHECK(in_quotes("a \"b\"") == "\"a \"b\"\"");
   CHECK(in_quotes("") == "\"\"");
 }

@@ -56,7 +56,8 @@ struct Source : Peer {
 
 }  // namespace
 
-TEST_CASE("a component may name the port that starts its laps by the port itself", "[component]") {
+TEST_CASE("a component may give the port itself, instead of its name, as the port that starts its laps",
+          "[component]") {
   run_on({}, [](Executive& executive) {
     Host host(executive, "both");
     const Both both(host);
@@ -65,7 +66,7 @@ TEST_CASE("a component may name the port that starts its laps by the port itself
   });
 }
 
-TEST_CASE("wait_until ends as soon as what arrives makes its condition true", "[component]") {
+TEST_CASE("wait_until ends as soon as an arrival makes its condition true", "[component]") {
   run_on_each(all_executives(), [](Executive& executive) {
     Host host(executive, "both");
     Both both(host);
@@ -94,7 +95,7 @@ TEST_CASE("wait_until gives up at its limit", "[component]") {
   });
 }
 
-TEST_CASE("a component that must leave its lap is not held by wait_until", "[component]") {
+TEST_CASE("wait_until does not hold a component that must leave its lap", "[component]") {
   run_on_each(all_executives(), [](Executive& executive) {
     Host host(executive, "both");
     Both both(host);

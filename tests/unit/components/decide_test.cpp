@@ -53,7 +53,7 @@ TEST_CASE("in every mode a fresh full stop wins over whatever else is wished", "
   }
 }
 
-TEST_CASE("in every mode what has no opinion, no weight or too many years does not count",
+TEST_CASE("in every mode a command without an opinion or weight, or that is too old, does not count",
           "[components][fuser]") {
   for (const std::string& mode : kModes) {
     CAPTURE(mode);
@@ -89,7 +89,8 @@ TEST_CASE("in every mode a required behaviour that is silent, unheard or not lis
   }
 }
 
-TEST_CASE("by priority the first in order that has a wish decides alone", "[components][fuser]") {
+TEST_CASE("in mode priority the first behaviour of the order that has a wish decides alone",
+          "[components][fuser]") {
   const Rules rules = rules_of("priority");
   const std::vector both{wishes("goto", 0.0, 5.0), wishes("avoid", 0.7, 0.1)};
   CHECK(decide(both, rules, 0.0).decided_by == "avoid");

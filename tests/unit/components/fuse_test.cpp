@@ -72,7 +72,7 @@ TEST_CASE("in every mode one wish is fused to itself", "[components][fuser]") {
   CHECK(rate_of(blend.fuse(std::vector{turning(0.4, 0.1, 0.5)}).command) == Approx(0.4));
 }
 
-TEST_CASE("in every mode the shares are those of the wishes, and sum up to one", "[components][fuser]") {
+TEST_CASE("in every mode each wish has a share, and the shares add up to one", "[components][fuser]") {
   const Blend blend = GENERATE(kWeighted, kVectorSum, kVote);
   CAPTURE(blend.name);
   orca::RandomStream random(1, "test", "shares");
@@ -85,7 +85,7 @@ TEST_CASE("in every mode the shares are those of the wishes, and sum up to one",
   }
 }
 
-TEST_CASE("in every mode the fused speed is within what was wished for", "[components][fuser]") {
+TEST_CASE("in every mode the fused speed lies within the speeds wished for", "[components][fuser]") {
   const Blend blend = GENERATE(kWeighted, kVectorSum, kVote);
   CAPTURE(blend.name);
   orca::RandomStream random(2, "test", "speed");
@@ -142,7 +142,7 @@ TEST_CASE("in every mode the mirrored wishes give the mirrored command, unless t
   }
 }
 
-TEST_CASE("a vote for left and one for right of something symmetric pass it, their mean drives into it",
+TEST_CASE("a vote between left and right passes a symmetric obstacle, and the mean drives into it",
           "[components][fuser]") {
   for (const double aside : {0.3, 0.5, 0.9, 1.5}) {
     const std::vector wishes{heading(aside, 0.2, 1.0), heading(-aside, 0.2, 1.0)};
@@ -153,7 +153,8 @@ TEST_CASE("a vote for left and one for right of something symmetric pass it, the
   }
 }
 
-TEST_CASE("the same holds beside a lighter wish to drive straight on", "[components][fuser]") {
+TEST_CASE("a vote passes a symmetric obstacle also beside a lighter wish to drive straight on",
+          "[components][fuser]") {
   const std::vector wishes{heading(0.6, 0.2, 1.0), heading(-0.6, 0.2, 1.0), heading(0.0, 0.5, 0.4)};
   CHECK(std::abs(fuse_weighted(wishes, kGain).command.value) < 1e-12);
   const Fused voted = vote(wishes, kBallot, 0.0);
@@ -161,7 +162,7 @@ TEST_CASE("the same holds beside a lighter wish to drive straight on", "[compone
   CHECK(voted.command.speed == Approx(0.2));
 }
 
-TEST_CASE("a vote that is a tie goes to where the robot turns already, else to the left",
+TEST_CASE("a tied vote goes to the side to which the robot turns already, else to the left",
           "[components][fuser]") {
   const std::vector wishes{heading(0.5, 0.2, 1.0), heading(-0.5, 0.2, 1.0)};
   CHECK(vote(wishes, kBallot, 0.0).command.value > 0.5);
@@ -185,7 +186,7 @@ TEST_CASE("a vote stays within the fastest turn that is voted on", "[components]
   }
 }
 
-TEST_CASE("wishes nearly alike are voted to a turn between them, and the heavier of two apart wins",
+TEST_CASE("a vote of similar wishes gives a turn between them, and of two distant wishes the heavier wins",
           "[components][fuser]") {
   const Fused alike = vote(std::vector{turning(0.30, 0.2, 1.0), turning(0.36, 0.2, 1.0)}, kBallot, 0.0);
   CHECK(alike.command.value > 0.30);
@@ -223,7 +224,7 @@ TEST_CASE("the weighted direction lies within the cone of the wishes", "[compone
   }
 }
 
-TEST_CASE("a direction beside a turn rate counts as a rate of the gain times the direction",
+TEST_CASE("next to a turn rate, a direction counts as a turn rate of the gain times the direction",
           "[components][fuser]") {
   const Fused fused = fuse_weighted(std::vector{heading(0.4, 0.2, 1.0), turning(-0.2, 0.4, 3.0)}, kGain);
   CHECK(fused.command.kind == Wish::Kind::turn_rate);
@@ -232,7 +233,7 @@ TEST_CASE("a direction beside a turn rate counts as a rate of the gain times the
   CHECK(fused.command.weight == 4.0);
 }
 
-TEST_CASE("opposite directions of equal weight cancel out to a robot that stands", "[components][fuser]") {
+TEST_CASE("the robot stands if opposite directions of equal weight cancel out", "[components][fuser]") {
   const Blend blend = GENERATE(kWeighted, kVectorSum);
   for (const double direction : {0.3, 1.0, pi / 2, 2.5}) {
     const Fused fused =
@@ -242,7 +243,7 @@ TEST_CASE("opposite directions of equal weight cancel out to a robot that stands
   }
 }
 
-TEST_CASE("the less the vectors agree, the slower their sum, where the weighted mean keeps its speed",
+TEST_CASE("the sum of vectors is slower the less they agree, and the weighted mean keeps its speed",
           "[components][fuser]") {
   double last = 0.5;
   for (double apart = 0.1; apart < 3.0; apart += 0.1) {

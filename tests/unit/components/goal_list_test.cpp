@@ -21,7 +21,7 @@ TEST_CASE("a route is a name and a goal in metres", "[components][goals]") {
   CHECK_FALSE(route.use_orientation);
 }
 
-TEST_CASE("what stands before the last > are via points, in order", "[components][goals]") {
+TEST_CASE("places before the last > are via points, in order", "[components][goals]") {
   const Route route = parse_route("k_2: 3.1 2 > 5 2 > 5 4.5").value();
   REQUIRE(route.via.size() == 2);
   CHECK(route.via[0].x == 3.1);
@@ -29,7 +29,7 @@ TEST_CASE("what stands before the last > are via points, in order", "[components
   CHECK(route.goal.y == 4.5);
 }
 
-TEST_CASE("what stands after @ is the direction to face, in degrees", "[components][goals]") {
+TEST_CASE("the number after @ is the direction to face, in degrees", "[components][goals]") {
   const Route route = parse_route("door: 1 2 @ -90").value();
   CHECK(route.use_orientation);
   CHECK(route.orientation == Approx(-std::numbers::pi / 2));

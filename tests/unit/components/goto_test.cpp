@@ -127,7 +127,7 @@ TEST_CASE("the speed never rises on the straight way to a goal, between its limi
 }
 
 TEST_CASE(
-    "the direction is the bearing of the target in the robot frame, and far off ones are turned to first",
+    "the direction is the bearing of the target in the robot frame, and the robot turns to a large one first",
     "[components][goto]") {
   orca::RandomStream random(3, "test", "direction");
   for (int i = 0; i < 1000; ++i) {
@@ -164,7 +164,7 @@ TEST_CASE("the steps do not depend on where the world's axes lie", "[components]
   }
 }
 
-TEST_CASE("a point robot arrives from anywhere, and facing as wanted", "[components][goto]") {
+TEST_CASE("a point robot arrives from anywhere, with the requested orientation", "[components][goto]") {
   orca::RandomStream random(5, "test", "arrive");
   for (int i = 0; i < 200; ++i) {
     Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
@@ -198,9 +198,8 @@ TEST_CASE("within reach the robot comes to rest no harder than its deceleration,
   }
 }
 
-TEST_CASE(
-    "around a target of radius zero the robot circles counter-clockwise for ever, from wherever it came",
-    "[components][goto]") {
+TEST_CASE("the robot circles a target of radius zero counter-clockwise for ever, wherever it comes from",
+          "[components][goto]") {
   orca::RandomStream random(7, "test", "circle");
   for (int i = 0; i < 20; ++i) {
     Target target = target_at(random.uniform(-3, 3), random.uniform(-3, 3));
@@ -220,7 +219,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the reach of a target above the robot is a ball: the higher, the smaller the place on the floor",
+TEST_CASE("the reach of a target is a ball: the higher above the robot, the smaller the reach on the floor",
           "[components][goto]") {
   Target target = target_at(0.0, 0.0);
   target.reach_radius = 0.5;

@@ -91,7 +91,7 @@ TEST_CASE("a line longer than a file may be is kept in a file of its own", "[com
   CHECK(read_text(folder.file("log.1")) == "short\n");
 }
 
-TEST_CASE("on a full disk lines are lost whole and counted, and a later line tells how many",
+TEST_CASE("on a full disk lines are lost whole and counted, and a later line gives their number",
           "[components][log]") {
   const TempFolder folder;
   const std::string path = folder.file("log");
@@ -108,7 +108,7 @@ TEST_CASE("on a full disk lines are lost whole and counted, and a later line tel
   CHECK(file.lost() == 2);
 }
 
-TEST_CASE("a device that takes nothing loses every line and stops nobody", "[components][log]") {
+TEST_CASE("on a device that accepts no data every line is lost, and nothing stops", "[components][log]") {
   LogFile file("/dev/full", 10000, 1);
   REQUIRE(file.open().ok());
   for (int i = 0; i < 100; ++i) CHECK_FALSE(file.append("line"));

@@ -40,14 +40,13 @@ TEST_CASE("arrows and letters of either case drive", "[components][teleop]") {
   for (const char* key : {"\x1b[C", "\x1bOC", "d", "D"}) CHECK(after(key) == Stick{0.0, -1.0});
 }
 
-TEST_CASE("forward and a turn can be held in turns, the last of two opposite keys counts",
+TEST_CASE("forward and a turn can be held by alternating keys, and the last of two opposite keys counts",
           "[components][teleop]") {
   CHECK(after("wa") == Stick{1.0, 1.0});
   CHECK(after("ws") == Stick{-1.0, 0.0});
 }
 
-TEST_CASE("a key counts for the dead-man time and not longer, and the space bar ends it at once",
-          "[components][teleop]") {
+TEST_CASE("a key counts for the dead-man time, and the space bar ends it at once", "[components][teleop]") {
   CHECK(after("w", 0.29) == Stick{1.0, 0.0});
   CHECK(after("w", 0.31) == Stick{});
   CHECK(after("wa ") == Stick{});
@@ -57,7 +56,7 @@ TEST_CASE("a key counts for the dead-man time and not longer, and the space bar 
   CHECK(keys.stick(1.45, kDeadMan) == Stick{1.0, 0.0});
 }
 
-TEST_CASE("an arrow that comes byte by byte is an arrow", "[components][teleop]") {
+TEST_CASE("an arrow key that comes byte by byte is understood", "[components][teleop]") {
   Keys keys;
   for (const char* byte : {"\x1b", "[", "A"}) keys.take(byte, 1.0);
   CHECK(keys.stick(1.0, kDeadMan) == Stick{1.0, 0.0});
@@ -73,7 +72,7 @@ TEST_CASE("keys without a meaning, and escape sequences of other keys, do nothin
   }
 }
 
-TEST_CASE("Q ends it, whatever came before", "[components][teleop]") {
+TEST_CASE("Q ends teleop, whatever keys came before", "[components][teleop]") {
   for (const char* bytes : {"q", "Q", "wwwq"}) {
     Keys keys;
     keys.take(bytes, 1.0);
@@ -81,7 +80,7 @@ TEST_CASE("Q ends it, whatever came before", "[components][teleop]") {
   }
 }
 
-TEST_CASE("no bytes bring a stick beyond its ends", "[components][teleop]") {
+TEST_CASE("no input moves a stick beyond its ends", "[components][teleop]") {
   orca::RandomStream random(1, "test", "keys");
   Keys keys;
   Joystick joystick;
@@ -118,7 +117,7 @@ TEST_CASE("a joystick's first states count like later ones, other axes and butto
   CHECK(joystick.stick({.dead_man_button = 6}) == Stick{});
 }
 
-TEST_CASE("a joystick at rest is at rest though its axes tremble, and after it has gone",
+TEST_CASE("a joystick is at rest even if its axes tremble, and after it was unplugged",
           "[components][teleop]") {
   Joystick joystick;
   joystick.take(event(1, kButton, 0) + event(900, kAxis, 1) + event(-900, kAxis, 0));

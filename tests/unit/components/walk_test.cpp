@@ -31,7 +31,8 @@ std::vector<Step> minute(std::uint64_t seed, const Limits& limits = kLimits) {
 
 }  // namespace
 
-TEST_CASE("with the way free and no longest way it walks straight on for ever", "[components][walk]") {
+TEST_CASE("it drives straight on for ever if the way is free and there is no longest way",
+          "[components][walk]") {
   orca::RandomStream random(1, "test", "walk");
   Walk walk;
   for (int i = 0; i < 1000; ++i) {
@@ -41,7 +42,7 @@ TEST_CASE("with the way free and no longest way it walks straight on for ever", 
   }
 }
 
-TEST_CASE("at a blocked way it turns on the spot by an angle between its limits, to either side",
+TEST_CASE("when the way is blocked it turns on the spot by an angle between its limits, to either side",
           "[components][walk]") {
   orca::RandomStream random(2, "test", "walk");
   Walk walk;
@@ -69,7 +70,7 @@ TEST_CASE("it never drives while the way is blocked", "[components][walk]") {
   for (int i = 0; i < 1000; ++i) CHECK(walk.step(i * kLap, 0.5, kLimits, random).speed == 0.0);
 }
 
-TEST_CASE("with a longest way it turns before that has passed, though the way is free",
+TEST_CASE("with a longest way it turns before that time has passed, even if the way is free",
           "[components][walk]") {
   Limits limits = kLimits;
   limits.longest_way = 5.0;

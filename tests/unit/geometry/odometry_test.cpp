@@ -68,7 +68,7 @@ TEST_CASE("an arc driven in two pieces ends where the whole does", "[geometry][o
   }
 }
 
-TEST_CASE("odometry's covariance follows the derivatives that differences give", "[geometry][odometry]") {
+TEST_CASE("the covariance of odometry agrees with numerical derivatives", "[geometry][odometry]") {
   RandomStream random(22, "test", "jacobian");
   for (int i = 0; i < 500; ++i) {
     const idl::Pose2D start = random_pose2(random, 0.1);
@@ -87,7 +87,7 @@ TEST_CASE("odometry's covariance follows the derivatives that differences give",
   }
 }
 
-TEST_CASE("the derivatives do not jump where the series take over", "[geometry][odometry]") {
+TEST_CASE("the derivatives are continuous where the series take over", "[geometry][odometry]") {
   // The series are used for turns below 0.1 rad.
   const auto covariance_for_turn = [](double turn) {
     const double side = turn * kScout.track / 2;
@@ -98,8 +98,9 @@ TEST_CASE("the derivatives do not jump where the series take over", "[geometry][
   CHECK((covariance_for_turn(below) - covariance_for_turn(above)).norm() < 1e-14);
 }
 
-TEST_CASE("noise makes the heading less certain with the way, without noise nothing becomes uncertain",
-          "[geometry][odometry]") {
+TEST_CASE(
+    "with noise the heading's uncertainty grows along the way, and without noise nothing becomes uncertain",
+    "[geometry][odometry]") {
   idl::Pose2D pose;
   double last = 0.0;
   for (int i = 0; i < 100; ++i) {
@@ -111,12 +112,14 @@ TEST_CASE("noise makes the heading less certain with the way, without noise noth
   CHECK(covariance_of(exact).norm() == 0.0);
 }
 
-TEST_CASE("the variance of the heading is that of the difference of the wheels", "[geometry][odometry]") {
+TEST_CASE("the variance of the heading is the variance of the difference of the wheels",
+          "[geometry][odometry]") {
   const auto pose = integrate_arc(idl::Pose2D(), rolled(2.0, -1.0), kScout).value();
   CHECK(pose.covariance()[8] == Approx((2.0 * 1e-4 + 1.0 * 2e-4) / (0.35 * 0.35)));
 }
 
-TEST_CASE("odometry's covariance stays one in a hundred thousand random steps", "[geometry][odometry]") {
+TEST_CASE("the covariance of odometry stays a valid one through a hundred thousand random steps",
+          "[geometry][odometry]") {
   RandomStream random(23, "test", "steps");
   idl::Pose2D pose;
   double least = 0.0;
@@ -131,7 +134,7 @@ TEST_CASE("odometry's covariance stays one in a hundred thousand random steps", 
   CHECK(least > -1e-14);
 }
 
-TEST_CASE("a base or a travel that cannot be is refused", "[geometry][odometry]") {
+TEST_CASE("an impossible base or travel is refused", "[geometry][odometry]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double track : {0.0, -0.1, nan, infinity}) {

@@ -89,7 +89,7 @@ TEST_CASE("plane poses form a group and act on points", "[geometry][plane]") {
   }
 }
 
-TEST_CASE("what is seen from a frame is what its pose carries back", "[geometry][plane]") {
+TEST_CASE("seen_from is the inverse of applying a pose, for points and for poses", "[geometry][plane]") {
   RandomStream random(1, "test", "seen");
   for (int i = 0; i < 1000; ++i) {
     const Pose2 a = random_pose(random);
@@ -115,7 +115,8 @@ TEST_CASE("the way between two poses is given in the frame of the first", "[geom
   CHECK(near(way, {2.0, 0.0, 0.5 * kPi + 0.1}));
 }
 
-TEST_CASE("an even drive is an arc, and backwards in time it leads back", "[geometry][plane]") {
+TEST_CASE("a drive at constant velocity is an arc, and backwards in time it leads back",
+          "[geometry][plane]") {
   const Twist2 left_turn{.forward = 0.5 * kPi, .turn_rate = 0.5 * kPi};
   CHECK(near(moved(left_turn, 1.0), {1.0, 1.0, 0.5 * kPi}));
   CHECK(near(moved({.forward = 0.5}, -2.0), {-1.0, 0.0, 0.0}));

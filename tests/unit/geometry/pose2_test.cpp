@@ -31,7 +31,7 @@ TEST_CASE("composing walks along the second pose from the first", "[geometry][po
   CHECK(near(X_AC, pose_of(Vector<3>(0.0, 5.0, -kPi / 2))));
 }
 
-TEST_CASE("a result holds from the later stamp on", "[geometry][pose2]") {
+TEST_CASE("a result has the latest stamp of its inputs", "[geometry][pose2]") {
   idl::Pose2D a;
   idl::Pose2D b;
   a.stamp().ns(5);
@@ -41,7 +41,7 @@ TEST_CASE("a result holds from the later stamp on", "[geometry][pose2]") {
   CHECK(inverse(b).stamp().ns() == 3);
 }
 
-TEST_CASE("a pose composed with its inverse is nothing, on both sides", "[geometry][pose2]") {
+TEST_CASE("a pose composed with its inverse is the identity, on both sides", "[geometry][pose2]") {
   RandomStream random(1, "test", "inverse");
   for (int i = 0; i < 1000; ++i) {
     const idl::Pose2D X = pose_of(vector_of(random_pose2(random, 0.1)));
@@ -58,7 +58,7 @@ TEST_CASE("the inverse of the inverse is the pose again, with its covariance", "
   }
 }
 
-TEST_CASE("what is exactly nowhere changes neither pose nor covariance", "[geometry][pose2]") {
+TEST_CASE("composing with an exact identity changes neither pose nor covariance", "[geometry][pose2]") {
   RandomStream random(3, "test", "identity");
   const idl::Pose2D X = random_pose2(random, 0.3);
   CHECK(near(compose(X, idl::Pose2D()), X));
@@ -84,7 +84,7 @@ TEST_CASE("the inverse of a composition is the inverses composed the other way r
   }
 }
 
-TEST_CASE("covariances in the plane follow the derivatives that differences give", "[geometry][pose2]") {
+TEST_CASE("covariances in the plane agree with numerical derivatives", "[geometry][pose2]") {
   RandomStream random(6, "test", "jacobian");
   for (int i = 0; i < 200; ++i) {
     const idl::Pose2D a = random_pose2(random, 0.3);
@@ -103,7 +103,8 @@ TEST_CASE("covariances in the plane follow the derivatives that differences give
   }
 }
 
-TEST_CASE("the covariance in the plane stays one in a hundred thousand random steps", "[geometry][pose2]") {
+TEST_CASE("the covariance in the plane stays a valid one through a hundred thousand random steps",
+          "[geometry][pose2]") {
   RandomStream random(7, "test", "steps");
   idl::Pose2D pose;
   double least = 0.0;

@@ -60,7 +60,7 @@ TEST_CASE("level poses in space compose as those in the plane do", "[geometry][p
   CHECK(same_covariance(inverse(lifted(a)).value(), lifted(inverse(a))));
 }
 
-TEST_CASE("a pose in space composed with its inverse is nothing, on both sides", "[geometry][pose3]") {
+TEST_CASE("a pose in space composed with its inverse is the identity, on both sides", "[geometry][pose3]") {
   RandomStream random(13, "test", "inverse");
   for (int i = 0; i < 1000; ++i) {
     const idl::Pose3D X = without_covariance(random_pose3(random, 0.1));
@@ -101,7 +101,7 @@ TEST_CASE("composing in space is associative, covariances included", "[geometry]
   CHECK(tried > 700);
 }
 
-TEST_CASE("covariances in space follow the derivatives that differences give", "[geometry][pose3]") {
+TEST_CASE("covariances in space agree with numerical derivatives", "[geometry][pose3]") {
   RandomStream random(16, "test", "jacobian");
   const auto composed = [](const Eigen::Matrix<double, 12, 1>& both) {
     return vector_of(compose(pose_of(Vector<6>(both.head<6>())), pose_of(Vector<6>(both.tail<6>()))).value());
@@ -130,7 +130,8 @@ TEST_CASE("covariances in space follow the derivatives that differences give", "
   CHECK(tried > 150);
 }
 
-TEST_CASE("straight up there is a pose, but no covariance of roll and yaw", "[geometry][pose3]") {
+TEST_CASE("a pose that points straight up is valid, but has no covariance of roll and yaw",
+          "[geometry][pose3]") {
   idl::Pose3D level;
   idl::Pose3D up;
   up.rotation().pitch(-kPi / 2);
@@ -144,7 +145,7 @@ TEST_CASE("straight up there is a pose, but no covariance of roll and yaw", "[ge
   CHECK_THAT(refused.error().message, Catch::Contains("straight up or down"));
 }
 
-TEST_CASE("a result in space holds from the later stamp on", "[geometry][pose3]") {
+TEST_CASE("a result in space has the latest stamp of its inputs", "[geometry][pose3]") {
   idl::Pose3D a;
   idl::Pose3D b;
   a.stamp().ns(5);
@@ -154,7 +155,8 @@ TEST_CASE("a result in space holds from the later stamp on", "[geometry][pose3]"
   CHECK(inverse(b).value().stamp().ns() == 3);
 }
 
-TEST_CASE("the covariance in space stays one in a hundred thousand random steps", "[geometry][pose3]") {
+TEST_CASE("the covariance in space stays a valid one through a hundred thousand random steps",
+          "[geometry][pose3]") {
   RandomStream random(17, "test", "steps");
   idl::Pose3D pose;
   double least = 0.0;

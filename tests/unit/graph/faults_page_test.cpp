@@ -61,7 +61,7 @@ bool shows_one_of(const std::string& text, const std::vector<std::string>& codes
 
 }  // namespace
 
-TEST_CASE("all classes of the catalogue are on the page, once", "[graph][faults]") {
+TEST_CASE("each class of the catalogue is on the page once", "[graph][faults]") {
   std::vector<int> numbers;
   for (const Row& row : rows())
     if (row.what.find_first_not_of("0123456789") == std::string::npos) numbers.push_back(std::stoi(row.what));
@@ -70,7 +70,7 @@ TEST_CASE("all classes of the catalogue are on the page, once", "[graph][faults]
   CHECK(rows().size() == 45 + 27);
 }
 
-TEST_CASE("only what needs a later part of Orca is left for later", "[graph][faults]") {
+TEST_CASE("only classes that need a later part of Orca are left for later", "[graph][faults]") {
   std::set<std::string> later;
   for (const Row& row : rows())
     if (row.is_for_later()) later.insert(row.what);

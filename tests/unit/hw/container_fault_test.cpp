@@ -16,7 +16,7 @@ namespace {
 
 Status cable_is_off() { return fail(Code::unavailable, "the cable is off"); }
 
-// Uses the robot and has it drive, as far as its trouble lets it.
+// Uses the robot and makes it drive, as far as its fault allows.
 void use_and_drive(RunningScout& robot) {
   robot.scout.acquire();
   CHECK(eventually(robot.executive, [&] {
@@ -25,7 +25,7 @@ void use_and_drive(RunningScout& robot) {
   (void)robot.scout.command(*turn(0.25, 0.5));
 }
 
-// The place of a line in the diary; the number of lines if it is not there.
+// Returns the place of a line in the diary; the number of lines if it is not there.
 long place_of(const Diary& diary, const std::string& line) {
   const auto lines = diary.lines();
   return std::find(lines.begin(), lines.end(), line) - lines.begin();
@@ -57,8 +57,9 @@ TEST_CASE("a device that cannot be started is a fault", "[hw][fault]") {
   });
 }
 
-TEST_CASE("when a device fails while the base moves, the motors are told to stand and the device to stop",
-          "[hw][fault]") {
+TEST_CASE(
+    "when a device fails while the base moves, the motors are commanded to stand and the device is stopped",
+    "[hw][fault]") {
   run_on_each(all_executives(), [](Executive& executive) {
     std::atomic<bool> cable_on{true};
     RunningScout robot(executive, {{"poll", [&] { return cable_on ? ok() : cable_is_off(); }}});
@@ -73,8 +74,7 @@ TEST_CASE("when a device fails while the base moves, the motors are told to stan
   });
 }
 
-TEST_CASE("after a fault nothing moves by itself: commands are refused, and new users change nothing",
-          "[hw][fault]") {
+TEST_CASE("after a fault nothing moves: commands are refused, and new users change nothing", "[hw][fault]") {
   run_on_each(all_executives(), [](Executive& executive) {
     std::atomic<bool> cable_on{false};
     RunningScout robot(executive, {{"poll", [&] { return cable_on ? ok() : cable_is_off(); }}});
@@ -92,7 +92,7 @@ TEST_CASE("after a fault nothing moves by itself: commands are refused, and new 
   });
 }
 
-TEST_CASE("the first thing that went wrong is the reason that stays", "[hw][fault]") {
+TEST_CASE("the first failure stays the reason of the fault", "[hw][fault]") {
   run_on_each(all_executives(), [](Executive& executive) {
     RunningScout robot(executive,
                        {{"drive", [] { return fail(Code::unavailable, "the motors do not answer"); }},
@@ -103,7 +103,8 @@ TEST_CASE("the first thing that went wrong is the reason that stays", "[hw][faul
   });
 }
 
-TEST_CASE("whatever a driver throws, wherever, is a fault with its text and nothing more", "[hw][fault]") {
+TEST_CASE("any exception of a driver, in any function, is a fault with its text and nothing more",
+          "[hw][fault]") {
   const std::string function = GENERATE("open", "start", "poll", "drive", "stop", "close");
   CAPTURE(function);
   run_on_each(all_executives(), [&](Executive& executive) {
@@ -118,7 +119,7 @@ TEST_CASE("whatever a driver throws, wherever, is a fault with its text and noth
   });
 }
 
-TEST_CASE("a driver may throw what is no std::exception", "[hw][fault]") {
+TEST_CASE("a driver may throw something other than a std::exception", "[hw][fault]") {
   run_on_each(all_executives(), [](Executive& executive) {
     RunningScout robot(executive, {{"poll", []() -> Status { throw 7; }}});
     REQUIRE(robot.gets(HardwareState::fault));

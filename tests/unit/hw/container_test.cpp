@@ -19,7 +19,7 @@ TEST_CASE("a container opens its device and does not start it before somebody us
   });
 }
 
-TEST_CASE("a container that is not simulated has nothing that draws it", "[hw][container]") {
+TEST_CASE("a container that is not simulated cannot be drawn", "[hw][container]") {
   run_on_each(all_executives(), [](Executive& executive) {
     RunningScout robot(executive);
     CHECK(robot.scout.drawable() == nullptr);
@@ -150,7 +150,7 @@ TEST_CASE("a command is refused unless the device runs, with its state", "[hw][c
   });
 }
 
-TEST_CASE("hardware that has nothing that moves refuses commands", "[hw][container]") {
+TEST_CASE("hardware without motion refuses commands", "[hw][container]") {
   class Deaf final : public hw::HardwareContainer {
    public:
     using HardwareContainer::HardwareContainer;
@@ -172,7 +172,7 @@ TEST_CASE("hardware that has nothing that moves refuses commands", "[hw][contain
   });
 }
 
-TEST_CASE("whoever watches a container is woken when its state changes", "[hw][container]") {
+TEST_CASE("observers of a container are woken when its state changes", "[hw][container]") {
   run_on_each(all_executives(), [](Executive& executive) {
     Strand watcher(executive, {"watcher", 0});
     RunningScout robot(executive);

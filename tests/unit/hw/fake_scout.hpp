@@ -43,7 +43,7 @@ inline constexpr hw::DriveLimits kScoutLimits{
 inline constexpr Duration kScoutCommandAge = 200ms;
 
 /// A Nomad Scout without a device: sonars, odometry, wheels. Notes every call of the driver's functions, and
-/// fails in them as told.
+/// fails in them on request.
 class FakeScout : public hw::HardwareContainer {
  public:
   /// Called at the start of the driver's function of that name.

@@ -75,7 +75,7 @@ TEST_CASE("each event leads a container from each state to where the specificati
   }
 }
 
-TEST_CASE("a container leaves Active only with motors that were told to stand", "[hw][states]") {
+TEST_CASE("a container leaves Active only after the motors were commanded to stand", "[hw][states]") {
   for (const HardwareTransition& row : hardware_transitions()) {
     if (row.from != State::active) continue;
     const Actions actions(row.actions.begin(), row.actions.end());

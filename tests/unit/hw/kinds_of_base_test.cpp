@@ -61,7 +61,8 @@ TEST_CASE("a holonomic velocity starts an idle base, is carried out, and expires
   });
 }
 
-TEST_CASE("a holonomic velocity of zero stops a moving base at once and lets it go", "[hw][server][motion]") {
+TEST_CASE("a holonomic velocity of zero stops a moving base at once and releases it",
+          "[hw][server][motion]") {
   run_on_each(all_executives(), [](Executive& executive) {
     ScoutBase base(executive, {}, with(idl::HOLONOMIC, false));
     base.connect("velocity", "HolonomicVelocitySend");
@@ -76,7 +77,7 @@ TEST_CASE("a holonomic velocity of zero stops a moving base at once and lets it 
   });
 }
 
-TEST_CASE("a turret command starts an idle base, and the turret stays so when the base is let go",
+TEST_CASE("a turret command starts an idle base, and the turret keeps its angle when the base is released",
           "[hw][server][motion]") {
   run_on_each(all_executives(), [](Executive& executive) {
     ScoutBase base(executive, {}, with(idl::SYNCHRO, true));

@@ -58,7 +58,7 @@ TEST_CASE("a command within the limits is carried out as it is", "[hw][motion]")
   CHECK(carried_out(turn(1.5, -0.7)) == driving(-0.7, 1.5));
 }
 
-TEST_CASE("a direction is turned to with the base's gain", "[hw][motion]") {
+TEST_CASE("the base turns to a direction with its gain", "[hw][motion]") {
   CHECK(carried_out(head(0.8, 0.5)) == driving(0.5, 0.4));
 }
 
@@ -76,8 +76,7 @@ TEST_CASE("no command makes the base faster than its limits", "[hw][motion]") {
   }
 }
 
-TEST_CASE("towards directions beyond the big turn angle the base slows down, if it has such an angle",
-          "[hw][motion]") {
+TEST_CASE("a base with a big turn angle slows down for directions beyond it", "[hw][motion]") {
   CHECK(carried_out(head(0.99, 0.5)).velocity.forward == 0.5);
   CHECK(carried_out(head(1.01, 0.5)).velocity.forward == 0.2);
   CHECK(carried_out(head(-1.01, 0.5)).velocity.forward == 0.2);
@@ -107,7 +106,8 @@ TEST_CASE("each new command starts its own age", "[hw][motion]") {
   CHECK(motion.expired_count() == 0);
 }
 
-TEST_CASE("a full stop and halt stand at once, and a standing base has nothing to expire", "[hw][motion]") {
+TEST_CASE("a full stop and halt stop the base at once, and a standing base has no command that can expire",
+          "[hw][motion]") {
   MotionHW motion(kLimits, kAge);
   REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
   REQUIRE(motion.command(*full_stop(), kStart + 1ms).ok());

@@ -45,7 +45,7 @@ struct ScoutBase {
     bench.peer().open();
   }
 
-  /// From here on the server's strand runs.
+  /// Starts the server's strand.
   void run() {
     service = std::make_unique<Script>(bench.peer(), [this] { bench.run(server); });
   }

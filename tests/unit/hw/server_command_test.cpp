@@ -26,7 +26,7 @@ TEST_CASE("a motion command starts an idle base and is carried out", "[hw][serve
   });
 }
 
-TEST_CASE("a base that gets no more commands stands, and is let go a little later", "[hw][server][motion]") {
+TEST_CASE("a base that gets no more commands stops, and is released a little later", "[hw][server][motion]") {
   run_on_each(all_executives(), [](Executive& executive) {
     ScoutBase base(executive);
     base.run();
@@ -45,7 +45,7 @@ TEST_CASE("commands that keep coming keep the base moving", "[hw][server][motion
     base.run();
     REQUIRE(base.client.motion.send(turn(0.25, 0.5)).ok());
     REQUIRE(base.robot.notes("drive 0.5 0.25"));
-    if (!executive.is_virtual()) return;  // a busy machine may be late for real
+    if (!executive.is_virtual()) return;  // in real time a busy machine may be late
     for (int lap = 0; lap < 20; ++lap) {
       CHECK(base.client.motion.send(turn(0.25, 0.5)).ok());
       sleep(executive, 100ms);
@@ -55,7 +55,7 @@ TEST_CASE("commands that keep coming keep the base moving", "[hw][server][motion
   });
 }
 
-TEST_CASE("a full stop stops a moving base at once and lets it go", "[hw][server][motion]") {
+TEST_CASE("a full stop stops a moving base at once and releases it", "[hw][server][motion]") {
   run_on_each(all_executives(), [](Executive& executive) {
     ScoutBase base(executive);
     base.run();

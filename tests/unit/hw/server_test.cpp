@@ -85,7 +85,7 @@ TEST_CASE("subscribing starts the hardware, readings come with the server's head
   });
 }
 
-TEST_CASE("a query to idle hardware starts it, waits for its first reading, and lets it go again",
+TEST_CASE("a query to idle hardware starts it, waits for its first reading, and releases it again",
           "[hw][server]") {
   run_on_each(all_executives(), [](Executive& executive) {
     ScoutBase base(executive);
@@ -115,7 +115,8 @@ TEST_CASE("a query to running hardware is answered with its latest reading", "[h
   });
 }
 
-TEST_CASE("when the hardware fails, the server fails with its reason, and a query tells it", "[hw][server]") {
+TEST_CASE("when the hardware fails, the server fails with its reason, and a query returns it",
+          "[hw][server]") {
   run_on_each(all_executives(), [](Executive& executive) {
     std::atomic<bool> cable_on{true};
     ScoutBase base(

@@ -32,7 +32,7 @@ Bytes serialized_by_fastcdr(const T& object) {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("what was serialized is read back equal", "[idl][cdr]", orca::test::AllObjects) {
+TEMPLATE_LIST_TEST_CASE("a serialized object is read back equal", "[idl][cdr]", orca::test::AllObjects) {
   const auto seed = GENERATE(range<std::uint64_t>(0, 50));
   const auto original = random_object<TestType>(seed);
   auto copy = random_object<TestType>(seed + 1000);  // Reading overwrites whatever was there.

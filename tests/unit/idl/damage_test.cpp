@@ -27,7 +27,7 @@ Status read(const Bytes& bytes, T& object) {
   return object_type<T>().deserialize({exact.get(), bytes.size()}, &object);
 }
 
-// Whether the object is one that could have been sent: it survives a round trip.
+// Returns whether the object could have been sent: it survives a round trip.
 template <class T>
 bool is_valid(const T& object) {
   const Bytes bytes = serialized(object);

@@ -111,7 +111,7 @@ TEST_CASE("dump shows control characters by number, so that a text cannot comman
   CHECK_THAT(dump(ask), Catch::EndsWith("\n  about: \"\\x1b[31m\\x7f\\x00\""));
 }
 
-TEST_CASE("dump tells an enumerator that does not exist", "[idl][dump]") {
+TEST_CASE("dump marks an enumerator that does not exist", "[idl][dump]") {
   orca::idl::MotionCommand command;
   command.kind(static_cast<orca::idl::MotionKind>(9));
   CHECK_THAT(dump(command), Catch::Contains("kind: unknown 9\n"));

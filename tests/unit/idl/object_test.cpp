@@ -93,7 +93,7 @@ TEST_CASE("a view converts to an untyped one and stays a view of the same object
   CHECK(static_cast<MotionCommand*>(erased.get())->kind() == orca::idl::DONTCARE);
 }
 
-TEST_CASE("views of nothing are empty and equal", "[idl][object]") {
+TEST_CASE("null views are empty and equal", "[idl][object]") {
   const ObjectPtr<MotionCommand> nothing;
   CHECK_FALSE(nothing);
   CHECK(nothing == nullptr);

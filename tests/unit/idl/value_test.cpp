@@ -16,7 +16,7 @@ using orca::Value;
 
 namespace {
 
-// Keeps what it is shown.
+// Records the fields that it is shown.
 class Fields final : public orca::FieldVisitor {
  public:
   template <class T>
@@ -41,7 +41,8 @@ class Fields final : public orca::FieldVisitor {
 
 }  // namespace
 
-TEST_CASE("an object shows its fields, inherited ones first, with units and what is header", "[idl][value]") {
+TEST_CASE("an object shows its fields with their units, inherited ones first, and marks the header",
+          "[idl][value]") {
   orca::idl::Arrived arrived;
   CHECK(Fields(arrived).order == "creation_time* origin* seq* mission* cause* name x[m] y[m] stamp ");
 }

@@ -147,7 +147,7 @@ TEST_CASE("no edge can make a device wait", "[patterns][local]") {
   });
 }
 
-TEST_CASE("without a policy an edge has that of the author of the receiving port", "[patterns][local]") {
+TEST_CASE("without a policy an edge has the policy of the receiving port's author", "[patterns][local]") {
   run_on({}, [](Executive& executive) {
     struct In : Peer {
       using Peer::Peer;

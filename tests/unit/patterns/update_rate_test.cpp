@@ -15,7 +15,7 @@ TEST_CASE("a regular server grants the next multiple of its base period", "[patt
   CHECK(grant_rate({0s, 4}, 50ms) == UpdateGrant{50ms, 4, 200ms});
 }
 
-TEST_CASE("of an interval and a multiple the slower one is granted", "[patterns][rate]") {
+TEST_CASE("the slower of an interval and a multiple is granted", "[patterns][rate]") {
   CHECK(grant_rate({100ms, 3}, 50ms).multiple == 3);
   CHECK(grant_rate({200ms, 3}, 50ms).multiple == 4);
 }
@@ -31,7 +31,7 @@ TEST_CASE("an irregular server grants what is asked for", "[patterns][rate]") {
   CHECK(grant_rate({70ms, 2}, 0s) == UpdateGrant{0s, 2, 70ms});
 }
 
-TEST_CASE("senseless wishes are granted as the next sensible ones", "[patterns][rate]") {
+TEST_CASE("impossible requests are granted as the nearest possible ones", "[patterns][rate]") {
   CHECK(grant_rate({0s, 0}, 50ms).multiple == 1);
   CHECK(grant_rate({-1s, 1}, 50ms).multiple == 1);
   CHECK(grant_rate({24h * 365 * 100, 1}, 1ns).multiple == 1'000'000'000);

@@ -18,7 +18,7 @@ TEST_CASE("a file that does not exist is not found", "[plugin][bad]") {
   CHECK(refusal(kForTests).code == Code::not_found);
 }
 
-TEST_CASE("a file that is no shared library is refused with what it is not", "[plugin][bad]") {
+TEST_CASE("a file that is no shared library is refused as that", "[plugin][bad]") {
   const std::string path = kForTests + "/text.so";
   std::ofstream(path) << "This is a text.\n";
   const Error error = refusal(path);
@@ -28,7 +28,7 @@ TEST_CASE("a file that is no shared library is refused with what it is not", "[p
   CHECK_THAT(error.text(), Contains("is no shared library"));
 }
 
-TEST_CASE("a program is refused as what it is", "[plugin][bad]") {
+TEST_CASE("a program is refused as a program", "[plugin][bad]") {
   CHECK_THAT(refusal(ORCA_BINARY_DIR "/bin/deployer").text(),
              Contains("is no shared library, but a program"));
 }

@@ -36,7 +36,8 @@ TEST_CASE("a constructor that throws no std::exception is an error too", "[plugi
   CHECK_THAT(error.text(), Contains("test.ThrowsInt") && Contains("threw the int 7"));
 }
 
-TEST_CASE("a constructor that asks for the time is told that it may only declare", "[plugin][describe]") {
+TEST_CASE("a constructor that asks for the time gets the error that it may only declare",
+          "[plugin][describe]") {
   const Error error = describing_fails("test_asks_time");
   CHECK_THAT(error.text(), Contains("test.AsksTime") && Contains("asked for the time") &&
                                Contains("may only declare ports and parameters"));
@@ -69,7 +70,7 @@ TEST_CASE("a contract holds what the members declare", "[plugin][describe]") {
   CHECK(laps->text == "How many.");
 }
 
-TEST_CASE("hardware is described without opening it, and its preparation tells what is wrong",
+TEST_CASE("hardware is described without opening it, and its preparation reports what is wrong",
           "[plugin][describe]") {
   const auto library = loaded(test_plugin("test_two"));
   const TypeEntry& type = *library->find(PluginKind::hardware, "test.hw.Second");

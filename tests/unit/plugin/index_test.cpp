@@ -29,7 +29,7 @@ TEST_CASE("a type that no plugin holds is not found, and the error names the pla
                                       Contains("/no/such/folder (no such folder)"));
 }
 
-TEST_CASE("of two folders that hold a type the first one wins", "[plugin][index]") {
+TEST_CASE("the first of two folders that hold a type wins", "[plugin][index]") {
   const std::string copy = kForTests + "/first";
   std::filesystem::create_directories(copy);
   for (const char* const extension : {".so", ".types"})
@@ -40,7 +40,7 @@ TEST_CASE("of two folders that hold a type the first one wins", "[plugin][index]
   std::filesystem::remove_all(copy);
 }
 
-TEST_CASE("what the index says of a plugin is what its manifest says", "[plugin][index]") {
+TEST_CASE("the index agrees with the plugin's manifest", "[plugin][index]") {
   for (const std::string& folder : {kShipped, kForTests}) {
     const PluginIndex index({folder});
     for (const PluginKind kind : {PluginKind::component, PluginKind::hardware}) {

@@ -12,7 +12,7 @@
 
 namespace orca::test {
 
-/// Where the build puts the plugins that are shipped, and those that only these tests load.
+/// The build's folders of the shipped plugins, and of those that only these tests load.
 inline const std::string kShipped = ORCA_BINARY_DIR "/plugins";
 inline const std::string kForTests = ORCA_BINARY_DIR "/tests/unit_plugins";
 
@@ -21,7 +21,7 @@ inline const std::string kExample = ORCA_BINARY_DIR "/tests/plugins/avoid.so";
 
 inline std::string test_plugin(const std::string& name) { return kForTests + "/" + name + ".so"; }
 
-/// The plugins in a folder, sorted.
+/// Returns the plugins in a folder, sorted.
 inline std::vector<std::string> plugins_in(const std::string& folder) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -30,14 +30,14 @@ inline std::vector<std::string> plugins_in(const std::string& folder) {
   return files;
 }
 
-/// A plugin that must load.
+/// Loads a plugin, which must succeed.
 inline std::unique_ptr<plugin::PluginLibrary> loaded(const std::string& path) {
   auto library = plugin::PluginLibrary::load(path);
   if (!library) FAIL("cannot load: " << library.error().text());
   return std::move(library).value();
 }
 
-/// The reason why a plugin does not load.
+/// Returns the reason why a plugin does not load.
 inline Error refusal(const std::string& path) {
   auto library = plugin::PluginLibrary::load(path);
   if (library) FAIL(path << " was loaded");

@@ -129,7 +129,7 @@ TEST_CASE("two copies of a plugin have their own statics, and each is unloaded b
   CHECK_FALSE(is_mapped(original));
 }
 
-TEST_CASE("a mapped plugin is seen also when its file has been removed or exchanged", "[plugin][unload]") {
+TEST_CASE("a mapped plugin is found even if its file has been removed or exchanged", "[plugin][unload]") {
   const Copy copy("test_statics");
   const auto library = loaded(copy.path);
   std::filesystem::remove(copy.path);

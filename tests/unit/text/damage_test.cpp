@@ -12,7 +12,7 @@ using orca::test::reading;
 
 namespace {
 
-// One place of a text changed: a byte replaced, removed, doubled or put in, or a piece moved.
+// Returns the text with one place changed: a byte replaced, removed, doubled or put in, or a piece moved.
 std::string damaged(std::string text, RandomStream& random) {
   constexpr std::string_view kMarks = "<>/\"'&;= \\.-+eEnx09\n\t\x01\xff";
   const std::size_t at = random() % text.size();
@@ -27,7 +27,7 @@ std::string damaged(std::string text, RandomStream& random) {
   return text;
 }
 
-// An object, or errors, but not both and not none; and an object is one that can be written and read.
+// Checks that there is either an object or errors, and that an object can be written and read.
 bool is_sound(const Reading& result) {
   if (result.object.has_value() != result.errors.empty()) return false;
   if (!result.object) return true;

@@ -19,7 +19,7 @@ std::string errors(const std::string& text) {
   return result.errors;
 }
 
-// Every "Tnnn" behind `before` in a file of the source tree.
+// Returns every "Tnnn" that follows `before` in a file of the source tree.
 std::set<std::string> codes_in(const std::string& path, const std::string& before) {
   std::ostringstream stream;
   stream << std::ifstream(std::string(ORCA_SOURCE_DIR) + "/" + path).rdbuf();
@@ -32,19 +32,19 @@ std::set<std::string> codes_in(const std::string& path, const std::string& befor
 
 }  // namespace
 
-TEST_CASE("an unknown object type is told with the nearest one", "[text][errors]") {
+TEST_CASE("an unknown object type is reported with the nearest one", "[text][errors]") {
   CHECK_THAT(errors("<GoalPiont/>"),
              Catch::StartsWith("x:1:1: error T001: <GoalPiont>: there is no such object type; there are: ") &&
                  Catch::EndsWith("; did you mean \"GoalPoint\"?\n"));
   CHECK_THAT(errors("<Point/>"), Catch::Contains("T001"));  // A part of objects, but no object itself.
 }
 
-TEST_CASE("an object of another type than expected is told", "[text][errors]") {
+TEST_CASE("an object of another type than expected is reported", "[text][errors]") {
   CHECK(reading("<Door/>", &orca::object_type<orca::idl::GoalPoint>()).errors ==
         "x:1:1: error T001: <Door>: a <GoalPoint> is expected here\n");
 }
 
-TEST_CASE("an unknown field is told with those that there are and the nearest", "[text][errors]") {
+TEST_CASE("an unknown field is reported with the valid ones and the nearest", "[text][errors]") {
   CHECK(errors("<Ask abuot='x'/>") ==
         "x:1:6: error T002: <Ask>: there is no \"abuot\"; there are: creation_time, origin, seq, mission, "
         "about, "
@@ -55,7 +55,7 @@ TEST_CASE("an unknown field is told with those that there are and the nearest", 
         "cause; did you mean \"about\"?\n");
 }
 
-TEST_CASE("a value written as an element, or a struct as an attribute, is told how to be written",
+TEST_CASE("for a value written as an element, or a struct as an attribute, the error shows the correct form",
           "[text][errors]") {
   CHECK(errors("<Ask><about>x</about></Ask>") ==
         "x:1:6: error T003: <Ask>: \"about\" is one value: write it as an attribute, about=\"...\"\n");
@@ -65,7 +65,7 @@ TEST_CASE("a value written as an element, or a struct as an attribute, is told h
         "x:1:24: error T003: <coordinate>: what belongs to \"point\" is written on <coordinate> itself\n");
 }
 
-TEST_CASE("too many of a part or too few numbers are told", "[text][errors]") {
+TEST_CASE("too many parts or too few numbers are reported", "[text][errors]") {
   CHECK(errors("<Ask><cause seq='1'/><cause seq='2'/></Ask>") ==
         "x:1:22: error T004: <Ask>: <cause> is written 1 time or not at all, found 2\n");
   CHECK(errors("<RobotPose covariance='1 2 3'/>") ==
@@ -73,13 +73,13 @@ TEST_CASE("too many of a part or too few numbers are told", "[text][errors]") {
         "3\n");
 }
 
-TEST_CASE("text between tags is told", "[text][errors]") {
+TEST_CASE("text between tags is reported", "[text][errors]") {
   CHECK(errors("<Ask>\n  sonar\n</Ask>") ==
         "x:2:3: error T005: <Ask>: text between tags is not read; a value is written as an attribute, "
         "name=\"value\"\n");
 }
 
-TEST_CASE("a value that is none of its type is told with what is expected", "[text][errors]") {
+TEST_CASE("a value that does not fit its type is reported with the expected form", "[text][errors]") {
   CHECK(errors("<Battery charging='yes'/>") ==
         "x:1:20: error T006: <Battery>: charging: \"yes\" is neither true nor false\n");
   CHECK(errors("<Battery voltage='24,5 V'/>") ==
@@ -89,7 +89,7 @@ TEST_CASE("a value that is none of its type is told with what is expected", "[te
              Catch::Contains("error T006: <LaserRangeReadings>: ranges: value 2: \"x\" is not a number"));
 }
 
-TEST_CASE("a wrong unit is told with those that fit", "[text][errors]") {
+TEST_CASE("a wrong unit is reported with those that fit", "[text][errors]") {
   CHECK(errors("<GoalPoint reach_radius='3 kg'/>") ==
         "x:1:26: error T007: <GoalPoint>: reach_radius: \"3 kg\": \"kg\" measures a mass; a length is "
         "expected: write "
@@ -103,21 +103,21 @@ TEST_CASE("a wrong unit is told with those that fit", "[text][errors]") {
                  Catch::Contains("write numbers alone here, their units differ: m2, m rad, rad2"));
 }
 
-TEST_CASE("an unknown enumerator is told with those that there are", "[text][errors]") {
+TEST_CASE("an unknown enumerator is reported with the valid ones", "[text][errors]") {
   CHECK(
       errors("<MotionCommand kind='FULSTOP'/>") ==
       "x:1:22: error T009: <MotionCommand>: kind: \"FULSTOP\" is no MotionKind; there are: NORMAL, DONTCARE, "
       "FULLSTOP; did you mean \"FULLSTOP\"?\n");
 }
 
-TEST_CASE("a lone backslash is told how to be written", "[text][errors]") {
+TEST_CASE("for a lone backslash the error shows the correct form", "[text][errors]") {
   for (const char* about : {"a\\n", "\\", "\\x", "\\x4", "\\xg0", "\\x 4"}) {
     CHECK_THAT(errors(std::string("<Ask about='") + about + "'/>"),
                Catch::Contains("error T010: <Ask>: about: a backslash is written \\\\"));
   }
 }
 
-TEST_CASE("all errors of a text are told at once, ordered by place", "[text][errors]") {
+TEST_CASE("all errors of a text are reported at once, ordered by place", "[text][errors]") {
   const std::string text = errors(
       "<GoalPoint nmae='a' reach_radius='x'\n  via='1'>\n <coordinate x='1 s' w='2'/>\n <cause "
       "seq='-1'/>\n</GoalPoint>");
@@ -144,7 +144,7 @@ TEST_CASE("docs/errors.md explains every code of the text form, and no other", "
   CHECK(codes_in("docs/errors.md", "\n| T") == codes_in("src/text/codes.hpp", "\"T"));
 }
 
-TEST_CASE("every code of the text form is shown by a test", "[text][errors]") {
+TEST_CASE("every code of the text form appears in a test", "[text][errors]") {
   std::set<std::string> shown = codes_in("tests/unit/text/error_test.cpp", "error T");
   shown.merge(codes_in("tests/unit/text/plain_test.cpp", "error T"));
   CHECK(std::ranges::includes(shown, codes_in("src/text/codes.hpp", "\"T")));

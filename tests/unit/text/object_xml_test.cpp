@@ -39,7 +39,7 @@ TEST_CASE("an object is written on one line, plain values as attributes", "[text
         R"x(steering="BY_TURN_RATE" direction="0" turn_rate="-0.25" speed="1e-07" weight="2"/>)x");
 }
 
-TEST_CASE("structs are elements; one without content is left out", "[text][xml]") {
+TEST_CASE("structs are written as elements; one without content is left out", "[text][xml]") {
   idl::GoalPoint goal;
   goal.cause().origin("command");
   goal.cause().seq(4);
@@ -60,7 +60,8 @@ TEST_CASE("the first struct in a struct has no element of its own, at any depth"
                              R"x(<rotation roll="0" pitch="0" yaw="0.5"/></mount></LaserSensor>)x"));
 }
 
-TEST_CASE("numbers of a list stand in one attribute, structs of a list in an element each", "[text][xml]") {
+TEST_CASE("a list of numbers is one attribute, and a list of structs has one element for each",
+          "[text][xml]") {
   idl::SonarRangeReadings sonar;
   sonar.ranges({1.5, 0.25});
   sonar.stamps().resize(2);
@@ -76,7 +77,7 @@ TEST_CASE("numbers of a list stand in one attribute, structs of a list in an ele
   CHECK_THAT(text, !Catch::Contains("ranges_uncertainty"));  // Empty.
 }
 
-TEST_CASE("texts of a list stand in an element each, because they may hold blanks", "[text][xml]") {
+TEST_CASE("a list of texts has one element for each, because texts may hold blanks", "[text][xml]") {
   idl::ClientList list;
   list.clients({"goto", "a b", ""});
   CHECK_THAT(written(list),
@@ -101,7 +102,7 @@ TEST_CASE("the header of an object within an object is written only if it was st
   CHECK_THAT(written(robot), Catch::Contains(R"x(<drives seq="9" name="" vendor)x"));
 }
 
-TEST_CASE("what is not mentioned keeps its default, and the header may be missing", "[text][xml]") {
+TEST_CASE("a field that is not mentioned keeps its default, and the header may be missing", "[text][xml]") {
   CHECK(read<idl::Odometry>("<Odometry/>") == idl::Odometry());
   idl::Odometry moving;
   moving.x(1.0);
@@ -129,7 +130,7 @@ TEST_CASE("a last number that equals the unit 1 is a number", "[text][xml]") {
   CHECK(bumpers.pressed() == std::vector<std::uint8_t>{0, 1, 1});
 }
 
-TEST_CASE("the type may be left open or asked for", "[text][xml]") {
+TEST_CASE("the reader may leave the type open or demand one", "[text][xml]") {
   const auto any = reading("<Arrived name='lab'/>");
   REQUIRE(any.object);
   CHECK(&any.object->type() == &object_type<idl::Arrived>());

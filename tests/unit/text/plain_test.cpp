@@ -74,7 +74,8 @@ TEST_CASE("the doubles at the edges come back", "[text][number]") {
   }
 }
 
-TEST_CASE("what is not finite is written inf, -inf and nan, another NaN with its bits", "[text][number]") {
+TEST_CASE("numbers that are not finite are written inf, -inf and nan, and any other NaN with its bits",
+          "[text][number]") {
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(voltage_text(infinity) == "inf");
   CHECK(voltage_text(-infinity) == "-inf");
@@ -83,7 +84,7 @@ TEST_CASE("what is not finite is written inf, -inf and nan, another NaN with its
   CHECK(read<idl::Battery>("<Battery voltage='+inf V'/>").voltage() == infinity);
 }
 
-TEST_CASE("a nan whose bits are those of a number is refused", "[text][number]") {
+TEST_CASE("a nan with the bits of a number is refused", "[text][number]") {
   for (const char* text :
        {"nan(0)", "nan()", "nan(7ff8", "nan(7ff0000000000000)", "nan(12345678123456789)", "nanny"}) {
     CHECK_THAT(reading("<Battery voltage='"s + text + "'/>").errors, Catch::Contains("is not a number"));
@@ -116,7 +117,7 @@ TEST_CASE("bytes that XML cannot hold are written as \\x and two digits, a backs
   CHECK(read<idl::Ask>("<Ask about='\\x4F\\\\x41'/>").about() == "O\\x41");
 }
 
-TEST_CASE("integers keep to the range of their type", "[text][integer]") {
+TEST_CASE("integers outside the range of their type are refused", "[text][integer]") {
   CHECK(read<idl::Ask>("<Ask seq='18446744073709551615'/>").seq() == UINT64_MAX);
   CHECK(read<idl::Ask>("<Ask seq=' +7 '/>").seq() == 7);
   CHECK(read<idl::BumperReadings>("<BumperReadings pressed='0 255'/>").pressed()[1] == 255);

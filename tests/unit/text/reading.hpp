@@ -9,7 +9,7 @@
 
 namespace orca::test {
 
-/// What from_xml() makes of a text.
+/// The result of from_xml() for a text.
 struct Reading {
   std::optional<ObjectLoan> object;
   std::string errors;
@@ -21,7 +21,7 @@ inline Reading reading(std::string_view text, const ObjectType* expected = nullp
   return {std::move(object), diagnostics.text()};
 }
 
-/// The T that a text without errors means; anything else throws with the errors, which fails the test.
+/// Returns the T of a text without errors. Throws with the errors otherwise, which fails the test.
 template <class T>
 T read(std::string_view text) {
   const Reading result = reading(text, &object_type<T>());

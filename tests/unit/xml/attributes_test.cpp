@@ -74,7 +74,7 @@ TEST_CASE("attributes are read by their rules, in SI", "[xml][attributes]") {
   CHECK(p.diagnostics.text().empty());
 }
 
-TEST_CASE("an attribute that is not there has the reader's default, or none", "[xml][attributes]") {
+TEST_CASE("an attribute that is missing has the reader's default, or no value", "[xml][attributes]") {
   const Part p("name=\"a\"");
   CHECK_FALSE(p.part.number("length"));
   CHECK(p.part.number_or("length", 2.5) == 2.5);
@@ -84,7 +84,7 @@ TEST_CASE("an attribute that is not there has the reader's default, or none", "[
   CHECK(p.diagnostics.text() == "f:1:1: error E4: <part> needs the attribute \"length\"\n");
 }
 
-TEST_CASE("a value that breaks its rule has the code of the way in which it does", "[xml][attributes]") {
+TEST_CASE("a value that breaks its rule is reported with the code of that rule", "[xml][attributes]") {
   const Part p(R"(name="1st" length="0 m" count="5" wait="3 kg" colour="gren" angles="1 x")");
   CHECK_FALSE(p.part.name("name"));
   CHECK_FALSE(p.part.number("length"));
@@ -104,7 +104,7 @@ TEST_CASE("a value that breaks its rule has the code of the way in which it does
         "deg\n");
 }
 
-TEST_CASE("as many numbers are read as are wanted, no more and no fewer", "[xml][attributes]") {
+TEST_CASE("exactly the requested number of numbers is read", "[xml][attributes]") {
   const Part p(R"(name="a" angles="1 2 3")");
   CHECK(p.part.numbers("angles", 3) == std::vector<double>{1.0, 2.0, 3.0});
   CHECK(p.part.bare_numbers("angles", 3) == std::vector<double>{1.0, 2.0, 3.0});
@@ -135,7 +135,7 @@ TEST_CASE("a misspelt attribute does not replace the one that is there as well",
   CHECK(p.diagnostics.error_count() == 1);
 }
 
-TEST_CASE("a value that is not well-formed is not judged again", "[xml][attributes]") {
+TEST_CASE("a value that is not well-formed is reported only once", "[xml][attributes]") {
   const Part p(R"(name="a" length="&wide;")");
   CHECK_FALSE(p.part.number("length"));
   CHECK(p.diagnostics.error_count() == 1);
@@ -151,7 +151,8 @@ TEST_CASE("an element without a rule may have any attributes", "[xml][attributes
   CHECK(diagnostics.text().empty());
 }
 
-TEST_CASE("what an element may not hold is reported, with where it belongs", "[xml][matching]") {
+TEST_CASE("content that an element may not hold is reported, with the place where it belongs",
+          "[xml][matching]") {
   CHECK(errors_in_root("<line from='a' to='b'/>").empty());
   CHECK(errors_in_root("<part name='a'/>") ==
         "f:1:22: error E2: <part> does not belong in <root>; it goes into <group>\n");
@@ -165,7 +166,7 @@ TEST_CASE("what an element may not hold is reported, with where it belongs", "[x
         "attributes\n");
 }
 
-TEST_CASE("an unknown element is taken for the nearest, or the one that its attributes tell",
+TEST_CASE("an unknown element is taken for the nearest one, or for the one that its attributes suggest",
           "[xml][matching]") {
   CHECK_THAT(
       errors_in_root("<gruop><part/></gruop>"),

@@ -19,7 +19,7 @@ TEST_CASE("a line finished elsewhere is printed as it is and counts as an error"
   CHECK(diagnostics.text() == "hall.world:9:2: error W004: two walls cross\n");
 }
 
-TEST_CASE("diagnostics come out by file, line and column, within one place as reported",
+TEST_CASE("diagnostics are sorted by file, line and column, and within one place as reported",
           "[xml][diagnostics]") {
   Diagnostics diagnostics;
   diagnostics.error("E3", {"a.xml", 10, 1}, "third");
@@ -48,7 +48,7 @@ TEST_CASE("after fifty lines the rest is only counted", "[xml][diagnostics]") {
   CHECK(text.ends_with("... and 3 more\n"));
 }
 
-TEST_CASE("of a flood of errors the first are kept and all are counted", "[xml][diagnostics]") {
+TEST_CASE("the first errors of a flood are kept, and all are counted", "[xml][diagnostics]") {
   Diagnostics diagnostics;
   for (int line = 1; line <= 30'000; ++line) diagnostics.error("E", {"a.xml", line, 1}, "wrong");
   CHECK(diagnostics.error_count() == 30'000);

@@ -59,7 +59,7 @@ TEST_CASE("comments and blanks around the root are allowed", "[xml][document]") 
   CHECK(must_read("\n <!-- before --> <r/> <!-- after -->\n").root.name() == "r");
 }
 
-TEST_CASE("an attribute that is not there is null", "[xml][document]") {
+TEST_CASE("a missing attribute is null", "[xml][document]") {
   CHECK(must_read("<r a='1'/>").root.attribute("b") == nullptr);
 }
 
@@ -85,8 +85,9 @@ TEST_CASE("an escaped text is read back unchanged", "[xml][document]") {
   }
 }
 
-TEST_CASE("a character of a file has one to four bytes, a control character or broken UTF-8 none",
-          "[xml][document]") {
+TEST_CASE(
+    "a character of a file has one to four bytes; control characters and broken UTF-8 are no characters",
+    "[xml][document]") {
   CHECK(character_size("a") == 1);
   CHECK(character_size("\n") == 1);
   CHECK(character_size("\xc3\xb6x") == 2);
@@ -97,7 +98,7 @@ TEST_CASE("a character of a file has one to four bytes, a control character or b
     CHECK(character_size(none) == 0);
 }
 
-TEST_CASE("whatever is cut off or flipped, reading ends with a tree or with an error", "[xml][document]") {
+TEST_CASE("reading a file with any damage ends with a tree or with an error", "[xml][document]") {
   const std::string good =
       "<?xml version='1.0'?><g a='1'><!-- c --><p v=\"x &lt; y\"/>t<![CDATA[u]]><q><r/></q></g>";
   orca::RandomStream random(1, "xml", "damage");

@@ -7,7 +7,7 @@
 
 using namespace orca::xml;
 
-TEST_CASE("the nearest name has the fewest slips of the finger", "[xml][names]") {
+TEST_CASE("the nearest name is the one with the fewest typing errors", "[xml][names]") {
   const std::vector<std::string> ports{"sonar", "laser", "odometry", "goal"};
   CHECK(nearest_name("lazer", ports) == "laser");       // replaced
   CHECK(nearest_name("lasre", ports) == "laser");       // swapped
@@ -24,7 +24,7 @@ TEST_CASE("a word that resembles nothing has no nearest name", "[xml][names]") {
   CHECK_FALSE(nearest_name("laser", {}));
 }
 
-TEST_CASE("of equally near names the first is taken", "[xml][names]") {
+TEST_CASE("the first of equally near names is taken", "[xml][names]") {
   CHECK(nearest_name("port3", std::vector<std::string>{"port1", "port2"}) == "port1");
 }
 

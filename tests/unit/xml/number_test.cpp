@@ -16,7 +16,8 @@ TEST_CASE("a number has a decimal point, an optional sign and exponent, and blan
   CHECK(*parse_number("+.25") == 0.25);
 }
 
-TEST_CASE("what only starts like a number is none, and the message shows where it stops", "[xml][number]") {
+TEST_CASE("a text that only starts like a number is refused, and the message shows where the number stops",
+          "[xml][number]") {
   const auto error = parse_number("10abc");
   REQUIRE_FALSE(error);
   CHECK(error.error().message == "\"10abc\" is not a number: it stops being one at \"abc\"");
@@ -26,7 +27,7 @@ TEST_CASE("what only starts like a number is none, and the message shows where i
   }
 }
 
-TEST_CASE("a decimal comma is met with the number to write instead", "[xml][number]") {
+TEST_CASE("for a decimal comma the error shows the number to write instead", "[xml][number]") {
   const auto error = parse_number("0,25");
   REQUIRE_FALSE(error);
   CHECK(error.error().message == "\"0,25\" is not a number: write a decimal point, \"0.25\"");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is not well-formed, and the one line that says so.
+// Texts that are not well-formed, and the one line of error for each.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ TEST_CASE("a file is read from disk", "[xml][reading]") {
   CHECK(document->root.position().file == path.string());
 }
 
-TEST_CASE("other encodings than UTF-8 are refused with what to do", "[xml][reading]") {
+TEST_CASE("encodings other than UTF-8 are refused with a hint", "[xml][reading]") {
   CHECK(
       errors_of("\xFF\xFE<\0r\0"s).find("1:1: error G105: the file is UTF-16 or UTF-32; save it as UTF-8") !=
       std::string::npos);
@@ -56,13 +56,13 @@ TEST_CASE("other encodings than UTF-8 are refused with what to do", "[xml][readi
       std::string::npos);
 }
 
-TEST_CASE("a byte order mark is an error, and the rest of the file is still looked at", "[xml][reading]") {
+TEST_CASE("a byte order mark is an error, and the rest of the file is still checked", "[xml][reading]") {
   const std::string text = errors_of("\xEF\xBB\xBF<r a='1' a='2'/>");
   CHECK(text.find("G104") != std::string::npos);
   CHECK(text.find("G116") != std::string::npos);
 }
 
-TEST_CASE("the first byte that is no text is named", "[xml][reading]") {
+TEST_CASE("the first byte that is not text is named", "[xml][reading]") {
   CHECK(errors_of("<r>\0</r>"s).find("f.xml:1:4: error G106: the byte 0x00 at offset 3") !=
         std::string::npos);
   CHECK(errors_of("\x7F"
@@ -72,7 +72,7 @@ TEST_CASE("the first byte that is no text is named", "[xml][reading]") {
         std::string::npos);
 }
 
-TEST_CASE("each slip gives its one error at its place", "[xml][reading]") {
+TEST_CASE("each mistake gives one error at its place", "[xml][reading]") {
   const auto [text, expected] = GENERATE(table<std::string, std::string>({
       {"<!-- only -->", "1:14: error G108: there is no element"},
       {"<a/><b/>", "1:5: error G109: <b> is a second root element"},
@@ -114,13 +114,14 @@ TEST_CASE("each slip gives its one error at its place", "[xml][reading]") {
   CHECK(std::count(found.begin(), found.end(), '\n') == 1);
 }
 
-TEST_CASE("several slips are told together", "[xml][reading]") {
+TEST_CASE("several mistakes are reported together", "[xml][reading]") {
   const std::string found = errors_of("<a b='1' b='2'>\n<c d=3/>\n<e f='&x;'/>\n</a>");
   for (const char* place : {"1:10: error G116", "2:6: error G114", "3:7: error G117"})
     CHECK(found.find(place) != std::string::npos);
 }
 
-TEST_CASE("nesting, attributes, elements and size have limits that are named", "[xml][reading]") {
+TEST_CASE("nesting, attributes, elements and size are limited, and the error names the limit",
+          "[xml][reading]") {
   const auto nested = [](std::size_t depth) {
     std::string text;
     for (std::size_t i = 0; i < depth; ++i) text += "<a>";
@@ -156,7 +157,7 @@ TEST_CASE("end tags that cross each other are one error, and hide no other", "[x
   CHECK(after.find("error G114") != std::string::npos);
 }
 
-TEST_CASE("a flood of errors ends", "[xml][reading]") {
+TEST_CASE("the number of errors reported is limited", "[xml][reading]") {
   Diagnostics diagnostics;
   std::string text = "<a>";
   for (int i = 0; i < 100000; ++i) text += "&";

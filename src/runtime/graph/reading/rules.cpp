@@ -31,61 +31,76 @@ constexpr ValueRule seconds(double min) {
 
 constexpr std::array kGraph{
     AttributeRule{"name", true, "Name of the system."},
-    AttributeRule{"version", false, "Of this format: 1."},
-    AttributeRule{"ends", false, "Components: the run ends when they are done, or one of them has failed."},
-    AttributeRule{"default_profile", false, "The profile that is taken unless --profile names others."},
-    AttributeRule{"plugins", false, "More folders with plugins, separated by ';'."},
-    AttributeRule{"seed", false, "Of all random numbers, unless --seed gives one.",
+    AttributeRule{"version", false, "Version of the graph format; the only one is 1."},
+    AttributeRule{"ends", false, "Components: the run ends when all of them are done or one has failed."},
+    AttributeRule{"default_profile", false, "Profile that is chosen unless --profile names others."},
+    AttributeRule{"plugins", false, "Further folders with plugins, separated by ';'."},
+    AttributeRule{"seed", false, "Seed of all random numbers, unless --seed gives another.",
                   integer(0, ValueRule::kUnlimited)}};
 constexpr std::array kArg{
-    AttributeRule{"name", true, "Used as ${name} in the values of this file."},
-    AttributeRule{"default", false, "Its value unless it is set; without one it must be set."},
-    AttributeRule{"text", false, "What it is for."}};
-constexpr std::array kProfile{AttributeRule{"name", true, "Profiles of one name in several files add up."}};
+    AttributeRule{"name", true, "Name of the argument; the values of this file use it as ${name}."},
+    AttributeRule{"default", false,
+                  "Value of the argument if it is not set; without a default it must be set."},
+    AttributeRule{"text", false, "Purpose of the argument, for people."}};
+constexpr std::array kProfile{
+    AttributeRule{"name", true, "Name of the profile; profiles of the same name in several files add up."}};
 // The type may come from another profile, so it is looked for after merging.
-constexpr std::array kHardware{AttributeRule{"name", true, "Name of the device in this system."},
-                               AttributeRule{"type", false, "For example orca.hw.Sim."}};
+constexpr std::array kHardware{
+    AttributeRule{"name", true, "Name of the device in this system."},
+    AttributeRule{"type", false, "Type of the hardware, for example orca.hw.Sim."}};
 constexpr std::array kComponent{
-    AttributeRule{"name", true, "Letters, digits and '_'; contexts are joined by '/'."},
-    AttributeRule{"type", false, "For example orca.SonarAvoid."},
-    AttributeRule{"hardware", false, "The hardware that it wraps."},
-    AttributeRule{"process", false, "The process that it lives in."},
+    AttributeRule{"name", true,
+                  "Name of the component: letters, digits and '_'; contexts are joined by '/'."},
+    AttributeRule{"type", false, "Type of the component, for example orca.SonarAvoid."},
+    AttributeRule{"hardware", false, "Hardware that the component wraps."},
+    AttributeRule{"process", false, "Process in which the component lives."},
     AttributeRule{"priority", false,
-                  "-100 to 100: of components that are ready together the higher goes first.",
+                  "From -100 to 100; of several components that are ready, the one with the highest priority "
+                  "goes first.",
                   integer(-100, 100)},
-    AttributeRule{"autonomous", false, "Whether it works without clients.", kBoolean},
-    AttributeRule{"period", false, "A lap each such time, for example 50 ms.", seconds(kMicrosecond)},
-    AttributeRule{"on", false, "A lap for each object that comes to this PushProxy."},
-    AttributeRule{"start_after", false, "Components that must be up before."},
-    AttributeRule{"start", false, "When its plugin is loaded: on_demand is when it is first asked for.",
+    AttributeRule{"autonomous", false, "Whether the component works without clients.", kBoolean},
+    AttributeRule{"period", false, "Time from one lap to the next, for example 50 ms.",
+                  seconds(kMicrosecond)},
+    AttributeRule{"on", false, "PushProxy that starts a lap for each of its objects."},
+    AttributeRule{"start_after", false, "Components that must be up before this one."},
+    AttributeRule{"start", false, "When the plugin is loaded; on_demand: when the component is first used.",
                   one_of(kStart)},
-    AttributeRule{"stay", false, "Whether it stays loaded when nobody uses it any more.", one_of(kStay)},
-    AttributeRule{"idle_time", false, "So long unused it is unloaded.", seconds(0.0)}};
-constexpr std::array kParam{AttributeRule{"name", true, ""},
-                            AttributeRule{"value", true, "With a unit (0.5 m, 22.5 deg), or bare in SI."}};
+    AttributeRule{
+        "stay", false,
+        "Whether an on_demand component is unloaded when it is no longer used (cold) or stays (warm).",
+        one_of(kStay)},
+    AttributeRule{"idle_time", false,
+                  "Time without use after which an on_demand component is unloaded; 10 s if not given.",
+                  seconds(0.0)}};
+constexpr std::array kParam{
+    AttributeRule{"name", true, ""},
+    AttributeRule{"value", true, "Value with a unit (0.5 m, 22.5 deg); a bare number is in SI."}};
 constexpr std::array kConnect{
     AttributeRule{"from", true, "component.port: a PushServer, QueryProxy or SendProxy."},
     AttributeRule{"to", true, "component.port: a PushProxy, QueryServer or SendServer."},
-    AttributeRule{"queue", false, "How many objects wait: latest, or a number.", integer(1, 100'000)},
+    AttributeRule{"queue", false, "Number of objects that can wait, or latest: only the newest waits.",
+                  integer(1, 100'000)},
     AttributeRule{"overflow", false, "What happens when the queue is full.", one_of(kOverflow)},
     AttributeRule{"block_limit", false,
-                  "So long at most the publisher waits for room, with overflow=\"block\".",
+                  "Longest time that the publisher waits for room, with overflow=\"block\".",
                   seconds(kMicrosecond)},
-    AttributeRule{"deadline", false, "Without an object for so long the edge counts a missed deadline.",
+    AttributeRule{"deadline", false, "Time without an object after which the edge counts a missed deadline.",
                   seconds(0.0)},
-    AttributeRule{"interval", false, "Deliver at most one object in such a time, for example 1 s.",
+    AttributeRule{"interval", false, "Time in which at most one object is delivered, for example 1 s.",
                   seconds(0.0)}};
 constexpr std::array kPort{
-    AttributeRule{"name", true, "As its author calls it."},
-    AttributeRule{"as", false, "As this graph calls it, everywhere."},
-    AttributeRule{"disabled", false, "Whether nothing may be connected to it; optional ports only.",
+    AttributeRule{"name", true, "Name that the component's author gave the port."},
+    AttributeRule{"as", false, "New name of the port, everywhere in this graph."},
+    AttributeRule{"disabled", false, "Whether connections to the port are forbidden; optional ports only.",
                   kBoolean},
     AttributeRule{
         "candidates", false,
         "Components or component.ports that a port array may be connected to at run time, by name."}};
-constexpr std::array kInclude{AttributeRule{"file", true, "Path from the folder of this file."}};
-constexpr std::array kUse{AttributeRule{"graph", true, "Path from the folder of this file."},
-                          AttributeRule{"prefix", true, "The context that its names get here."}};
+constexpr std::array kInclude{
+    AttributeRule{"file", true, "Path of the graph file, relative to the folder of this file."}};
+constexpr std::array kUse{
+    AttributeRule{"graph", true, "Path of the graph file, relative to the folder of this file."},
+    AttributeRule{"prefix", true, "Context that is put before the names of that graph."}};
 
 constexpr std::array<std::string_view, 2> kEnds{"from", "to"};
 // The attributes by which editors find graphs/orca-graph.xsd.
@@ -96,7 +111,7 @@ extern const ElementRule kMachineRule;
 extern const ElementRule kProcessRule;
 
 constexpr ElementRule kArgRule{
-    .name = "arg", .attributes = kArg, .text = "A value that whoever starts or includes the graph may set."};
+    .name = "arg", .attributes = kArg, .text = "A value that can be set when the graph is run or included."};
 constexpr ElementRule kGivenArgRule{
     .name = "arg", .attributes = kParam, .text = "Sets an argument of the file that is brought in."};
 constexpr ElementRule kParamRule{.name = "param",
@@ -104,10 +119,9 @@ constexpr ElementRule kParamRule{.name = "param",
                                  .text = "A parameter's value; deployer --describe PLUGIN.so lists them."};
 constexpr ElementRule kPropertyRule{.name = "property",
                                     .attributes = kParam,
-                                    .text = "Something that the component says of itself, to be found by."};
-constexpr ElementRule kPortRule{.name = "port",
-                                .attributes = kPort,
-                                .text = "What is different about a port of the component in this system."};
+                                    .text = "A property of the component, by which others can find it."};
+constexpr ElementRule kPortRule{
+    .name = "port", .attributes = kPort, .text = "A change to a port of the component, in this system only."};
 constexpr ElementRule kConnectRule{
     .name = "connect", .attributes = kConnect, .text = "A connection between two ports.", .telling = kEnds};
 
@@ -125,7 +139,7 @@ constexpr std::array kInBringer{&kGivenArgRule};
 constexpr ElementRule kIncludeRule{.name = "include",
                                    .attributes = kInclude,
                                    .children = kInBringer,
-                                   .text = "Another graph file, as if it stood here."};
+                                   .text = "Another graph file, read as if its elements stood here."};
 constexpr ElementRule kUseRule{
     .name = "use",
     .attributes = kUse,
@@ -134,10 +148,11 @@ constexpr ElementRule kUseRule{
 
 constexpr std::array kInProfile{&kHardwareRule, &kComponentRule, &kConnectRule, &kIncludeRule,
                                 &kUseRule,      &kMachineRule,   &kProcessRule};
-constexpr ElementRule kProfileRule{.name = "profile",
-                                   .attributes = kProfile,
-                                   .children = kInProfile,
-                                   .text = "Parts that are added or override others when it is chosen."};
+constexpr ElementRule kProfileRule{
+    .name = "profile",
+    .attributes = kProfile,
+    .children = kInProfile,
+    .text = "Parts that are added, or override others, when the profile is chosen."};
 constexpr ElementRule kMachineRule{.name = "machine", .children = kInProfile, .planned = true};
 constexpr ElementRule kProcessRule{.name = "process", .children = kInProfile, .planned = true};
 

@@ -3,7 +3,7 @@
 
 using namespace orca::graph;
 
-TEST_CASE("the catalogue hears of folders first, then of hardware, then of components",
+TEST_CASE("the catalogue is given the folders first, then the hardware, then the components",
           "[graph][catalogue]") {
   FakeCatalogue catalogue;
   orca::xml::Diagnostics diagnostics;
@@ -18,7 +18,7 @@ TEST_CASE("the catalogue hears of folders first, then of hardware, then of compo
                                  "component orca.RobotBaseServer with robot", "component orca.Localizer"});
 }
 
-TEST_CASE("hardware with wrong parameters is not looked into", "[graph][catalogue]") {
+TEST_CASE("hardware with wrong parameters is not validated", "[graph][catalogue]") {
   FakeCatalogue catalogue;
   orca::xml::Diagnostics diagnostics;
   CHECK_FALSE(
@@ -28,7 +28,7 @@ TEST_CASE("hardware with wrong parameters is not looked into", "[graph][catalogu
   CHECK(std::ranges::find(catalogue.calls, "validate robot") == catalogue.calls.end());
 }
 
-TEST_CASE("what a world file has wrong is printed as the simulator says it", "[graph][catalogue]") {
+TEST_CASE("errors in a world file are printed in the simulator's words", "[graph][catalogue]") {
   const std::string said = said_about(
       "<graph name='g'><hardware name='robot' type='orca.hw.Sim'><param name='world' value='broken.world'/>"
       "</hardware></graph>");
@@ -37,7 +37,7 @@ TEST_CASE("what a world file has wrong is printed as the simulator says it", "[g
       "broken.world:4:3: error W001: two walls cross\nbroken.world:9:3: error W002: the floor has no size\n");
 }
 
-TEST_CASE("a value that the hardware refuses is told where the graph sets it", "[graph][catalogue]") {
+TEST_CASE("a value that the hardware refuses is reported where the graph sets it", "[graph][catalogue]") {
   const std::string said = said_about(
       "<graph name='g'>\n<hardware name='robot' type='orca.hw.Sim'>\n<param name='world' "
       "value='flooded.world'/>"

@@ -32,7 +32,7 @@ TEST_CASE("a component without ports has nothing to be connected to", "[graph][i
   CHECK(said("<component name='l' type='orca.Label'/>").empty());
 }
 
-TEST_CASE("a component that is only asked has its use", "[graph][influence]") {
+TEST_CASE("a component that only answers queries is useful", "[graph][influence]") {
   CHECK(said(kBase + "<component name='planner' type='orca.Planner'/>"
                      "<connect from='planner.limits' to='base.LimitsQuery'/>")
             .empty());
@@ -44,7 +44,7 @@ TEST_CASE("warnings about influence wait until there are no errors", "[graph][in
   CHECK(all.find("G051") == std::string::npos);
 }
 
-TEST_CASE("with --strict all warnings are errors, and all are told", "[graph][influence]") {
+TEST_CASE("with --strict all warnings are errors, and all are reported", "[graph][influence]") {
   orca::xml::Diagnostics diagnostics;
   LoadOptions strict;
   strict.strict = true;

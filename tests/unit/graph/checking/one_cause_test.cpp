@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One slip gives one error: its consequences are not reported as well. It hides nothing that has another
+// One mistake gives one error: its consequences are not reported as well. It hides nothing that has another
 // cause.
 #include <algorithm>
 #include <set>
@@ -39,7 +39,7 @@ TEST_CASE("an unknown type says nothing about the ports of the component", "[gra
                     "<connect from='avoid.x' to='base.MotionCommandSend'/>")) == Codes{"G027"});
 }
 
-TEST_CASE("a misspelt port is not missed as a required one", "[graph][one cause]") {
+TEST_CASE("a misspelt required port is not also reported as missing", "[graph][one cause]") {
   CHECK(codes(graph(kBase + kAvoid + "<connect from='base.SonarRangeReadingsPush' to='avoid.sonnar'/>")) ==
         Codes{"G017"});
   CHECK(codes(graph(kBase + kAvoid + "<connect from='base.SonarRangeReadingsPush' to='avoid.in'/>")) ==
@@ -60,13 +60,13 @@ TEST_CASE("a misspelt element or attribute is taken for what it was meant to be"
         Codes{"G003"});
 }
 
-TEST_CASE("the name of an element that cannot be understood is not missed", "[graph][one cause]") {
+TEST_CASE("a name that an unknown element has is not reported as missing", "[graph][one cause]") {
   CHECK(codes(graph(kBase + "<node name='avoid'/>" + kEdge)) == Codes{"G003"});
   CHECK(codes("<graph name='g' ends='x'><component name='a' type='orca.Localizer' start_after='x'/>"
               "<node name='x'/></graph>") == Codes{"G003"});
 }
 
-TEST_CASE("an include that is not found may hold anything, but a name that nearly fits is still a slip",
+TEST_CASE("an include that is not found may hold anything, but a name that nearly fits is still an error",
           "[graph][one cause]") {
   CHECK(codes(graph(
             kBase +
@@ -135,7 +135,7 @@ TEST_CASE("a profile that is not there may hold anything", "[graph][one cause]")
         Codes{"G015"});
 }
 
-TEST_CASE("a broken plugin is told once, however many components want it", "[graph][one cause]") {
+TEST_CASE("a broken plugin is reported once, however many components need it", "[graph][one cause]") {
   CHECK(codes(graph("<component name='a' type='orca.Broken'/><component name='b' type='orca.Broken'/>")) ==
         Codes{"G028"});
 }
@@ -155,7 +155,7 @@ TEST_CASE("a duplicate component is checked like any other", "[graph][one cause]
       Codes{"G010", "G032"});
 }
 
-TEST_CASE("a text that is shown in part is not cut in a character", "[graph][one cause]") {
+TEST_CASE("a text that is shown in part is not cut within a character", "[graph][one cause]") {
   const std::string said =
       said_about(graph("<component name='l' type='orca.Label'>nineteen characters\u00e4\u00f6</component>"));
   CHECK(said.find("the text \"nineteen characters...\" inside") != std::string::npos);

@@ -21,7 +21,7 @@ namespace {
 const fs::path kFolder = fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs/plugins";
 const std::string kShipped = ORCA_BINARY_DIR "/plugins";
 
-// Broken plugins as they may lie about, with the lists that say which types they should hold.
+// Writes the folder of broken plugins, each with the list that says which types it should hold.
 void lay_out_plugins(const TempFolder& folder) {
   const auto add = [&](const std::string& name, const std::string& types, const std::string& built) {
     static_cast<void>(folder.write(name + ".types", types));

@@ -23,7 +23,7 @@ Graph with_fuser(const std::string& port, const std::string& rest = "") {
 
 }  // namespace
 
-TEST_CASE("a renamed port has the new name for everybody", "[graph][port]") {
+TEST_CASE("a renamed port has only its new name, everywhere", "[graph][port]") {
   const Graph graph =
       must_load(kStart +
                 "<component name='avoid' type='orca.SonarAvoid' on='echoes'><port name='sonar' as='echoes'/>"
@@ -33,7 +33,7 @@ TEST_CASE("a renamed port has the new name for everybody", "[graph][port]") {
   CHECK(graph.find_component("avoid")->ports.at("sonar").alias == "echoes");
 }
 
-TEST_CASE("a port renamed as what it is called is not renamed", "[graph][port]") {
+TEST_CASE("a port renamed to its own name is not renamed", "[graph][port]") {
   const Graph graph = must_load(robot_with("<port name='sonar' as='sonar'/>"));
   CHECK(graph.find_component("avoid")->ports.empty());
 }
@@ -78,7 +78,7 @@ TEST_CASE("no candidates at all is no mistake", "[graph][port]") {
   CHECK(with_fuser("<port name='motion' candidates=''/>").find_component("fuser")->ports.empty());
 }
 
-TEST_CASE("what stands in <port> reads back from print", "[graph][port]") {
+TEST_CASE("a printed <port> reads back the same", "[graph][port]") {
   const Graph graph = with_fuser(
       "<port name='motion' as='wishes' candidates='avoid goto'/>"
       "<port name='ClientListSend' disabled='true'/>",

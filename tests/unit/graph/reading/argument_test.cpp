@@ -35,7 +35,7 @@ TEST_CASE("a default may use the arguments before it", "[graph][arg]") {
   CHECK(label_of("<arg name='a' default='x'/><arg name='b' default='${a}y'/>", "${b}") == "xy");
 }
 
-TEST_CASE("an argument that comes last in the file counts as well", "[graph][arg]") {
+TEST_CASE("an argument at the end of the file counts as well", "[graph][arg]") {
   const Graph graph = must_load(
       "<graph name='${n}'><component name='a' type='orca.Localizer' priority='${p}'/>"
       "<arg name='n' default='late'/><arg name='p' default='4'/></graph>");
@@ -43,7 +43,7 @@ TEST_CASE("an argument that comes last in the file counts as well", "[graph][arg
   CHECK(graph.components.at(0).priority == 4);
 }
 
-TEST_CASE("what an argument brings in is not replaced again", "[graph][arg]") {
+TEST_CASE("text that an argument brings in is not replaced again", "[graph][arg]") {
   CHECK(label_of("<arg name='a' default='$${b}'/>", "${a}") == "${b}");
 }
 

@@ -27,7 +27,7 @@ Graph with_robot(const std::string& content, const LoadOptions& options = {}) {
 
 }  // namespace
 
-TEST_CASE("what a file includes is there as if it stood in the file", "[graph][include]") {
+TEST_CASE("included elements count as if they stood in the file", "[graph][include]") {
   const Graph graph = with_robot(
       "<include file='robot.xml'/><component name='planner' type='orca.Planner'/>"
       "<connect from='planner.limits' to='base.LimitsQuery'/>");
@@ -88,7 +88,7 @@ TEST_CASE("an included file is found from the folder of the one that includes it
   CHECK(must_load(files).find_component("deep") != nullptr);
 }
 
-TEST_CASE("of the root of an included file only its plugin folders count", "[graph][include]") {
+TEST_CASE("only the plugin folders of an included file's root element count", "[graph][include]") {
   const Graph graph = must_load(
       Files{{"main.xml", "<graph name='g' seed='7' plugins='x'><include file='parts/p.xml'/></graph>"},
             {"parts/p.xml",
@@ -147,7 +147,7 @@ TEST_CASE("errors in an included file stand at their place in it, once", "[graph
         "\"orca.Nothing\"\n");
 }
 
-TEST_CASE("what a file that cannot be read would have brought is not missed", "[graph][include]") {
+TEST_CASE("parts of a file that cannot be read are not reported as missing", "[graph][include]") {
   const std::string said = said_about(
       Files{{"main.xml", "<graph name='g'><include file='p.xml'/><connect from='a.x' to='b.y'/></graph>"},
             {"p.xml", "<graph name='p'><component name='a' type='orca.Label'></graph>"}});

@@ -92,7 +92,7 @@ TEST_CASE("hardware=\"\" in a profile takes the hardware away", "[graph][profile
   CHECK(graph.components.at(0).hardware.empty());
 }
 
-TEST_CASE("the content of a profile that is not chosen is not judged, its spelling is", "[graph][profile]") {
+TEST_CASE("a profile that is not chosen is checked for spelling, but not for content", "[graph][profile]") {
   const std::string text =
       "<graph name='g'><profile name='p'><component name='a' "
       "type='orca.Nothing'/><komponent/></profile></graph>";

@@ -60,7 +60,7 @@ TEST_CASE("a graph can be used several times, with other arguments", "[graph][us
   CHECK(distance("right/avoid") == 2.0);
 }
 
-TEST_CASE("from outside one connects to the prefixed names", "[graph][use]") {
+TEST_CASE("connections from outside use the prefixed names", "[graph][use]") {
   const Graph graph = with_arms(
       "<use graph='arm.xml' prefix='left'/><component name='planner' "
       "type='orca.Planner'/><connect from='planner.limits' to='left/base.LimitsQuery'/>");

@@ -45,14 +45,14 @@ TEST_CASE("neither order nor the way of writing makes a difference", "[graph][di
   CHECK(diff_text(diff(one, other)).empty());
 }
 
-TEST_CASE("parts that come and go are told by name", "[graph][diff]") {
+TEST_CASE("added and removed parts are listed by name", "[graph][diff]") {
   const auto changes = diff(graph_with(""), graph_with(kAvoid));
   CHECK(diff_text(changes) == "+ component avoid\n+ connection base.SonarRangeReadingsPush to avoid.sonar\n");
   CHECK(diff_text(diff(graph_with(kAvoid), graph_with(""))) ==
         "- component avoid\n- connection base.SonarRangeReadingsPush to avoid.sonar\n");
 }
 
-TEST_CASE("what changes in a part is told field by field, with both values", "[graph][diff]") {
+TEST_CASE("changes within a part are listed field by field, with both values", "[graph][diff]") {
   const Graph before = graph_with(kAvoid);
   Graph after = before;
   after.seed = 5;
@@ -71,7 +71,7 @@ TEST_CASE("what changes in a part is told field by field, with both values", "[g
         "~ connection base.SonarRangeReadingsPush to avoid.sonar\n    queue: 3 -> 9\n");
 }
 
-TEST_CASE("the way back is the same with the values exchanged", "[graph][diff]") {
+TEST_CASE("the difference in the other direction is the same with the values exchanged", "[graph][diff]") {
   const Graph before = graph_with(kAvoid);
   const Graph after =
       graph_with("<component name='other' type='orca.Label'><param name='label' value='x'/></component>");

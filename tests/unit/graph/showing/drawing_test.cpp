@@ -141,7 +141,7 @@ TEST_CASE("the DOT text has every component, hardware and connection, and sub-gr
   CHECK(count(text, "\"robot\\norca.hw.Sim\", shape=cylinder") == 2);
 }
 
-TEST_CASE("names that mean something to Graphviz do no harm", "[graph][drawing]") {
+TEST_CASE("names with characters that mean something to Graphviz do no harm", "[graph][drawing]") {
   Graph graph = two_robots();
   graph.name = "a \"b\" \\ {c}";
   graph.components[0].type = "evil\"];\\";

@@ -83,7 +83,7 @@ class RandomGraph {
   static std::string param(const std::string& name, const std::string& value) {
     return "<param name='" + name + "' value=\"" + value + "\"/>";
   }
-  // Everything that XML or the graph might trip over.
+  // Returns a text of characters that XML or the graph treats specially.
   std::string free_text() {
     static const std::string kAlphabet = "ab /.<>&\"'\n\t;${}äx";
     std::string text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// graphs/orca-graph.xsd is what --schema prints, and describes the graphs that there are.
+// graphs/orca-graph.xsd is the output of --schema, and all graphs of the repository fit it.
 #include "orca/graph/schema.hpp"
 
 #include <map>
@@ -15,7 +15,7 @@ using namespace orca;
 
 namespace {
 
-// As much of an XML schema as orca-graph.xsd uses: types with children and attributes.
+// The part of the XML schema language that orca-graph.xsd uses: types with children and attributes.
 struct Type {
   std::map<std::string, std::string> children;  // element to type
   std::map<std::string, bool> attributes;       // required?

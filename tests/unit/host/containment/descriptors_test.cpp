@@ -34,7 +34,8 @@ class NoDescriptorsLeft {
 
 }  // namespace
 
-TEST_CASE("what is open is told with its name, and is still the same after a rename", "[host][descriptors]") {
+TEST_CASE("open descriptors are reported with their names, and stay the same after a rename",
+          "[host][descriptors]") {
   const TempFolder folder;
   const std::string name = folder.file("log");
   const int fd = open(name.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
@@ -52,13 +53,13 @@ TEST_CASE("what is open is told with its name, and is still the same after a ren
   CHECK_FALSE(open_descriptors()->contains(fd));
 }
 
-TEST_CASE("without a descriptor to look with nothing is said of what is open", "[host][descriptors]") {
+TEST_CASE("open descriptors cannot be listed when no descriptor is free", "[host][descriptors]") {
   REQUIRE(open_descriptors());
   const NoDescriptorsLeft none;
   CHECK_FALSE(open_descriptors());
 }
 
-TEST_CASE("of many descriptors only the first are named", "[host][descriptors]") {
+TEST_CASE("only the first of many descriptors are named", "[host][descriptors]") {
   Descriptors many;
   for (int fd = 3; fd < 5; ++fd) many[fd] = {0, 0, "/dev/null"};
   CHECK(names_of(many) == "3 (/dev/null), 4 (/dev/null)");

@@ -43,7 +43,7 @@ class Turn {
   const Activity activity_;
 };
 
-// Makes that many laps of a component that does nothing wrong.
+// Runs that many laps of a component that does nothing wrong.
 void work_quietly(const char* who, int laps) {
   for (int i = 0; i < laps; ++i) const Turn turn(who);
 }
@@ -58,7 +58,7 @@ void close_all(const std::vector<int>& opened) {
 
 }  // namespace
 
-TEST_CASE("where strands take turns, a change is the work of the component that leaves",
+TEST_CASE("where strands take turns, the component that leaves is blamed for a change",
           "[host][environment]") {
   Watched watched(false);
   {
@@ -75,7 +75,7 @@ TEST_CASE("where strands take turns, a change is the work of the component that 
   CHECK_THAT(watched.alarms[0].text(), Contains("work() has changed the umask"));
 }
 
-TEST_CASE("where strands overlap, a change of the process is laid to all whose hooks are not over",
+TEST_CASE("where strands overlap, all components in a hook are blamed for a change of the process",
           "[host][environment]") {
   Watched watched(true);
   work_quietly("idle", 2);
@@ -90,7 +90,8 @@ TEST_CASE("where strands overlap, a change of the process is laid to all whose h
   CHECK_THAT(watched.alarms[0].text(), Contains("one of bad, good has changed the umask"));
 }
 
-TEST_CASE("where strands overlap, a change of a thread is the work of its component", "[host][environment]") {
+TEST_CASE("where strands overlap, a thread's component is blamed for a change of the thread",
+          "[host][environment]") {
   Watched watched(true);
   {
     const Turn good("good");
@@ -103,8 +104,9 @@ TEST_CASE("where strands overlap, a change of a thread is the work of its compon
   CHECK(std::fegetround() == FE_TONEAREST);
 }
 
-TEST_CASE("a change that nobody has seen is laid to all that had a turn; the next one is found at once",
-          "[host][environment]") {
+TEST_CASE(
+    "all components that had a turn are blamed for a change that nobody saw; the next one is found at once",
+    "[host][environment]") {
   Watched watched(false);
   work_quietly("good", 3);
   work_quietly("bad", 3);
@@ -123,7 +125,7 @@ TEST_CASE("a change that nobody has seen is laid to all that had a turn; the nex
   CHECK(watched.alarms[1].source() == "bad");
 }
 
-TEST_CASE("what was changed between two hooks is laid to no component", "[host][environment]") {
+TEST_CASE("no component is blamed for a change between two hooks", "[host][environment]") {
   Watched watched(false);
   work_quietly("good", 1);
   setlocale(LC_ALL, "C.UTF-8");
@@ -147,11 +149,11 @@ TEST_CASE("a hardware container's strand is named as a component is", "[host][en
   CHECK_THAT(watched.alarms[0].text(), Contains("its strand has changed the umask"));
 }
 
-TEST_CASE("32 descriptors that a component opens in its laps and does not close are laid to it alone",
+TEST_CASE("only the component that opens 32 descriptors in its laps and closes none is blamed",
           "[host][environment]") {
   Watched watched(false);
   std::vector<int> opened;
-  open_descriptors_for_good(40, opened);  // of somebody outside
+  open_descriptors_for_good(40, opened);  // opened outside of all components
   for (int lap = 0; lap < 150; ++lap) {
     {
       const Turn bad("bad");
@@ -183,9 +185,8 @@ TEST_CASE("a component that opens many descriptors in start() and closes them in
   CHECK(watched.alarms.empty());
 }
 
-TEST_CASE(
-    "what start() opens and stop() leaves open is not laid to a component if others had a turn meanwhile",
-    "[host][environment]") {
+TEST_CASE("a component is not blamed for descriptors that stop() leaves open if others had a turn meanwhile",
+          "[host][environment]") {
   const bool others = GENERATE(false, true);
   Watched watched(false);
   std::vector<int> opened;

@@ -97,7 +97,7 @@ std::vector<std::string> reasons(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("around the robot sonar is yellow, laser blue, and its motion red, each until it is hidden",
+TEST_CASE("around the robot sonar is yellow, laser blue and motion red, each unless it is hidden",
           "[host][picture]") {
   const Scene scene = sensing();
   for (const View view : {View::world, View::robot, View::film}) {
@@ -161,8 +161,7 @@ TEST_CASE("a film of a robot that does much shows twelve moments, first and last
   CHECK(film.width() == 3 * 400);
 }
 
-TEST_CASE("a scene without robots, or without anything they sensed, is told and nothing is written",
-          "[host][picture]") {
+TEST_CASE("a scene without robots or readings is reported, and nothing is written", "[host][picture]") {
   const TempFolder folder;
   Scene scene = drive(1.0);
   scene.robots[0].moments.clear();

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// A component that uses another component from `from` to `until` after its start, then lets it go for good.
+/// A component that uses another component from `from` to `until` after its start, then releases it for good.
 class User final : public orca::Component {
  public:
   explicit User(orca::ComponentHost& host) : Component(host) {}

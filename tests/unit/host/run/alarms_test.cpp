@@ -43,7 +43,7 @@ RecordedRun welcome(const std::string& deed) {
 
 }  // namespace
 
-TEST_CASE("a component that changes what all share raises an alarm of that kind, with its name and hook",
+TEST_CASE("a component that changes shared state raises an alarm of that kind, with its name and hook",
           "[host][alarms]") {
   struct Case {
     std::string deed;
@@ -78,7 +78,7 @@ TEST_CASE("descriptors that a component leaves open are an alarm of its stop()",
 }
 
 TEST_CASE("fork() is an alarm, once", "[host][alarms]") {
-  const LastWords words(EXIT_FAILURE);  // which ends the copy
+  const LastWords words(EXIT_FAILURE);  // ends the copy
   const RecordedRun run = act("work", "fork");
   REQUIRE(run.alarms.size() == 1);
   CHECK(run.alarms[0].kind() == "FORK");
@@ -116,7 +116,7 @@ TEST_CASE("a handler that throws is named after its port", "[host][alarms]") {
   CHECK(run.alarms[0].hook() == "goal()");
 }
 
-TEST_CASE("hardware that breaks raises an alarm that nobody can overlook", "[host][alarms]") {
+TEST_CASE("hardware that fails raises an alarm of the highest severity", "[host][alarms]") {
   const RecordedRun run = record_run("ends=\"counter\"", R"x(
     <hardware name="scout" type="test.Brittle"/>
     <component name="base" type="orca.RobotBaseServer" hardware="scout"/>
@@ -130,7 +130,7 @@ TEST_CASE("hardware that breaks raises an alarm that nobody can overlook", "[hos
   CHECK_THAT(run.alarms[0].text(), Contains("the cable is off"));
 }
 
-TEST_CASE("an alarm belongs to the mission of what the component was working on, and names its cause",
+TEST_CASE("an alarm belongs to the mission that the component was working on, and names its cause",
           "[host][alarms]") {
   for (const std::string deed : {"fail", "rounding"}) {
     const RecordedRun run = welcome(deed);

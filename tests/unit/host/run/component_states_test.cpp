@@ -127,13 +127,13 @@ TEST_CASE("a component that was started is stopped before its providers are let 
   });
 }
 
-TEST_CASE("nothing that stop() throws keeps a component from being failed", "[host][states]") {
+TEST_CASE("a component fails even if stop() throws", "[host][states]") {
   for_each_row([](const ComponentTransition& row) {
     CHECK(has(row, Action::stop) == (is_up(row.from) && !is_up(row.to) && !is_failed(row.to)));
   });
 }
 
-TEST_CASE("what is sent and asked is refused while a component is failed, and taken again after",
+TEST_CASE("a failed component refuses objects and queries, and accepts them again afterwards",
           "[host][states]") {
   for_each_row([](const ComponentTransition& row) {
     CHECK(has(row, Action::close_intake) == is_failed(row.to));
@@ -155,7 +155,7 @@ TEST_CASE("a pause calls suspend() and resume(), and leaves subscriptions and in
   });
 }
 
-TEST_CASE("before its code goes, what is sent to a component and asked of it is held", "[host][states]") {
+TEST_CASE("objects and queries to a component are held before its code is unloaded", "[host][states]") {
   for_each_row([](const ComponentTransition& row) {
     CHECK(has(row, Action::unload) == (row.to == State::unloaded));
     if (row.to == State::unloaded) CHECK(place(row, Action::hold_intake) < place(row, Action::unload));
@@ -194,7 +194,7 @@ TEST_CASE("each state can be reached, from UNLOADED and from INIT", "[host][stat
   }
 }
 
-TEST_CASE("people read the names of the thesis, whatever happened before", "[host][states]") {
+TEST_CASE("states are shown by the names of the thesis, whatever happened before", "[host][states]") {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < kComponentStates; ++i) names.emplace_back(to_string(static_cast<State>(i)));
   CHECK(names == std::vector<std::string>{"UNLOADED", "INIT", "IDLE", "CONNECT", "WORK", "WORK_DONE",

@@ -51,8 +51,7 @@ TEST_CASE("a component on demand is loaded by its first client and unloaded when
   }
 }
 
-TEST_CASE("what is sent to, or asked of, an unloaded component waits until it is there",
-          "[host][on_demand]") {
+TEST_CASE("objects and queries to an unloaded component wait until it is loaded", "[host][on_demand]") {
   LiveSystem live(life("idle_time=\"1 s\"") + user("user", 1, 2) +
                   R"(<connect from="user.send" to="life.poke"/><connect from="user.query" to="life.ask"/>)");
   live.run(virtual_executives().front(), [](LiveSystem& run) {
@@ -77,7 +76,7 @@ TEST_CASE("a component that is to stay warm stays loaded once it has been used",
   });
 }
 
-TEST_CASE("parameters that were changed are still so after unloading", "[host][on_demand]") {
+TEST_CASE("changed parameters keep their values after unloading", "[host][on_demand]") {
   LiveSystem live(life("idle_time=\"1 s\"") + user("user", 1, 2) +
                   R"(<connect from="life.out" to="user.push"/>)");
   live.run(virtual_executives().front(), [](LiveSystem& run) {

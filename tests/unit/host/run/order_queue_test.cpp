@@ -49,7 +49,7 @@ TEST_CASE("orders are carried out one by one, the oldest first", "[host][orders]
   });
 }
 
-TEST_CASE("whoever gave an order gets its result", "[host][orders]") {
+TEST_CASE("the giver of an order gets its result", "[host][orders]") {
   with_desk([](Desk& desk) {
     const auto order = desk.add("first", fail(Code::invalid_argument, "low is above high"));
     (void)desk.orders.carry_out_next();

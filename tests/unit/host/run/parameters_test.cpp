@@ -45,7 +45,7 @@ TEST_CASE("values that the component does not accept leave all as it was", "[hos
   });
 }
 
-TEST_CASE("all wrong values are told at once, and none is taken", "[host][params]") {
+TEST_CASE("all wrong values are reported at once, and none is taken", "[host][params]") {
   LiveSystem live(kLife);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     const Status set = run.set("life", {{"hihg", "1"}, {"low", "1000"}, {"size", "2 s"}, {"label", "b"}});
@@ -59,7 +59,7 @@ TEST_CASE("all wrong values are told at once, and none is taken", "[host][params
   });
 }
 
-TEST_CASE("what is thrown at new values fails the component, which keeps the old ones", "[host][params]") {
+TEST_CASE("an exception at new values fails the component, which keeps the old ones", "[host][params]") {
   LiveSystem live(kLife);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     CHECK_THAT(run.set("life", {{"mode", "params throw"}}).error().text(),
@@ -69,7 +69,7 @@ TEST_CASE("what is thrown at new values fails the component, which keeps the old
   });
 }
 
-TEST_CASE("a lap that does not end in time is told, and the values are taken when it does",
+TEST_CASE("a lap that does not end in time is reported, and the values are taken when it ends",
           "[host][params]") {
   LiveSystem live(R"(<component name="slow" type="test.User">
     <param name="from" value="0 s"/><param name="until" value="60 s"/></component>

@@ -140,7 +140,8 @@ TEST_CASE("a component that fails and that the graph waits for is the culprit, w
   CHECK(result.error->message == "work() failed: nobody is at home");
 }
 
-TEST_CASE("whoever keeps the system from starting is the culprit, and there is no hash", "[host][result]") {
+TEST_CASE("a component that keeps the system from starting is the culprit, and there is no hash",
+          "[host][result]") {
   const RunResult result =
       record_run("", slow_starter(R"(name="refuses" value="true")"), virtual_run()).result;
   CHECK(result.outcome == RunOutcome::not_started);

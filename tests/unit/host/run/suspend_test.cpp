@@ -34,7 +34,7 @@ TEST_CASE("a suspended component does nothing until it is resumed", "[host][susp
   }
 }
 
-TEST_CASE("what is sent to a suspended component waits, and is handled once it is resumed",
+TEST_CASE("an object sent to a suspended component waits, and is handled once it is resumed",
           "[host][suspend]") {
   LiveSystem live(kIdle + R"(<component name="user" type="test.User"/>
     <connect from="user.send" to="life.poke"/>)");
@@ -49,7 +49,7 @@ TEST_CASE("what is sent to a suspended component waits, and is handled once it i
   });
 }
 
-TEST_CASE("a lap that only waits is given up to suspend the component", "[host][suspend]") {
+TEST_CASE("a lap that only waits is cancelled to suspend the component", "[host][suspend]") {
   LiveSystem live(R"(<component name="life" type="test.Life" autonomous="true">
       <param name="mode" value="waits"/></component>
     <component name="other" type="test.Life"/>
@@ -62,7 +62,7 @@ TEST_CASE("a lap that only waits is given up to suspend the component", "[host][
   });
 }
 
-TEST_CASE("a lap that only waits is given up for what is sent, and begins anew", "[host][states]") {
+TEST_CASE("a lap that only waits is cancelled for a sent object, and begins anew", "[host][states]") {
   LiveSystem live(R"(<component name="life" type="test.Life" autonomous="true">
       <param name="mode" value="waits"/></component>
     <component name="user" type="test.User"/>
@@ -76,7 +76,7 @@ TEST_CASE("a lap that only waits is given up for what is sent, and begins anew",
   });
 }
 
-TEST_CASE("only what is idle or works can be suspended, and only what is suspended resumed",
+TEST_CASE("only an idle or working component can be suspended, and only a suspended one resumed",
           "[host][suspend]") {
   LiveSystem live(kIdle);
   live.run(virtual_executives().front(), [](LiveSystem& run) {

@@ -122,8 +122,10 @@ TEST_CASE("a subscriber that asks for an impossible rate is cut off before anybo
   });
 }
 
-TEST_CASE("a publisher that sends an object of no sense is cut off, and the subscriber keeps what it had",
-          "[patterns][bytes]") {
+TEST_CASE(
+    "a publisher that sends an object that cannot be decoded is cut off, and the subscriber keeps its "
+    "objects",
+    "[patterns][bytes]") {
   run_on_each(steady_executives(), [](Executive& executive) {
     Wires wires(executive);
     Listener listener(executive);
@@ -162,7 +164,7 @@ TEST_CASE("a frame that does not belong to the pattern cuts its sender off", "[p
   });
 }
 
-TEST_CASE("a sender whose link is cut is told so, at once and from then on", "[patterns][bytes]") {
+TEST_CASE("a sender whose link is cut gets an error, at once and from then on", "[patterns][bytes]") {
   run_on_each(steady_executives(), [](Executive& executive) {
     const bool rubbish_first = GENERATE(true, false);
     Wires wires(executive);
@@ -195,7 +197,7 @@ TEST_CASE("objects for which a link has no room are counted at the subscriber", 
     for (std::uint64_t i = 0; i < kPushed; ++i) source.out.push(full_stop());
     CHECK(links.counters().objects_lost > 0);
     CHECK(eventually(executive, [&] {
-      source.out.push(full_stop());  // losses are told with the next object that finds room
+      source.out.push(full_stop());  // losses are reported with the next object for which there is room
       sleep(executive, 1ms);
       return listener.in.counters().dropped_by_link == links.counters().objects_lost;
     }));
@@ -204,7 +206,7 @@ TEST_CASE("objects for which a link has no room are counted at the subscriber", 
   });
 }
 
-TEST_CASE("an object larger than the link's queues arrives all the same", "[patterns][bytes]") {
+TEST_CASE("an object larger than the link's queues still arrives", "[patterns][bytes]") {
   run_on_each(steady_executives(), [](Executive& executive) {
     ByteLinks links(executive, 64);
     struct Out : Peer {

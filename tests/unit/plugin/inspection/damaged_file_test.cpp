@@ -24,7 +24,7 @@ Bytes small_plugin() {
   return bytes;
 }
 
-// Reads all that can be read of it; whether it is a good plugin.
+// Reads everything in the file, and returns whether it is a good plugin.
 bool judge(Bytes bytes) {
   const Result<PluginFile> file = PluginFile::parse(std::move(bytes));
   if (!file) {
@@ -42,7 +42,7 @@ TEST_CASE("the plugin to be damaged is good", "[plugin][damage]") { CHECK(judge(
 
 TEST_CASE("a plugin cut short before its last segment ends is refused, at every length", "[plugin][damage]") {
   const Bytes whole = small_plugin();
-  // Behind the last segment there are only names for people.
+  // After the last segment there are only symbol names for people.
   std::size_t refused = 0;
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const bool good = judge(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));

@@ -34,12 +34,12 @@ void no_way_out() { throw std::runtime_error("no way out"); }
 
 }  // namespace
 
-TEST_CASE("what comes to its end survives its trial, also when it throws", "[plugin][trial]") {
+TEST_CASE("a function that returns or throws survives its trial", "[plugin][trial]") {
   CHECK(survives_trial([](const Step&) {}, 2s).ok());
   CHECK(survives_trial([](const Step&) { throw std::runtime_error("no harm"); }, 2s).ok());
 }
 
-TEST_CASE("what ends the copy is told with the step that it was at", "[plugin][trial]") {
+TEST_CASE("the end of the copied process is reported with the step that it was at", "[plugin][trial]") {
   CHECK_THAT(death([] { std::abort(); }), Contains("the deed ended the process with the signal ABRT"));
   CHECK_THAT(death([] { raise(SIGKILL); }), Contains("the deed") && Contains("KILL"));
   CHECK_THAT(death([] { _exit(3); }), Contains("the deed ended the process with exit(3)"));
@@ -47,11 +47,11 @@ TEST_CASE("what ends the copy is told with the step that it was at", "[plugin][t
              Contains("the deed threw std::runtime_error: no way out, which nothing can catch there"));
 }
 
-TEST_CASE("what does not return is ended at its limit", "[plugin][trial]") {
+TEST_CASE("a function that does not return is ended at its limit", "[plugin][trial]") {
   CHECK_THAT(death([] { pause(); }), Contains("the deed did not return within 2 s"));
 }
 
-TEST_CASE("a trial changes nothing here", "[plugin][trial]") {
+TEST_CASE("a trial changes nothing in this process", "[plugin][trial]") {
   int value = 1;
   CHECK(survives_trial([&](const Step&) { value = 2; }, 2s).ok());
   CHECK(value == 1);

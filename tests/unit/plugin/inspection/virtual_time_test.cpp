@@ -20,8 +20,7 @@ std::string faults_of(const std::string& plugin) {
 
 }  // namespace
 
-TEST_CASE("every shipped plugin may run in virtual time, but for what a person drives with",
-          "[plugin][virtual]") {
+TEST_CASE("every shipped plugin may run in virtual time, except teleop", "[plugin][virtual]") {
   for (const std::string& path : plugins_in(kShipped)) {
     CAPTURE(path);
     const auto library = loaded(path);
@@ -57,7 +56,7 @@ TEST_CASE("a plugin may allow itself one symbol, and no other", "[plugin][virtua
   CHECK_THAT(faults, !Contains("poll"));
 }
 
-TEST_CASE("only whole names count, not what begins like them", "[plugin][virtual]") {
+TEST_CASE("only whole names count, not names that begin like them", "[plugin][virtual]") {
   CHECK(unfit_for_virtual_time("time"));
   CHECK(unfit_for_virtual_time("clock_gettime"));
   CHECK_FALSE(unfit_for_virtual_time("timegm"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Uses all that has no place in virtual time.
+// Uses everything that is forbidden in virtual time.
 #include <sys/random.h>
 #include <unistd.h>
 

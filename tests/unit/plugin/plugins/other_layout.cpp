@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// As if it had been built when a GoalPoint had another field, and a type was there that has gone since.
+// A plugin that seems built at a time when GoalPoint had another field and a type existed that is gone now.
 #include "orca/component.hpp"
 #include "orca/idl/navigation.hpp"
 

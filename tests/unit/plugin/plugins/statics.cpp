@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All that pins a library in memory unless it is built by the recipe: statics of templates and of inline
+// All that keeps a library in memory unless it is built by the recipe: statics of templates and of inline
 // functions, inline variables, make_shared, a local static with a destructor.
 #include <map>
 #include <memory>

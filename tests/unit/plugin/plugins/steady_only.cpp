@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A plugin that says itself that virtual time is nothing for it.
+// A plugin that declares that it needs the steady clock.
 #include <poll.h>
 
 #include "orca/component.hpp"

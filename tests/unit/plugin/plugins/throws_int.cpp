@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A constructor that throws what is no std::exception.
+// A constructor that throws something other than a std::exception.
 #include "orca/component.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A plugin that uses what no library provides, built without the recipe, which would refuse to link it.
+// A plugin that uses a symbol that no library provides. The recipe, which would refuse to link it, is not used.
 #include "orca/component.hpp"
 
 namespace orca::test {

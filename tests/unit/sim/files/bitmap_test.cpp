@@ -16,7 +16,7 @@ using orca::Vec2;
 
 namespace {
 
-// A file in the temporary folder that goes away with the test.
+// A temporary file that is removed at the end of the test.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& bytes)
@@ -41,7 +41,7 @@ std::string error_of(const std::string& bytes, BitmapScale scale = {.map_width =
 }  // namespace
 
 TEST_CASE("the first image row is the top of the map and the lower left corner its origin", "[sim][bitmap]") {
-  // Black are the left pixel of the top row and the right pixel of the bottom row.
+  // The left pixel of the top row and the right pixel of the bottom row are black.
   const TemporaryFile file("corner.pgm", "P2 # a comment\n3 2\n255\n0 255 255\n255 255 0\n");
   const auto world = read_bitmap_world(file.path(), {.map_width = 6.0, .resolution = {}});
   REQUIRE(world);

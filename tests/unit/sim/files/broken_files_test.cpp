@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The texts of errors in worlds and robots are part of what Orca promises: each file of
-// tests/data/worlds/broken and tests/data/robots/broken is read, and what comes out must equal its .expected.
+// The texts of errors in worlds and robots are part of Orca's promises: each file of
+// tests/data/worlds/broken and tests/data/robots/broken is read, and the messages must equal its .expected.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

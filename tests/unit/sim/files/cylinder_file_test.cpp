@@ -24,7 +24,7 @@ std::string errors(const std::string& path, const BitmapScale& scale = {}) {
 
 }  // namespace
 
-TEST_CASE("a file of many worlds gives the one that is asked for", "[sim][cylinders]") {
+TEST_CASE("a file of many worlds gives the requested one", "[sim][cylinders]") {
   const TempFolder folder;
   orca::xml::Diagnostics diagnostics;
   const auto world = read_world(folder.write("two.csv", kTwoWorlds) + "#1", {}, diagnostics);
@@ -38,7 +38,7 @@ TEST_CASE("a file of many worlds gives the one that is asked for", "[sim][cylind
   CHECK(world->place("goal")->pose.position() == Vec2{-2.25, 13.0});
 }
 
-TEST_CASE("without a number the file tells which worlds it holds", "[sim][cylinders]") {
+TEST_CASE("without a number the error says which worlds the file holds", "[sim][cylinders]") {
   const TempFolder folder;
   const std::string path = folder.write("two.csv", kTwoWorlds);
   CHECK(errors(path) == path + ": error W017: the file holds 2 worlds, numbered from 1 to 5; choose one: \"" +
@@ -57,7 +57,7 @@ TEST_CASE("worlds that hold nothing to choose from refuse a number", "[sim][cyli
   CHECK_THAT(errors("map.png#2", {10.0, {}}), Catch::Contains("W017: a picture holds one world"));
 }
 
-TEST_CASE("a packed file that is damaged or not there is told", "[sim][cylinders]") {
+TEST_CASE("a packed file that is damaged or missing is reported", "[sim][cylinders]") {
   const TempFolder folder;
   const std::string head("\x1f\x8b\x08\0\0\0\0\0\0\x03", 10);
   CHECK_THAT(errors(folder.write("cut.csv.gz", head) + "#1"),

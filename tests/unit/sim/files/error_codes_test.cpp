@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The codes of world and robot files: what the headers name, the page explains and the approved texts show.
+// Headers, pages and approved texts have the same codes of world and robot files.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

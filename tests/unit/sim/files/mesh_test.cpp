@@ -50,7 +50,7 @@ std::string as_binary_stl(const Mesh& mesh) {
   return bytes;
 }
 
-// A cube of 1 m on the floor, four corners to a face, in the ways to name a corner.
+// A cube of 1 m on the floor with four corners per face, in all notations of a corner.
 const char* const kObjCube = R"(# a cube
 o cube
 v -0.5 -0.5 0
@@ -88,7 +88,7 @@ WorldModel table_of(bool mesh) {
   return world;
 }
 
-// How far a Scout gets that drives ahead for ten seconds.
+// Returns how far a Scout gets when it drives ahead for ten seconds.
 double way_through(const WorldModel& model, const RobotModel& robot, bool& touched) {
   World world(model, {.seed = 1, .realism = Realism::ideal});
   const RobotId id = *world.add_robot("dewey", robot, {});
@@ -132,7 +132,7 @@ TEST_CASE("a mesh of a million faces is read, one more is refused", "[sim][mesh]
   CHECK_THAT(refused.error().text(), Catch::Contains("more than 1000000 faces"));
 }
 
-TEST_CASE("whatever happens to the bytes of a mesh, it is read or refused", "[sim][mesh]") {
+TEST_CASE("a mesh with any damage is read or refused", "[sim][mesh]") {
   const TempFolder folder;
   orca::RandomStream random(4, "test", "damage");
   const Mesh cube = box_mesh(1.0, 1.0, 1.0);
@@ -168,7 +168,7 @@ TEST_CASE("the section of a closed mesh is closed and has its solid to the left,
   CHECK(section_of(stone, low - 0.01).edges.empty());
 }
 
-TEST_CASE("a plane through the corners of a mesh cuts what stands above it", "[sim][mesh]") {
+TEST_CASE("a plane through the corners of a mesh cuts the parts above it", "[sim][mesh]") {
   const Mesh cube = box_mesh(1.0, 1.0, 1.0);
   CHECK(area_of(section_of(cube, 0.0)) == Approx(1.0));
   CHECK(section_of(cube, 1.0).edges.empty());

@@ -44,7 +44,7 @@ std::string millimetres(double value) { return number(1000.0 * value, "mm"); }
 std::string degrees(double value) { return number(value * 180.0 / std::numbers::pi, "deg"); }
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
-// What the page calls the members of ErrorLevels, in their order.
+// The page's names for the members of ErrorLevels, in their order.
 const Lines kErrors = {"wheel diameter: bound of its relative error",
                        "track: bound of its relative error",
                        "slip of a wheel after 1 m, standard deviation",
@@ -133,7 +133,7 @@ std::set<std::string> attributes_of(const orca::xml::ElementRule& rule) {
   return {names.begin(), names.end()};
 }
 
-// Returns what the rules allow below `root`, two levels deep, as a page writes it.
+// Returns the elements that the rules allow below `root`, two levels deep, in the notation of the pages.
 Table rules_below(const orca::xml::ElementRule& root) {
   Table table{{quoted(root.name), attributes_of(root)}};
   for (const auto* const element : root.children) {

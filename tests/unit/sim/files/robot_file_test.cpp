@@ -97,7 +97,7 @@ TEST_CASE("masses and shapes of all links are carried into the frame of the root
   CHECK_FALSE(contains(model->footprint, {0.22, 0.1}));
 }
 
-TEST_CASE("a file without robot, links, drive or extension is told", "[sim][robot_file]") {
+TEST_CASE("a file without robot, links, drive or extension is reported", "[sim][robot_file]") {
   CHECK_THAT(errors_in("<world/>"), Catch::Contains("r.urdf:1:1: error R001: the root element is <world>"));
   CHECK_THAT(errors_in("<robot name='r'/>"), Catch::Contains("error R011: the robot has no <link>") &&
                                                  Catch::Contains("needs the element <orca"));
@@ -109,7 +109,7 @@ TEST_CASE("a file without robot, links, drive or extension is told", "[sim][robo
   CHECK_THAT(errors_in("<robot"), Catch::Contains("r.urdf:1:"));
 }
 
-TEST_CASE("joints that do not make a tree are told", "[sim][robot_file]") {
+TEST_CASE("joints that do not make a tree are reported", "[sim][robot_file]") {
   CHECK_THAT(errors("<link name='b'/>"), Catch::Contains("error R014: the robot has 2 root links (b, base)"));
   CHECK_THAT(
       errors(joint("j", "bse", "base")),
@@ -127,7 +127,7 @@ TEST_CASE("joints that do not make a tree are told", "[sim][robot_file]") {
                  Catch::Contains("<joint> needs the element <child link="));
 }
 
-TEST_CASE("wrong joints are told", "[sim][robot_file]") {
+TEST_CASE("wrong joints are reported", "[sim][robot_file]") {
   const auto with = [](const std::string& type, const std::string& inside) {
     return errors("<link name='b'/><joint name='j' type='" + type +
                   "'><parent link='base'/><child link='b'/>" + inside + "</joint>");
@@ -146,7 +146,7 @@ TEST_CASE("wrong joints are told", "[sim][robot_file]") {
              Catch::Contains("error R015: joint \"j\" mimics itself"));
 }
 
-TEST_CASE("wrong masses, inertias and shapes are told", "[sim][robot_file]") {
+TEST_CASE("wrong masses, inertias and shapes are reported", "[sim][robot_file]") {
   const auto base = [](const std::string& from, const std::string& to) {
     return errors_in(robot(replaced(kBase, from, to)));
   };
@@ -172,7 +172,7 @@ TEST_CASE("wrong masses, inertias and shapes are told", "[sim][robot_file]") {
           "error R023: the collision geometry reaches 0.3 m from the axis, but bumper_radius is 0.2 m"));
 }
 
-TEST_CASE("wrong devices are told where they stand", "[sim][robot_file]") {
+TEST_CASE("wrong devices are reported at their place", "[sim][robot_file]") {
   const auto device = [](const std::string& text, const std::string& from, const std::string& to) {
     return errors_in(robot(kBase, kDrive + replaced(kRing, from, to) + text));
   };
@@ -228,7 +228,7 @@ TEST_CASE("an uneven sonar ring lists where its transducers look and sit", "[sim
              Catch::Contains("error R022: there are 2 positions for 4 transducers"));
 }
 
-TEST_CASE("a missing robot file is told with its name", "[sim][robot_file]") {
+TEST_CASE("a missing robot file is reported with its name", "[sim][robot_file]") {
   orca::xml::Diagnostics diagnostics;
   CHECK_FALSE(read_robot("no/robot.urdf", diagnostics).has_value());
   CHECK_THAT(diagnostics.text(), Catch::StartsWith("no/robot.urdf"));

@@ -11,8 +11,9 @@ using orca::Vec2;
 using namespace orca::sim::test;
 using Catch::Contains;
 
-TEST_CASE("every shipped robot reads without a word, stands in the office and drives off without a contact",
-          "[sim][robots]") {
+TEST_CASE(
+    "every shipped robot is read without a message, stands in the office and drives off without a contact",
+    "[sim][robots]") {
   const auto files = orca::test::files_in(kRobots, ".urdf");
   REQUIRE(files.size() >= 6);
   for (const auto& file : files) {
@@ -34,7 +35,7 @@ TEST_CASE("the inertia of every shipped robot is one that a body of its size can
   for (const auto& file : orca::test::files_in(kRobots, ".urdf")) {
     INFO(file.string());
     const RobotModel model = shipped(file.stem().string());
-    // At most all mass on the rim, at least a tenth of that.
+    // The bounds are that of all mass on the rim, and a tenth of it.
     const double rim = model.mass * model.bumper_radius * model.bumper_radius;
     CHECK(model.yaw_inertia < rim);
     CHECK(model.yaw_inertia > 0.1 * rim);
@@ -113,7 +114,7 @@ TEST_CASE("a polygon is refused where a corner would be in a wall, and taken whe
           "[sim][robots]") {
   World world(test_room(), {.seed = 1, .realism = Realism::ideal});
   const RobotModel pioneer = shipped("pioneer_2dx");
-  // 0.25 m from the wall: beside it there is room for half the width, behind it none for the back.
+  // At 0.25 m from the wall half the robot's width fits, but not the length of its back.
   CHECK(world.add_robot("beside", pioneer, {4.75, 2.0, 0.5 * std::numbers::pi}));
   const auto refused = world.add_robot("behind", pioneer, {4.75, -2.0, std::numbers::pi});
   REQUIRE_FALSE(refused);

@@ -74,7 +74,7 @@ TEST_CASE("laser, infrared ring and bumper ring come from the robot's file", "[s
   CHECK(model->sonars.at(0).parallel == 2);
 }
 
-TEST_CASE("wrong lasers are told where they stand", "[sim][robot_file]") {
+TEST_CASE("wrong lasers are reported at their place", "[sim][robot_file]") {
   const auto laser = [](const std::string& from, const std::string& to) {
     return errors_in(replaced(kLaser, from, to));
   };
@@ -92,7 +92,7 @@ TEST_CASE("wrong lasers are told where they stand", "[sim][robot_file]") {
   CHECK_THAT(laser("quantum", "quantun"), Catch::Contains("did you mean \"quantum\"?"));
 }
 
-TEST_CASE("wrong infrared and bumper rings are told where they stand", "[sim][robot_file]") {
+TEST_CASE("wrong infrared and bumper rings are reported at their place", "[sim][robot_file]") {
   CHECK_THAT(errors_in(replaced(kInfrared, "3 deg", "95 deg")),
              Catch::Contains("error R022: half_beam must be at most 90 deg"));
   CHECK_THAT(errors_in(replaced(kInfrared, "max_range=\"0.8 m\"", "max_range=\"0.8 m\" min_range=\"1 m\"")),

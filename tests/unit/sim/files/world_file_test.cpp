@@ -79,7 +79,7 @@ TEST_CASE("boxes, cylinders, polygons and places take units and angles", "[sim][
   CHECK(w.place("goal")->pose.yaw == Approx(-0.5 * std::numbers::pi));
 }
 
-TEST_CASE("what is not a world is told as such", "[sim][world_file]") {
+TEST_CASE("a file that is not a world is reported as that", "[sim][world_file]") {
   CHECK(errors_in("<graph/>") ==
         "w.xml:1:1: error W001: the root element is <graph>; a world file begins with <world name=\"...\" "
         "version=\"1\">\n");
@@ -90,7 +90,7 @@ TEST_CASE("what is not a world is told as such", "[sim][world_file]") {
                                         Catch::Contains("needs the attribute \"version\""));
 }
 
-TEST_CASE("unknown elements and attributes are told with the nearest name", "[sim][world_file]") {
+TEST_CASE("unknown elements and attributes are reported with the nearest name", "[sim][world_file]") {
   CHECK_THAT(errors("<wal from='0 0' to='1 1'/>"),
              Catch::Contains(
                  "w.xml:2:1: error W002: there is no element <wal> in <world>; it may contain: wall, room"));
@@ -100,7 +100,7 @@ TEST_CASE("unknown elements and attributes are told with the nearest name", "[si
   CHECK_THAT(errors("text"), Catch::Contains("w.xml:2:1: error W006"));
 }
 
-TEST_CASE("wrong values are told where they stand", "[sim][world_file]") {
+TEST_CASE("wrong values are reported at their place", "[sim][world_file]") {
   CHECK_THAT(errors("<cylinder x='0' y='0'/>"),
              Catch::Contains("w.xml:2:1: error W004") && Catch::Contains("radius"));
   CHECK_THAT(errors("<cylinder x='0' y='0' radius='-1 m'/>"),
@@ -120,7 +120,7 @@ TEST_CASE("wrong values are told where they stand", "[sim][world_file]") {
              Catch::Contains("error W005: name: \"1st\" is not a name"));
 }
 
-TEST_CASE("walls and rooms that cannot be built are told", "[sim][world_file]") {
+TEST_CASE("walls and rooms that cannot be built are reported", "[sim][world_file]") {
   CHECK_THAT(errors("<wall from='1 1' to='1 1'/>"), Catch::Contains("error W008: the wall begins and ends"));
   CHECK_THAT(errors("<wall from='0 0' to='2 0'><door at='1.8 m' width='1 m'/></wall>"),
              Catch::Contains("error W008: the door at 1.8 m, 1 m wide, reaches over the end of its wall"));
@@ -132,7 +132,7 @@ TEST_CASE("walls and rooms that cannot be built are told", "[sim][world_file]") 
              Catch::Contains("error W005: side: \"up\" is not one of: south, north, west, east"));
 }
 
-TEST_CASE("polygons that bound no area are told", "[sim][world_file]") {
+TEST_CASE("polygons that bound no area are reported", "[sim][world_file]") {
   const auto polygon = [](const std::string& points) { return errors("<polygon points='" + points + "'/>"); };
   CHECK_THAT(polygon("0 0; 1 0"),
              Catch::Contains("w.xml:2:18: error W009: a polygon needs at least 3 corners, found 2"));
@@ -142,20 +142,20 @@ TEST_CASE("polygons that bound no area are told", "[sim][world_file]") {
   CHECK_THAT(polygon("0 0; 1 0; 2 0"), Catch::Contains("error W009: the polygon has no area"));
 }
 
-TEST_CASE("names are given once and places lie outside obstacles", "[sim][world_file]") {
+TEST_CASE("names must be unique, and places must lie outside obstacles", "[sim][world_file]") {
   CHECK_THAT(errors("<place name='a' x='0' y='0'/><place name='a' x='1' y='1'/>"),
              Catch::Contains("error W007: the place \"a\" exists already, at w.xml:2:1"));
   CHECK_THAT(errors("<place name='a' x='0' y='0'/><cylinder name='c' x='0' y='0' radius='1'/>"),
              Catch::Contains("w.xml:2:1: error W012: place \"a\" lies inside obstacle \"c\""));
 }
 
-TEST_CASE("all errors of a file are told at once", "[sim][world_file]") {
+TEST_CASE("all errors of a file are reported at once", "[sim][world_file]") {
   const std::string text = errors("<wal/>\n<box/>\n<place name='a' x='1 kg' y='0'/>");
   CHECK_THAT(text, Catch::Contains("w.xml:2:1: error W002") && Catch::Contains("w.xml:3:1: error W004") &&
                        Catch::Contains("w.xml:4:"));
 }
 
-TEST_CASE("a bitmap that cannot be read is told at the element that names it", "[sim][world_file]") {
+TEST_CASE("a bitmap that cannot be read is reported at the element that names it", "[sim][world_file]") {
   CHECK_THAT(errors("<bitmap file='no.png' width='10 m'/>"),
              Catch::Contains("w.xml:2:15: error W011: no.png: cannot read the picture: No such file"));
   orca::xml::Diagnostics diagnostics;

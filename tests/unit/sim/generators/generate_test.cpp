@@ -31,7 +31,7 @@ std::string error_of(const Family& family, double radius = 0.3) {
   return world ? "" : world.error().message;
 }
 
-// Over the bits of all numbers.
+// Returns a hash over the bits of all numbers.
 std::uint64_t hash_of(const WorldModel& world) {
   orca::Fnv1a hash;
   const auto add = [&](double value) { hash.add_u64(std::bit_cast<std::uint64_t>(value)); };
@@ -50,7 +50,7 @@ std::uint64_t hash_of(const WorldModel& world) {
   return hash.value();
 }
 
-// No ray from the start escapes.
+// Returns whether every ray from the start hits something.
 bool closed(const WorldModel& world) {
   const Caster caster(world);
   for (int i = 0; i < 3600; ++i) {
@@ -87,7 +87,7 @@ TEST_CASE("in five worlds of each family a robot of 0.3 m can get from the start
   }
 }
 
-TEST_CASE("a way is as wide as it was asked for", "[sim][generate]") {
+TEST_CASE("a way is as wide as requested", "[sim][generate]") {
   for (const double radius : {0.15, 0.36, 0.4}) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       CAPTURE(radius, seed);
@@ -114,15 +114,14 @@ TEST_CASE("the same seed gives the same world bit for bit, another seed another"
   }
 }
 
-TEST_CASE("each family's first world is the one that this test has known since it was written",
-          "[sim][generate]") {
+TEST_CASE("the first world of each family is the one whose hash is recorded here", "[sim][generate]") {
   std::vector<std::uint64_t> hashes;
   for (const Family& family : kFamilies) hashes.push_back(hash_of(made(family, 1)));
   CHECK(hashes == std::vector<std::uint64_t>{0xe970f39bd3c441d2, 0x6aef502b65eb4880, 0xd0bc81fe847bd34f,
                                              0x4cd6f0fe05c6ac2f, 0x04fe4e9c94776467});
 }
 
-TEST_CASE("a field of cylinders lies in BARN's frame and fills as it was told to", "[sim][generate]") {
+TEST_CASE("a field of cylinders lies in BARN's frame and is filled as requested", "[sim][generate]") {
   const WorldModel sparse = made(BarnField{0.0, 0}, 1);
   const WorldModel dense = made(BarnField{0.2, 0}, 1, 0.05);
   const auto in_field = static_cast<double>(dense.obstacles.size() - sparse.obstacles.size());
@@ -161,7 +160,7 @@ TEST_CASE("the trap stands across the straight way from start to goal", "[sim][g
   }
 }
 
-TEST_CASE("a hall has as many doors of the width that was asked for", "[sim][generate]") {
+TEST_CASE("a hall has the requested number of doors of the requested width", "[sim][generate]") {
   const WorldModel world = made(NarrowDoors{.door = 0.9, .walls = 4}, 3);
   const Vec2 start = world.place("start")->pose.position();
   CHECK(world.obstacles.size() == 4 + 2 * 4);
@@ -169,7 +168,7 @@ TEST_CASE("a hall has as many doors of the width that was asked for", "[sim][gen
   CHECK_FALSE(Plan(world, start, 0.46).reaches(world.place("goal")->pose.position()));
 }
 
-TEST_CASE("a corridor is as wide as it was asked for at each of its bends", "[sim][generate]") {
+TEST_CASE("a corridor has the requested width at each of its bends", "[sim][generate]") {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const WorldModel world = made(Corridor{.width = 1.0, .legs = 9}, seed);
     const Vec2 start = world.place("start")->pose.position();
@@ -201,14 +200,14 @@ TEST_CASE("values that no world can have are refused with their reason", "[sim][
   CHECK_THAT(error_of(BarnField{0.5, 4}, 0.6), Catch::Contains("100 draws"));
 }
 
-TEST_CASE("a world file generates with its own seed, or with the one asked for", "[sim][generate]") {
+TEST_CASE("a world file generates with its own seed, or with the requested one", "[sim][generate]") {
   const std::string element = "<generate kind='corridor' seed='4' legs='3' width='120 cm'/>";
   const Corridor same{.width = 1.2, .legs = 3};
   CHECK(hash_of(read(element)) == hash_of(made(same, 4)));
   CHECK(hash_of(read(element, 9)) == hash_of(made(same, 9)));
 }
 
-TEST_CASE("what is generated stands beside what a world file draws", "[sim][generate]") {
+TEST_CASE("generated obstacles stand beside those that a world file draws", "[sim][generate]") {
   const WorldModel world =
       read("<generate kind='u_trap'/><cylinder name='post' x='9' y='0.4' radius='0.1'/>");
   CHECK(world.obstacles.back().name == "post");

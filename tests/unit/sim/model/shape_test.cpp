@@ -13,7 +13,7 @@ TEST_CASE("an outline is turned counter-clockwise, so the solid lies left of eac
   for (const Segment& e : clockwise.edges) CHECK(cross(e.b - e.a, Vec2{0.5, 0.5} - e.a) > 0.0);
 }
 
-TEST_CASE("a box has its edges where its pose says", "[sim][shape]") {
+TEST_CASE("the edges of a box follow from its pose", "[sim][shape]") {
   const Shape box = Box{{1.0, 2.0, 0.5 * std::numbers::pi}, {0.5, 0.1}};
   CHECK(contains(box, {1.0, 2.4}));
   CHECK_FALSE(contains(box, {1.4, 2.0}));
@@ -30,7 +30,7 @@ TEST_CASE("an outline with a hole is solid between its loops only", "[sim][shape
   CHECK(distance(ring, {2.0, 2.0}) == Approx(1.0));
 }
 
-TEST_CASE("two solids overlap when they cross, when one holds the other, and not when they are apart",
+TEST_CASE("two solids overlap if they cross or one contains the other, and not if they are apart",
           "[sim][shape]") {
   const Shape big = Box{{0, 0, 0}, {2, 2}};
   const Shape small = Box{{0.5, 0.5, 0.3}, {0.1, 0.1}};

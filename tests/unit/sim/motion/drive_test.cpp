@@ -151,7 +151,7 @@ TEST_CASE("a wall stops a synchro base, but not the steering of its wheels", "[s
   CHECK(bench.pose().x < 4.5);  // It has gone back the way the wheels point.
 }
 
-TEST_CASE("a wall beside a holonomic base stops its way to that side", "[sim][drive][contact]") {
+TEST_CASE("a wall beside a holonomic base stops its motion to that side", "[sim][drive][contact]") {
   Bench bench(base_of(DriveKind::holonomic), Realism::ideal, {0.0, 4.0, 0.0});
   bench.drive({.left = 0.5});
   bench.run(5.0);

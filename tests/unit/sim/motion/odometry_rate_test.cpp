@@ -8,7 +8,7 @@ using namespace orca::sim;
 using orca::Pose2;
 using namespace orca::sim::test;
 
-TEST_CASE("an odometer of 100 Hz tells every step of the simulation, stamped when it was measured",
+TEST_CASE("an odometer of 100 Hz reports every step of the simulation, stamped when it was measured",
           "[sim][odometry]") {
   RobotModel model = scout();
   model.odometer = Odometer{std::chrono::milliseconds{10}};

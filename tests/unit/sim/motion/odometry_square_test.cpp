@@ -48,7 +48,7 @@ Complex arc(double travel, double turn) {
   return travel * (std::exp(Complex(0.0, turn)) - 1.0) / Complex(0.0, turn);
 }
 
-// The same square in closed form, of wheels that are off by `left` and `right` and a track by `track`.
+// The same square in closed form; `left`, `right` and `track` are the relative errors of wheels and track.
 Complex end_of_square(double left, double right, double track, double turn) {
   Complex end = 0.0;
   Complex heading = 1.0;
@@ -108,7 +108,7 @@ TEST_CASE("a wrong track opens both squares alike, by the first-order formulas o
   CHECK(cw.y == Approx(-2.0 * kLeg * short_by).epsilon(0.005));
 }
 
-TEST_CASE("slip alone scatters the distance by the root of the way", "[sim][odometry]") {
+TEST_CASE("slip alone scatters the distance in proportion to the root of the way", "[sim][odometry]") {
   constexpr double kSlip = 0.003;
   constexpr int kRobots = 400;
   double squares = 0.0;
@@ -124,7 +124,7 @@ TEST_CASE("slip alone scatters the distance by the root of the way", "[sim][odom
   CHECK(std::sqrt(squares / kRobots) == Approx(expected).epsilon(0.11));
 }
 
-TEST_CASE("a synchro base steers exactly and only its way is off by the mean of its wheels",
+TEST_CASE("a synchro base steers exactly, and only its distance is wrong, by the mean of its wheels",
           "[sim][odometry][square]") {
   const WheelErrors errors{{0.004, 0.001, -0.002}, 0.01, 0.0};
   OdometryModel odometry(drive_of(DriveKind::synchro), errors, orca::RandomStream(1, "dewey", "odometry"));
@@ -150,7 +150,7 @@ TEST_CASE("one wrong wheel of a holonomic base drags it along its own direction"
   CHECK(believed.turn_rate == Approx(rolled / (1.5 * kTrack)));
 }
 
-TEST_CASE("a holonomic base that takes its wheel circle for too large believes to turn less",
+TEST_CASE("the odometry of a holonomic base with too large a wheel circle turns too little",
           "[sim][odometry]") {
   OdometryModel odometry(drive_of(DriveKind::holonomic), WheelErrors{{}, 0.02, 0.0},
                          orca::RandomStream(1, "dewey", "odometry"));

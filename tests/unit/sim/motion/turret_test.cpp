@@ -22,7 +22,7 @@ RobotModel turreted(DriveKind kind = DriveKind::synchro) {
 
 double angle_of(const Bench& bench) { return bench.world.turret(bench.id).value().angle; }
 
-// The first round of the sonars that begins from now on.
+// Returns the next round of the sonars, which begins after now.
 SonarScan next_round(Bench& bench) {
   for (int rounds = 0; rounds < 2;) {
     bench.run(0.01);
@@ -80,7 +80,7 @@ TEST_CASE("a turret keeps its angle to the way the wheels point while they steer
   CHECK(bench.pose().yaw > 2.0);
 }
 
-TEST_CASE("wheels that steer faster than the turret can turn leave it behind for a while", "[sim][turret]") {
+TEST_CASE("a turret lags for a while behind wheels that steer faster than it can turn", "[sim][turret]") {
   Bench bench(turreted(), Realism::ideal);
   bench.drive({.turn_rate = 2.0});
   bench.run(1.0);
@@ -124,7 +124,7 @@ TEST_CASE("sensors on the body of a synchro base stay behind when the wheels ste
   CHECK(left.range == Approx(2.0 - 0.19).margin(1e-3));
 }
 
-TEST_CASE("a turret on a base that turns points where it is told in the robot's frame", "[sim][turret]") {
+TEST_CASE("a turret on a base that turns keeps the commanded angle in the robot's frame", "[sim][turret]") {
   Bench bench(turreted(DriveKind::differential), Realism::ideal);
   REQUIRE(bench.world.set_turret_command(bench.id, -1.0));
   bench.drive({.turn_rate = 0.5});

@@ -71,7 +71,7 @@ TEST_CASE("a walker that goes round comes from the last corner to the first", "[
   check_at(place_after(walker, 12.0), {-2, -2});
 }
 
-TEST_CASE("where on its round a walker begins is drawn from the run's seed, or from its own",
+TEST_CASE("the place at which a walker begins is drawn from the run's seed, or from its own",
           "[sim][walker]") {
   Walker walker = anna();
   walker.start.reset();
@@ -94,7 +94,7 @@ TEST_CASE("a walker rests at its corners for no longer than it may", "[sim][walk
   CHECK(rest < 3.02);
 }
 
-TEST_CASE("rays meet a walker up to its height and no more where it was", "[sim][walker]") {
+TEST_CASE("rays meet a walker up to its height, and no longer meet it where it was", "[sim][walker]") {
   World world(room_with(anna()), {.seed = 1, .realism = Realism::nominal});
   run(world, 2.0);
   const auto range = [&](double height) {
@@ -106,7 +106,8 @@ TEST_CASE("rays meet a walker up to its height and no more where it was", "[sim]
   CHECK(range(0.3) == Approx(6.0));
 }
 
-TEST_CASE("a walker that meets a robot pushes it, and the contact is told with its name", "[sim][walker]") {
+TEST_CASE("a walker that meets a robot pushes it, and the contact is reported with the walker's name",
+          "[sim][walker]") {
   World world(room_with(anna()), {.seed = 1, .realism = Realism::ideal});
   const RobotId id = *world.add_robot("dewey", scout(), {0, 2, 0});
   std::vector<std::string> told;
@@ -162,7 +163,7 @@ TEST_CASE("worlds with walkers and robots among them are bit-identical", "[sim][
   CHECK(hash(3) != hash(4));
 }
 
-TEST_CASE("a world file names walkers with all that they may have", "[sim][walker][world_file]") {
+TEST_CASE("a world file defines walkers with all their attributes", "[sim][walker][world_file]") {
   orca::xml::Diagnostics diagnostics;
   const auto world = read_world_text(
       "<world name='w' version='1'><walker name='bob' track='0 0; 4 0; 4 3' speed='1.2 m/s' radius='30 cm' "
@@ -184,7 +185,7 @@ TEST_CASE("a world file names walkers with all that they may have", "[sim][walke
   CHECK(bob.stops == 0.6);
 }
 
-TEST_CASE("what is wrong with a walker is told where it stands", "[sim][walker][world_file]") {
+TEST_CASE("errors of a walker are reported at their place", "[sim][walker][world_file]") {
   CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' loop='no'/>"),
              Catch::Contains("\"no\" is not one of: back, round"));
   CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' speed='0 m/s'/>"),

@@ -25,7 +25,7 @@ TEST_CASE("a short run is kept whole", "[sim][picture]") {
   CHECK(moments[40].pose.x == Approx(4.0));
 }
 
-TEST_CASE("of a long run a bounded number of moments is kept, in even steps, with the first and the last",
+TEST_CASE("a bounded number of moments of a long run is kept, in even steps, with the first and the last",
           "[sim][picture]") {
   const RobotModel robot;
   for (const int count : {511, 512, 513, 1023, 1024, 1025, 5000, 36000}) {
@@ -43,7 +43,7 @@ TEST_CASE("of a long run a bounded number of moments is kept, in even steps, wit
   }
 }
 
-TEST_CASE("the first moment of a long run keeps what was sensed then", "[sim][picture]") {
+TEST_CASE("the first moment of a long run keeps its readings", "[sim][picture]") {
   RobotModel robot;
   robot.sonars.resize(1);
   MomentLog log(robot);
@@ -55,7 +55,7 @@ TEST_CASE("the first moment of a long run keeps what was sensed then", "[sim][pi
   CHECK(log.moments().front().sonar[0].range_m == 1.5);
 }
 
-TEST_CASE("a moment shows what was sensed last, in the robot's frame", "[sim][picture]") {
+TEST_CASE("a moment shows the latest readings, in the robot's frame", "[sim][picture]") {
   RobotModel robot;
   robot.sonars.resize(1);
   robot.sonars[0].half_lobe = 0.2;

@@ -137,7 +137,8 @@ TEST_CASE("incidence is the angle between ray and surface normal", "[sim][caster
   CHECK(post.cast({{0, 0.25}, direction(0.0), 10.0, 0.0}).incidence() == Approx(std::asin(0.5)));
 }
 
-TEST_CASE("what is not taller than the sensor and what is beyond the range are not seen", "[sim][caster]") {
+TEST_CASE("obstacles that are not taller than the sensor or lie beyond the range are not seen",
+          "[sim][caster]") {
   const Caster caster(WorldModel{"desk", {{"desk", Box{{2, 0, 0}, {0.5, 0.5}}, 0.7}}, {}});
   CHECK(caster.cast({{0, 0}, {1, 0}, 10.0, 0.69}).range == 1.5);
   CHECK_FALSE(caster.cast({{0, 0}, {1, 0}, 10.0, 0.7}).found());

@@ -18,12 +18,12 @@ using orca::Vec2;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kExact = 1e-3;    // [m] What the answers may differ by.
-constexpr double kSure = 1e-7;     // [m] From here on it is asked whether the ray passes a corner.
+constexpr double kExact = 1e-3;    // [m] Largest difference between the answers.
+constexpr double kSure = 1e-7;     // [m] Larger differences are only allowed at a corner.
 constexpr double kGrazing = 1e-8;  // [m] A ray that passes a corner this closely may meet it or not.
-constexpr double kSide = 12.0;     // [m] Of the closed room around everything.
+constexpr double kSide = 12.0;     // [m] Side of the closed room around everything.
 
-// The nearest answer, of solids that are larger by `growth` to all sides.
+// Computes the nearest hit, with all solids larger by `growth` on all sides.
 class Reference {
  public:
   Reference(const Ray& ray, double growth) : ray_(ray), growth_(growth), best_(ray.max_range) {}
@@ -60,7 +60,7 @@ class Reference {
   static Vec3 times(const Vec3& a, const Vec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
-  // Its least height over a side: that turns a length into a barycentric coordinate.
+  // Returns the least height of the triangle over a side, which converts a length to a barycentric coordinate.
   static double size(const Triangle& t) {
     const Vec3 e = minus(t[1], t[0]);
     const Vec3 f = minus(t[2], t[0]);
@@ -139,7 +139,7 @@ struct Scene {
   static Vec2 place(orca::RandomStream& random) { return {random.uniform(1, 11), random.uniform(1, 11)}; }
   static Box box(orca::RandomStream& random) {
     const Vec2 p = place(random);
-    // Some lie square, some are thin as sheets.
+    // Some are parallel to the axes, and some are thin as sheets.
     const double yaw = random.chance(0.3) ? 0.0 : random.uniform(-kPi, kPi);
     return {{p.x, p.y, yaw},
             {random.uniform(0.05, 0.8), random.chance(0.2) ? 0.001 : random.uniform(0.05, 0.8)}};
@@ -170,7 +170,7 @@ struct Scene {
   std::vector<Body> bodies;
 };
 
-// What rays are aimed at: corners, and sides that they are to run along.
+// The targets of the rays: corners, and sides along which rays run.
 struct Targets {
   Targets(const Scene& scene, double height) {
     const auto take = [&](const Shape& shape) {
@@ -187,7 +187,7 @@ struct Targets {
     for (const Body& b : scene.bodies) take(b.shape);
     for (const Segment& s : sides) corners.push_back(s.a);
   }
-  // Where the triangle's sides go through the plane at that height.
+  // Adds the points where the triangle's sides cross the plane at that height.
   void take_corners(const Triangle& t, double height) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3& a = t[i];
@@ -234,10 +234,10 @@ struct Targets {
 
 struct Tally {
   long rays = 0;
-  long grazing = 0;    // Right for a corner that is met, or for one that is just missed.
-  long wrong = 0;      // Neither.
+  long grazing = 0;    // Within the answers for a corner that is just met and one that is just missed.
+  long wrong = 0;      // All others whose error is too large.
   long escaped = 0;    // Out of the closed room.
-  double worst = 0.0;  // [m] Of all but the grazing ones.
+  double worst = 0.0;  // [m] Largest error, except for the grazing rays.
 };
 
 void judge(const Scene& scene, const Caster& caster, const Ray& ray, Tally& tally) {

@@ -20,7 +20,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kReach = 9.0;
 constexpr double kHeight = 0.3;
 
-// Posts about a place, of which some stand alone.
+// Returns posts and boxes at random places around `middle`.
 Grid random_posts(RandomStream& random, Vec2 middle, int count) {
   Grid::Elements elements;
   for (int i = 0; i < count; ++i) {
@@ -31,7 +31,7 @@ Grid random_posts(RandomStream& random, Vec2 middle, int count) {
   return Grid(std::move(elements));
 }
 
-// Half of them look along a diagonal or an axis of the grid, or have a rim there.
+// Returns a cone; half of all cones have their axis or a rim along a diagonal or an axis of the grid.
 Cone random_cone(RandomStream& random, Vec2 middle) {
   const Vec2 tip = middle + Vec2{random.uniform(-9, 9), random.uniform(-9, 9)};
   const double half_angle = random.chance(0.1) ? 0.0 : random.uniform(0.0, detail::Strips::kWide);
@@ -74,8 +74,9 @@ TEST_CASE("no ray of a cone meets anything within its empty depth, near the orig
   CHECK(worth > 300);
 }
 
-TEST_CASE("a cone that holds nothing is empty all the way, one that begins at something is not at all",
-          "[sim][caster]") {
+TEST_CASE(
+    "a cone without obstacles is empty all the way, and one that begins at an obstacle is not empty at all",
+    "[sim][caster]") {
   Grid::Elements elements;
   elements.add(Circle{{5.0, 0.0}, 0.5}, {0.0, 1.0});
   elements.add(Circle{{-5.0, 3.0}, 0.5}, {0.0, 1.0});
@@ -86,11 +87,11 @@ TEST_CASE("a cone that holds nothing is empty all the way, one that begins at so
   CHECK(Grid({}).empty_depth({{0, 0}, {1, 0}, 0.1, 0.0, kReach}) == kReach);
 }
 
-TEST_CASE("a cone too wide to look along is taken to be full", "[sim][caster]") {
+TEST_CASE("a cone too wide to search counts as full", "[sim][caster]") {
   CHECK(Grid({}).empty_depth({{0, 0}, {1, 0}, 0.5 * kPi, 0.0, kReach}) == 0.0);
 }
 
-TEST_CASE("a look across many small cells ends early, and what it says holds", "[sim][caster]") {
+TEST_CASE("a search across many small cells ends early, with a valid result", "[sim][caster]") {
   RandomStream random(22, "test", "corners");
   Grid::Elements elements;
   for (const Vec2 corner : {Vec2{0, 0}, Vec2{60, 60}})

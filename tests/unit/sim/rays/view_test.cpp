@@ -28,7 +28,7 @@ Body random_body(RandomStream& random, Vec2 middle) {
   return {random_shape(random, middle), bottom, bottom + random.uniform(0.1, 0.5)};
 }
 
-// One long wall, and things that stand here and there.
+// Returns a world with one long wall and obstacles at random places.
 WorldModel world_of(RandomStream& random, Vec2 at, int things) {
   WorldModel world{"things", {{"wall", Box{{at.x, at.y + 4.0, 0.3}, {5.0, 0.1}}, 2.0}}, {}};
   for (int i = 0; i < things; ++i) {
@@ -39,7 +39,7 @@ WorldModel world_of(RandomStream& random, Vec2 at, int things) {
   return world;
 }
 
-// Some bodies among them.
+// A world of obstacles with some moving bodies.
 struct Crowd {
   Crowd(RandomStream& random, Vec2 at, std::size_t count, int things = 0)
       : middle(at), caster(world_of(random, at, things)) {
@@ -63,7 +63,7 @@ Sight random_sight(RandomStream& random, const Crowd& crowd, std::size_t bodies)
           random.chance(0.5) ? 0.0 : random.uniform(0.0, 0.3)};
 }
 
-// At the rim of what is allowed as often as inside.
+// Returns a ray that the view allows: direction and origin lie at their limit as often as inside it.
 Ray random_ray(RandomStream& random, const Sight& sight) {
   const auto up_to = [&](double most) { return random.chance(0.5) ? most : random.uniform(0.0, most); };
   Ray ray = sight.axis;
@@ -91,7 +91,8 @@ int compare(RandomStream& random, const Crowd& crowd, const Sight& sight, Caster
 
 }  // namespace
 
-TEST_CASE("a ray of a view meets what it meets by itself, also far from the origin", "[sim][caster]") {
+TEST_CASE("a ray of a view meets the same obstacle as a single ray, also far from the origin",
+          "[sim][caster]") {
   const std::size_t bodies = GENERATE(3U, 40U, 299U, 320U);
   const int things = GENERATE(0, 7, 60);
   const Vec2 middle = GENERATE(Vec2{0.0, 0.0}, Vec2{-9000.0, 4000.0});

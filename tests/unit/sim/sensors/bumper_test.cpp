@@ -25,7 +25,7 @@ RobotModel scout_with_bumper() {
   return model;
 }
 
-// What lies ahead is too low for any range sensor of the Scout.
+// The obstacle ahead is too low for any range sensor of the Scout.
 WorldModel kerb() { return {"kerb", {{"kerb", Box{{1.1, 0, 0}, {0.1, 5}}, 0.2}}, {}}; }
 
 struct Ride {
@@ -89,7 +89,7 @@ TEST_CASE("a robot that touches nothing presses nothing", "[sim][bumper]") {
   CHECK(drive.pressed(0.5, 1.0, 5.0).empty());
 }
 
-TEST_CASE("a touch shorter than the period is told with the next reading", "[sim][bumper]") {
+TEST_CASE("a touch shorter than the period is reported with the next reading", "[sim][bumper]") {
   Ride drive({0.79, 0.0, 0.0});  // 5 mm before the kerb.
   bool touched = false;
   while (!touched) {

@@ -61,7 +61,7 @@ TEST_CASE("an infrared ring measures all around at once, at its period", "[sim][
   CHECK(world.infrared(id)->ranges[4] == 0.8);
 }
 
-TEST_CASE("of what lies in an infrared beam the closest thing counts, even at its rim", "[sim][infrared]") {
+TEST_CASE("the nearest obstacle in an infrared beam counts, even at the beam's rim", "[sim][infrared]") {
   // A pin on the rim of the beam, before a wall.
   WorldModel model = wall(0.79);
   const Vec2 at = Vec2{0.19, 0.0} + 0.3 * direction(3.0 * kDegree);
@@ -72,8 +72,7 @@ TEST_CASE("of what lies in an infrared beam the closest thing counts, even at it
   CHECK(world.infrared(id)->ranges[0] == Approx(0.295).margin(1e-9));
 }
 
-TEST_CASE("an infrared range is the rougher the farther: its deviation grows with the range's square",
-          "[sim][infrared]") {
+TEST_CASE("the deviation of an infrared range grows with the square of the range", "[sim][infrared]") {
   constexpr int kReadings = 2000;
   for (const double range : {0.2, 0.4, 0.7}) {
     const std::vector<double> seen = readings(range, kReadings, Realism::nominal);

@@ -91,7 +91,7 @@ TEST_CASE("each beam of a turning robot looks from where it was at that beam's i
     ++seen;
   }
   CHECK(seen > 30);
-  CHECK(skew > 0.1);  // What a scan taken at one instant would differ by.
+  CHECK(skew > 0.1);  // The error of a scan that was taken at one instant.
 }
 
 TEST_CASE("a scan among a few things is the same when many others stand out of sight", "[sim][laser]") {

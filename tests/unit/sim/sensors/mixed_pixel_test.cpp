@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A beam whose spot lies on the edge of a near thing before a far wall.
+// A beam whose spot lies on the edge of a near obstacle in front of a far wall.
 #include <catch2/catch.hpp>
 
 #include "laser.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNear = 2.0;
 constexpr double kFar = 3.0;
-constexpr double kThin = 1e-4;  // The near thing shows no side.
+constexpr double kThin = 1e-4;  // So thin that the beam does not meet its side.
 constexpr double kHalfSpot = 0.25 * kDegree;
 
 // Returns the reading of the beam straight ahead if the near box ends at this angle from it and lies to its
@@ -51,6 +51,6 @@ TEST_CASE("a spot on one surface reads its distance", "[sim][laser]") {
   CHECK(ahead_of_edge(-1.1 * kHalfSpot) == Approx(kFar).margin(1e-9));
 }
 
-TEST_CASE("a spot half in the void reads what returns", "[sim][laser]") {
+TEST_CASE("a spot half on a surface and half in the void reads the surface", "[sim][laser]") {
   CHECK(ahead_of_edge(0.2 * kHalfSpot, 20.0) == Approx(kNear).margin(1e-9));
 }

@@ -30,7 +30,7 @@ std::vector<double> laser_errors(std::uint64_t seed, double quantum, int scans) 
   return errors;
 }
 
-// Readings of the transducer ahead, at a wall 3 m from it. So seldom that it does not hear itself.
+// Readings of the transducer ahead, at a wall 3 m from it. It fires so rarely that it does not hear itself.
 std::vector<double> sonar_ranges(double quantum, std::size_t n) {
   RobotModel model = scout();
   SonarRing& ring = model.sonars[0];
@@ -66,7 +66,7 @@ TEST_CASE("a laser's bias is the same all through a run and uniform over runs",
         critical_distance(biases.size()));
 }
 
-TEST_CASE("about its bias a laser's ranges are normal with the deviation given",
+TEST_CASE("a laser's ranges are normal about the bias, with the given deviation",
           "[sim][laser][validation][statistics]") {
   const std::vector<double> errors = laser_errors(3, 0.0, 40);
   const double bias = mean(errors);
@@ -90,7 +90,7 @@ TEST_CASE("a laser's ranges come in whole steps, which add a twelfth of a step's
         Approx(kSigma * kSigma + kStep * kStep / 12.0).epsilon(critical_variance(errors.size() / 2)));
 }
 
-TEST_CASE("a sonar's ranges are normal with one percent deviation, but for one percent that are anything",
+TEST_CASE("a sonar's ranges are normal with one percent deviation, except for one percent of outliers",
           "[sim][sonar][validation][statistics]") {
   constexpr std::size_t kReadings = 5000;
   const std::vector<double> ranges = sonar_ranges(0.0, kReadings);

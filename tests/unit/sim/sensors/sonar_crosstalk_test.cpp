@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sonars that hear each other, against closed forms: a sound that has gone the way L when it arrives, and was
-// sent dt before the listener's own, reads as (L - c dt) / 2.
+// Sonars that hear each other, against closed forms. A sound that has travelled a distance L when it arrives,
+// and was sent dt before the listener's own, reads as (L - c dt) / 2.
 #include <catch2/catch.hpp>
 
 #include "orca/sim/world.hpp"
@@ -27,8 +27,8 @@ detail::Echo echo_at(const Caster& caster, const Pose2& sensor) {
   return echo;
 }
 
-// What the listener takes another's sound for, which was sent `earlier` than its own; nearer echoes of its
-// own would hide it and are left out.
+// Returns the range that the listener reads from another's sound, which was sent `earlier` than its own.
+// Nearer echoes of its own sound would hide it and are left out.
 std::optional<double> heard_by(const Caster& caster, detail::SonarAir& air, const Pose2& listener,
                                orca::TimePoint now) {
   detail::Echo echo = echo_at(caster, listener);
@@ -65,19 +65,19 @@ RobotModel one_eared() {
 
 }  // namespace
 
-TEST_CASE("of two sonars that face each other and fire at once each reads half the distance",
+TEST_CASE("two sonars that face each other and fire at the same time each read half the distance",
           "[sim][sonar][crosstalk][validation]") {
   CHECK(stray({}, facing(4.0), kAhead).value() == Approx(2.0).margin(1e-9));
 }
 
-TEST_CASE("a facing sonar that fired earlier reads nearer by half the way its sound had gone",
+TEST_CASE("the sound of a facing sonar that fired earlier shortens the reading by half the way it had gone",
           "[sim][sonar][crosstalk][validation]") {
   CHECK(stray({}, facing(8.0), kAhead, 10ms).value() ==
         Approx(0.5 * (8.0 - kSoundSpeed * 0.010)).margin(1e-9));
   CHECK_FALSE(stray({}, facing(8.0), kAhead, 25ms));  // It has passed before the listener fires.
 }
 
-TEST_CASE("a neighbour's sound comes off a wall as from its image behind it",
+TEST_CASE("a neighbour's sound reflected by a wall comes as if from its mirror image",
           "[sim][sonar][crosstalk][validation]") {
   const Pose2 neighbour{0, 0.4, 0};
   const double way = std::hypot(2.0 * 3.0, 0.4);
@@ -86,14 +86,14 @@ TEST_CASE("a neighbour's sound comes off a wall as from its image behind it",
         Approx(0.5 * (way - kSoundSpeed * 0.010)).margin(1e-9));
 }
 
-TEST_CASE("a post sends a neighbour's sound on", "[sim][sonar][crosstalk]") {
+TEST_CASE("a post reflects a neighbour's sound", "[sim][sonar][crosstalk]") {
   const WorldModel post{"post", {{"post", Circle{{3.0, 0.0}, 0.2}, 2.5}}, {}};
-  // Both sit as far from the post, so the way is by the point of it between them.
+  // Both are equally far from the post, so the point of the post between them reflects the sound.
   const double one_way = std::hypot(2.8, 0.2);
   CHECK(stray(post, {0, 0.2, 0}, {0, -0.2, 0}).value() == Approx(one_way).margin(1e-9));
 }
 
-TEST_CASE("sound comes off a body that has moved on since, and not off one that came later",
+TEST_CASE("sound is reflected by a body that has moved on since, and not by one that came later",
           "[sim][sonar][crosstalk]") {
   Caster caster(WorldModel{});
   const Pose2 neighbour{0, 0.4, 0};
@@ -110,7 +110,7 @@ TEST_CASE("sound comes off a body that has moved on since, and not off one that 
   CHECK_FALSE(heard_by(caster, air, kAhead, kNow));
 }
 
-TEST_CASE("sound comes off what the rays of both beams meet, and not off what slips between those of one",
+TEST_CASE("sound is reflected by bodies that rays of both beams meet, and not by one that a beam's rays miss",
           "[sim][sonar][crosstalk]") {
   const WorldModel thin{"thin", {{"post", Circle{{3.0, 0.0}, 0.02}, 2.5}}, {}};
   const double pitch =
@@ -119,7 +119,7 @@ TEST_CASE("sound comes off what the rays of both beams meet, and not off what sl
   CHECK_FALSE(stray(thin, {0, 0.5 * pitch, 0}, kAhead));
 }
 
-TEST_CASE("thousands of bodies that come and go leave the sound off those that are there",
+TEST_CASE("thousands of bodies that come and go do not change the sound reflected by those that are there",
           "[sim][sonar][crosstalk]") {
   Caster caster(WorldModel{});
   const Pose2 neighbour{0, 0.4, 0};
@@ -154,13 +154,12 @@ TEST_CASE("a sonar that fires on and on hears its own last sound, and nothing ol
   }
 }
 
-TEST_CASE("nobody hears what was sent more than forty milliseconds ago, or by itself just now",
-          "[sim][sonar][crosstalk]") {
+TEST_CASE("a chirp sent more than forty milliseconds ago is not heard", "[sim][sonar][crosstalk]") {
   CHECK(stray(wall_at(6.4), {0, 0.1, 0}, kAhead, 30ms).has_value());
   CHECK_FALSE(stray(wall_at(6.4), {0, 0.1, 0}, kAhead, 41ms));
 }
 
-TEST_CASE("what arrives first counts: the own echo or another's sound", "[sim][sonar][crosstalk]") {
+TEST_CASE("the first arrival counts: its own echo or another's sound", "[sim][sonar][crosstalk]") {
   const Caster caster(wall_at(3.0));
   const detail::Echo echo = echo_at(caster, kAhead);
   REQUIRE(echo.range.value() == Approx(3.0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The coarse question of which sonars face a listener, against the exact one.
+// The coarse search for the sonars that face a listener, against the exact one.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -84,7 +84,8 @@ TEST_CASE("no chirp that may be heard is left out, near the origin and far from 
   CHECK(count.found < 2 * count.facing);  // and not much else was
 }
 
-TEST_CASE("sectors as wide as a half plane find each other once, whichever way they look", "[sim][sonar]") {
+TEST_CASE("sectors as wide as a half plane find each other once, in whichever direction they look",
+          "[sim][sonar]") {
   for (int degrees = -175; degrees <= 180; degrees += 5) {
     const double yaw = degrees * kPi / 180.0;
     const Vec2 there = 3.0 * direction(yaw);
@@ -99,7 +100,7 @@ TEST_CASE("sectors as wide as a half plane find each other once, whichever way t
   }
 }
 
-TEST_CASE("without any sector none faces anybody", "[sim][sonar]") {
+TEST_CASE("an empty set of sectors faces nobody", "[sim][sonar]") {
   RandomStream random(6, "test", "sectors");
   Sectors sectors;
   sectors.clear(0.0);

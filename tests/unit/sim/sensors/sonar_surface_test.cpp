@@ -66,7 +66,7 @@ TEST_CASE("a smooth wall at forty degrees is not heard", "[sim][sonar][validatio
   CHECK_FALSE(heard(slanted, {0, 0, 0}));
 }
 
-TEST_CASE("behind a smooth wall at forty degrees the second bounce is heard at the length of the way",
+TEST_CASE("behind a smooth wall at forty degrees the second bounce is heard at the length of the whole way",
           "[sim][sonar][validation]") {
   // The beam meets the first wall after 2 m and is mirrored by twice 40 deg; the second wall stands across
   // it.

@@ -91,7 +91,7 @@ TEST_CASE("the end of a wall is heard even where its face is not", "[sim][sonar]
   CHECK(heard >= 18);
 }
 
-TEST_CASE("a corner is heard at the distance of the corner when its walls are not", "[sim][sonar]") {
+TEST_CASE("a corner is heard at its own distance even if its walls are not heard", "[sim][sonar]") {
   // Transducer 2 looks at 45 deg, straight into the corner at (2, 2): both walls are met at 45 deg.
   const double exact = std::sqrt(8.0) - 0.19;
   int heard = 0;
@@ -110,7 +110,7 @@ TEST_CASE("a post is heard at its nearest point, also off the axis", "[sim][sona
   CHECK_FALSE(first_scan(post, Realism::ideal, {}).readings[2].echo);
 }
 
-TEST_CASE("echoes nearer than the minimum read as the minimum", "[sim][sonar]") {
+TEST_CASE("echoes nearer than the minimum range read as the minimum range", "[sim][sonar]") {
   CHECK(first_scan(wall(0.25, 0.0), Realism::ideal, {}).readings[0].range == 0.15);
 }
 

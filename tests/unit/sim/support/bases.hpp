@@ -8,7 +8,7 @@
 
 namespace orca::sim::test {
 
-/// The scout on other wheels.
+/// Returns the Scout with another kind of drive.
 inline RobotModel base_of(DriveKind kind) {
   RobotModel model = scout();
   model.drive.kind = kind;

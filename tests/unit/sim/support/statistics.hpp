@@ -13,7 +13,7 @@ inline double mean(const std::vector<double>& sample) {
   return sum / static_cast<double>(sample.size());
 }
 
-/// Unbiased.
+/// Returns the unbiased variance.
 inline double variance(const std::vector<double>& sample) {
   const double middle = mean(sample);
   double sum = 0.0;
@@ -23,7 +23,7 @@ inline double variance(const std::vector<double>& sample) {
 
 inline double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-/// Kolmogorov and Smirnov's distance between a sample and a continuous distribution.
+/// Returns Kolmogorov and Smirnov's distance between a sample and a continuous distribution.
 template <class Cdf>
 double distance_from(std::vector<double> sample, const Cdf& cdf) {
   std::ranges::sort(sample);
@@ -37,11 +37,11 @@ double distance_from(std::vector<double> sample, const Cdf& cdf) {
   return farthest;
 }
 
-/// What that distance exceeds with a probability of one in a thousand if the sample is of the distribution
+/// Returns the bound that the distance of a sample of the distribution itself exceeds once in a thousand times
 /// (Kolmogorov's limit: 1.949 / sqrt(n)).
 inline double critical_distance(std::size_t n) { return 1.949 / std::sqrt(static_cast<double>(n)); }
 
-/// Likewise the deviation of a variance, relative, of a normal sample: 3.29 standard errors.
+/// Returns the same bound for the relative error of the variance of a normal sample: 3.29 standard errors.
 inline double critical_variance(std::size_t n) { return 3.29 * std::sqrt(2.0 / static_cast<double>(n)); }
 
 }  // namespace orca::sim::test

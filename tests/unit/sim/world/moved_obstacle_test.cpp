@@ -44,7 +44,7 @@ TEST_CASE("rays see an obstacle come, move, turn and go", "[sim][obstacle]") {
   CHECK(range(world) == Approx(7.0));
 }
 
-TEST_CASE("a robot runs into what was put in its way, and drives on when it is taken away",
+TEST_CASE("a robot runs into an obstacle put in its way, and drives on when it is removed",
           "[sim][obstacle]") {
   World world = room();
   const RobotId robot = *world.add_robot("dewey", scout(), {-2, -2, 0});
@@ -72,7 +72,8 @@ TEST_CASE("an obstacle of any shape that is moved into a robot's way is met ther
   }
 }
 
-TEST_CASE("nothing is put onto a robot, but one flat enough to lie under it", "[sim][obstacle]") {
+TEST_CASE("no obstacle can be put onto a robot, unless it is flat enough to lie under it",
+          "[sim][obstacle]") {
   World world = room();
   REQUIRE(world.add_robot("dewey", scout(), {0, 0, 0}));
   const auto refused = world.add_obstacle("crate", kCrate, 0.8, {0.4, 0, 0});
@@ -87,7 +88,7 @@ TEST_CASE("nothing is put onto a robot, but one flat enough to lie under it", "[
   CHECK(range(world) == Approx(7.0));
 }
 
-TEST_CASE("obstacles that cannot be are refused with the reason", "[sim][obstacle]") {
+TEST_CASE("impossible obstacles are refused with the reason", "[sim][obstacle]") {
   World world = room();
   const auto error = [&](const std::string& name, const Shape& shape, double height, Pose2 at) {
     const auto added = world.add_obstacle(name, shape, height, at);
@@ -109,7 +110,7 @@ TEST_CASE("obstacles that cannot be are refused with the reason", "[sim][obstacl
   CHECK_THAT(error("a", kCrate, 1.0, {2, 2, 0}), Catch::Contains("already"));
 }
 
-TEST_CASE("what is gone, or never was, cannot be moved or taken out", "[sim][obstacle]") {
+TEST_CASE("an obstacle that was removed, or never existed, cannot be moved or removed", "[sim][obstacle]") {
   World world = room();
   const ObstacleId id = *world.add_obstacle("crate", kCrate, 0.8, {0, -2, 0});
   REQUIRE(world.remove_obstacle(id));
@@ -127,7 +128,7 @@ TEST_CASE("no robot is set down on an obstacle that was put in", "[sim][obstacle
   CHECK_THAT(added.error().message, Catch::Contains("it would stand in 'crate'"));
 }
 
-TEST_CASE("two worlds in which the same is put in, moved and taken out are bit-identical",
+TEST_CASE("two worlds in which the same obstacles are added, moved and removed are bit-identical",
           "[sim][obstacle]") {
   const auto hash = [] {
     World world = room();

@@ -34,7 +34,7 @@ class Crowd {
     }
   }
 
-  // @return  the hash of all that could be seen in so many minutes.
+  // Returns the hash of all states, contacts and readings of that many minutes.
   std::uint64_t run(int minutes) {
     for (int tick = 0; tick < minutes * kTicksPerMinute; ++tick) {
       if (tick % 200 == 0) drive();
@@ -54,7 +54,7 @@ class Crowd {
       REQUIRE(world_.set_velocity_command(id, commands_.uniform(-0.3, 0.7), commands_.uniform(-1.0, 1.0)));
     REQUIRE(world_.set_turret_command(robots_[4], commands_.uniform(-3.0, 3.0)));
   }
-  // Where a robot stands already it is refused; that, too, has to repeat.
+  // Puts a crate at a random place. It is refused where a robot stands, and that must repeat, too.
   void put_crate() {
     const Pose2 place{commands_.uniform(2.0, 12.0), commands_.uniform(2.0, 7.0), 0.3};
     const auto crate = world_.add_obstacle("crate", Box{{}, {0.3, 0.3}}, 0.5, place);
@@ -98,14 +98,14 @@ class Crowd {
   std::size_t touches_ = 0;
 };
 
-// Whether so many fresh worlds go through the same simulated minutes, each with another number of threads.
+// Checks that fresh worlds with other numbers of threads go through the same simulated minutes.
 void check_repeats(int worlds, int minutes) {
   Crowd first(1);
   const std::uint64_t expected = first.run(minutes);
   CHECK(first.touches() > 10 * static_cast<std::size_t>(minutes));
   for (int world = 1; world < worlds; ++world) {
     CAPTURE(world);
-    // Other addresses than before.
+    // Makes memory addresses differ from those of the run before.
     const std::vector<char> gap(static_cast<std::size_t>(1000 * world));
     Crowd again(1, static_cast<unsigned>(world % 4));
     CHECK(again.run(minutes) == expected);

@@ -124,7 +124,8 @@ TEST_CASE("a command that is not finite is refused and the former one stays", "[
   CHECK(world.velocity(id).forward == Approx(0.1));
 }
 
-TEST_CASE("a wall stops the robot and the contact is told once, with the wall's name", "[sim][contact]") {
+TEST_CASE("a wall stops the robot, and the contact is reported once, with the wall's name",
+          "[sim][contact]") {
   RobotId id{};
   World world = world_with(id, Realism::nominal, {0, 3, 0});
   REQUIRE(world.set_velocity_command(id, 0.8, 0.0));
@@ -173,7 +174,8 @@ TEST_CASE("a robot that drives and turns in the open has no contact", "[sim][con
   }
 }
 
-TEST_CASE("two robots that meet both tell it and neither passes through the other", "[sim][contact]") {
+TEST_CASE("two robots that meet both report a contact, and neither passes through the other",
+          "[sim][contact]") {
   World world(test_room(), {.seed = 1, .realism = Realism::ideal});
   const RobotId a = *world.add_robot("a", scout(), {-2, -2, 0});
   const RobotId b = *world.add_robot("b", scout(), {0, -2, std::numbers::pi});

@@ -32,36 +32,36 @@ struct SonarScan {
 /// One sweep of a laser.
 struct LaserScan {
   TimePoint stamp;             ///< Time of the first range; the last came the scanner's `sweep` later.
-  std::vector<double> ranges;  ///< [m] One per beam; the scanner's max_range: nothing came back.
-  Pose2 X_RB;                  ///< See above; at the stamp.
+  std::vector<double> ranges;  ///< [m] One range per beam; max_range of the scanner if nothing came back.
+  Pose2 X_RB;                  ///< Pose of frame B in R at the stamp, see above.
 };
 
 /// The readings of all sensors of an infrared ring, measured at once.
 struct InfraredScan {
   TimePoint stamp;
-  std::vector<double> ranges;  ///< [m] One per sensor; the ring's max_range: nothing is near.
-  Pose2 X_RB;                  ///< See above; at the stamp.
+  std::vector<double> ranges;  ///< [m] One range per sensor; max_range of the ring if nothing is near.
+  Pose2 X_RB;                  ///< Pose of frame B in R at the stamp, see above.
 };
 
 /// The segments of a bumper that were pressed since its last reading.
 struct BumperReading {
   TimePoint stamp;
-  std::vector<bool> pressed;  ///< One per segment.
-  Pose2 X_RB;                 ///< See above; at the stamp.
+  std::vector<bool> pressed;  ///< One value per segment.
+  Pose2 X_RB;                 ///< Pose of frame B in R at the stamp, see above.
 };
 
 /// The pose computed from the wheel encoders. It is zero where the robot was added to the world.
 struct OdometryReading {
   TimePoint stamp;
-  Pose2 pose;  ///< In the odometry frame.
+  Pose2 pose;  ///< Pose in the odometry frame.
   Twist2 velocity;
 };
 
 /// The direction of a turret.
 struct TurretReading {
   TimePoint stamp;
-  double angle = 0.0;      ///< [rad] In the robot's frame, in (-pi, pi].
-  double turn_rate = 0.0;  ///< [rad/s] Relative to the robot's frame.
+  double angle = 0.0;      ///< [rad] Angle in the robot's frame, in (-pi, pi].
+  double turn_rate = 0.0;  ///< [rad/s] Turn rate relative to the robot's frame.
 };
 
 /// The beginning of a touch between a robot and something else.

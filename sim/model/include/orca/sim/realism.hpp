@@ -10,8 +10,8 @@ namespace orca::sim {
 /// The level of the simulated devices' errors. Every comparison of results names the level it used.
 enum class Realism {
   ideal,    ///< Exact sensors and odometry, a drive without lag and dead time.
-  nominal,  ///< As measured on such devices.
-  harsh,    ///< About twice as bad.
+  nominal,  ///< Errors as measured on such devices.
+  harsh,    ///< Errors about twice as large.
 };
 
 [[nodiscard]] std::string_view to_string(Realism realism);

@@ -30,7 +30,7 @@ struct Part {
   };
   struct Cylinder {
     double radius;  ///< [m]
-    double length;  ///< [m] Along z.
+    double length;  ///< [m] Length along z.
   };
   struct Ball {
     double radius;  ///< [m]
@@ -60,7 +60,7 @@ struct Drive {
   double track = 0.0;                  ///< [m] Diameter of the circle through the wheels' contact points.
   double wheel_diameter = 0.0;         ///< [m]
   Duration lag{0};                     ///< Time constant of the first-order answer to a command.
-  Duration dead_time{0};               ///< From a command to the first effect.
+  Duration dead_time{0};               ///< Time from a command to its first effect.
   // Parameters for steering the base (thesis 8.4.1); the simulation itself does not use these.
   double steer_gain = 1.0;                         ///< [1/s] Turn rate per heading error.
   double speed_step = 0.0;                         ///< [m/s] Smallest change of speed worth a command.
@@ -74,7 +74,7 @@ struct Turret {
   std::string joint;              ///< The URDF joint that turns.
   double max_speed = 0.0;         ///< [rad/s]
   double max_acceleration = 0.0;  ///< [rad/s2]
-  Duration period{0};             ///< From one reading of its angle to the next.
+  Duration period{0};             ///< Time from one reading of its angle to the next.
   Vec2 axis;                      ///< [m] Place of its axis in the base frame.
 };
 
@@ -83,21 +83,22 @@ struct Turret {
 struct SonarRing {
   std::string name;
   std::size_t count = 0;
-  double first_angle = 0.0;        ///< [rad] In the base frame, counter-clockwise from ahead.
-  double pitch = 0.0;              ///< [rad] Positive: counter-clockwise.
-  std::vector<double> angles;      ///< [rad] Direction of each transducer; empty: evenly spaced as above.
-  std::vector<Vec2> positions;     ///< [m] Place of each transducer about the centre; empty: on the circle.
-  std::vector<double> heights;     ///< [m] Height of each transducer above the link; empty: all 0.
-  double half_lobe = 0.0;          ///< [rad] Half the opening of the cone.
-  double min_range = 0.0;          ///< [m] Nearer echoes read as this.
-  double max_range = 0.0;          ///< [m] The reading if there is no echo.
-  double quantum = 0.0;            ///< [m] Step of the device's readings; 0: none.
-  double radius = 0.0;             ///< [m]
-  Duration period{0};              ///< Time in which all of them fire, one after the other.
-  std::string link;                ///< The URDF link at the ring's centre.
-  Pose2 center;                    ///< Of that link in the base frame.
-  double height = 0.0;             ///< [m] Of that link above the floor.
-  bool on_turret = false;          ///< Whether that link turns with the turret.
+  /// [rad] Direction of transducer 0 in the base frame, counter-clockwise from ahead.
+  double first_angle = 0.0;
+  double pitch = 0.0;           ///< [rad] Angle from one transducer to the next, counter-clockwise positive.
+  std::vector<double> angles;   ///< [rad] Direction of each transducer; empty: evenly spaced as above.
+  std::vector<Vec2> positions;  ///< [m] Place of each transducer about the centre; empty: on the circle.
+  std::vector<double> heights;  ///< [m] Height of each transducer above the link; empty: all 0.
+  double half_lobe = 0.0;       ///< [rad] Half the opening of the cone.
+  double min_range = 0.0;       ///< [m] Nearer echoes read as this.
+  double max_range = 0.0;       ///< [m] The reading if there is no echo.
+  double quantum = 0.0;         ///< [m] Step of the device's readings; 0: none.
+  double radius = 0.0;          ///< [m] Distance of the transducers from the centre.
+  Duration period{0};           ///< Time in which all of them fire, one after the other.
+  std::string link;             ///< The URDF link at the ring's centre.
+  Pose2 center;                 ///< Pose of that link in the base frame.
+  double height = 0.0;          ///< [m] Height of that link above the floor.
+  bool on_turret = false;       ///< Whether that link turns with the turret.
   std::vector<std::size_t> order;  ///< Firing order, a permutation of 0 .. count - 1.
   std::size_t parallel = 1;        ///< Number of successive transducers in `order` that fire at once.
 
@@ -111,18 +112,18 @@ struct SonarRing {
 
 /// The device that counts wheel travel.
 struct Odometer {
-  Duration period{0};
+  Duration period{0};  ///< Time from one reading to the next.
 };
 
 /// The description of a type of robot for the simulation. A plain value; see read_robot().
 struct RobotModel {
-  std::string name;  ///< Of the URDF's <robot>.
+  std::string name;  ///< Name of the URDF's <robot>.
   std::string vendor;
   std::string model;
   double radius = 0.0;         ///< [m] Radius of the body.
   double bumper_radius = 0.0;  ///< [m] Radius of the parts that touch first.
   double mass = 0.0;           ///< [kg] Mass of all links.
-  double yaw_inertia = 0.0;    ///< [kg m2] About the base frame's z axis.
+  double yaw_inertia = 0.0;    ///< [kg m2] Moment of inertia about the base frame's z axis.
   std::vector<Part> parts;     ///< Collision geometry; never empty.
   Shape footprint;             ///< The parts' plan in the base frame: a circle or a convex outline.
   double bottom = 0.0;         ///< [m] Lowest point of the parts.

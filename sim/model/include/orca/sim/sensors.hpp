@@ -13,19 +13,20 @@ namespace orca::sim {
 /// the first to the last at an even pace.
 struct LaserScanner {
   std::string name;
-  std::size_t count = 0;     ///< Number of ranges in a scan.
-  double first_angle = 0.0;  ///< [rad] In the sensor frame, counter-clockwise from its x axis.
-  double pitch = 0.0;        ///< [rad] Positive: counter-clockwise.
-  double min_range = 0.0;    ///< [m] Nearer things read as this.
-  double max_range = 0.0;    ///< [m] The reading if nothing returns.
-  double quantum = 0.0;      ///< [m] Step of the device's readings; 0: none.
-  double divergence = 0.0;   ///< [rad] Opening angle of the beam, which gives the width of its spot.
-  Duration period{0};        ///< From one scan to the next.
-  Duration sweep{0};         ///< From the first reading of a scan to its last; at most `period`.
-  std::string link;          ///< The URDF link it sits at.
-  Pose2 center;              ///< Of that link in the base frame.
-  double height = 0.0;       ///< [m] Of that link above the floor.
-  bool on_turret = false;    ///< Whether that link turns with the turret.
+  std::size_t count = 0;  ///< Number of ranges in a scan.
+  /// [rad] Direction of reading 0 in the sensor frame, counter-clockwise from its x axis.
+  double first_angle = 0.0;
+  double pitch = 0.0;       ///< [rad] Angle from one reading to the next, counter-clockwise positive.
+  double min_range = 0.0;   ///< [m] Nearer things read as this.
+  double max_range = 0.0;   ///< [m] The reading if nothing returns.
+  double quantum = 0.0;     ///< [m] Step of the device's readings; 0: none.
+  double divergence = 0.0;  ///< [rad] Opening angle of the beam, which gives the width of its spot.
+  Duration period{0};       ///< Time from one scan to the next.
+  Duration sweep{0};        ///< Time from the first reading of a scan to its last; at most `period`.
+  std::string link;         ///< The URDF link at which it is mounted.
+  Pose2 center;             ///< Pose of that link in the base frame.
+  double height = 0.0;      ///< [m] Height of that link above the floor.
+  bool on_turret = false;   ///< Whether that link turns with the turret.
 };
 
 /// A ring of short-range infrared sensors, all of which measure at once. Number k looks along
@@ -33,16 +34,17 @@ struct LaserScanner {
 struct InfraredRing {
   std::string name;
   std::size_t count = 0;
-  double first_angle = 0.0;  ///< [rad] In the base frame, counter-clockwise from ahead.
-  double pitch = 0.0;        ///< [rad] Positive: counter-clockwise.
-  double half_beam = 0.0;    ///< [rad] Half the opening of the beam.
-  double min_range = 0.0;    ///< [m] Nearer things read as this.
-  double max_range = 0.0;    ///< [m] The reading if nothing is in sight.
-  double radius = 0.0;       ///< [m]
-  Duration period{0};
+  /// [rad] Direction of sensor 0 in the base frame, counter-clockwise from ahead.
+  double first_angle = 0.0;
+  double pitch = 0.0;      ///< [rad] Angle from one sensor to the next, counter-clockwise positive.
+  double half_beam = 0.0;  ///< [rad] Half the opening of the beam.
+  double min_range = 0.0;  ///< [m] Nearer things read as this.
+  double max_range = 0.0;  ///< [m] The reading if nothing is in sight.
+  double radius = 0.0;     ///< [m] Distance of the sensors from the centre.
+  Duration period{0};      ///< Time from one round to the next.
   std::string link;        ///< The URDF link at the ring's centre.
-  Pose2 center;            ///< Of that link in the base frame.
-  double height = 0.0;     ///< [m] Of that link above the floor.
+  Pose2 center;            ///< Pose of that link in the base frame.
+  double height = 0.0;     ///< [m] Height of that link above the floor.
   bool on_turret = false;  ///< Whether that link turns with the turret.
 
   /// Returns the pose of sensor `k` in the base frame; it looks along its x axis.
@@ -57,10 +59,11 @@ struct InfraredRing {
 struct BumperRing {
   std::string name;
   std::size_t count = 0;
-  double first_angle = 0.0;  ///< [rad] In the base frame, counter-clockwise from ahead.
-  double pitch = 0.0;        ///< [rad] Positive: counter-clockwise.
-  double radius = 0.0;       ///< [m] Radius of the bumper, which gives the segments' places.
-  Duration period{0};
+  /// [rad] Direction of segment 0 in the base frame, counter-clockwise from ahead.
+  double first_angle = 0.0;
+  double pitch = 0.0;   ///< [rad] Angle from one segment to the next, counter-clockwise positive.
+  double radius = 0.0;  ///< [m] Radius of the bumper, which gives the segments' places.
+  Duration period{0};   ///< Time from one reading to the next.
 
   /// Returns the pose of the middle of segment `k`, x axis outwards, in the base frame.
   [[nodiscard]] Pose2 segment(std::size_t k) const {

@@ -14,7 +14,7 @@ namespace orca::sim {
 struct RobotSnapshot {
   std::string name;
   Pose2 pose;
-  Shape footprint;  ///< In the world frame, at `pose`.
+  Shape footprint;  ///< Footprint in the world frame, at `pose`.
   struct Sample {
     TimePoint time;
     Pose2 pose;
@@ -25,7 +25,7 @@ struct RobotSnapshot {
 /// A picture of a world at one instant, in world coordinates [m]. A plain value.
 struct Snapshot {
   std::string name;
-  Bounds bounds;  ///< Holds everything but the trajectories.
+  Bounds bounds;  ///< The rectangle that holds everything except the trajectories.
   std::vector<Segment> edges;
   std::vector<Circle> circles;
   std::vector<Place> places;

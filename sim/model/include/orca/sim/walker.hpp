@@ -21,8 +21,8 @@ struct Walker {
   double radius = 0.25;       ///< [m]
   double height = 1.7;        ///< [m]
   double speed = 1.0;         ///< [m/s]
-  bool round = false;         ///< From the last corner straight to the first; else back along the track.
-  Duration pause{0};          ///< Longest rest at a corner; each corner's own is drawn below that.
+  bool round = false;  ///< True: straight from the last corner to the first; false: back along the track.
+  Duration pause{0};   ///< Longest rest at a corner; each rest is drawn between 0 and this.
   std::optional<Duration> start{};      ///< Time on its round at time 0; drawn if not given.
   std::optional<std::uint64_t> seed{};  ///< Seed of the drawn values; the run's seed if not given.
   /// [m] It stands still while a robot is nearer than this ahead of it; 0: it stops for no robot.

@@ -15,9 +15,9 @@ namespace orca::sim {
 /// A ray in the horizontal plane at a certain height above the floor.
 struct Ray {
   Vec2 origin;
-  Vec2 direction;              ///< Of length 1.
+  Vec2 direction;              ///< Unit vector.
   double max_range = 0.0;      ///< [m] Nothing farther is reported.
-  double sensor_height = 0.0;  ///< [m] Above the floor: the ray meets only what is solid at this height.
+  double sensor_height = 0.0;  ///< [m] Height above the floor; only things solid at this height are met.
   /// Number of the body that the ray passes through: the sensor's own. The default ignores none.
   std::size_t ignore_body = static_cast<std::size_t>(-1);
 };
@@ -33,7 +33,7 @@ struct Hit {
   /// 0: nothing was met.
   std::uint64_t element = 0;
   Vec2 point;      ///< End of the ray, in the world frame.
-  Vec2 direction;  ///< The ray's direction, of length 1.
+  Vec2 direction;  ///< The ray's direction, a unit vector.
   [[nodiscard]] bool found() const { return surface.index() != 0; }
   /// Returns the angle between ray and surface normal, 0 (head on) to pi/2 (grazing) [rad]. @pre  found()
   [[nodiscard]] double incidence() const;
@@ -46,7 +46,7 @@ struct Hit {
 
 /// An upright solid that sensors see and that may be added, moved and removed: a robot, a person, a box.
 struct Body {
-  Shape shape;          ///< In the world frame, at its present pose.
+  Shape shape;          ///< Shape in the world frame, at the present pose.
   double bottom = 0.0;  ///< [m] Lowest point above the floor: a sensor at exactly this height sees the body.
   double top = 0.0;     ///< [m] Highest point above the floor: a sensor at exactly this height does not.
 };
