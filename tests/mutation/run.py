@@ -136,9 +136,10 @@ def known_as_equal():
     return {line.split(" # ")[0] for line in lines if line.strip() and not line.startswith("#")}
 
 
-def without_line(mutant):
-    """A mutant's text as equal.txt compares it: lines move, so only file and change count."""
-    return f"{mutant.path}: {mutant.kind}: {mutant.old!r} -> {mutant.new!r}"
+def without_line(mutant, source):
+    """A mutant's text as equal.txt compares it: line numbers move, so the line itself counts."""
+    line = source.splitlines()[mutant.line - 1].split(" //")[0].strip()
+    return f"{mutant.path}: {line}: {mutant.kind}: {mutant.old!r} -> {mutant.new!r}"
 
 
 class Workshop:
@@ -220,7 +221,7 @@ def judge(workshop, mutants, count):
         if tally.judged() == count:
             break
         began = time.monotonic()
-        if without_line(mutant) in equal:
+        if without_line(mutant, (ROOT / mutant.path).read_text()) in equal:
             verdict = "equal"
         else:
             verdict = workshop.try_out(mutant)
