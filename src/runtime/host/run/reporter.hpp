@@ -9,6 +9,7 @@
 
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
+#include "line_limit.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
 #include "trace.hpp"
 
@@ -28,6 +29,9 @@ class Reporter final : public LinkObserver {
   void link_changed(std::string_view client, std::string_view server, bool connected) override {
     trace_.link_changed(client, server, connected);
   }
+  /// Writes a warning to the log, under the name of the component that sends, asks or receives. Of one kind
+  /// of trouble of one connection there is at most one line in 10 s of the run's clock.
+  void trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) override;
 
   /// Reports a contact.
   /// @param origin  the hardware container that reports it.
@@ -59,6 +63,7 @@ class Reporter final : public LinkObserver {
   std::vector<idl::Arrived> arrivals_;
   std::vector<idl::Contact> contacts_;
   std::vector<idl::Alarm> alarms_;
+  LineLimit trouble_lines_;
 };
 
 }  // namespace orca::host
