@@ -65,3 +65,67 @@ TEMPLATE_LIST_TEST_CASE("a question that is answered with an error, refused or n
     CHECK(troubles.kinds() == Kinds{LinkTrouble::refused});
   });
 }
+
+TEMPLATE_LIST_TEST_CASE("drops beyond the limit are reported, and again each time that the excess has doubled",
+                        "[contract][push][trouble]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Troubles troubles;
+    Source source(kit.executive);
+    Listener listener(kit.executive);
+    listener.home().observer = &troubles;
+    const PushEdge& edge = listener.listen(kit, source, {.depth = 4, .drop_limit = 3});
+    source.push_numbers(1, 4 + 3);
+    REQUIRE(eventually(kit.executive, [&] { return edge.counters().dropped == 3; }));
+    CHECK(troubles.lines().empty());
+    CHECK(edge.counters().over_limit == 0);
+    source.push_numbers(8, 7 + 100);
+    REQUIRE(eventually(kit.executive, [&] { return edge.counters().dropped == 103; }));
+    CHECK(edge.counters().over_limit == 100);
+    std::vector<std::string> expected;
+    for (const int drops : {4, 5, 7, 11, 19, 35, 67})
+      expected.push_back("source.out to listener.in: objects dropped so far: " + std::to_string(drops) +
+                         ", accepted: 3 (queue 4, drop_oldest)");
+    CHECK(troubles.lines() == expected);
+    CHECK(troubles.kinds() == Kinds{LinkTrouble::dropped});
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("a queue may drop nothing, and \"the latest\" any number, unless the edge says otherwise",
+                        "[contract][push][trouble]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    const auto reports = [&](const QueuePolicy& policy) {
+      Troubles troubles;
+      Source source(kit.executive);
+      Listener listener(kit.executive);
+      listener.home().observer = &troubles;
+      const PushEdge& edge = listener.listen(kit, source, policy);
+      source.push_numbers(1, static_cast<int>(policy.depth) + 1);
+      CHECK(eventually(kit.executive, [&] { return edge.counters().dropped == 1; }));
+      return troubles.lines().size();
+    };
+    using Overflow = QueuePolicy::Overflow;
+    CHECK(reports({}) == 0);
+    CHECK(reports({.drop_limit = 0}) == 1);
+    CHECK(reports({.depth = 2}) == 1);
+    CHECK(reports({.depth = 1, .overflow = Overflow::drop_newest}) == 1);
+    CHECK(reports({.depth = 2, .overflow = Overflow::block, .block_limit = 1ms}) == 1);
+    CHECK(reports({.depth = 2, .drop_limit = 1}) == 0);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("objects that are left behind at the end of a subscription are no drops beyond a limit",
+                        "[contract][push][trouble]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Troubles troubles;
+    Source source(kit.executive);
+    Listener listener(kit.executive);
+    listener.home().observer = &troubles;
+    const PushEdge& edge = listener.listen(kit, source, {.depth = 4});
+    source.push_numbers(1, 3);
+    REQUIRE(listener.has_seen(3));
+    listener.in.unsubscribe();
+    CHECK(edge.counters().left_behind == 3);
+    CHECK(edge.counters().over_limit == 0);
+    CHECK(troubles.lines().empty());
+  });
+}

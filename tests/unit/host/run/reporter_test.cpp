@@ -36,11 +36,13 @@ void with_reporter(const std::function<void(Executive&, Reporter&, Log&)>& body)
 
 }  // namespace
 
-TEST_CASE("trouble of a connection is a warning of the component that sends, with both ends",
+TEST_CASE("trouble of a connection is a warning of the component that is concerned, with both ends",
           "[host][trouble]") {
   with_reporter([](Executive&, Reporter& reporter, Log& log) {
+    reporter.trouble(LinkTrouble::dropped, "robot/avoid.motion", "robot/fuser.motion", "dropped 1");
     reporter.trouble(LinkTrouble::refused, "robot/fuser.base", "robot/base.motion", "refused: it is full");
-    CHECK(log.lines == Lines{"robot/fuser: robot/fuser.base to robot/base.motion: refused: it is full"});
+    CHECK(log.lines == Lines{"robot/fuser: robot/avoid.motion to robot/fuser.motion: dropped 1",
+                             "robot/fuser: robot/fuser.base to robot/base.motion: refused: it is full"});
   });
 }
 

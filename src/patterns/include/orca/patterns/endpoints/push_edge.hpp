@@ -69,6 +69,10 @@ class PushEdge final : public PushSink {
   };
 
   bool make_room();
+  void drop(Published<std::uint64_t>& reason, std::uint64_t objects);
+  [[nodiscard]] std::uint64_t drops_to_report();
+  void report_drops(std::uint64_t drops) const;
+  void report(LinkTrouble kind, const std::string& text) const;
   void put(ObjectRef&& object, std::uint32_t count);
   void arrive(TimePoint time);
   [[nodiscard]] UpdateRate rate() const;
@@ -94,6 +98,8 @@ class PushEdge final : public PushSink {
   ObjectRef newest_;               // as long as it is not in the ring
   bool publisher_waits_ = false;   // for room
   bool subscriber_stuck_ = false;  // it took nothing during a whole wait: nobody waits for it until it does
+  Published<std::uint64_t> drops_;         // while subscribed; may be read at any time
+  std::uint64_t report_drops_at_ = 0;      // the number of drops at which they are reported next
 };
 
 }  // namespace orca
