@@ -4,12 +4,19 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace orca {
 namespace {
 
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+std::string seconds_text(Duration time) {
+  std::ostringstream text;
+  text << to_seconds(time) << " s";
+  return text.str();
+}
 
 std::string described(const QueuePolicy& policy) {
   if (policy.overflow == QueuePolicy::Overflow::drop_oldest && policy.depth == 1) return "queue latest";
@@ -31,11 +38,17 @@ PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& poli
 
 void PushEdge::subscribe() {
   if (subscribed()) return;
-  if (policy_.deadline > Duration{0}) last_arrival_ = now().time_since_epoch().count();
+  if (policy_.deadline > Duration{0}) expect_first();
   subscribed_.store(true, std::memory_order_release);
   if (LinkObserver* observer = client_.home().observer)
     observer->link_changed(client_.path(), source_.path(), true);
   source_.attach(*this, rate());
+}
+
+void PushEdge::expect_first() {
+  const std::lock_guard lock(mutex_);
+  last_arrival_ = now().time_since_epoch().count();
+  reported_delays_ = late_arrivals_;
 }
 
 void PushEdge::unsubscribe() {
@@ -155,6 +168,7 @@ void PushEdge::put(ObjectRef&& object, std::uint32_t count) {
 
 void PushEdge::arrive(TimePoint time) {
   const std::uint64_t missed = missed_until(time);
+  if (missed > counts_.missed_deadlines) ++late_arrivals_;
   last_arrival_ = time.time_since_epoch().count();
   counts_.missed_deadlines = missed;
 }
@@ -217,6 +231,22 @@ std::uint64_t PushEdge::missed_until(TimePoint time) const {
 bool PushEdge::deadline_missed() const {
   if (policy_.deadline <= Duration{0} || !subscribed()) return false;
   return now().time_since_epoch() - Duration(last_arrival_) > policy_.deadline;
+}
+
+TimePoint PushEdge::watch_deadline() {
+  if (policy_.deadline <= Duration{0} || !subscribed()) return kForever;
+  TimePoint next = kForever;
+  bool is_new = false;
+  {
+    const std::lock_guard lock(mutex_);
+    const TimePoint due = saturating_add(TimePoint(Duration(last_arrival_)), policy_.deadline);
+    const bool is_late = now() > due;
+    const std::uint64_t delays = late_arrivals_ + (is_late ? 1 : 0);
+    is_new = delays > std::exchange(reported_delays_, delays);
+    if (!is_late) next = saturating_add(due, Duration{1});
+  }
+  if (is_new) report(LinkTrouble::late, "no object within the deadline of " + seconds_text(policy_.deadline));
+  return next;
 }
 
 EdgeCounters PushEdge::counters() const {

@@ -19,8 +19,7 @@ TEMPLATE_LIST_TEST_CASE("a refused object is reported with both ends and the ser
     CHECK(troubles.lines().empty());
     REQUIRE_FALSE(line.sender.out.send(numbered(2)).ok());
     REQUIRE(troubles.lines().size() == 1);
-    CHECK_THAT(troubles.lines()[0],
-               Contains("sender.out to taker.in: refused: taker.in is full: 1 objects"));
+    CHECK_THAT(troubles.lines()[0], Contains("sender.out to taker.in: refused: taker.in is full: 1 objects"));
     CHECK(troubles.kinds() == Kinds{LinkTrouble::refused});
     CHECK(line.sender.out.counters().failed == 1);
   });
@@ -66,8 +65,9 @@ TEMPLATE_LIST_TEST_CASE("a question that is answered with an error, refused or n
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("drops beyond the limit are reported, and again each time that the excess has doubled",
-                        "[contract][push][trouble]", LinkKits) {
+TEMPLATE_LIST_TEST_CASE(
+    "drops beyond the limit are reported, and again each time that the excess has doubled",
+    "[contract][push][trouble]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Troubles troubles;
     Source source(kit.executive);
@@ -90,8 +90,9 @@ TEMPLATE_LIST_TEST_CASE("drops beyond the limit are reported, and again each tim
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("a queue may drop nothing, and \"the latest\" any number, unless the edge says otherwise",
-                        "[contract][push][trouble]", LinkKits) {
+TEMPLATE_LIST_TEST_CASE(
+    "a queue may drop nothing, and \"the latest\" any number, unless the edge says otherwise",
+    "[contract][push][trouble]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     const auto reports = [&](const QueuePolicy& policy) {
       Troubles troubles;
@@ -113,8 +114,9 @@ TEMPLATE_LIST_TEST_CASE("a queue may drop nothing, and \"the latest\" any number
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("objects that are left behind at the end of a subscription are no drops beyond a limit",
-                        "[contract][push][trouble]", LinkKits) {
+TEMPLATE_LIST_TEST_CASE(
+    "objects that are left behind at the end of a subscription are no drops beyond a limit",
+    "[contract][push][trouble]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Troubles troubles;
     Source source(kit.executive);
@@ -127,5 +129,80 @@ TEMPLATE_LIST_TEST_CASE("objects that are left behind at the end of a subscripti
     CHECK(edge.counters().left_behind == 3);
     CHECK(edge.counters().over_limit == 0);
     CHECK(troubles.lines().empty());
+  });
+}
+
+namespace {
+
+// Sets up a listener whose strand looks after its deadline, as the runtime does.
+template <class Kit>
+PushEdge& listen_with_deadline(Kit& kit, Source& source, Listener& listener, LinkObserver& observer) {
+  listener.home().observer = &observer;
+  PushEdge& edge = listener.listen(kit, source, {.depth = 10, .deadline = 40ms});
+  listener.strand().set_watch([&edge] { return edge.watch_deadline(); });
+  return edge;
+}
+
+const std::string kLate = "source.out to listener.in: no object within the deadline of 0.04 s";
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("a missed deadline is reported while the component waits for that very object, once",
+                        "[contract][push][trouble][deadline]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Troubles troubles;
+    Source source(kit.executive);
+    Listener listener(kit.executive);
+    PushEdge& edge = listen_with_deadline(kit, source, listener, troubles);
+    Script wait(listener, [&] {
+      for (;;) (void)listener.in.get_update_wait();
+    });
+    REQUIRE(eventually(kit.executive, [&] { return !troubles.lines().empty(); }));
+    sleep(kit.executive, 200ms);
+    CHECK(troubles.lines() == std::vector{kLate});
+    CHECK(troubles.kinds() == Kinds{LinkTrouble::late});
+    CHECK(edge.counters().missed_deadlines >= 5);
+    source.push_numbers(1, 1);
+    CHECK(eventually(kit.executive, [&] { return troubles.lines().size() == 2; }));
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE(
+    "a deadline that was missed while the component was busy is reported at its next wait",
+    "[contract][push][trouble][deadline]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Troubles troubles;
+    Source source(kit.executive);
+    Listener listener(kit.executive);
+    listen_with_deadline(kit, source, listener, troubles);
+    sleep(kit.executive, 60ms);  // the listener's strand does not wait meanwhile
+    source.push_numbers(1, 1);
+    REQUIRE(listener.has_seen(1));
+    CHECK(troubles.lines().empty());
+    (void)listener.in.get_update_wait();
+    CHECK_FALSE(listener.in.get_update_wait_max(1ms));
+    CHECK(troubles.lines() == std::vector{kLate});
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("deadlines are reported while the edge is subscribed, and anew in each subscription",
+                        "[contract][push][trouble][deadline]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Troubles troubles;
+    Source source(kit.executive);
+    Listener listener(kit.executive);
+    PushEdge& edge = listen_with_deadline(kit, source, listener, troubles);
+    const auto wait = [&] { (void)listener.in.get_update_wait_max(100ms); };
+    wait();
+    CHECK(troubles.lines().size() == 1);
+    wait();
+    CHECK(troubles.lines().size() == 1);
+    listener.in.unsubscribe();
+    CHECK(edge.watch_deadline() == kForever);
+    listener.in.subscribe();
+    sleep(kit.executive, 60ms);  // it is late before the strand waits for the first time
+    wait();
+    CHECK(troubles.lines().size() == 2);
+    CHECK(edge.watch_deadline() == kForever);
   });
 }

@@ -67,9 +67,9 @@ struct PolicyAttribute {
   bool send;
 };
 constexpr std::array kPolicyAttributes{
-    PolicyAttribute{"queue", true, true}, PolicyAttribute{"overflow", true, true},
+    PolicyAttribute{"queue", true, true},       PolicyAttribute{"overflow", true, true},
     PolicyAttribute{"block_limit", true, true}, PolicyAttribute{"interval", true, false},
-    PolicyAttribute{"deadline", true, false}, PolicyAttribute{"drop_limit", true, false}};
+    PolicyAttribute{"deadline", true, false},   PolicyAttribute{"drop_limit", true, false}};
 
 // A reader for the policy of an edge.
 class PolicyReader {

@@ -84,7 +84,8 @@ constexpr std::array kConnect{
     AttributeRule{"block_limit", false,
                   "Longest time that the publisher waits for room, with overflow=\"block\".",
                   seconds(kMicrosecond)},
-    AttributeRule{"deadline", false, "Time without an object after which the edge counts a missed deadline.",
+    AttributeRule{"deadline", false,
+                  "Time without an object after which the edge counts a missed deadline and logs it.",
                   seconds(0.0)},
     AttributeRule{"drop_limit", false,
                   "Number of objects that may be dropped before it is logged; default: any number with "

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "line_limit.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
-#include "line_limit.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
 #include "trace.hpp"
 

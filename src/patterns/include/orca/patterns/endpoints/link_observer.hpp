@@ -9,6 +9,7 @@ namespace orca {
 
 /// The kinds of trouble that a connection reports.
 enum class LinkTrouble {
+  late,     ///< A Push edge: no object has come within its deadline.
   dropped,  ///< A Push edge: it has dropped more objects than it may.
   refused,  ///< A Send or Query: the server refused, answered with an error, or did not answer in time.
 };
