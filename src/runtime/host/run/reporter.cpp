@@ -52,11 +52,17 @@ void Reporter::trouble(LinkTrouble kind, std::string_view from, std::string_view
   std::optional<std::uint64_t> left_out;
   {
     const std::lock_guard lock(mutex_);
+    if (ignores_trouble_) return;
     left_out = trouble_lines_.admit(std::to_string(static_cast<int>(kind)) + ends, executive_.now());
   }
   if (!left_out) return;
   log(log::Level::warning, component_of(kind == LinkTrouble::refused ? from : to),
       ends + ": " + std::string(text) + mention_left_out(*left_out));
+}
+
+void Reporter::ignore_trouble() {
+  const std::lock_guard lock(mutex_);
+  ignores_trouble_ = true;
 }
 
 void Reporter::report(const std::string& origin, const idl::Contact& contact) {

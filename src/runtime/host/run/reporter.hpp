@@ -33,6 +33,9 @@ class Reporter final : public LinkObserver {
   /// of trouble of one connection there is at most one line in 10 s of the run's clock.
   void trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) override;
 
+  /// Reports no more trouble of connections: the system is being taken down.
+  void ignore_trouble();
+
   /// Reports a contact.
   /// @param origin  the hardware container that reports it.
   void report(const std::string& origin, const idl::Contact& contact);
@@ -64,6 +67,7 @@ class Reporter final : public LinkObserver {
   std::vector<idl::Contact> contacts_;
   std::vector<idl::Alarm> alarms_;
   LineLimit trouble_lines_;
+  bool ignores_trouble_ = false;
 };
 
 }  // namespace orca::host

@@ -46,6 +46,14 @@ TEST_CASE("trouble of a connection is a warning of the component that is concern
   });
 }
 
+TEST_CASE("while the system is taken down, trouble of its connections is no news", "[host][trouble]") {
+  with_reporter([](Executive&, Reporter& reporter, Log& log) {
+    reporter.ignore_trouble();
+    reporter.trouble(LinkTrouble::refused, "a.out", "c.in", "refused: the system is being stopped");
+    CHECK(log.lines.empty());
+  });
+}
+
 TEST_CASE("trouble of one connection is one line in 10 s, which says how many were left out",
           "[host][trouble]") {
   with_reporter([](Executive& executive, Reporter& reporter, Log& log) {
