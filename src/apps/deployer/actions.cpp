@@ -108,7 +108,7 @@ ExitCode run(const Options& options) {
   Loaded loaded(options);
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;
-  Console console;
+  Console console(options.stats);
   return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, options.run, stop, console).outcome);
 }
 

@@ -8,6 +8,7 @@
 
 #include "exit_code.hpp"
 #include "orca/idl/time.hpp"
+#include "stats.hpp"
 
 namespace orca::deployer {
 
@@ -27,6 +28,8 @@ void Console::contact(const idl::Contact& contact) {
 }
 
 void Console::ended(const host::RunResult& result) {
+  const bool ran = result.outcome != host::RunOutcome::not_started;
+  if (stats_ && ran) std::fputs(stats_text(result.counters).c_str(), stderr);
   if (result.trace_hash) std::printf("trace-hash %016" PRIx64 "\n", *result.trace_hash);
   std::fflush(stdout);
 }

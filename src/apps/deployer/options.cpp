@@ -125,6 +125,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--version", action(Action::version)},
       {"--strict", flag(&Options::strict)},
       {"--json", flag(&Options::json)},
+      {"--stats", flag(&Options::stats)},
       {"--profile", {true, [](Options& o, const std::string& v) { return o.profiles.push_back(v), ok(); }}},
       {"--set", {true, set_argument}},
       {"--clock", {true, set_clock}},

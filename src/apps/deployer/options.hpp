@@ -19,6 +19,7 @@ struct Options {
   std::string other_file;  ///< The graph to compare it with.
   bool strict = false;     ///< Warnings are errors.
   bool json = false;       ///< Output for programs.
+  bool stats = false;      ///< Write what the connections of a run carried.
   std::vector<std::string> profiles;
   std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
   host::RunOptions run;

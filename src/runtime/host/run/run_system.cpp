@@ -130,7 +130,10 @@ class Run {
     while (!system_->at_rest() && executive_.now() < limit && !stop_.requested()) changed_->wait_until(limit);
   }
 
+  // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.
   void take_down() {
+    reporter_.ignore_trouble();
+    counters_ = collect_counters(graph_, *system_);
     const std::vector<std::string> stuck = system_->take_down(executive_.now() + kTakeDownLimit);
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
@@ -176,7 +179,7 @@ class Run {
     const bool ran = outcome_ != RunOutcome::not_started;  // without a start there is nothing to compare
     if (ran && executive_.is_virtual()) result.trace_hash = trace_.hash();
     reporter_.fill(result);
-    if (ran) result.counters = collect_counters(graph_, *system_);
+    if (ran) result.counters = counters_ ? *counters_ : collect_counters(graph_, *system_);
     return result;
   }
 
@@ -199,6 +202,7 @@ class Run {
                       [this] { changed_->notify(); },
                       !options_.picture.file.empty()};
   std::optional<System> system_{std::in_place, graph_, context_, [this] { return stop_.requested(); }};
+  std::optional<RunCounters> counters_;  // of the run until it was taken down
   RunOutcome outcome_ = RunOutcome::finished;
   std::string culprit_;
   std::optional<Error> error_;

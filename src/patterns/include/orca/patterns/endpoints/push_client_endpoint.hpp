@@ -23,6 +23,11 @@ class PushClientEndpoint final : public Endpoint {
   [[nodiscard]] const std::vector<std::unique_ptr<PushEdge>>& edges() const { return edges_; }
   [[nodiscard]] bool has_new() const;
 
+  /// Returns whether one of its edges has a deadline.
+  [[nodiscard]] bool has_deadline() const;
+  /// Does what PushEdge::watch_deadline() does, for all edges.
+  TimePoint watch_deadlines();
+
   void subscribe_all();
   void unsubscribe_all();
 
