@@ -120,6 +120,11 @@ Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale&
   if (!pixel) return fail(pixel.error().code, pixel.error().message, path);
   Result<Outline> outline = outline_of(*image, *pixel);
   if (!outline) return fail(outline.error().code, outline.error().message, path);
+  if (outline->edges.empty())
+    return fail(
+        Code::invalid_argument,
+        "no pixel of the picture is darker than grey 128, so nothing is solid; is it the right picture?",
+        path);
   WorldModel world;
   world.name = std::filesystem::path(path).stem().string();
   world.obstacles.push_back({"map", std::move(*outline), height});

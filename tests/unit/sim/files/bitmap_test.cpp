@@ -97,6 +97,7 @@ TEST_CASE("a picture that cannot serve as a map is refused with its reason", "[s
   CHECK_THAT(error_of("P5 1 1 255\na", {.map_width = {}, .resolution = {}}),
              Catch::Contains("give map_width"));
   CHECK_THAT(error_of("P5 1 1 255\na", {.map_width = 1.0, .resolution = 1.0}), Catch::Contains("both"));
+  CHECK_THAT(error_of("P2 2 2 255\n128 255 255 255"), Catch::Contains("nothing is solid"));
   const auto missing = read_bitmap_world("/no/such/map.png", {.map_width = 1.0, .resolution = {}});
   REQUIRE_FALSE(missing);
   CHECK(missing.error().text() == "/no/such/map.png: cannot read the picture: No such file or directory");

@@ -43,7 +43,8 @@ struct BitmapScale {
 /// Reads an occupancy bitmap as a world with one obstacle, "map", of the given height, and no places.
 ///
 /// @param height [m]  height of the dark area above the floor, > 0.
-/// @errors  those of read_image; invalid_argument if the scale is missing, given twice or not positive.
+/// @errors  those of read_image; invalid_argument if the scale is missing, given twice or not positive, or if no pixel
+///          is solid.
 [[nodiscard]] Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale,
                                                    double height = 2.5);
 
