@@ -25,6 +25,9 @@ using orca::TimePoint;
 // Longest time that a motion command holds (DESIGN 11).
 constexpr orca::Duration kMaxCommandAge = std::chrono::milliseconds(200);
 
+// The code of errors in a picture's scale (docs/world-files.md), which stands in two parameters of their own.
+constexpr std::string_view kScaleOfPicture = "W023";
+
 /// A robot in the simulated world, behind the same interface as real hardware. Robots whose graph entries
 /// name the same world file share one world.
 class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::Drawable {
@@ -36,8 +39,8 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     std::vector<orca::HardwareFault> errors;
     world_ = read_world_file(errors);
     robot_ = read_robot_file(errors);
-    if (!world_ || !robot_) return errors;
     find_start(errors);
+    if (!robot_) return errors;
     if (const std::string why = unserved(*robot_); !why.empty())
       errors.push_back({"robot", "\"" + *robot_file_ + "\": " + why});
     declare_endpoints();
@@ -72,6 +75,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
       const std::string& file = diagnostic.position.file;
       if (whole_file) {
         errors.push_back({param, "\"" + file + "\": " + diagnostic.message});
+        if (diagnostic.code == kScaleOfPicture) errors.back().follows_from = {"map_width", "map_resolution"};
       } else {
         errors.push_back({"", diagnostic.text()});
       }
@@ -80,6 +84,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
 
   void find_start(std::vector<orca::HardwareFault>& errors) {
     start_ = {*x_, *y_, *heading_};
+    if (!world_) return;
     if (!place_->empty()) {
       const Place* const place = world_->place(*place_);
       if (place == nullptr) {
@@ -91,12 +96,17 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
       }
       start_ = place->pose;
     }
-    if (const Obstacle* hit =
-            world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom, robot_->top))
-      errors.push_back({place_->empty() ? "x" : "place",
-                        "the robot \"" + *name_ + "\" would start inside \"" + hit->name + "\" at x " +
-                            orca::xml::number_text(start_.x) + " m, y " + orca::xml::number_text(start_.y) +
-                            " m; choose a free place"});
+    if (robot_) check_start_is_free(errors);
+  }
+
+  void check_start_is_free(std::vector<orca::HardwareFault>& errors) const {
+    const Obstacle* hit = world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom, robot_->top);
+    if (hit == nullptr) return;
+    errors.push_back({place_->empty() ? "x" : "place",
+                      "the robot \"" + *name_ + "\" would start inside \"" + hit->name + "\" at x " +
+                          orca::xml::number_text(start_.x) + " m, y " + orca::xml::number_text(start_.y) +
+                          " m; choose a free place",
+                      {"world", "robot", "place", "x", "y", "heading"}});
   }
 
   [[nodiscard]] std::vector<std::string> place_names() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hardware.hpp"
 
+#include <algorithm>
+
 #include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 #include "reading/node_name.hpp"
@@ -25,19 +27,26 @@ void report_fault(const Node& node, const HardwareFault& fault, Report& report) 
   }
 }
 
+// Returns whether the hardware complains about a default that stands for a value which could not be read.
+bool follows_from(const std::set<std::string>& unread, const HardwareFault& fault) {
+  return unread.contains(fault.param) ||
+         std::ranges::any_of(fault.follows_from,
+                             [&](const std::string& param) { return unread.contains(param); });
+}
+
 CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   CheckedHardware checked;
   checked.value = {node.value("name"), node.value("type"), {}, node.position};
   check_name(node, "name", report);
   const std::optional<Contract> contract = types.hardware(node);
   if (!contract) return checked;
-  auto params = read_params(node, *contract, report);
-  if (!params) return checked;
-  checked.value.params = std::move(*params);
+  ReadParams params = read_params(node, *contract, report);
+  checked.value.params = std::move(params.values);
   const HardwareUse use{checked.value.name, checked.value.type, checked.value.params};
   const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use);
-  for (const HardwareFault& fault : faults) report_fault(node, fault, report);
-  checked.sound = faults.empty();
+  for (const HardwareFault& fault : faults)
+    if (!follows_from(params.unread, fault)) report_fault(node, fault, report);
+  checked.sound = params.sound() && faults.empty();
   return checked;
 }
 

@@ -8,6 +8,7 @@
 #include "deployer.hpp"
 #include "orca/sim/bitmap.hpp"
 #include "orca/sim/caster.hpp"
+#include "orca/sim/world_file.hpp"
 #include "public_data.hpp"
 
 using namespace orca::sim;
@@ -101,6 +102,23 @@ TEST_CASE("a picture that cannot serve as a map is refused with its reason", "[s
   const auto missing = read_bitmap_world("/no/such/map.png", {.map_width = 1.0, .resolution = {}});
   REQUIRE_FALSE(missing);
   CHECK(missing.error().text() == "/no/such/map.png: cannot read the picture: No such file or directory");
+}
+
+TEST_CASE("a picture as world shows what is wrong with its number, its scale and itself at once",
+          "[sim][bitmap]") {
+  const auto codes_of = [](const std::string& bytes, const std::string& number, const BitmapScale& scale) {
+    const TemporaryFile file("world.pgm", bytes);
+    orca::xml::Diagnostics diagnostics;
+    CHECK_FALSE(read_world(file.path() + number, scale, diagnostics).has_value());
+    std::vector<std::string> codes;
+    for (const auto& diagnostic : diagnostics.sorted()) codes.push_back(diagnostic.code);
+    return codes;
+  };
+  using Codes = std::vector<std::string>;
+  CHECK(codes_of("P5 1 1 255\n ", "", {}) == Codes{"W023"});
+  CHECK(codes_of("P5 1 1 255\n\xff", "#3", {.map_width = 1e6, .resolution = {}}) ==
+        Codes{"W017", "W023", "W011"});
+  CHECK(codes_of("P5 1", "#3", {.map_width = 1.0, .resolution = {}}) == Codes{"W017", "W011"});
 }
 
 TEST_CASE("the hospital map loads in less than two seconds and casts fast", "[sim][bitmap][data]") {
