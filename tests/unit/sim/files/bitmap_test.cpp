@@ -93,6 +93,12 @@ TEST_CASE("a picture that cannot serve as a map is refused with its reason", "[s
   CHECK_THAT(error_of("P5 1 1 70000\na"), Catch::Contains("largest value 70000"));
   CHECK_THAT(error_of("P5 200000 200000 255\na"), Catch::Contains("at most 100 million"));
   CHECK_THAT(error_of("\x89PNG\r\n\x1a\nxxxxxxxxxxxxxxxxx"), Catch::Contains("damaged PNG"));
+  // A PNG of 10 x 10 pixels whose first text claims 2 GB.
+  using namespace std::string_literals;
+  CHECK_THAT(
+      error_of(
+          "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\n\0\0\0\n\b\0\0\0\0\xa8\x59\x90\x61\x7f\xff\xff\xfftEXtab"s),
+      Catch::Contains("the part at byte 33 should have 2147483659 bytes, but the file has only 10 more"));
   CHECK_THAT(error_of("P5 1 1 255\na", {.map_width = {}, .resolution = 0.0}),
              Catch::Contains("resolution is"));
   CHECK_THAT(error_of("P5 1 1 255\na", {.map_width = {}, .resolution = {}}),
