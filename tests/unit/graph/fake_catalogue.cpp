@@ -204,6 +204,12 @@ std::vector<orca::HardwareFault> FakeCatalogue::validate_hardware(const graph::H
   return {};
 }
 
+std::vector<orca::HardwareFault> FakeCatalogue::hardware_conflicts(const graph::HardwareUse& use,
+                                                                   const graph::HardwareUse& earlier) {
+  if (use.type != "orca.hw.NomadScout" || use.params.at("port") != earlier.params.at("port")) return {};
+  return {{"port", "hardware \"" + earlier.name + "\" is on this port already"}};
+}
+
 Result<Contract> FakeCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {
   calls.push_back("component " + type + (hardware == nullptr ? "" : " with " + hardware->name));
   if (type == "orca.RobotBaseServer") return base_server(hardware != nullptr);

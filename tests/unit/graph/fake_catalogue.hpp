@@ -19,6 +19,8 @@ class FakeCatalogue final : public orca::graph::Catalogue {
   void add_folders(const std::vector<std::string>& folders) override;
   orca::Result<orca::Contract> hardware(const std::string& type) override;
   std::vector<orca::HardwareFault> validate_hardware(const orca::graph::HardwareUse& use) override;
+  std::vector<orca::HardwareFault> hardware_conflicts(const orca::graph::HardwareUse& use,
+                                                      const orca::graph::HardwareUse& earlier) override;
   orca::Result<orca::Contract> component(const std::string& type,
                                          const orca::graph::HardwareUse* hardware) override;
   std::vector<std::string> unfit(orca::PluginKind kind, const std::string& type) override;

@@ -34,6 +34,10 @@ bool follows_from(const std::set<std::string>& unread, const HardwareFault& faul
                              [&](const std::string& param) { return unread.contains(param); });
 }
 
+HardwareUse use_of(const CheckedHardware& checked) {
+  return {checked.value.name, checked.value.type, checked.value.params};
+}
+
 CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   CheckedHardware checked;
   checked.value = {node.value("name"), node.value("type"), {}, node.position};
@@ -42,20 +46,43 @@ CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   if (!contract) return checked;
   ReadParams params = read_params(node, *contract, report);
   checked.value.params = std::move(params.values);
-  const HardwareUse use{checked.value.name, checked.value.type, checked.value.params};
-  const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use);
+  const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use_of(checked));
   for (const HardwareFault& fault : faults)
     if (!follows_from(params.unread, fault)) report_fault(node, fault, report);
   checked.sound = params.sound() && faults.empty();
   return checked;
 }
 
+// A hardware container without an error of its own, and its node.
+struct Sound {
+  const Node* node;
+  HardwareUse use;
+};
+
+// Each container is compared with all before it, so there is a limit to their number. Beyond it, the start of the
+// system finds what is left.
+constexpr std::size_t kMostCompared = 1000;
+
+void check_conflicts(const std::vector<Sound>& all, Catalogue& catalogue, Report& report) {
+  for (std::size_t i = 0; i < std::min(all.size(), kMostCompared); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      if (all[i].use.type != all[k].use.type) continue;
+      for (const HardwareFault& fault : catalogue.hardware_conflicts(all[i].use, all[k].use))
+        report_fault(*all[i].node, fault, report);
+    }
+}
+
 }  // namespace
 
 void check_hardware(const std::vector<Node>& nodes, Types& types, Model& model, Report& report) {
+  std::vector<Sound> sound;
   for (const Node& node : nodes) {
-    model.add(check_one(node, types, report), !node.value("name").empty() && !node.duplicate);
+    const bool by_name = !node.value("name").empty() && !node.duplicate;
+    CheckedHardware checked = check_one(node, types, report);
+    if (checked.sound && by_name) sound.push_back({&node, use_of(checked)});
+    model.add(std::move(checked), by_name);
   }
+  check_conflicts(sound, types.catalogue(), report);
 }
 
 }  // namespace orca::graph

@@ -68,3 +68,18 @@ TEST_CASE("a value that the hardware refuses is reported where the graph sets it
         "test.xml:3:28: error G042: hardware \"robot\": parameter \"world\": it is under water; take "
         "another\n");
 }
+
+TEST_CASE(
+    "two hardware containers that cannot both be are told at the second, where the graph sets the value",
+    "[graph][catalogue]") {
+  const auto scout = [](const std::string& name, const std::string& port) {
+    return "<hardware name='" + name + "' type='orca.hw.NomadScout'>\n<param name='port' value='" + port +
+           "'/></hardware>\n";
+  };
+  CHECK_THAT(said_about("<graph name='g'>\n" + scout("one", "/dev/a") + scout("two", "/dev/b") + "</graph>"),
+             !Catch::Contains("error"));
+  CHECK_THAT(
+      said_about("<graph name='g'>\n" + scout("one", "/dev/a") + scout("two", "/dev/a") + "</graph>"),
+      Catch::Contains("test.xml:5:27: error G042: hardware \"two\": parameter \"port\": hardware \"one\" is "
+                      "on this port already"));
+}
