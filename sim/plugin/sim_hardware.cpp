@@ -30,6 +30,11 @@ constexpr double kFarthest = 1e5;  // [m] A world reaches no farther.
 // The code of errors in a picture's scale (docs/world-files.md), which stands in two parameters of their own.
 constexpr std::string_view kScaleOfPicture = "W023";
 
+// Returns whether a line of output can hold the name as one of its words.
+bool is_word(const std::string& name) {
+  return !name.empty() && name.find(' ') == std::string::npos && orca::printable(name) == name;
+}
+
 /// A robot in the simulated world, behind the same interface as real hardware. Robots whose graph entries
 /// name the same world file share one world.
 class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::Drawable {
@@ -42,7 +47,9 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     world_ = read_world_file(errors);
     robot_ = read_robot_file(errors);
     find_start(errors);
-    if (name_->empty()) errors.push_back({"name", "the robot needs a name"});
+    if (!is_word(*name_))
+      errors.push_back(
+          {"name", orca::in_quotes(*name_) + " is no name of a robot: one word that results can show"});
     if (!robot_) return errors;
     if (const std::string why = unserved(*robot_); !why.empty())
       errors.push_back({"robot", "\"" + *robot_file_ + "\": " + why});
@@ -51,6 +58,10 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   }
 
   std::optional<WorldModel> read_world_file(std::vector<orca::HardwareFault>& errors) const {
+    if (world_file_->empty()) {
+      errors.push_back({"world", "it is not set; name a world, e.g. \"../sim/worlds/office.xml\""});
+      return std::nullopt;
+    }
     orca::xml::Diagnostics diagnostics;
     std::optional<WorldModel> world =
         read_world(*world_file_, {given(*map_width_), given(*map_resolution_)}, diagnostics);
@@ -63,6 +74,10 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   }
 
   std::optional<RobotModel> read_robot_file(std::vector<orca::HardwareFault>& errors) const {
+    if (robot_file_->empty()) {
+      errors.push_back({"robot", "it is not set; name a robot, e.g. \"../sim/robots/nomad_scout.urdf\""});
+      return std::nullopt;
+    }
     orca::xml::Diagnostics diagnostics;
     std::optional<RobotModel> robot = read_robot(*robot_file_, diagnostics);
     append(diagnostics, "robot", errors);
