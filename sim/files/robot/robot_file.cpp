@@ -80,6 +80,7 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
     return robot.refuse(codes::kMissing,
                         "<robot> needs the element <orca radius=\"...\"> with its drive and sensors");
   detail::read_extension(*orca, model, reporter);
+  detail::check_mounts(root, *orca, reporter);
   if (urdf_is_sound) read_body(root, *orca, hulls, model, reporter);
   if (diagnostics.error_count() != before) return std::nullopt;
   return model;

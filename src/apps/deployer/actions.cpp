@@ -112,9 +112,28 @@ ExitCode run(const Options& options) {
   return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, options.run, stop, console).outcome);
 }
 
+bool reads_one_graph(Action action) {
+  return action == Action::run || action == Action::check || action == Action::print ||
+         action == Action::dot || action == Action::mermaid || action == Action::list_ports;
+}
+
+// Reports what is wrong with the command line, and with the graph that it names.
+ExitCode refuse(const Options& options) {
+  Loaded loaded(options);
+  loaded.diagnostics = options.problems;
+  if (reads_one_graph(options.action) && !options.file.empty()) {
+    load(options.file, options, loaded);
+  } else {
+    std::fputs(loaded.diagnostics.text().c_str(), stderr);
+  }
+  if (options.json && options.action == Action::check) show(loaded.diagnostics.json());
+  return ExitCode::bad_input;
+}
+
 }  // namespace
 
 ExitCode act(const Options& options) {
+  if (options.problems.has_errors()) return refuse(options);
   switch (options.action) {
     case Action::help: return show(help_text());
     case Action::version: return show("orca deployer " ORCA_VERSION "\n");

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-#include <cstdio>
-
 #include "actions.hpp"
 #include "options.hpp"
 #include "orca/host/last_words.hpp"
 
 int main(int argc, char** argv) {
-  const orca::Result<orca::deployer::Options> options =
-      orca::deployer::parse_options({argv + 1, argv + argc});
-  if (!options) {
-    std::fprintf(stderr, "error: %s\n", options.error().text().c_str());
-    return static_cast<int>(orca::deployer::ExitCode::bad_input);
-  }
-  orca::log::set_level(options->log_level);
+  const orca::deployer::Options options = orca::deployer::parse_options({argv + 1, argv + argc});
+  orca::log::set_level(options.log_level);
   const orca::host::LastWords last_words(static_cast<int>(orca::deployer::ExitCode::failed_running));
-  return static_cast<int>(orca::deployer::act(*options));
+  return static_cast<int>(orca::deployer::act(options));
 }

@@ -130,6 +130,9 @@ struct HardwareFault {
   /// The parameter to correct; empty: `text` is a whole line about a place in another file.
   std::string param;
   std::string text;  ///< What was found and what was expected.
+  /// Other parameters that the fault follows from. The checker drops the fault if the value of one of them, or
+  /// of `param`, could not be read: what is wrong with that one is reported already.
+  std::vector<std::string> follows_from{};
   friend bool operator==(const HardwareFault&, const HardwareFault&) = default;
 };
 
