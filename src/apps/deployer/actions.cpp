@@ -16,6 +16,7 @@
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/graph/schema.hpp"
+#include "streams.hpp"
 
 namespace orca::deployer {
 namespace {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 using Action = Options::Action;
 
 ExitCode show(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
+  write_out(text);
   return ExitCode::finished;
 }
 

@@ -5,8 +5,10 @@
 #include "actions.hpp"
 #include "options.hpp"
 #include "orca/host/last_words.hpp"
+#include "streams.hpp"
 
 int main(int argc, char** argv) {
+  orca::deployer::prepare_streams();
   const orca::Result<orca::deployer::Options> options =
       orca::deployer::parse_options({argv + 1, argv + argc});
   if (!options) {
@@ -15,5 +17,5 @@ int main(int argc, char** argv) {
   }
   orca::log::set_level(options->log_level);
   const orca::host::LastWords last_words(static_cast<int>(orca::deployer::ExitCode::failed_running));
-  return static_cast<int>(orca::deployer::act(*options));
+  return orca::deployer::exit_status(orca::deployer::act(*options));
 }

@@ -42,6 +42,7 @@ class Run {
   /// Runs, reports the end, and destroys all instances.
   RunResult execute() {
     run();
+    close_outputs();
     RunResult result = this->result();
     listener_.ended(result);  // before the destructors of plugins, which may end the process
     system_.reset();
@@ -51,8 +52,7 @@ class Run {
 
  private:
   void run() {
-    if (!options_.trace_file.empty())
-      if (const Status opened = trace_.open(options_.trace_file); !opened.ok()) return refuse(opened.error());
+    if (const Status opened = open_outputs(); !opened.ok()) return refuse_output(opened.error());
     if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
     {
       const StallMonitor monitor(
@@ -61,6 +61,29 @@ class Run {
       executive_.run([this] { main(); });
     }
     if (!options_.picture.file.empty()) draw();
+  }
+
+  // Opens all files that the run writes, so that a wrong name is known before anything moves.
+  Status open_outputs() {
+    if (!options_.trace_file.empty())
+      if (Status opened = trace_.open(options_.trace_file); !opened.ok()) return opened;
+    return options_.picture.file.empty() ? ok() : picture_.open(options_.picture.file);
+  }
+
+  void refuse_output(const Error& error) {
+    const bool wrong = error.code == Code::invalid_argument;
+    fail_with(wrong ? RunOutcome::bad_options : RunOutcome::not_started, error);
+  }
+
+  void close_outputs() {
+    for (const Status& closed : {trace_.close(), picture_.close()})
+      if (!closed.ok()) fail_output(closed.error());
+  }
+
+  // What people asked for is not there, so the run has failed, however well it went.
+  void fail_output(const Error& error) {
+    reporter_.log_error(error.text());
+    if (!error_) conclude(RunOutcome::failed, error);
   }
 
   void refuse(const Error& error) { fail_with(RunOutcome::not_started, error); }
@@ -137,6 +160,7 @@ class Run {
       reporter_.log_error(name + " does not end; the process is ended without it");
     conclude(RunOutcome::failed, fail(Code::deadline_exceeded,
                                       listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
+    close_outputs();
     listener_.abandon(result());  // a thread cannot be ended in any other way
   }
 
@@ -148,6 +172,7 @@ class Run {
     ended.culprit = component;
     ended.error = fail(Code::deadline_exceeded, text, component);
     ended.trace_hash.reset();  // it would depend on the moment at which the standstill was noticed
+    (void)trace_.close();
     listener_.abandon(ended);
   }
 
@@ -164,8 +189,8 @@ class Run {
     scene.start = start_;
     system_->draw(scene);
     reporter_.draw(scene);
-    if (const Status drawn = write_picture(scene, options_.picture); !drawn.ok())
-      reporter_.log_error(drawn.error().text());
+    if (const Status drawn = write_picture(scene, options_.picture, picture_); !drawn.ok())
+      fail_output(drawn.error());
   }
 
   [[nodiscard]] RunResult result() const {
@@ -173,7 +198,8 @@ class Run {
     result.outcome = outcome_;
     result.culprit = culprit_;
     result.error = error_;
-    const bool ran = outcome_ != RunOutcome::not_started;  // without a start there is nothing to compare
+    // Without a start there is nothing to compare.
+    const bool ran = outcome_ != RunOutcome::not_started && outcome_ != RunOutcome::bad_options;
     if (ran && executive_.is_virtual()) result.trace_hash = trace_.hash();
     reporter_.fill(result);
     if (ran) result.counters = collect_counters(graph_, *system_);
@@ -188,6 +214,7 @@ class Run {
   RunListener& listener_;
   Trace trace_;
   Reporter reporter_;
+  OutputFile picture_{"the picture"};
   std::atomic<bool> runs_{false};      // whether there are strands
   const KeptEnvironment environment_;  // lives longer than all that runs a plugin's code
   const TimePoint start_ = executive_.now();

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "demangle.hpp"
+#include "orca/base/input_file.hpp"
 #include "orca/base/layout.hpp"
 #include "orca/base/text.hpp"
 #include "orca/component/manifest.hpp"
@@ -63,6 +64,7 @@ Result<std::vector<std::byte>> bytes_of(const std::string& path) {
   file.seekg(0);
   file.read(reinterpret_cast<char*>(bytes.data()), size);
   if (file.gcount() != size) return fail(Code::data_loss, "cannot be read to its end", path);
+  remember_input_file(path);
   return bytes;
 }
 
