@@ -16,12 +16,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <string_view>
 
 #include "containment/environment.hpp"
 #include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
+#include "orca/host/stop_signal.hpp"
 #include "orca/plugin/loaded_plugins.hpp"
 
 namespace orca::host {
@@ -30,6 +32,7 @@ namespace {
 constexpr std::array kSignals{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
 constexpr int kHighDescriptor = 900;  // beyond the reach of a plugin that closes every number it can count to
 constexpr std::uintptr_t kNearStack = 64 * 1024;
+constexpr long kHungLimitNs = 200'000'000;
 
 std::atomic<bool> g_armed{false};
 std::atomic<bool> g_said{false};
@@ -125,8 +128,28 @@ void on_signal(int signal, siginfo_t* info, void* context) {
     add_plugin(line, activity, code_at(where));
     line.write();
   }
+  StopSignal::stop_motors();
   // A fault happens again on return and meets the old action. A signal that was sent must be sent again.
   if (info->si_code <= 0) raise(signal);
+}
+
+// What end_hung() says. Only its own signal reads it.
+const char* g_hung_said = "";
+int g_hung_status = EXIT_FAILURE;
+
+// Runs on the thread that hangs, because only that thread knows what it is doing.
+void on_hung(int /*signal*/, siginfo_t* /*info*/, void* context) {
+  const Activity* const activity = Activity::current();
+  Line line;
+  if (activity != nullptr) {
+    start_line(line, activity);
+  } else {
+    line << "error: the main thread ";
+  }
+  line << g_hung_said;
+  add_plugin(line, activity, code_at(*static_cast<const ucontext_t*>(context)));
+  line.write();
+  _exit(g_hung_status);
 }
 
 void on_terminate() {
@@ -159,6 +182,7 @@ void end_instead_of_exit(std::string_view call) {
   line << "called " << call << "; a plugin must not end the process";
   add_plugin(line, activity, nullptr);
   line.write();
+  StopSignal::stop_motors();
   std::fflush(nullptr);
   _exit(g_status);
 }
@@ -244,8 +268,26 @@ void LastWords::say_and_end(const std::string& line) {
   Line words;
   words << line;
   words.write();
+  StopSignal::stop_motors();
   std::fflush(nullptr);
   _exit(g_status);
+}
+
+void LastWords::end_hung(pthread_t thread, const char* said, int exit_status) {
+  g_hung_said = said;
+  g_hung_status = exit_status;
+  struct sigaction action {};
+  action.sa_sigaction = on_hung;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+  sigaction(SIGRTMAX, &action, nullptr);
+  pthread_kill(thread, SIGRTMAX);
+  const timespec moment{0, kHungLimitNs};
+  nanosleep(&moment, nullptr);
+  // It has blocked the signal.
+  Line line;
+  line << "error: the main thread " << said;
+  line.write();
+  _exit(exit_status);
 }
 
 }  // namespace orca::host

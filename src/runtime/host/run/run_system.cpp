@@ -19,6 +19,7 @@ namespace {
 constexpr Duration kStartLimit = 10s;
 constexpr Duration kRestLimit = 1s;
 constexpr Duration kTakeDownLimit = 1500ms;
+constexpr Duration kMotorLimit = 150ms;
 
 // One run, from bringing up to taking down. Its main() is the executive's main task.
 class Run {
@@ -106,6 +107,7 @@ class Run {
   void main() {
     runs_.store(true);
     stop_.on_request([this] { changed_->notify(); });
+    stop_.on_crash([this] { stop_motors(); });
     const Status up = system_->bring_up(*changed_, executive_.now() + kStartLimit);
     if (!up.ok() && !stop_.requested()) {
       fail_with(RunOutcome::not_started, up.error());
@@ -117,7 +119,15 @@ class Run {
     }
     take_down();
     stop_.on_request(nullptr);
+    stop_.on_crash(nullptr);
     runs_.store(false);
+  }
+
+  // Stops the motors while another thread is about to end the process. If all strands share that thread, only the
+  // watchdogs of the devices can.
+  void stop_motors() {
+    if (executive_.tasks_overlap()) system_->stop_hardware(kMotorLimit);
+    (void)trace_.close();
   }
 
   void supervise() {
@@ -130,6 +140,9 @@ class Run {
     }
     if (error_ || has_ended()) return;
     outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
+    if (const std::string signal = stop_.failure(); !signal.empty())
+      fail_with(RunOutcome::failed,
+                fail(Code::failed_precondition, "the signal " + signal + " ended the run"));
   }
 
   // Returns whether the components that the graph names in `ends` have come to an end. Keeps the reason if
