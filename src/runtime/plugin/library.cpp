@@ -17,6 +17,7 @@
 #include "inspection/plugin_threads.hpp"
 #include "inspection/trial.hpp"
 #include "loaded_plugins.hpp"
+#include "orca/base/activity.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/plugin/describe.hpp"
@@ -131,7 +132,10 @@ PluginLibrary::~PluginLibrary() {
     return;
   }
   entry_.reset();
-  dlclose(handle_);
+  {
+    const Activity activity(path_.c_str(), Hook::unload, nullptr);
+    dlclose(handle_);
+  }
   const bool loaded_elsewhere = plugin_at(manifest_) != nullptr;
   if (!loaded_elsewhere && is_mapped(path_))
     tell_pinned("it is still in memory after it was unloaded, and so are its variables");

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -45,6 +46,7 @@ void report_terminate() {
 
 [[noreturn]] void run_copy(int report_fd, const Attempt& attempt) {
   g_report_fd = report_fd;
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // however the parent ends, the copy does not outlive it
   for (const int signal : kSignals) ::signal(signal, SIG_DFL);
   std::set_terminate(report_terminate);
   const int null = open("/dev/null", O_RDWR);  // the copy must not talk to the user
