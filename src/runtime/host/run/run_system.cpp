@@ -113,7 +113,8 @@ class Run {
       fail_with(RunOutcome::not_started, up.error());
       reporter_.log_error("not everything came up; taking all down again");
     } else {
-      system_->open_gates();
+      // After a request to stop, some components may not be up, and others would fail for want of them.
+      if (up.ok() && !stop_.requested()) system_->open_gates();
       supervise();
       if (has_ended() && !stop_.requested()) wait_for_rest();
     }
