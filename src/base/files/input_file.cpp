@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstring>
 
+#include "orca/base/exhaustion.hpp"
 #include "used_files.hpp"
 
 namespace orca {
@@ -70,8 +71,11 @@ Result<std::string> read_input_file(const std::string& path, std::size_t max_byt
   // Without O_NONBLOCK, a pipe that nobody writes to would block here for ever.
   const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   struct stat about {};
-  if (file.number() < 0 || fstat(file.number(), &about) != 0)
-    return fail(Code::not_found, std::strerror(errno));
+  if (file.number() < 0 || fstat(file.number(), &about) != 0) {
+    const int reason = errno;
+    throw_if_exhausted(reason);
+    return fail(Code::not_found, std::strerror(reason));
+  }
   Result<std::string> bytes = read_all(file.number(), max_bytes);
   if (bytes && bytes->empty() && S_ISFIFO(about.st_mode))
     return fail(Code::data_loss, "it is a pipe that nobody writes to");

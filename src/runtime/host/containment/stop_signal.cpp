@@ -15,6 +15,7 @@
 #include <ctime>
 #include <utility>
 
+#include "orca/base/exhaustion.hpp"
 #include "orca/host/last_words.hpp"
 
 namespace orca::host {
@@ -74,6 +75,7 @@ bool would_end_process(int signal) {
 StopSignal::StopSignal(int stopped_status, int failed_status)
     : stopped_status_(stopped_status), failed_status_(failed_status) {
   g_wake_fd.store(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  if (g_wake_fd.load() < 0) throw_if_exhausted(errno);
   g_process.store(getpid());
   g_signal.store(0);
   block_requests();
@@ -96,6 +98,7 @@ void StopSignal::block_requests() {
     if (signal == SIGINT || signal == SIGTERM || would_end_process(signal)) sigaddset(&set, signal);
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   signal_fd_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
+  if (signal_fd_ < 0) throw_if_exhausted(errno);
 }
 
 // These are handled instead of blocked, so that a library that handles one itself takes it over.

@@ -2,6 +2,7 @@
 #include "orca/host/run_system.hpp"
 
 #include <atomic>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "containment/environment.hpp"
 #include "containment/stall_monitor.hpp"
 #include "counters.hpp"
+#include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "reporter.hpp"
 #include "system.hpp"
@@ -108,7 +110,7 @@ class Run {
     runs_.store(true);
     stop_.on_request([this] { changed_->notify(); });
     stop_.on_crash([this] { stop_motors(); });
-    const Status up = system_->bring_up(*changed_, executive_.now() + kStartLimit);
+    const Status up = bring_up();
     if (!up.ok() && !stop_.requested()) {
       fail_with(RunOutcome::not_started, up.error());
       reporter_.log_error("not everything came up; taking all down again");
@@ -122,6 +124,16 @@ class Run {
     stop_.on_request(nullptr);
     stop_.on_crash(nullptr);
     runs_.store(false);
+  }
+
+  Status bring_up() {
+    try {
+      return system_->bring_up(*changed_, executive_.now() + kStartLimit);
+    } catch (...) {
+      const char* const text = exhaustion_text(std::current_exception());
+      if (text == nullptr) throw;
+      return fail(Code::unavailable, text);
+    }
   }
 
   // Stops the motors while another thread is about to end the process. If all strands share that thread, only the

@@ -15,7 +15,8 @@ namespace orca {
 ///
 /// @param max_bytes  a longer file is cut off there.
 /// @errors  not_found with the system's reason if it cannot be opened, data_loss if it cannot be read,
-///          deadline_exceeded if a pipe or device gives nothing more and does not end.
+///          deadline_exceeded if a pipe or device gives nothing more and does not end. Throws
+///          std::system_error if there is no descriptor or memory left (orca/base/exhaustion.hpp).
 /// @thread  any.
 [[nodiscard]] Result<std::string> read_input_file(const std::string& path, std::size_t max_bytes);
 

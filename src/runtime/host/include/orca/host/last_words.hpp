@@ -18,8 +18,10 @@ namespace orca::host {
 /// Thread contract: one object per process, made first and destroyed last by the main thread.
 class LastWords {
  public:
-  /// @param exit_status  status of a process that a plugin tries to end by exit(), or has made unusable.
-  explicit LastWords(int exit_status);
+  /// @param exit_status       status of a process that a plugin tries to end by exit(), or has made unusable.
+  /// @param exhausted_status  status of a process that ends because the system gives it no more memory, threads
+  ///                          or descriptors, where nobody can catch that.
+  LastWords(int exit_status, int exhausted_status);
   ~LastWords();
   LastWords(const LastWords&) = delete;
   LastWords& operator=(const LastWords&) = delete;

@@ -29,6 +29,7 @@ class StopSignal {
  public:
   /// @param stopped_status  status of a process that is ended when nothing runs yet, or by the second signal.
   /// @param failed_status   status of a process that does not end by itself.
+  /// @errors  throws std::system_error if there is no descriptor or thread left.
   explicit StopSignal(int stopped_status, int failed_status = EXIT_FAILURE);
   ~StopSignal();
   StopSignal(const StopSignal&) = delete;
