@@ -16,6 +16,7 @@
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/graph/schema.hpp"
+#include "streams.hpp"
 
 namespace orca::deployer {
 namespace {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 using Action = Options::Action;
 
 ExitCode show(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
+  write_out(text);
   return ExitCode::finished;
 }
 
@@ -103,8 +104,10 @@ ExitCode show_graph(const Options& options) {
 }
 
 ExitCode run(const Options& options) {
-  host::StopSignal stop(static_cast<int>(
-      ExitCode::finished));  // first of all, so that a signal at any moment ends the run properly
+  // First of all, so that a signal at any moment ends the run properly, and never destroyed, so that it also does
+  // while the last destructors and atexit handlers run.
+  static auto& stop =
+      *new host::StopSignal(static_cast<int>(ExitCode::finished), static_cast<int>(ExitCode::failed_running));
   Loaded loaded(options);
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;

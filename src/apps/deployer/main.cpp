@@ -3,10 +3,15 @@
 #include "actions.hpp"
 #include "options.hpp"
 #include "orca/host/last_words.hpp"
+#include "streams.hpp"
+
+using orca::deployer::ExitCode;
 
 int main(int argc, char** argv) {
+  orca::deployer::prepare_streams();
+  const orca::host::LastWords last_words(static_cast<int>(ExitCode::failed_running),
+                                         static_cast<int>(ExitCode::could_not_start));
   const orca::deployer::Options options = orca::deployer::parse_options({argv + 1, argv + argc});
   orca::log::set_level(options.log_level);
-  const orca::host::LastWords last_words(static_cast<int>(orca::deployer::ExitCode::failed_running));
-  return static_cast<int>(orca::deployer::act(options));
+  return orca::deployer::exit_status(orca::deployer::act(options));
 }
