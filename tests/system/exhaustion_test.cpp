@@ -36,7 +36,7 @@ bool is_refused(const Run& run) {
 
 TEST_CASE("with too little memory the run is refused with exit status 3 and a sentence",
           "[system][exhaustion]") {
-  if (kSanitized) return;  // a sanitizer needs terabytes of addresses
+  if (kSanitized) return;  // a sanitizer needs terabytes of addresses, and threads of its own
   for (const std::string executor : {"thread", "fiber", "baton"}) {
     int refused = 0;
     for (int kilobytes = 40'000; kilobytes <= 120'000; kilobytes += 5'000) {
@@ -49,6 +49,7 @@ TEST_CASE("with too little memory the run is refused with exit status 3 and a se
 
 TEST_CASE("with too few descriptors the run is refused with exit status 3 and a sentence",
           "[system][exhaustion]") {
+  if (kSanitized) return;
   int refused = 0;
   for (int descriptors = 5; descriptors <= 12; ++descriptors) {
     CAPTURE(descriptors);
@@ -59,6 +60,7 @@ TEST_CASE("with too few descriptors the run is refused with exit status 3 and a 
 
 TEST_CASE("with too few threads the run is refused with exit status 3 and a sentence",
           "[system][exhaustion]") {
+  if (kSanitized) return;
   // The limit counts all processes of a user and does not hold for root.
   const Words shell = geteuid() == 0
                           ? Words{"/usr/bin/setpriv", "--reuid", "61234", "--clear-groups", "/bin/bash", "-c"}

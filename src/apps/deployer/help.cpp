@@ -45,7 +45,7 @@ How to check
   --json                for programs; with --check, --print, --list-ports, --diff and --describe
 
 stdout  arrived NAME x y t | contact NAME t | trace-hash HASH (virtual clock, last line)
-exit    0 finished or stopped on request   1 failed while running, or --diff found a difference
+exit    0 finished or stopped on request   1 failed while running, output not written, or --diff found a difference
         2 graph or arguments wrong, nothing started   3 could not start, all taken down again
 )";
 }
