@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "bullet_shapes.hpp"
 
+#include <BulletCollision/CollisionShapes/btEmptyShape.h>
+
 namespace orca::sim::detail {
 namespace {
 
@@ -15,6 +17,10 @@ void make_shape_of_mesh(OwnedShape& owned) {
 // because robots start outside.
 OwnedShape extruded(const Outline& outline, double bottom, double top) {
   OwnedShape owned;
+  if (outline.edges.empty()) {  // Bullet crashes when it builds a tree over no triangles.
+    owned.shape = std::make_unique<btEmptyShape>();
+    return owned;
+  }
   owned.mesh = std::make_unique<btTriangleMesh>();
   for (const Segment& e : outline.edges) {
     const btVector3 a(e.a.x, e.a.y, bottom);

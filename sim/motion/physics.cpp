@@ -2,6 +2,8 @@
 #include "physics.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <new>
 #include <utility>
 
 #include "bullet_shapes.hpp"
@@ -48,6 +50,19 @@ void note(std::map<Pair, double>& pairs, const Pair& pair, double distance) {
 
 }  // namespace
 
+namespace {
+
+// Bullet uses what it gets without a look.
+void* allocate(std::size_t size) {
+  void* const memory = std::malloc(size);
+  return memory != nullptr ? memory : throw std::bad_alloc();
+}
+
+// Bullet's own functions are malloc() and free(), so it does not matter what was allocated before.
+void report_lack_of_memory() { btAlignedAllocSetCustom(allocate, std::free); }
+
+}  // namespace
+
 struct Physics::Impl {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
@@ -69,7 +84,7 @@ struct Physics::Impl {
   }
 };
 
-Physics::Physics(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
+Physics::Physics(const WorldModel& world) : impl_((report_lack_of_memory(), std::make_unique<Impl>())) {
   impl_->world.setGravity(btVector3(0, 0, 0));
   // Standing things do not move, so their bounding boxes need no update in each step.
   impl_->world.setForceUpdateAllAabbs(false);

@@ -26,6 +26,16 @@ using orca::TimePoint;
 // Longest time that a motion command holds (DESIGN 11).
 constexpr orca::Duration kMaxCommandAge = std::chrono::milliseconds(200);
 
+constexpr double kFarthest = 1e5;  // [m] A world reaches no farther.
+
+// The code of errors in a picture's scale (docs/world-files.md), which stands in two parameters of their own.
+constexpr std::string_view kScaleOfPicture = "W023";
+
+// Returns whether a line of output can hold the name as one of its words.
+bool is_word(const std::string& name) {
+  return !name.empty() && name.find(' ') == std::string::npos && orca::printable(name) == name;
+}
+
 /// A robot in the simulated world, behind the same interface as real hardware. Robots whose graph entries
 /// name the same world file share one world.
 class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::Drawable {
@@ -37,8 +47,11 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     std::vector<orca::HardwareFault> errors;
     world_ = read_world_file(errors);
     robot_ = read_robot_file(errors);
-    if (!world_ || !robot_) return errors;
     find_start(errors);
+    if (!is_word(*name_))
+      errors.push_back(
+          {"name", orca::in_quotes(*name_) + " is no name of a robot: one word that results can show"});
+    if (!robot_) return errors;
     if (const std::string why = unserved(*robot_); !why.empty())
       errors.push_back({"robot", "\"" + *robot_file_ + "\": " + why});
     declare_endpoints();
@@ -46,6 +59,10 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   }
 
   std::optional<WorldModel> read_world_file(std::vector<orca::HardwareFault>& errors) const {
+    if (world_file_->empty()) {
+      errors.push_back({"world", "it is not set; name a world, e.g. \"../sim/worlds/office.xml\""});
+      return std::nullopt;
+    }
     orca::xml::Diagnostics diagnostics;
     std::optional<WorldModel> world =
         read_world(*world_file_, {given(*map_width_), given(*map_resolution_)}, diagnostics);
@@ -58,6 +75,10 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   }
 
   std::optional<RobotModel> read_robot_file(std::vector<orca::HardwareFault>& errors) const {
+    if (robot_file_->empty()) {
+      errors.push_back({"robot", "it is not set; name a robot, e.g. \"../sim/robots/nomad_scout.urdf\""});
+      return std::nullopt;
+    }
     orca::xml::Diagnostics diagnostics;
     std::optional<RobotModel> robot = read_robot(*robot_file_, diagnostics);
     append(diagnostics, "robot", errors);
@@ -73,6 +94,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
       const std::string& file = diagnostic.position.file;
       if (whole_file) {
         errors.push_back({param, "\"" + file + "\": " + diagnostic.message});
+        if (diagnostic.code == kScaleOfPicture) errors.back().follows_from = {"map_width", "map_resolution"};
       } else {
         errors.push_back({"", diagnostic.text()});
       }
@@ -81,6 +103,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
 
   void find_start(std::vector<orca::HardwareFault>& errors) {
     start_ = {*x_, *y_, *heading_};
+    if (!world_) return;
     if (!place_->empty()) {
       const Place* const place = world_->place(*place_);
       if (place == nullptr) {
@@ -92,12 +115,17 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
       }
       start_ = place->pose;
     }
-    if (const Obstacle* hit =
-            world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom, robot_->top))
-      errors.push_back({place_->empty() ? "x" : "place",
-                        "the robot \"" + *name_ + "\" would start inside \"" + hit->name + "\" at x " +
-                            orca::xml::number_text(start_.x) + " m, y " + orca::xml::number_text(start_.y) +
-                            " m; choose a free place"});
+    if (robot_) check_start_is_free(errors);
+  }
+
+  void check_start_is_free(std::vector<orca::HardwareFault>& errors) const {
+    const Obstacle* hit = world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom, robot_->top);
+    if (hit == nullptr) return;
+    errors.push_back({start_param(),
+                      "the robot \"" + *name_ + "\" would start inside \"" + hit->name + "\" at x " +
+                          orca::xml::number_text(start_.x) + " m, y " + orca::xml::number_text(start_.y) +
+                          " m; choose a free place",
+                      {"world", "robot", "place", "x", "y", "heading"}});
   }
 
   [[nodiscard]] std::vector<std::string> place_names() const {
@@ -113,6 +141,36 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     set_motion(*motion_);
     if (*stop_on_touch_) guard_.emplace(*robot_, *motion_);
   }
+
+  // Only robots that share a world can be in each other's way.
+  [[nodiscard]] std::vector<orca::HardwareFault> conflicts_with(
+      const HardwareContainer& earlier) const override {
+    const auto& other = static_cast<const SimHardware&>(earlier);
+    std::vector<orca::HardwareFault> faults;
+    if (*world_file_ != *other.world_file_) return faults;
+    const std::string whose = "that of hardware " + orca::in_quotes(other.host().name());
+    if (*name_ == *other.name_)
+      faults.push_back({"name", "there is a robot " + orca::in_quotes(*name_) + " in this world already, " +
+                                    whose + "; choose another name"});
+    if (settings() != other.settings())
+      faults.push_back({setting_unlike(other), "another robot, " + whose + ", has this world with " +
+                                                   other.settings() + ", and this one wants " + settings() +
+                                                   "; robots that share a world need the same"});
+    if (overlap(placed(robot_->footprint, start_), placed(other.robot_->footprint, other.start_)))
+      faults.push_back({start_param(), "the robot " + orca::in_quotes(*name_) +
+                                           " would start where another one starts, " + whose +
+                                           "; choose a free place"});
+    return faults;
+  }
+
+  // Returns the first parameter of the shared world that differs.
+  [[nodiscard]] const char* setting_unlike(const SimHardware& other) const {
+    if (*realism_ != *other.realism_) return "realism";
+    if (*map_width_ != *other.map_width_) return "map_width";
+    return *map_resolution_ != *other.map_resolution_ ? "map_resolution" : "threads";
+  }
+
+  [[nodiscard]] const char* start_param() const { return place_->empty() ? "x" : "place"; }
 
   [[nodiscard]] orca::idl::Robot description() const override { return describe(*robot_, *name_); }
 
@@ -203,8 +261,16 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
       *this, "name", "Dewey", {.text = "Name of this robot; each robot of a world has its own."}};
   orca::Param<std::string> place_{
       *this, "place", "", {.text = "Start at this place of the world instead of x, y, heading."}};
-  orca::Param<double> x_{*this, "x", 0.0, {.unit = "m", .text = "Start position in the world frame."}};
-  orca::Param<double> y_{*this, "y", 0.0, {.unit = "m", .text = "Start position in the world frame."}};
+  orca::Param<double> x_{
+      *this,
+      "x",
+      0.0,
+      {.unit = "m", .min = -kFarthest, .max = kFarthest, .text = "Start position in the world frame."}};
+  orca::Param<double> y_{
+      *this,
+      "y",
+      0.0,
+      {.unit = "m", .min = -kFarthest, .max = kFarthest, .text = "Start position in the world frame."}};
   orca::Param<double> heading_{
       *this,
       "heading",

@@ -7,6 +7,8 @@
 #include <exception>
 #include <typeinfo>
 
+#include "orca/base/exhaustion.hpp"
+
 namespace orca {
 namespace {
 
@@ -24,6 +26,8 @@ std::string current_type_name() {
 
 std::string describe_current_exception() {
   const std::string type = current_type_name();
+  if (const char* const text = exhaustion_text(std::current_exception()))
+    return "threw " + type + ": " + text;
   try {
     throw;
   } catch (const std::exception& error) {

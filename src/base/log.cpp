@@ -6,6 +6,8 @@
 
 #include <mutex>
 
+#include "orca/base/text.hpp"
+
 namespace orca::log {
 namespace {
 
@@ -59,9 +61,10 @@ void set_clock(std::function<TimePoint()> now) {
   state().now = std::move(now);
 }
 
-void write(Level level, std::string_view who, std::string_view text) {
+void write(Level level, std::string_view who, std::string_view words) {
   State& s = state();
   if (!s.logger->should_log(to_spdlog(level))) return;
+  const std::string text = printable(words);
   const std::lock_guard lock(s.mutex);
   if (s.now) {
     s.logger->log(to_spdlog(level), "[{:10.3f}] {:<7} {}: {}", to_seconds(s.now()), name(level), who, text);

@@ -26,6 +26,7 @@ inline constexpr const char* kCharacterReference = "G118";
 inline constexpr const char* kComment = "G119";
 inline constexpr const char* kInstruction = "G120";
 inline constexpr const char* kLimit = "G121";
+inline constexpr const char* kXmlVersion = "G122";
 inline constexpr const char* kReaderBug = "G129";
 
 }  // namespace orca::xml::codes

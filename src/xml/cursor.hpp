@@ -26,6 +26,7 @@ class Cursor {
   [[nodiscard]] Mark mark() const { return mark_; }
   // Returns the text from an earlier offset up to here.
   [[nodiscard]] std::string_view since(std::size_t from) const { return text_.substr(from, offset_ - from); }
+  [[nodiscard]] std::string_view rest() const { return text_.substr(offset_); }
   // Returns the distance to the next `what`, npos if there is none.
   [[nodiscard]] std::size_t distance_to(std::string_view what) const {
     const std::size_t at = text_.find(what, offset_);
@@ -40,7 +41,8 @@ class Cursor {
  private:
   void step() {
     const auto byte = static_cast<unsigned char>(text_[offset_++]);
-    if (byte == '\n') {
+    const bool ends_line = byte == '\n' || (byte == '\r' && peek() != '\n');  // "\r\n" ends it only once
+    if (ends_line) {
       ++mark_.line;
       mark_.column = 1;
     } else if (offset_ == text_.size() || !is_continuation(text_[offset_])) {

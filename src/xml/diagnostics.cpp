@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "orca/base/json.hpp"
+#include "orca/base/text.hpp"
 
 namespace orca::xml {
 
@@ -14,15 +15,15 @@ std::string Position::text() const {
 }
 
 std::string Diagnostic::text() const {
-  if (code.empty()) return message;
+  if (code.empty()) return printable(message);
   const char* kind = severity == Severity::error ? ": error " : ": warning ";
-  return position.text() + kind + code + ": " + message;
+  return printable(position.text() + kind + code + ": " + message);
 }
 
 void Diagnostics::keep(Severity severity, std::string code, Position position, std::string message) {
   ++reported_;
   if (items_.size() == kKept) return;
-  items_.push_back({severity, std::move(code), std::move(position), std::move(message)});
+  items_.push_back({severity, std::move(code), std::move(position), shortened(message, kLongest)});
 }
 
 void Diagnostics::error(std::string code, Position position, std::string message) {

@@ -1,39 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/xml/document.hpp"
 
-#include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
-
 #include "codes.hpp"
 #include "encoding.hpp"
+#include "orca/base/input_file.hpp"
 #include "scanner.hpp"
 #include "tree.hpp"
 
 namespace orca::xml {
-namespace {
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-}  // namespace
-
-Result<std::string> read_bytes(const std::string& path) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail(Code::not_found, std::strerror(errno));
-  std::string bytes;
-  std::array<char, 65536> buffer{};
-  while (bytes.size() <= Limits::kBytes) {
-    const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get());
-    bytes.append(buffer.data(), count);
-    if (count < buffer.size()) break;
-  }
-  if (std::ferror(file.get()) != 0) return fail(Code::data_loss, std::strerror(errno));
-  return bytes;
-}
+Result<std::string> read_bytes(const std::string& path) { return read_input_file(path, Limits::kBytes + 1); }
 
 const Attribute* Element::attribute(std::string_view name) const {
   for (const Attribute& attribute : attributes_)

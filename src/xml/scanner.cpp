@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
+#include "blanks.hpp"
 #include "codes.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/document.hpp"
@@ -35,6 +37,11 @@ bool is_utf8(const std::string& encoding) {
 }
 
 }  // namespace
+
+std::string shown(std::string_view name) {
+  constexpr std::size_t kMost = 200;
+  return shortened(name, kMost);
+}
 
 std::string place(Mark mark) {
   return "line " + std::to_string(mark.line) + ", column " + std::to_string(mark.column);
@@ -74,10 +81,16 @@ void Scanner::stop(const char* code, Mark at, std::string message) {
   cursor_.advance_to_end();
 }
 
-bool Scanner::skip_blanks() {
+bool Scanner::skip_blanks(const char* code) {
   const std::size_t from = cursor_.offset();
-  while (is_blank(cursor_.peek())) cursor_.advance();
-  return cursor_.offset() > from;
+  bool reported = false;
+  for (;;) {
+    const auto odd = odd_blank(cursor_.rest());
+    if (!odd && !is_blank(cursor_.peek())) return cursor_.offset() > from;
+    if (odd && !std::exchange(reported, true))
+      broken(code, cursor_.mark(), odd->name + " stands here, which separates nothing in XML; write a blank");
+    cursor_.advance(odd ? odd->size : 1);
+  }
 }
 
 bool Scanner::check_references(std::string_view content, Mark begin) {
@@ -97,7 +110,7 @@ bool Scanner::check_references(std::string_view content, Mark begin) {
 
 bool Scanner::starts_as_xml() {
   if (cursor_.starts_with("<?xml")) return true;
-  skip_blanks();
+  skip_blanks(codes::kOutsideRoot);
   if (cursor_.at_end()) {
     stop(codes::kEmpty, cursor_.mark(), "the file holds nothing but blanks, an XML document is expected");
     return false;
@@ -120,6 +133,12 @@ void Scanner::declaration() {
   }
   const std::size_t from = cursor_.offset();
   cursor_.advance(length + 2);
+  const std::string version = declared(cursor_.since(from), "version");
+  if (version != "1.0")
+    flaw(codes::kXmlVersion, begin,
+         (version.empty() ? "the XML declaration has no version"
+                          : "the file declares version " + in_quotes(version) + " of XML") +
+             "; only 1.0 is read: write version=\"1.0\"");
   const std::string encoding = declared(cursor_.since(from), "encoding");
   if (!is_utf8(encoding)) {
     stop(codes::kEncoding, begin,
@@ -158,7 +177,9 @@ void Scanner::note_text(std::string_view content, Mark begin) {
   while (is_blank(cursor.peek())) cursor.advance();
   if (cursor.at_end()) return;
   if (open_.empty()) {
-    return broken(codes::kOutsideRoot, cursor.mark(), "there is text outside the root element");
+    const auto odd = odd_blank(cursor.rest());
+    return broken(codes::kOutsideRoot, cursor.mark(),
+                  "there is " + (odd ? odd->name : "text") + " outside the root element");
   }
   ElementMark& element = scan_.elements[open_.back().element];
   if (!element.has_text) element.text = cursor.mark();
@@ -214,16 +235,16 @@ void Scanner::end_tag() {
   if (cursor_.peek() == '>') {
     cursor_.advance();
   } else if (!cursor_.at_end()) {
-    broken(codes::kTag, cursor_.mark(), "the end tag </" + std::string(tag) + "> is not closed with \">\"");
+    broken(codes::kTag, cursor_.mark(), "the end tag </" + shown(tag) + "> is not closed with \">\"");
     skip_rest_of_tag();
   }
   close(tag, begin);
 }
 
 void Scanner::close(std::string_view tag, Mark begin) {
-  const std::string shown = "the end tag </" + std::string(tag) + ">";
+  const std::string end = "the end tag </" + shown(tag) + ">";
   if (open_.empty()) {
-    if (!end_tags_wrong_) broken(codes::kEndTag, begin, shown + " closes nothing: no element is open");
+    if (!end_tags_wrong_) broken(codes::kEndTag, begin, end + " closes nothing: no element is open");
     end_tags_wrong_ = true;
     return;
   }
@@ -234,14 +255,15 @@ void Scanner::close(std::string_view tag, Mark begin) {
     // A late end tag that was missing before: "<a><b></a></b>" is one error.
     if (match == open_.rend() && take_crossed(tag)) return;
     broken(codes::kEndTag, begin,
-           shown + " does not fit: <" + std::string(innermost.name) + "> from " + place(innermost.begin) +
-               " is open and needs </" + std::string(innermost.name) + "> first");
+           end + " does not fit: <" + shown(innermost.name) + "> from " + place(innermost.begin) +
+               " is open and needs </" + shown(innermost.name) + "> first");
     end_tags_wrong_ = true;
   }
-  // An end tag that fits nothing is treated as a misspelt one.
-  const auto closed = match == open_.rend() ? open_.end() - 1 : match.base() - 1;
-  if (match != open_.rend())
-    for (auto crossed = closed + 1; crossed != open_.end(); ++crossed) ++crossed_[crossed->name];
+  // An end tag that fits nothing is treated as a misspelt one. If it was one too many, the right one follows.
+  const bool misspelt = match == open_.rend();
+  const auto closed = misspelt ? open_.end() - 1 : match.base() - 1;
+  for (auto crossed = misspelt ? closed : closed + 1; crossed != open_.end(); ++crossed)
+    ++crossed_[crossed->name];
   open_.erase(closed, open_.end());
   root_closed_ = open_.empty();
 }
@@ -260,7 +282,7 @@ void Scanner::check_complete() {
                   "there is no element in the file, a root element is expected");
   }
   if (open_.empty() || end_tags_wrong_) return;
-  std::string message = "the file ends here, but <" + std::string(open_.back().name) + "> from " +
+  std::string message = "the file ends here, but <" + shown(open_.back().name) + "> from " +
                         place(open_.back().begin) + " is not closed";
   if (open_.size() > 1) message += ", nor the " + std::to_string(open_.size() - 1) + " around it";
   broken(codes::kTruncated, cursor_.mark(), message);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "codes.hpp"
 #include "cursor.hpp"
 #include "orca/xml/diagnostics.hpp"
 
@@ -82,7 +83,8 @@ class Scanner {
 
   // Used by both files.
   std::string_view name();
-  bool skip_blanks();
+  // Skips odd blanks as well, after a report with that code.
+  bool skip_blanks(const char* code = codes::kTag);
   // Returns false if there is a bad reference.
   bool check_references(std::string_view content, Mark begin);
   void flaw(const char* code, Mark at, std::string message);    // the tree is still to be had
@@ -103,6 +105,9 @@ class Scanner {
   bool end_tags_wrong_ = false;
   bool stopped_ = false;
 };
+
+// Returns a name for messages, which a name of megabytes must not fill.
+std::string shown(std::string_view name);
 
 // "line 3, column 5"
 std::string place(Mark mark);

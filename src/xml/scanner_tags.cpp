@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 
+#include "blanks.hpp"
 #include "codes.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
@@ -11,7 +12,7 @@ namespace {
 
 bool is_name_character(char c) { return is_name_start(c) || (c >= '0' && c <= '9') || c == '-' || c == '.'; }
 
-std::string attribute_text(std::string_view name) { return "attribute \"" + std::string(name) + "\""; }
+std::string attribute_text(std::string_view name) { return "attribute \"" + shown(name) + "\""; }
 
 }  // namespace
 
@@ -23,8 +24,9 @@ bool is_name_start(char c) {
 
 std::string_view Scanner::name() {
   const std::size_t from = cursor_.offset();
-  if (is_name_start(cursor_.peek())) cursor_.advance();
-  while (is_name_character(cursor_.peek()) && cursor_.offset() > from) cursor_.advance();
+  if (is_name_start(cursor_.peek()) && !odd_blank(cursor_.rest())) cursor_.advance();
+  while (is_name_character(cursor_.peek()) && cursor_.offset() > from && !odd_blank(cursor_.rest()))
+    cursor_.advance();
   return cursor_.since(from);
 }
 
@@ -53,35 +55,35 @@ bool Scanner::has_place(std::string_view tag, Mark begin) {
   }
   if (open_.size() >= Limits::kNesting) {
     stop(codes::kLimit, begin,
-         "<" + std::string(tag) + "> is nested in " + std::to_string(open_.size()) +
-             " elements, the limit is " + std::to_string(Limits::kNesting));
+         "<" + shown(tag) + "> is nested in " + std::to_string(open_.size()) + " elements, the limit is " +
+             std::to_string(Limits::kNesting));
     return false;
   }
   if (root_closed_ && open_.empty() && !second_root_ && !end_tags_wrong_) {
     second_root_ = true;
     broken(codes::kOutsideRoot, begin,
-           "<" + std::string(tag) + "> is a second root element; the first one is closed already");
+           "<" + shown(tag) + "> is a second root element; the first one is closed already");
   }
   return true;
 }
 
 Scanner::TagEnd Scanner::attributes(std::string_view tag, Mark begin) {
-  const std::string shown = "the tag <" + std::string(tag) + "> from " + place(begin);
+  const std::string whole = "the tag <" + shown(tag) + "> from " + place(begin);
   for (;;) {
     const bool blank = skip_blanks();
     const Mark here = cursor_.mark();
     if (cursor_.at_end()) {
-      stop(codes::kTruncated, here, "the file ends inside " + shown);
+      stop(codes::kTruncated, here, "the file ends inside " + whole);
       return TagEnd::opens;
     }
     if (cursor_.peek() == '>' || cursor_.starts_with("/>")) return skip_rest_of_tag();
     if (!is_name_start(cursor_.peek())) {
       broken(codes::kTag, here,
-             "\"" + std::string(1, cursor_.peek()) + "\" does not belong in " + shown +
+             "\"" + std::string(1, cursor_.peek()) + "\" does not belong in " + whole +
                  "; an attribute, \">\" or \"/>\" is expected");
       return skip_rest_of_tag();
     }
-    if (!blank) flaw(codes::kTag, here, "a blank is missing before this attribute in " + shown);
+    if (!blank) flaw(codes::kTag, here, "a blank is missing before this attribute in " + whole);
     if (const auto end = attribute()) return *end;
   }
 }
@@ -118,8 +120,7 @@ std::optional<Scanner::TagEnd> Scanner::attribute() {
 }
 
 void Scanner::missing_value(std::string_view name, Mark begin) {
-  broken(codes::kAttribute, begin,
-         attribute_text(name) + " has no value: write " + std::string(name) + "=\"...\"");
+  broken(codes::kAttribute, begin, attribute_text(name) + " has no value: write " + shown(name) + "=\"...\"");
 }
 
 void Scanner::missing_quote(std::string_view name) {

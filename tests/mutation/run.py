@@ -37,26 +37,34 @@ EQUAL = Path(__file__).with_name("equal.txt")
 
 
 @dataclass(frozen=True)
-class Module:
-    """Which tests answer for a folder, the quickest first."""
-    folder: str
+class Stage:
+    """Tests that are built and run together."""
     targets: tuple
     tests: tuple
 
 
+@dataclass(frozen=True)
+class Module:
+    """Which tests answer for a folder. The later stages are built only for a mutant that the earlier ones let pass."""
+    folder: str
+    stages: tuple
+
+
+def stage(*tests, also=()):
+    return Stage(tests + tuple(also), tests)
+
+
 _DEPLOYER = ("deployer", "orca_run")
 MODULES = (
-    Module("src/base/", ("base_test", "patterns_contract_test", "host_test"), ("base_test", "patterns_contract_test", "host_test")),
-    Module("src/patterns/", ("patterns_test", "patterns_allocation_test", "patterns_contract_test"),
-           ("patterns_test", "patterns_allocation_test", "patterns_contract_test")),
-    Module("src/runtime/graph/", ("graph_test", "plugin_faults_test"), ("graph_test", "plugin_faults_test")),
-    Module("src/runtime/plugin/", ("plugin_test", "plugin_faults_test", "system_bad_plugins_test", *_DEPLOYER),
-           ("plugin_test", "plugin_faults_test", "system_bad_plugins_test")),
+    Module("src/base/", (stage("base_test"), stage("patterns_contract_test"), stage("host_test"))),
+    Module("src/patterns/", (stage("patterns_test", "patterns_bytes_test"), stage("patterns_contract_test"),
+                             stage("patterns_allocation_test"))),
+    Module("src/runtime/graph/", (stage("graph_test"), stage("plugin_faults_test"))),
+    Module("src/runtime/plugin/", (stage("plugin_test"), stage("plugin_faults_test", "system_bad_plugins_test", also=_DEPLOYER))),
     Module("src/runtime/host/",
-           ("host_test", "system_phases_test", "system_graph_features_test", "system_scout_goto_test", "system_signals_test",
-            "system_hooligan_test", "system_bad_plugins_test", *_DEPLOYER),
-           ("host_test", "system_phases_test", "system_graph_features_test", "system_scout_goto_test", "system_hooligan_test",
-            "system_signals_test", "system_bad_plugins_test")),
+           (stage("host_test"),
+            stage("system_phases_test", "system_graph_features_test", "system_scout_goto_test", "system_hooligan_test",
+                  "system_signals_test", "system_bad_plugins_test", also=_DEPLOYER))),
 )
 
 
@@ -104,15 +112,17 @@ def module_of(path):
 
 
 def shuffled_mutants(seed, only):
-    """Each module's mutants in a random order, one module after the other, so that small modules count as much as large."""
-    chance = random.Random(seed)
+    """Each module's mutants in a random order, one module after the other, so that small modules count as much as large.
+
+    A module's order depends on no other module: runs with --only of each module together are a run of the whole.
+    """
     of_module = {module: [] for module in MODULES}
     for path in sorted(tracked_files()):
         module = module_of(path)
         if module and only in path and path.endswith((".cpp", ".hpp")):
             of_module[module] += mutants_of(path, (ROOT / path).read_text())
-    for mutants in of_module.values():
-        chance.shuffle(mutants)
+    for module, mutants in of_module.items():
+        random.Random(f"{seed} {module.folder}").shuffle(mutants)
     queues = [mutants for mutants in of_module.values() if mutants]
     while queues:
         for queue in queues:
@@ -126,9 +136,10 @@ def known_as_equal():
     return {line.split(" # ")[0] for line in lines if line.strip() and not line.startswith("#")}
 
 
-def without_line(mutant):
-    """A mutant's text as equal.txt compares it: lines move, so only file and change count."""
-    return f"{mutant.path}: {mutant.kind}: {mutant.old!r} -> {mutant.new!r}"
+def without_line(mutant, source):
+    """A mutant's text as equal.txt compares it: line numbers move, so the line itself counts."""
+    line = source.splitlines()[mutant.line - 1].split(" //")[0].strip()
+    return f"{mutant.path}: {line}: {mutant.kind}: {mutant.old!r} -> {mutant.new!r}"
 
 
 class Workshop:
@@ -181,9 +192,12 @@ class Workshop:
         self.changed.write_text(mutant.path)
         place.write_text(mutant.applied_to(original))
         try:
-            if not self.compiles(module.targets):
-                return "not compiled"
-            return "survived" if self.passes(module.tests) else "caught"
+            for stage in module.stages:
+                if not self.compiles(stage.targets):
+                    return "not compiled"
+                if not self.passes(stage.tests):
+                    return "caught"
+            return "survived"
         finally:
             place.write_text(original)
             self.changed.unlink()
@@ -194,10 +208,11 @@ def judge_unchanged(workshop, only):
     for module in MODULES:
         if only and not any(only in path for path in tracked_files() if module_of(path) is module):
             continue
-        say(f"unchanged: building and running {', '.join(module.tests)}")
-        if not workshop.compiles(module.targets) or not workshop.passes(module.tests):
-            say(f"the unchanged {module.folder} does not build or pass; see {workshop.build}")
-            sys.exit(2)
+        for stage in module.stages:
+            say(f"unchanged: building and running {', '.join(stage.tests)}")
+            if not workshop.compiles(stage.targets) or not workshop.passes(stage.tests):
+                say(f"the unchanged {module.folder} does not build or pass; see {workshop.build}")
+                sys.exit(2)
 
 
 def judge(workshop, mutants, count):
@@ -206,7 +221,7 @@ def judge(workshop, mutants, count):
         if tally.judged() == count:
             break
         began = time.monotonic()
-        if without_line(mutant) in equal:
+        if without_line(mutant, (ROOT / mutant.path).read_text()) in equal:
             verdict = "equal"
         else:
             verdict = workshop.try_out(mutant)

@@ -84,6 +84,68 @@ TEST_CASE("a trace or picture that cannot be written is reported with the reason
   CHECK(run.says("No such file"));
 }
 
+TEST_CASE(
+    "everything that is wrong with a command line is reported at once, with what is wrong with the graph",
+    "[system][bad]") {
+  const Run run =
+      run_deployer({kGraph, "--check", "--set", "a", "--clock", "lunar", "--seed", "many", "--stict",
+                    "--until", "1 parsec", "--set", "gaols=a: 1 1", "--set", "world=lost.xml"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  CHECK(run.out.empty());
+  for (const char* hint :
+       {"command line: error G014: --set a has no value", "command line: error C002: --clock expects",
+        "command line: error C002: --seed expects", "command line: error C001: unknown option \"--stict\"",
+        "command line: error C002: --until", "command line: error G014: --set gaols",
+        "scout_goto.xml:33:34: error G042: hardware \"scout\": parameter \"world\""}) {
+    CAPTURE(hint);
+    CHECK(run.says(hint));
+  }
+  CHECK(split_lines(run.err).size() == 7);
+}
+
+TEST_CASE("an option given twice does not win silently", "[system][bad]") {
+  check_refused({kGraph, "--until", "1s", "--until", "2s"},
+                {"C003: --until is given twice, as \"1s\" and \"2s\""});
+  check_refused({kGraph, "--seed", "1", "--seed", "1"}, {"C003: --seed"});
+  check_refused({kGraph, "--set", "realism=ideal", "--set", "realism=harsh"},
+                {"G014: --set realism is given twice, as \"ideal\" and \"harsh\""});
+  CHECK(run_deployer({kGraph, "--check", "--strict", "--strict", "--profile", "sim"}).exit_code() == 0);
+}
+
+TEST_CASE("one slip on the command line is one error", "[system][bad]") {
+  for (const Words& words :
+       {Words{"--clok", "virtual", kGraph}, Words{kGraph, "--rate", "3"}, Words{kGraph, "--clock", "lunar"},
+        Words{kGraph, "--clock", "vitual", "--executor", "thread"}, Words{kGraph, "--set", "goals"},
+        Words{kGraph, "--check", "--dot"}}) {
+    const Run run = run_deployer(words);
+    CAPTURE(words);
+    INFO(run.err);
+    CHECK(run.exit_code() == 2);
+    CHECK(split_lines(run.err).size() == 1);
+  }
+}
+
+TEST_CASE("control characters of the command line reach no terminal", "[system][bad]") {
+  const Run run = run_deployer({"a\x1b[2J\nb.xml", "--check", "--set", "x\r=1", "--\x1b]0;title\x07"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  for (const char c : {'\x1b', '\r', '\x07'}) CHECK(run.err.find(c) == std::string::npos);
+  CHECK(run.says("a\\x1b[2J\\nb.xml"));
+  const Run started = run_deployer(Words{kGraph, "--set", "goals=a\x1b[2J 3 4"} + virtual_clock());
+  INFO(started.err);
+  CHECK(started.exit_code() != 0);
+  CHECK(started.err.find('\x1b') == std::string::npos);
+  CHECK(started.says("a\\x1b[2J 3 4"));
+}
+
+TEST_CASE("with --json the errors of the command line are among those of the graph", "[system][bad]") {
+  const Run run = run_deployer({kGraph, "--check", "--json", "--seed", "many"});
+  CHECK(run.exit_code() == 2);
+  CHECK(run.err.empty());
+  CHECK(run.out.find("\"C002\"") != std::string::npos);
+}
+
 TEST_CASE("--check says that a good graph is good, starts nothing, and exits with 0", "[system]") {
   const Run run = run_deployer({kGraph, "--check"});
   INFO(run.err);

@@ -184,6 +184,6 @@ TEST_CASE("two things to do at once, and --json where it means nothing, are refu
     CAPTURE(words);
     CHECK(run.exit_code() == 2);
     CHECK(run.out.empty());
-    CHECK(run.err.starts_with("error: "));
+    CHECK(run.err.starts_with("command line: error C"));
   }
 }

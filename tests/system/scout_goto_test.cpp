@@ -76,6 +76,14 @@ TEST_CASE("goals can be chosen on the command line, and only goals count as arri
   CHECK(std::hypot(arrivals[1].x - 4.0, arrivals[1].y - 6.0) < 0.25);
 }
 
+TEST_CASE("without --seed a run has seed 1", "[system][scout]") {
+  const Words harsh{"--until", "3 s", "--set", "realism=harsh"};
+  const Run unnamed = drive(harsh);
+  REQUIRE(unnamed.trace_hash().has_value());
+  CHECK(unnamed.trace_hash() == drive(harsh + Words{"--seed", "1"}).trace_hash());
+  CHECK(unnamed.trace_hash() != drive(harsh + Words{"--seed", "2"}).trace_hash());
+}
+
 TEST_CASE("--until ends a run early with exit 0 and a trace hash", "[system][scout]") {
   const Run run = drive({"--until", "2 s"});
   INFO(run.err);

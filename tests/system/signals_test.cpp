@@ -49,6 +49,25 @@ void check_stopped(const Stopped& stopped) {
   CHECK_FALSE(stopped.left_behind);
 }
 
+// Sends a signal to a robot that drives in real time.
+Run end_driving_robot(int signal, const std::string& trace, const Words& more = {}) {
+  Subprocess program(deployer(Words{source_file("graphs/scout_goto.xml"), "--trace", trace} + more));
+  sleep_for(1.0 * (kSanitized ? 4.0 : 1.0));
+  program.send(signal);
+  return finish(program, Seconds(kEndLimit));
+}
+
+void check_at_rest(const std::string& trace_file) {
+  const TraceFile trace(trace_file);
+  REQUIRE(trace.has("state", {"scout", "Ready", "Active"}));
+  CHECK(trace.state_before("scout") == "Closed");
+}
+
+// Makes the signals of a terminal end programs again, if whoever started the test has made it ignore them.
+void stop_ignoring_terminal() {
+  for (const int of_terminal : {SIGHUP, SIGINT, SIGQUIT}) ::signal(of_terminal, SIG_DFL);
+}
+
 Words greedy() { return Words{system_graph("hog.xml"), "--set", "how=one_lap"} + with_test_plugins(); }
 
 }  // namespace
@@ -156,4 +175,77 @@ TEST_CASE(
   CHECK(run.ended);
   CHECK(std::chrono::steady_clock::now() - sent < Seconds(kEndLimit));
   CHECK(run.says("greedy"));
+}
+
+TEST_CASE("SIGHUP and SIGQUIT stop the robot and end the run with 0, as SIGINT does", "[system][signals]") {
+  stop_ignoring_terminal();
+  for (const int signal : {SIGHUP, SIGQUIT}) {
+    CAPTURE(signal);
+    const TempFolder folder;
+    const Run run = end_driving_robot(signal, folder.file("trace"));
+    INFO(run.err);
+    CHECK(run.ended);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.err.empty());
+    check_at_rest(folder.file("trace"));
+  }
+}
+
+TEST_CASE("any other signal that ends a process stops the robot first; the run has failed, and says why",
+          "[system][signals]") {
+  struct Case {
+    int signal;
+    std::string name;
+  };
+  for (const Case& c :
+       {Case{SIGUSR1, "SIGUSR1"}, Case{SIGUSR2, "SIGUSR2"}, Case{SIGALRM, "SIGALRM"},
+        Case{SIGVTALRM, "SIGVTALRM"}, Case{SIGPROF, "SIGPROF"}, Case{SIGXCPU, "SIGXCPU"},
+        Case{SIGPWR, "SIGPWR"}, Case{SIGSTKFLT, "SIGSTKFLT"}, Case{SIGRTMIN + 1, "SIGRTMIN+1"}}) {
+    CAPTURE(c.name);
+    const TempFolder folder;
+    const Run run = end_driving_robot(c.signal, folder.file("trace"));
+    INFO(run.err);
+    CHECK(run.ended);
+    CHECK(run.exit_code() == 1);
+    CHECK(run.says("the signal " + c.name + " ended the run"));
+    check_at_rest(folder.file("trace"));
+  }
+}
+
+TEST_CASE("SIGPIPE and SIGXFSZ change nothing", "[system][signals]") {
+  for (const int signal : {SIGPIPE, SIGXFSZ}) {
+    CAPTURE(signal);
+    const TempFolder folder;
+    const Run run = end_driving_robot(signal, folder.file("trace"), {"--until", "1.5 s"});
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.err.empty());
+    CHECK(TraceFile(folder.file("trace")).lines().back().time > 1.4);
+  }
+}
+
+TEST_CASE("a SIGHUP that the program was started to ignore, as by nohup, stays ignored",
+          "[system][signals]") {
+  Subprocess program(Words{"/bin/sh", "-c", "trap '' HUP; exec \"$@\"", "sh"} +
+                     deployer({source_file("graphs/scout_goto.xml"), "--until", "1.5 s"}));
+  sleep_for(0.8);
+  program.send(SIGHUP);
+  CHECK_FALSE(program.wait(Seconds(0.3)));
+  CHECK(finish(program, Seconds(10)).exit_code() == 0);
+}
+
+TEST_CASE("a crash, an abort or an exit() of a component stops the robot before the process dies",
+          "[system][signals]") {
+  for (const char* deed : {"segfault", "abort", "noexcept", "exit"}) {
+    CAPTURE(deed);
+    const TempFolder folder;
+    const Run run = run_deployer(Words{system_graph("crash_on_the_way.xml"), "--set",
+                                       std::string("deed=") + deed, "--trace", folder.file("trace")} +
+                                 with_test_plugins());
+    INFO(run.err);
+    CHECK(run.ended);
+    CHECK(run.exit_code() != 0);
+    CHECK(run.says("bad: work()"));
+    check_at_rest(folder.file("trace"));
+  }
 }

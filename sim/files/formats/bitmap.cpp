@@ -84,6 +84,8 @@ void vertical_edges(const Plan& plan, double pixel, Outline& out) {
 
 constexpr double kLargest = 1e5;  // [m] of a world, in either direction
 
+}  // namespace
+
 Result<double> pixel_size(const BitmapScale& scale, const GreyImage& image) {
   if (scale.map_width.has_value() == scale.resolution.has_value())
     return fail(Code::invalid_argument,
@@ -100,8 +102,6 @@ Result<double> pixel_size(const BitmapScale& scale, const GreyImage& image) {
   return pixel;
 }
 
-}  // namespace
-
 Result<Outline> outline_of(const GreyImage& image, double pixel) {
   const Plan plan(image);
   Outline outline;
@@ -113,16 +113,28 @@ Result<Outline> outline_of(const GreyImage& image, double pixel) {
               "smooth it, or make it black and white without dithering");
 }
 
+Result<WorldModel> bitmap_world(const GreyImage& image, double pixel, const std::string& name,
+                                double height) {
+  Result<Outline> outline = outline_of(image, pixel);
+  if (!outline) return outline.error();
+  if (outline->edges.empty())
+    return fail(
+        Code::invalid_argument,
+        "no pixel of the picture is darker than grey 128, so nothing is solid; is it the right picture?");
+  WorldModel world;
+  world.name = name;
+  world.obstacles.push_back({"map", std::move(*outline), height});
+  return world;
+}
+
 Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale, double height) {
   const Result<GreyImage> image = read_image(path);
   if (!image) return image.error();
   const Result<double> pixel = pixel_size(scale, *image);
   if (!pixel) return fail(pixel.error().code, pixel.error().message, path);
-  Result<Outline> outline = outline_of(*image, *pixel);
-  if (!outline) return fail(outline.error().code, outline.error().message, path);
-  WorldModel world;
-  world.name = std::filesystem::path(path).stem().string();
-  world.obstacles.push_back({"map", std::move(*outline), height});
+  Result<WorldModel> world =
+      bitmap_world(*image, *pixel, std::filesystem::path(path).stem().string(), height);
+  if (!world) return fail(world.error().code, world.error().message, path);
   return world;
 }
 

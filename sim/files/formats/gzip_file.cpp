@@ -5,8 +5,11 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <vector>
+
+#include "orca/base/input_file.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -29,6 +32,11 @@ std::string fault_of(gzFile file) {
 }  // namespace
 
 Result<std::string> read_maybe_packed(const std::string& path) {
+  std::error_code unused;
+  // zlib would wait for ever for the writer of a pipe.
+  if (std::filesystem::is_other(path, unused))
+    return fail(Code::invalid_argument, "cannot read the file: it is a pipe or a device");
+  remember_input_file(path);
   errno = 0;
   const File file(gzopen(path.c_str(), "rb"));
   if (file == nullptr)

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "image_file.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include "orca/base/input_file.hpp"
 
 namespace orca::sim {
 
@@ -22,13 +19,16 @@ Status check_size(std::size_t width, std::size_t height, const std::string& path
 
 }  // namespace detail
 
+namespace {
+
+constexpr std::size_t kMaxBytes = 1'000'000'000;  // a text of 100 million pixels has half of that
+
+}  // namespace
+
 Result<GreyImage> read_image(const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes;
-  if (file) bytes.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file || file.bad())
-    return fail(Code::not_found, std::string("cannot read the picture: ") + std::strerror(errno), path);
+  const Result<std::string> read = read_input_file(path, kMaxBytes);
+  if (!read) return fail(read.error().code, "cannot read the picture: " + read.error().message, path);
+  const std::string& bytes = *read;
   if (bytes.empty()) return fail(Code::data_loss, "the file is empty; expected a PNG or PGM picture", path);
   if (bytes.starts_with("\x89PNG")) return detail::decode_png(bytes, path);
   if (bytes.starts_with("P5") || bytes.starts_with("P2")) return detail::decode_pgm(bytes, path);

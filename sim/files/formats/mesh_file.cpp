@@ -2,14 +2,13 @@
 #include "mesh_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
+
+#include "orca/base/input_file.hpp"
 
 namespace orca::sim {
 namespace detail {
@@ -99,13 +98,9 @@ Result<std::string> bytes_of(const std::string& path) {
     return fail(Code::invalid_argument,
                 "the file is larger than 400 million bytes; at most 1000000 faces are read; simplify it",
                 path);
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes;
-  if (file) bytes.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file || file.bad())
-    return fail(Code::not_found, std::string("cannot read the mesh: ") + std::strerror(errno), path);
-  if (bytes.empty()) return fail(Code::data_loss, "the file is empty; expected a mesh", path);
+  Result<std::string> bytes = read_input_file(path, kMaxBytes);
+  if (!bytes) return fail(bytes.error().code, "cannot read the mesh: " + bytes.error().message, path);
+  if (bytes->empty()) return fail(Code::data_loss, "the file is empty; expected a mesh", path);
   return bytes;
 }
 

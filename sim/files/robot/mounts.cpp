@@ -17,23 +17,27 @@ namespace {
 
 constexpr double kUpright = 1.0 - 1e-9;
 
-// Returns true if `map` contains the thing that an attribute names. Reports the attribute if not.
-template <class Map>
-bool names_one_of(const Map& map, const xml::Attributes& e, const char* attribute) {
-  const xml::Attribute* a = e.readable(attribute);
-  if (a == nullptr) return false;
-  if (map.contains(a->value)) return true;
+std::vector<std::string> names_of(const xml::Element& robot, std::string_view kind) {
   std::vector<std::string> names;
-  for (const auto& entry : map) names.push_back(entry.first);
+  for (const xml::Element& e : robot.children())
+    if (const xml::Attribute* name = e.attribute("name"); name != nullptr && e.name() == kind)
+      names.push_back(name->value);
+  return names;
+}
+
+// Reports an attribute that names none of the things.
+void check_name(const std::vector<std::string>& names, const xml::Attributes& e, const char* attribute) {
+  const xml::Attribute* a = e.readable(attribute);
+  if (a == nullptr || std::ranges::find(names, a->value) != names.end()) return;
   e.error_at(attribute, robot_codes::kUnknownName,
              std::string("there is no ") + attribute + " " + in_quotes(a->value) +
                  xml::did_you_mean(xml::nearest_name(a->value, names)));
-  return false;
 }
 
 void mount_turret(Turret& turret, const UrdfBody& body, const xml::Attributes& e) {
-  if (!names_one_of(body.joints, e, "joint")) return;
-  const UrdfJoint& joint = body.joints.at(turret.joint);
+  const auto found = body.joints.find(turret.joint);
+  if (found == body.joints.end()) return;
+  const UrdfJoint& joint = found->second;
   if (!joint.continuous || joint.upright < kUpright)
     return e.error_at("joint", robot_codes::kContradiction,
                       "a turret needs a joint of type continuous whose axis points up: it turns without end");
@@ -74,13 +78,18 @@ void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* 
 
 }  // namespace
 
+void check_mounts(const xml::Element& robot, const xml::Element& orca, xml::Reporter& reporter) {
+  if (const xml::Element* turret = only_child(orca, "turret"))
+    check_name(names_of(robot, "joint"), {*turret, kRobotFile, reporter}, "joint");
+  const std::vector<std::string> links = names_of(robot, "link");
+  for (const xml::Element& e : orca.children()) check_name(links, {e, kRobotFile, reporter}, "link");
+}
+
 void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& orca,
                    xml::Reporter& reporter) {
   const xml::Element* turret = only_child(orca, "turret");
   if (turret != nullptr && model.turret) mount_turret(*model.turret, body, {*turret, kRobotFile, reporter});
-  for (const xml::Element& e : orca.children())
-    if (const xml::Attributes device(e, kRobotFile, reporter); names_one_of(body.links, device, "link"))
-      check_upright(body, device);
+  for (const xml::Element& e : orca.children()) check_upright(body, {e, kRobotFile, reporter});
   const auto joint = model.turret ? body.joints.find(model.turret->joint) : body.joints.end();
   const UrdfJoint* turns = joint != body.joints.end() ? &joint->second : nullptr;
   mount(model.sonars, body, turns);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/sim/robot_file.hpp"
 
-#include <fstream>
-#include <iterator>
-
 #include "codes.hpp"
 #include "mounts.hpp"
 #include "orca/xml/attributes.hpp"
@@ -80,6 +77,7 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
     return robot.refuse(codes::kMissing,
                         "<robot> needs the element <orca radius=\"...\"> with its drive and sensors");
   detail::read_extension(*orca, model, reporter);
+  detail::check_mounts(root, *orca, reporter);
   if (urdf_is_sound) read_body(root, *orca, hulls, model, reporter);
   if (diagnostics.error_count() != before) return std::nullopt;
   return model;
@@ -97,11 +95,10 @@ std::optional<RobotModel> read_robot_text(std::string_view text, const std::stri
 
 std::optional<RobotModel> read_robot(const std::string& path, xml::Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.error_count();
-  const auto document = xml::read_file(path, diagnostics);
-  if (!document || diagnostics.error_count() != before) return std::nullopt;
-  // urdfdom has its own parser and needs the text.
-  std::ifstream file(path, std::ios::binary);
-  return read_root(document->root, {std::istreambuf_iterator<char>(file), {}}, diagnostics);
+  const Result<std::string> bytes = xml::read_bytes(path);
+  const auto document = bytes ? xml::read_text(*bytes, path, diagnostics) : xml::read_file(path, diagnostics);
+  if (!bytes || !document || diagnostics.error_count() != before) return std::nullopt;
+  return read_root(document->root, *bytes, diagnostics);  // urdfdom has its own parser and needs the text
 }
 
 }  // namespace orca::sim

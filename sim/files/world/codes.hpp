@@ -26,5 +26,6 @@ inline constexpr const char* kCannotGenerate = "W018";
 inline constexpr const char* kBadWalker = "W019";
 inline constexpr const char* kUnreadableMesh = "W021";
 inline constexpr const char* kBottomAboveTop = "W022";
+inline constexpr const char* kScaleOfPicture = "W023";
 
 }  // namespace orca::sim::detail::world_codes

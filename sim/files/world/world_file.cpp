@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "codes.hpp"
 #include "cylinder_file.hpp"
@@ -60,16 +61,24 @@ std::optional<WorldModel> read_document(const std::optional<xml::Document>& docu
   return world;
 }
 
+// Reads the picture even if its number or scale is wrong, so that all errors come at once.
 std::optional<WorldModel> read_bitmap(const Reference& from, const BitmapScale& scale,
                                       xml::Diagnostics& diagnostics) {
-  if (from.number) {
-    diagnostics.error(codes::kNumber, {from.file, 0, 0}, "a picture holds one world; leave \"#N\" out");
+  const std::size_t before = diagnostics.error_count();
+  const auto refuse = [&](const char* code, const std::string& message) {
+    diagnostics.error(code, {from.file, 0, 0}, message);
     return std::nullopt;
-  }
-  Result<WorldModel> world = read_bitmap_world(from.file, scale);
-  if (world) return std::move(*world);
-  diagnostics.error(codes::kUnreadable, {from.file, 0, 0}, world.error().message);
-  return std::nullopt;
+  };
+  if (from.number) refuse(codes::kNumber, "a picture holds one world; leave \"#N\" out");
+  const Result<GreyImage> image = read_image(from.file);
+  if (!image) return refuse(codes::kUnreadable, image.error().message);
+  const Result<double> pixel = pixel_size(scale, *image);
+  if (!pixel) refuse(codes::kScaleOfPicture, pixel.error().message);
+  Result<WorldModel> world =
+      bitmap_world(*image, pixel ? *pixel : 1.0, std::filesystem::path(from.file).stem().string());
+  if (!world) return refuse(codes::kUnreadable, world.error().message);
+  if (diagnostics.error_count() != before) return std::nullopt;
+  return std::move(*world);
 }
 
 void refuse_scale(const std::string& file, const BitmapScale& scale, xml::Diagnostics& diagnostics) {

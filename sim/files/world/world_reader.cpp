@@ -240,11 +240,12 @@ void WorldReader::bitmap(const Attributes& element) {
   const auto file = element.text("file");
   const auto scale = scale_of(element);
   const auto tall = height(element);
-  if (!file || !scale || !tall) return;
+  if (!file) return;
   const auto path = std::filesystem::path(file_name_).parent_path() / *file;
-  auto map = read_bitmap_world(path.lexically_normal().string(), *scale, *tall);
+  // Without its scale the picture is read all the same, for its own errors.
+  auto map = read_bitmap_world(path.lexically_normal().string(), scale.value_or(BitmapScale{{}, 1e-3}));
   if (!map) return element.error_at("file", codes::kUnreadable, map.error().text());
-  add(element, std::move(map->obstacles.front().shape), *tall);
+  if (scale && tall) add(element, std::move(map->obstacles.front().shape), *tall);
 }
 
 void WorldReader::mesh(const Attributes& element) {
@@ -254,7 +255,7 @@ void WorldReader::mesh(const Attributes& element) {
   const auto z = element.number_or("z", 0.0);
   const auto yaw = element.number_or("yaw", 0.0);
   const auto scale = element.number_or("scale", 1.0);
-  if (!file || !x || !y || !z || !yaw || !scale) return;
+  if (!file) return;
   const auto path = std::filesystem::path(file_name_).parent_path() / *file;
   auto read = read_mesh(path.lexically_normal().string());
   if (!read) return element.error_at("file", codes::kUnreadableMesh, read.error().text());
@@ -263,6 +264,7 @@ void WorldReader::mesh(const Attributes& element) {
     return element.error_at("file", codes::kTooMany,
                             "with this mesh the world has more than 1000000 faces, the most that is read; "
                             "simplify its meshes");
+  if (!x || !y || !z || !yaw || !scale) return;
   Mesh mesh = placed(std::move(*read), {*scale, *scale, *scale}, {*x, *y, *yaw}, *z);
   if (const Status sound = check_mesh(mesh, path.lexically_normal().string()); !sound)
     return element.error_at("scale", codes::kUnreadableMesh, sound.error().text());

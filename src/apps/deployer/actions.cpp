@@ -16,6 +16,7 @@
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/graph/schema.hpp"
+#include "streams.hpp"
 
 namespace orca::deployer {
 namespace {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 using Action = Options::Action;
 
 ExitCode show(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
+  write_out(text);
   return ExitCode::finished;
 }
 
@@ -103,18 +104,39 @@ ExitCode show_graph(const Options& options) {
 }
 
 ExitCode run(const Options& options) {
-  host::StopSignal stop(static_cast<int>(
-      ExitCode::finished));  // first of all, so that a signal at any moment ends the run properly
+  // First of all, so that a signal at any moment ends the run properly, and never destroyed, so that it also does
+  // while the last destructors and atexit handlers run.
+  static auto& stop =
+      *new host::StopSignal(static_cast<int>(ExitCode::finished), static_cast<int>(ExitCode::failed_running));
   Loaded loaded(options);
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;
-  Console console;
+  Console console(options.stats);
   return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, options.run, stop, console).outcome);
+}
+
+bool reads_one_graph(Action action) {
+  return action == Action::run || action == Action::check || action == Action::print ||
+         action == Action::dot || action == Action::mermaid || action == Action::list_ports;
+}
+
+// Reports what is wrong with the command line, and with the graph that it names.
+ExitCode refuse(const Options& options) {
+  Loaded loaded(options);
+  loaded.diagnostics = options.problems;
+  if (reads_one_graph(options.action) && !options.file.empty()) {
+    load(options.file, options, loaded);
+  } else {
+    std::fputs(loaded.diagnostics.text().c_str(), stderr);
+  }
+  if (options.json && options.action == Action::check) show(loaded.diagnostics.json());
+  return ExitCode::bad_input;
 }
 
 }  // namespace
 
 ExitCode act(const Options& options) {
+  if (options.problems.has_errors()) return refuse(options);
   switch (options.action) {
     case Action::help: return show(help_text());
     case Action::version: return show("orca deployer " ORCA_VERSION "\n");

@@ -5,36 +5,50 @@
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #include "exit_code.hpp"
 #include "orca/idl/time.hpp"
+#include "stats.hpp"
+#include "streams.hpp"
 
 namespace orca::deployer {
+namespace {
+
+std::string fixed(double value, int digits) {
+  char text[400];  // enough for any double
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+}  // namespace
 
 double Console::seconds(const idl::TimeValue& stamp) const {
   return to_seconds(to_time_point(stamp) - start_);
 }
 
 void Console::arrived(const idl::Arrived& arrived) {
-  std::printf("arrived %s %.3f %.3f %.2f\n", arrived.name().c_str(), arrived.x(), arrived.y(),
-              seconds(arrived.stamp()));
-  std::fflush(stdout);
+  write_out("arrived " + arrived.name() + " " + fixed(arrived.x(), 3) + " " + fixed(arrived.y(), 3) + " " +
+            fixed(seconds(arrived.stamp()), 2) + "\n");
 }
 
 void Console::contact(const idl::Contact& contact) {
-  std::printf("contact %s %.2f\n", contact.robot().c_str(), seconds(contact.stamp()));
-  std::fflush(stdout);
+  write_out("contact " + contact.robot() + " " + fixed(seconds(contact.stamp()), 2) + "\n");
 }
 
 void Console::ended(const host::RunResult& result) {
-  if (result.trace_hash) std::printf("trace-hash %016" PRIx64 "\n", *result.trace_hash);
-  std::fflush(stdout);
+  const bool ran = result.outcome != host::RunOutcome::not_started;
+  if (stats_ && ran) std::fputs(stats_text(result.counters).c_str(), stderr);
+  if (!result.trace_hash) return;
+  char line[32];
+  std::snprintf(line, sizeof line, "trace-hash %016" PRIx64 "\n", *result.trace_hash);
+  write_out(line);
 }
 
 void Console::abandon(const host::RunResult& result) {
   ended(result);
   std::fflush(nullptr);
-  std::_Exit(static_cast<int>(exit_code_of(result.outcome)));
+  std::_Exit(exit_status(exit_code_of(result.outcome)));
 }
 
 }  // namespace orca::deployer

@@ -8,11 +8,15 @@ namespace orca::deployer {
 
 /// A listener that writes one line per event of a run to standard output, each at once: `arrived NAME x y t`,
 /// `contact NAME t`, and last, in virtual time, `trace-hash <16 hex digits>`. Lengths are in metres, times in
-/// seconds since the start of the run.
+/// seconds since the start of the run. On request, what the connections carried goes to standard error at the
+/// end.
 ///
 /// Thread contract: as RunListener.
 class Console final : public host::RunListener {
  public:
+  /// @param stats  whether to write what the connections carried.
+  explicit Console(bool stats) : stats_(stats) {}
+
   void started(TimePoint now) override { start_ = now; }
   void arrived(const idl::Arrived& arrived) override;
   void contact(const idl::Contact& contact) override;
@@ -22,6 +26,7 @@ class Console final : public host::RunListener {
  private:
   [[nodiscard]] double seconds(const idl::TimeValue& stamp) const;
 
+  const bool stats_;
   TimePoint start_;
 };
 

@@ -27,6 +27,7 @@ What to write
   --view WHAT           of the picture: world (default), robot (around the first robot, ahead is up) or film (key
                         moments: start, arrivals, contacts, end)
   --hide LAYERS         of the picture, e.g. sonar,track; layers: walls, track, robot, sonar, laser, motion, marks
+  --stats               in the end, on stderr: what each connection carried, dropped and delivered late
   --log LEVEL           debug, info (default), warning, error or off; logs go to stderr
 
 Instead of running
@@ -44,7 +45,7 @@ How to check
   --json                for programs; with --check, --print, --list-ports, --diff and --describe
 
 stdout  arrived NAME x y t | contact NAME t | trace-hash HASH (virtual clock, last line)
-exit    0 finished or stopped on request   1 failed while running, or --diff found a difference
+exit    0 finished or stopped on request   1 failed while running, output not written, or --diff found a difference
         2 graph or arguments wrong, nothing started   3 could not start, all taken down again
 )";
 }

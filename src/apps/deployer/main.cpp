@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-#include <cstdio>
-
 #include "actions.hpp"
 #include "options.hpp"
 #include "orca/host/last_words.hpp"
+#include "streams.hpp"
+
+using orca::deployer::ExitCode;
 
 int main(int argc, char** argv) {
-  const orca::Result<orca::deployer::Options> options =
-      orca::deployer::parse_options({argv + 1, argv + argc});
-  if (!options) {
-    std::fprintf(stderr, "error: %s\n", options.error().text().c_str());
-    return static_cast<int>(orca::deployer::ExitCode::bad_input);
-  }
-  orca::log::set_level(options->log_level);
-  const orca::host::LastWords last_words(static_cast<int>(orca::deployer::ExitCode::failed_running));
-  return static_cast<int>(orca::deployer::act(*options));
+  orca::deployer::prepare_streams();
+  const orca::host::LastWords last_words(static_cast<int>(ExitCode::failed_running),
+                                         static_cast<int>(ExitCode::could_not_start));
+  const orca::deployer::Options options = orca::deployer::parse_options({argv + 1, argv + argc});
+  orca::log::set_level(options.log_level);
+  return orca::deployer::exit_status(orca::deployer::act(options));
 }

@@ -5,9 +5,11 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 
+#include "codes.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
@@ -22,10 +24,11 @@ using Setter = std::function<Status(Options&, const std::string&)>;
 struct Option {
   bool takes_value;
   Setter set;
+  bool repeats = false;  // it may be given several times
 };
 
 Error expected(const std::string& option, const std::string& what, const std::string& found) {
-  return fail(Code::invalid_argument, option + " expects " + what + ", not \"" + found + "\"");
+  return fail(Code::invalid_argument, option + " expects " + what + ", not " + in_quotes(found));
 }
 
 // Returns an option that chooses what to do. Help takes precedence; any other two actions exclude each other.
@@ -68,13 +71,6 @@ Status set_until(Options& options, const std::string& value) {
   return ok();
 }
 
-Status set_argument(Options& options, const std::string& value) {
-  const auto equals = value.find('=');
-  if (equals == std::string::npos || equals == 0) return expected("--set", "ARG=VALUE", value);
-  options.settings.push_back(value);
-  return ok();
-}
-
 Status set_picture(Options& options, const std::string& value) {
   if (!value.ends_with(".svg") && !value.ends_with(".png"))
     return expected("--picture", "a file ending in .svg or .png", value);
@@ -110,6 +106,13 @@ Status set_log(Options& options, const std::string& value) {
 // The executor is chosen after all options are read, because its default depends on the clock.
 using Words = std::optional<std::string>;
 
+Status set_executor(Words& executor, const std::string& value) {
+  if (value != "thread" && value != "fiber" && value != "baton")
+    return expected("--executor", "thread, fiber or baton", value);
+  executor = value;
+  return ok();
+}
+
 std::map<std::string, Option> option_table(Words& executor) {
   return {
       {"--check", action(Action::check)},
@@ -125,16 +128,19 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--version", action(Action::version)},
       {"--strict", flag(&Options::strict)},
       {"--json", flag(&Options::json)},
-      {"--profile", {true, [](Options& o, const std::string& v) { return o.profiles.push_back(v), ok(); }}},
-      {"--set", {true, set_argument}},
+      {"--stats", flag(&Options::stats)},
+      {"--profile",
+       {true, [](Options& o, const std::string& v) { return o.profiles.push_back(v), ok(); }, true}},
+      {"--set", {true, [](Options& o, const std::string& v) { return o.settings.push_back(v), ok(); }, true}},
       {"--clock", {true, set_clock}},
-      {"--executor", {true, [&executor](Options&, const std::string& v) { return executor = v, ok(); }}},
+      {"--executor",
+       {true, [&executor](Options&, const std::string& v) { return set_executor(executor, v); }}},
       {"--seed", {true, set_seed}},
       {"--until", {true, set_until}},
       {"--trace", {true, [](Options& o, const std::string& v) { return o.run.trace_file = v, ok(); }}},
       {"--picture", {true, set_picture}},
       {"--view", {true, set_view}},
-      {"--hide", {true, hide}},
+      {"--hide", {true, hide, true}},
       {"--log", {true, set_log}},
   };
 }
@@ -146,22 +152,12 @@ Status choose_executor(Options& options, const Words& executor) {
     options.run.executive.backend = Backend::thread;
   } else if (name == "fiber") {
     options.run.executive.backend = Backend::fiber;
-  } else if (name == "baton") {
-    options.run.executive.backend = Backend::baton;
   } else {
-    return expected("--executor", "thread, fiber or baton", name);
+    options.run.executive.backend = Backend::baton;
   }
   if (Result<std::unique_ptr<Executive>> tried = make_executive(options.run.executive); !tried)
     return tried.error();
   return ok();
-}
-
-Error unknown(const std::string& word, const std::map<std::string, Option>& table) {
-  std::vector<std::string> names;
-  for (const auto& [name, option] : table) names.push_back(name);
-  return fail(Code::invalid_argument, "unknown option \"" + word + "\"" +
-                                          xml::did_you_mean(xml::nearest_name(word, names)) +
-                                          " (see --help)");
 }
 
 bool takes_no_file(Action action) {
@@ -174,15 +170,17 @@ bool speaks_json(Action action) {
 }
 
 // Takes the files, once all options are read: the options decide how many are expected.
-Status take_files(Options& options, const std::vector<std::string>& files) {
+// @param guessing  some of them may be something else; a wrong number of files is not reported then.
+Status take_files(Options& options, const std::vector<std::string>& files, bool guessing) {
   if (takes_no_file(options.action)) return ok();
   const std::size_t wanted = options.action == Action::diff ? 2 : 1;
+  if (guessing && files.size() != wanted) return ok();
   if (files.empty())
     return fail(Code::invalid_argument, "no file given; try: deployer graphs/scout_goto.xml (or --help)");
   if (files.size() > wanted)
     return fail(Code::invalid_argument,
-                std::string(wanted == 1 ? "one file only: there is" : "two files only:") + " \"" +
-                    files[wanted - 1] + "\" and \"" + files[wanted] + "\"");
+                std::string(wanted == 1 ? "one file only: there is" : "two files only:") + " " +
+                    in_quotes(files[wanted - 1]) + " and " + in_quotes(files[wanted]));
   if (files.size() < wanted)
     return fail(Code::invalid_argument, "--diff compares two graphs: deployer --diff OLD.xml NEW.xml");
   options.file = files.front();
@@ -196,32 +194,73 @@ Status check_json(const Options& options) {
               "--json goes with --check, --print, --list-ports, --diff or --describe");
 }
 
+// A reader of one command line. It reports everything that is wrong with it.
+class Reader {
+ public:
+  Options read(const std::vector<std::string>& words) {
+    options_.run.log_name = "deployer";
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (words[i].starts_with("-")) {
+        take_option(words, i);
+      } else {
+        files_.push_back(words[i]);
+      }
+    }
+    report(codes::kFiles, take_files(options_, files_, guessing_));
+    report(codes::kExcluding, check_json(options_));
+    // A wrong clock says nothing about which executors fit.
+    if (!wrong_.contains("--clock")) report(codes::kExcluding, choose_executor(options_, executor_));
+    return std::move(options_);
+  }
+
+ private:
+  void report(const char* code, const Status& status) {
+    if (!status.ok()) options_.problems.error(code, {"command line", 0, 0}, status.error().message);
+  }
+  void report(const char* code, const std::string& message) {
+    report(code, fail(Code::invalid_argument, message));
+  }
+
+  // @param at  the number of the option's word; it is advanced to the option's value.
+  void take_option(const std::vector<std::string>& words, std::size_t& at) {
+    const std::string& word = words[at];
+    const auto found = table_.find(word);
+    if (found == table_.end()) return report_unknown(words, at);
+    const Option& option = found->second;
+    if (!option.takes_value) return report(codes::kExcluding, option.set(options_, {}));
+    if (at + 1 == words.size()) return report(codes::kOptionValue, word + " expects a value (see --help)");
+    const std::string& value = words[++at];
+    const auto [before, fresh] = values_.emplace(word, value);
+    if (!fresh && !option.repeats)
+      return report(codes::kOptionTwice, word + " is given twice, as " + in_quotes(before->second) + " and " +
+                                             in_quotes(value) + "; give it once");
+    const Status taken = option.set(options_, value);
+    if (!taken.ok()) wrong_.insert(word);
+    report(codes::kOptionValue, taken);
+  }
+
+  void report_unknown(const std::vector<std::string>& words, std::size_t& at) {
+    std::vector<std::string> names;
+    for (const auto& [name, option] : table_) names.push_back(name);
+    const auto near = xml::nearest_name(words[at], names);
+    report(codes::kUnknownOption,
+           "unknown option " + in_quotes(words[at]) + xml::did_you_mean(near) + " (see --help)");
+    const bool value_follows = at + 1 < words.size() && !words[at + 1].starts_with("-");
+    if (near && table_.at(*near).takes_value && value_follows) ++at;
+    if (!near) guessing_ = true;
+  }
+
+  Options options_;
+  Words executor_;
+  const std::map<std::string, Option> table_ = option_table(executor_);
+  std::map<std::string, std::string> values_;  // the first value of each option
+  std::set<std::string> wrong_;                // options with a wrong value
+  std::vector<std::string> files_;
+  bool guessing_ = false;  // whether one of the files may be the value of an unknown option
+};
+
 }  // namespace
 
-Result<Options> parse_options(const std::vector<std::string>& words) {
-  Options options;
-  options.run.log_name = "deployer";
-  Words executor;
-  std::vector<std::string> files;
-  const std::map<std::string, Option> table = option_table(executor);
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    Status taken;
-    if (!word.starts_with("-")) {
-      files.push_back(word);
-    } else if (const auto found = table.find(word); found == table.end()) {
-      return unknown(word, table);
-    } else if (found->second.takes_value && i + 1 == words.size()) {
-      return fail(Code::invalid_argument, word + " expects a value (see --help)");
-    } else {
-      taken = found->second.set(options, found->second.takes_value ? words[++i] : std::string());
-    }
-    if (!taken.ok()) return taken.error();
-  }
-  if (Status taken = take_files(options, files); !taken.ok()) return taken.error();
-  if (Status checked = check_json(options); !checked.ok()) return checked.error();
-  if (Status chosen = choose_executor(options, executor); !chosen.ok()) return chosen.error();
-  return options;
-}
+Options parse_options(const std::vector<std::string>& words) { return Reader().read(words); }
 
 }  // namespace orca::deployer

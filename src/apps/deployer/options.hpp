@@ -8,6 +8,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
 #include "orca/host/run_system.hpp"
+#include "orca/xml/diagnostics.hpp"
 
 namespace orca::deployer {
 
@@ -19,15 +20,16 @@ struct Options {
   std::string other_file;  ///< The graph to compare it with.
   bool strict = false;     ///< Warnings are errors.
   bool json = false;       ///< Output for programs.
+  bool stats = false;      ///< Write what the connections of a run carried.
   std::vector<std::string> profiles;
   std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
+  xml::Diagnostics problems;          ///< What is wrong with the command line itself (codes Cxxx).
   host::RunOptions run;
   log::Level log_level = log::Level::info;
 };
 
-/// Reads a command line.
-/// @errors  invalid_argument with what was found, what was expected and the nearest option.
-[[nodiscard]] Result<Options> parse_options(const std::vector<std::string>& words);
+/// Reads a command line. What is wrong with it is in the result's `problems`, all of it at once.
+[[nodiscard]] Options parse_options(const std::vector<std::string>& words);
 
 /// Returns the text of --help.
 [[nodiscard]] const char* help_text();

@@ -10,4 +10,13 @@ Strand::Strand(Executive& executive, TaskOptions options)
 
 void Strand::start(std::function<void()> body) { task_ = executive_.spawn(options_, std::move(body)); }
 
+// Returns true if woken, false at the deadline.
+bool Strand::wait_watching(TimePoint deadline) {
+  for (;;) {
+    const TimePoint next_look = watch_();
+    if (next_look >= deadline) return event_->wait_until(deadline);
+    if (event_->wait_until(next_look)) return true;
+  }
+}
+
 }  // namespace orca

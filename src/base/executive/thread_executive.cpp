@@ -16,13 +16,18 @@ class ThreadTask final : public Task {
   ThreadTask(ThreadWatch& watch, const TaskOptions& options, std::function<void()> body)
       : watch_(watch), waits_(options.name) {
     watch_.add(waits_);
-    thread_ = std::thread([this, run = std::move(body)] {
-      pthread_setname_np(pthread_self(), waits_.name().substr(0, 15).c_str());
-      waits_.attach();
-      run();
-      waits_.begin();  // never ends: the task is over
-      ended_.notify();
-    });
+    try {
+      thread_ = std::thread([this, run = std::move(body)] {
+        pthread_setname_np(pthread_self(), waits_.name().substr(0, 15).c_str());
+        waits_.attach();
+        run();
+        waits_.begin();  // never ends: the task is over
+        ended_.notify();
+      });
+    } catch (...) {  // the system gives no more threads
+      watch_.remove(waits_);
+      throw;
+    }
   }
   ~ThreadTask() override {
     thread_.join();

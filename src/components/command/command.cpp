@@ -3,12 +3,13 @@
 #include <unistd.h>
 
 #include <deque>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "goal_list.hpp"
+#include "orca/base/input_file.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/system.hpp"
@@ -16,6 +17,8 @@
 namespace {
 
 using orca::command::Route;
+
+constexpr std::size_t kMaxBytes = 1'000'000;  // of a file of goals
 
 /// A component that sends the robot to one goal after the other, taken from a parameter, a file or a prompt
 /// (thesis 11.1). For each goal it subscribes to the arrivals, sends the coordinates to Goto and the list of
@@ -119,8 +122,14 @@ class Command final : public orca::Component {
   }
 
   orca::Status read_file() {
-    std::ifstream file(*goals_file_);
-    if (!file) return orca::fail(orca::Code::not_found, "cannot read the file of goals", *goals_file_);
+    const orca::Result<std::string> text = orca::read_input_file(*goals_file_, kMaxBytes);
+    if (!text)
+      return orca::fail(text.error().code, "cannot read the file of goals: " + text.error().message,
+                        *goals_file_);
+    if (text->size() == kMaxBytes)
+      return orca::fail(orca::Code::invalid_argument,
+                        "the file of goals has more than 1 MB, which is the limit", *goals_file_);
+    std::istringstream file(*text);
     int number = 0;
     for (std::string line; std::getline(file, line);) {
       ++number;

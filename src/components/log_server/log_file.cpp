@@ -10,6 +10,8 @@
 #include <cstring>
 #include <utility>
 
+#include "orca/base/input_file.hpp"
+
 namespace orca::logs {
 namespace {
 
@@ -37,6 +39,8 @@ LogFile::~LogFile() {
 }
 
 Status LogFile::open() {
+  if (has_been_read(path_))
+    return fail(Code::invalid_argument, "the log would be written into a file that has been read", path_);
   fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0644);
   if (fd_ < 0)
     return fail(Code::unavailable, std::string("cannot be written: ") + std::strerror(errno), path_);

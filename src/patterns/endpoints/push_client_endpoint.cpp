@@ -25,6 +25,17 @@ bool PushClientEndpoint::has_new_from_all() const {
                                   [](const auto& edge) { return edge->has_new() || !edge->subscribed(); });
 }
 
+bool PushClientEndpoint::has_deadline() const {
+  return std::any_of(edges_.begin(), edges_.end(),
+                     [](const auto& edge) { return edge->policy().deadline > Duration{0}; });
+}
+
+TimePoint PushClientEndpoint::watch_deadlines() {
+  TimePoint next = kForever;
+  for (const auto& edge : edges_) next = std::min(next, edge->watch_deadline());
+  return next;
+}
+
 void PushClientEndpoint::subscribe_all() {
   for (const auto& edge : edges_) edge->subscribe();
 }

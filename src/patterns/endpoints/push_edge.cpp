@@ -3,9 +3,27 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
+#include <sstream>
 #include <utility>
 
 namespace orca {
+namespace {
+
+constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+std::string seconds_text(Duration time) {
+  std::ostringstream text;
+  text << to_seconds(time) << " s";
+  return text.str();
+}
+
+std::string described(const QueuePolicy& policy) {
+  if (policy.overflow == QueuePolicy::Overflow::drop_oldest && policy.depth == 1) return "queue latest";
+  return "queue " + std::to_string(policy.depth) + ", " + to_string(policy.overflow);
+}
+
+}  // namespace
 
 PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy)
     : client_(client),
@@ -14,15 +32,23 @@ PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& poli
       mutex_(client.home().strand.executive()),
       ring_(policy.depth) {
   assert(policy.depth > 0);
+  const std::optional<std::uint32_t> limit = policy.accepted_drops();
+  report_drops_at_ = limit ? *limit + std::uint64_t{1} : kNever;
 }
 
 void PushEdge::subscribe() {
   if (subscribed()) return;
-  if (policy_.deadline > Duration{0}) last_arrival_ = now().time_since_epoch().count();
+  if (policy_.deadline > Duration{0}) expect_first();
   subscribed_.store(true, std::memory_order_release);
   if (LinkObserver* observer = client_.home().observer)
     observer->link_changed(client_.path(), source_.path(), true);
   source_.attach(*this, rate());
+}
+
+void PushEdge::expect_first() {
+  const std::lock_guard lock(mutex_);
+  last_arrival_ = now().time_since_epoch().count();
+  reported_delays_ = late_arrivals_;
 }
 
 void PushEdge::unsubscribe() {
@@ -61,15 +87,21 @@ void PushEdge::granted(const UpdateGrant& grant) {
 
 std::optional<Duration> PushEdge::deliver(ObjectRef&& object) {
   const ObjectRef seen = client_.observed() ? object : ObjectRef{};
+  bool taken = true;
+  std::uint64_t drops = 0;
   {
     const std::lock_guard lock(mutex_);
     std::uint32_t count = count_.load(std::memory_order_relaxed);
     if (count == policy_.depth) {
-      if (!make_room()) return publisher_waits_ ? std::optional(policy_.block_limit) : std::nullopt;
+      taken = make_room();
+      if (!taken && publisher_waits_) return policy_.block_limit;
+      drops = drops_to_report();
       --count;
     }
-    put(std::move(object), count);
+    if (taken) put(std::move(object), count);
   }
+  if (drops > 0) report_drops(drops);
+  if (!taken) return std::nullopt;
   if (seen) client_.observe(seen);
   client_.home().strand.wake();
   return std::nullopt;
@@ -79,18 +111,46 @@ std::optional<Duration> PushEdge::deliver(ObjectRef&& object) {
 bool PushEdge::make_room() {
   switch (policy_.overflow) {
     case QueuePolicy::Overflow::drop_oldest:
-      ++counts_.dropped_oldest;
+      drop(counts_.dropped_oldest, 1);
       if (++first_ == policy_.depth) first_ = 0;
       return true;
     case QueuePolicy::Overflow::block:
       if (subscriber_stuck_) {
-        ++counts_.dropped_blocked;
+        drop(counts_.dropped_blocked, 1);
       } else if (!std::exchange(publisher_waits_, true)) {
         ++counts_.waits;
       }
       return false;
-    default: ++counts_.dropped_newest; return false;
+    default: drop(counts_.dropped_newest, 1); return false;
   }
+}
+
+// Counts lost objects. Called with the lock held.
+void PushEdge::drop(Published<std::uint64_t>& reason, std::uint64_t objects) {
+  reason += objects;
+  drops_ += objects;
+}
+
+// Returns the number of drops if it is to be reported now, otherwise 0. It is reported when it passes the
+// limit, and then each time that the excess has doubled, so that a flood costs nothing. Called with the lock
+// held.
+std::uint64_t PushEdge::drops_to_report() {
+  const std::uint64_t drops = drops_;
+  if (drops < report_drops_at_ || report_drops_at_ == kNever) return 0;
+  const std::uint64_t excess = drops - *policy_.accepted_drops();
+  report_drops_at_ = drops < kNever - excess ? drops + excess : kNever;
+  return drops;
+}
+
+void PushEdge::report_drops(std::uint64_t drops) const {
+  report(LinkTrouble::dropped, "objects dropped so far: " + std::to_string(drops) +
+                                   ", accepted: " + std::to_string(*policy_.accepted_drops()) + " (" +
+                                   described(policy_) + ")");
+}
+
+void PushEdge::report(LinkTrouble kind, const std::string& text) const {
+  if (LinkObserver* observer = client_.home().observer)
+    observer->trouble(kind, source_.path(), client_.path(), text);
 }
 
 // Puts the object into the queue, which holds `count` objects.
@@ -108,20 +168,31 @@ void PushEdge::put(ObjectRef&& object, std::uint32_t count) {
 
 void PushEdge::arrive(TimePoint time) {
   const std::uint64_t missed = missed_until(time);
+  if (missed > counts_.missed_deadlines) ++late_arrivals_;
   last_arrival_ = time.time_since_epoch().count();
   counts_.missed_deadlines = missed;
 }
 
 void PushEdge::give_up(const ObjectRef& /*object*/) {
-  const std::lock_guard lock(mutex_);
-  ++counts_.dropped_blocked;
-  publisher_waits_ = false;
-  subscriber_stuck_ = true;
+  std::uint64_t drops = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    drop(counts_.dropped_blocked, 1);
+    drops = drops_to_report();
+    publisher_waits_ = false;
+    subscriber_stuck_ = true;
+  }
+  if (drops > 0) report_drops(drops);
 }
 
 void PushEdge::lost(std::uint64_t objects) {
-  const std::lock_guard lock(mutex_);
-  counts_.dropped_by_link += objects;
+  std::uint64_t drops = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    drop(counts_.dropped_by_link, objects);
+    drops = drops_to_report();
+  }
+  if (drops > 0) report_drops(drops);
 }
 
 ObjectRef PushEdge::take() {
@@ -162,6 +233,22 @@ bool PushEdge::deadline_missed() const {
   return now().time_since_epoch() - Duration(last_arrival_) > policy_.deadline;
 }
 
+TimePoint PushEdge::watch_deadline() {
+  if (policy_.deadline <= Duration{0} || !subscribed()) return kForever;
+  TimePoint next = kForever;
+  bool is_new = false;
+  {
+    const std::lock_guard lock(mutex_);
+    const TimePoint due = saturating_add(TimePoint(Duration(last_arrival_)), policy_.deadline);
+    const bool is_late = now() > due;
+    const std::uint64_t delays = late_arrivals_ + (is_late ? 1 : 0);
+    is_new = delays > std::exchange(reported_delays_, delays);
+    if (!is_late) next = saturating_add(due, Duration{1});
+  }
+  if (is_new) report(LinkTrouble::late, "no object within the deadline of " + seconds_text(policy_.deadline));
+  return next;
+}
+
 EdgeCounters PushEdge::counters() const {
   EdgeCounters counted;
   counted.delivered = counts_.delivered;
@@ -172,6 +259,9 @@ EdgeCounters PushEdge::counters() const {
   counted.left_behind = counts_.left_behind;
   counted.dropped = counted.dropped_oldest + counted.dropped_newest + counted.dropped_blocked +
                     counted.dropped_by_link + counted.left_behind;
+  const std::uint64_t drops = drops_;
+  if (const auto limit = policy_.accepted_drops(); limit && drops > *limit)
+    counted.over_limit = drops - *limit;
   counted.waits = counts_.waits;
   const bool due = policy_.deadline > Duration{0} && subscribed();
   counted.missed_deadlines = due ? missed_until(now()) : std::uint64_t{counts_.missed_deadlines};

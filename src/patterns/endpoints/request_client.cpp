@@ -42,6 +42,7 @@ std::optional<Answer> RequestClient<Answer>::receive(RequestId id) {
   }
   if (const ObjectRef object = object_of(*answer)) home().provenance.note(object.header());
   ++(*answer ? answered_ : failed_);
+  if (!*answer) report("refused: " + answer->error().text());
   return answer;
 }
 
@@ -53,8 +54,16 @@ Answer RequestClient<Answer>::receive_until(RequestId id, TimePoint deadline) {
   if (std::optional<Answer> answer = receive(id)) return std::move(*answer);  // it came at the last moment
   pending_.forget(id);
   ++timed_out_;
-  return fail(Code::deadline_exceeded,
-              target_->path() + " " + words_.late + " " + path() + " " + words_.late_ending);
+  const Error late = fail(Code::deadline_exceeded,
+                          target_->path() + " " + words_.late + " " + path() + " " + words_.late_ending);
+  report(late.message);
+  return late;
+}
+
+template <class Answer>
+void RequestClient<Answer>::report(const std::string& failure) const {
+  if (LinkObserver* observer = home().observer)
+    observer->trouble(LinkTrouble::refused, path(), target_->path(), failure);
 }
 
 template <class Answer>

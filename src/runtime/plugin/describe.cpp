@@ -101,10 +101,10 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   std::vector<HardwareFault> prepare(const std::map<std::string, ParamValue>& params) override {
     for (const auto& [name, value] : params)
       if (const auto setter = setters_.find(name); setter != setters_.end()) setter->second(value);
-    using Faults = std::vector<HardwareFault>;
-    const Result<Faults> faults =
-        guarded(contract_.type, Hook::prepare, [this]() -> Result<Faults> { return container_->prepare(); });
-    return faults ? *faults : Faults{{"", faults.error().text()}};
+    return faults_of([this] { return container_->prepare(); });
+  }
+  std::vector<HardwareFault> conflicts_with(DescribedHardware& earlier) override {
+    return faults_of([&] { return container_->conflicts_with(earlier.container()); });
   }
   [[nodiscard]] hw::HardwareContainer& container() override { return *container_; }
 
@@ -115,6 +115,14 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   void pausing() override { refuse("waited"); }
 
  private:
+  using Faults = std::vector<HardwareFault>;
+  // Calls the driver. What it throws becomes a fault.
+  Faults faults_of(const std::function<Faults()>& ask) const {
+    const Result<Faults> faults =
+        guarded(contract_.type, Hook::prepare, [&]() -> Result<Faults> { return ask(); });
+    return faults ? *faults : Faults{{"", faults.error().text()}};
+  }
+
   void (*destroy_)(void*);
   hw::HardwareContainer* container_;
 };

@@ -3,11 +3,19 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
+
+#include "orca/base/input_file.hpp"
 
 namespace orca::plugin {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMaxBytes = 1'000'000;  // of a list of types; real ones have a hundred
+
+}  // namespace
 
 void PluginIndex::add(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) read_folder(folder);
@@ -21,7 +29,7 @@ void PluginIndex::read_folder(const std::string& folder) {
   searched_.push_back(folder + (error ? " (no such folder)" : ""));
   std::sort(lists.begin(), lists.end());
   for (fs::path list : lists) {
-    std::ifstream lines(list);
+    std::istringstream lines(read_input_file(list.string(), kMaxBytes).value_or(""));
     const std::string file = list.replace_extension(".so").string();
     for (std::string kind, type; lines >> kind >> type;)
       place_by_type_.emplace(type,

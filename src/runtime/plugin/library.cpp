@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -17,6 +18,8 @@
 #include "inspection/plugin_threads.hpp"
 #include "inspection/trial.hpp"
 #include "loaded_plugins.hpp"
+#include "orca/base/activity.hpp"
+#include "orca/base/exhaustion.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/plugin/describe.hpp"
@@ -116,8 +119,12 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& pa
   const std::string file = fs::absolute(path).string();
   const Result<Judgement> judged = judge_once(path, file);
   if (!judged) return judged.error();
+  errno = 0;
   void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) return cannot_load(path, file, dlerror());
+  if (handle == nullptr) {
+    throw_if_exhausted(errno);
+    return cannot_load(path, file, dlerror());
+  }
   auto library = std::unique_ptr<PluginLibrary>(new PluginLibrary(file, handle, manifest_of(handle)));
   library->virtual_time_faults_ = judged->virtual_time_faults;
   library->may_start_threads_ = judged->may_start_threads;
@@ -139,7 +146,10 @@ PluginLibrary::~PluginLibrary() {
     return;
   }
   entry_.reset();
-  dlclose(handle_);
+  {
+    const Activity activity(path_.c_str(), Hook::unload, nullptr);
+    dlclose(handle_);
+  }
   const bool loaded_elsewhere = plugin_at(manifest_) != nullptr;
   if (!loaded_elsewhere && is_mapped(path_))
     tell_pinned("it is still in memory after it was unloaded, and so are its variables");

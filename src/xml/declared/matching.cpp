@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "blanks.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
@@ -12,7 +13,10 @@
 namespace orca::xml {
 namespace {
 
-std::string tag(std::string_view name) { return "<" + std::string(name) + ">"; }
+std::string tag(std::string_view name) {
+  constexpr std::size_t kMost = 200;
+  return "<" + shortened(name, kMost) + ">";
+}
 
 bool among(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
@@ -100,9 +104,11 @@ void check_text(const Element& element, const FileRules& file, Reporter& reporte
   const std::string_view text = trimmed(element.text());
   if (text.empty()) return;
   const std::string shown = text.size() > kShown ? beginning_of(text, kShown) + "..." : std::string(text);
+  const auto odd = odd_blank(text);  // invisible in quotes
+  const std::string what = odd && odd->size == text.size() ? odd->name : "the text " + in_quotes(shown);
   reporter.error(file.codes.stray_text, element.text_position(),
-                 "the text " + in_quotes(shown) + " inside " + tag(element.name()) + " means nothing; " +
-                     std::string(file.title) + " says everything in attributes");
+                 what + " inside " + tag(element.name()) + " means nothing; " + std::string(file.title) +
+                     " says everything in attributes");
 }
 
 }  // namespace orca::xml

@@ -5,8 +5,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <mutex>
 #include <numeric>
+#include <set>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "executives.hpp"
 #include "orca/idl/motion.hpp"
@@ -84,6 +88,32 @@ inline Loan<MotionCommand> numbered(int number) { return head(0.0, number); }
 inline int number_of(const ObjectPtr<MotionCommand>& command) {
   return command ? static_cast<int>(command->speed()) : -1;
 }
+
+/// The troubles that ends of links report: "from to to: text".
+class Troubles final : public LinkObserver {
+ public:
+  void delivered(std::string_view, std::string_view, const ObjectRef&) override {}
+  void link_changed(std::string_view, std::string_view, bool) override {}
+  void trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) override {
+    const std::lock_guard lock(mutex_);
+    lines_.push_back(std::string(from) + " to " + std::string(to) + ": " + std::string(text));
+    kinds_.insert(kind);
+  }
+
+  [[nodiscard]] std::vector<std::string> lines() const {
+    const std::lock_guard lock(mutex_);
+    return lines_;
+  }
+  [[nodiscard]] std::set<LinkTrouble> kinds() const {
+    const std::lock_guard lock(mutex_);
+    return kinds_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> lines_;
+  std::set<LinkTrouble> kinds_;
+};
 
 /// Pushes motion commands.
 struct Source : Peer {

@@ -90,6 +90,10 @@ class Hooligan final : public orca::Component {
       Component::sleep(std::chrono::milliseconds(5));
       act("after_wait");
     }
+    if (*where_ == "later") {
+      Component::sleep(std::chrono::seconds(1));
+      act("later");
+    }
     return orca::again();
   }
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <atomic>
+#include <ctime>
 #include <regex>
 #include <stdexcept>
 #include <thread>
@@ -72,6 +73,23 @@ TEST_CASE("a wait that is not notified ends at its deadline", "[base][executive]
       const TimePoint deadline = executive->now() + 20ms;
       CHECK_FALSE(event->wait_until(deadline));
       CHECK(executive->now() >= deadline);
+    });
+  }
+}
+
+TEST_CASE("a wait in steady time uses no processor", "[base][executive]") {
+  const auto cpu_time = [] {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+  };
+  for (const auto& kind : all_kinds()) {
+    if (kind.clock != ClockKind::steady) continue;
+    const auto executive = make(kind);
+    executive->run([&] {
+      const auto before = cpu_time();
+      CHECK_FALSE(executive->make_event()->wait_until(executive->now() + 300ms));
+      CHECK(cpu_time() - before < 150ms);
     });
   }
 }

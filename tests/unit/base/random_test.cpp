@@ -20,6 +20,16 @@ TEST_CASE("a random stream is fixed by seed, component and name, and by nothing 
   CHECK(first != shifted());
 }
 
+// Computed by a second implementation (Python) that gives the published values of SplitMix64 (seed 1234567) and of
+// xoshiro256++ (state 1, 2, 3, 4). Published results depend on these numbers.
+TEST_CASE("a random stream is xoshiro256++, seeded by SplitMix64 from the hash of its key",
+          "[base][random]") {
+  RandomStream stream(1, "scout", "sonar");
+  for (const std::uint64_t expected : {0xe81d21b3ac73d7e8U, 0x1cf2898dc893ffdfU, 0xc0826940c22e3214U,
+                                       0x119b2823731f485fU, 0x453fd4544c131bc4U})
+    CHECK(stream() == expected);
+}
+
 TEST_CASE("uniform stays in its interval and normal has the asked mean and deviation", "[base][random]") {
   RandomStream stream(7, "test", "moments");
   double sum = 0.0;

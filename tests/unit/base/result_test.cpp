@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "orca/base/result.hpp"
 
 using orca::Code;
@@ -31,4 +35,17 @@ TEST_CASE("a Status is ok until it holds an error", "[base][result]") {
   const orca::Status bad = orca::fail(Code::unavailable, "gone");
   CHECK_FALSE(bad);
   CHECK(bad.error().code == Code::unavailable);
+}
+
+TEST_CASE("every error code has its name", "[base][result]") {
+  const std::vector<std::pair<Code, std::string>> names{{Code::invalid_argument, "invalid_argument"},
+                                                        {Code::not_found, "not_found"},
+                                                        {Code::already_exists, "already_exists"},
+                                                        {Code::failed_precondition, "failed_precondition"},
+                                                        {Code::unavailable, "unavailable"},
+                                                        {Code::deadline_exceeded, "deadline_exceeded"},
+                                                        {Code::data_loss, "data_loss"},
+                                                        {Code::unimplemented, "unimplemented"},
+                                                        {Code::internal, "internal"}};
+  for (const auto& [code, name] : names) CHECK(to_string(code) == name);
 }

@@ -71,6 +71,22 @@ TEST_CASE("a team of two works on two parts at once", "[base][team]") {
   CHECK(meet_at_work(team));
 }
 
+TEST_CASE("a loop ends only when a helper that is slower than the caller has done its part", "[base][team]") {
+  Team team(2);
+  const std::thread::id caller = std::this_thread::get_id();
+  for (int again = 0; again < 20; ++again) {
+    std::atomic<int> begun{0};
+    std::atomic<int> done{0};
+    team.for_all(2, [&](std::size_t) {
+      ++begun;
+      while (begun < 2) std::this_thread::yield();  // one part for each of the two
+      if (std::this_thread::get_id() != caller) std::this_thread::sleep_for(std::chrono::milliseconds{5});
+      ++done;
+    });
+    CHECK(done == 2);
+  }
+}
+
 TEST_CASE("a team of one starts no thread", "[base][team]") {
   Team team(1);
   CHECK(team.threads() == 1);

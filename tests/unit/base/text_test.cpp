@@ -27,3 +27,31 @@ TEST_CASE("a text in quotes is printed as it is, with nothing escaped", "[base][
   CHECK(in_quotes("a \"b\"") == "\"a \"b\"\"");
   CHECK(in_quotes("") == "\"\"");
 }
+
+TEST_CASE("a long text in quotes, or a long name in a list, loses its middle", "[base][text]") {
+  CHECK(in_quotes(std::string(300, 'a')) == "\"" + std::string(300, 'a') + "\"");
+  CHECK(in_quotes(std::string(301, 'a')) ==
+        "\"" + std::string(150, 'a') + "...(301 bytes)..." + std::string(150, 'a') + "\"");
+  CHECK(listed(Names(20, std::string(1'000'000, 'n'))).size() < 20 * 250);
+}
+
+TEST_CASE("a shortened text holds whole characters only", "[base][text]") {
+  CHECK(shortened("abcdef", 6) == "abcdef");
+  CHECK(shortened("abcdefg", 6) == "abc...(7 bytes)...efg");
+  CHECK(shortened("ab\u00e4\u00e4yz", 6) == "ab...(8 bytes)...yz");
+  CHECK(shortened("abc", 0) == "...(3 bytes)...");
+  for (std::size_t most = 0; most < 12; ++most)
+    CHECK(shortened("\u20ac\u20ac\u20ac\u20ac", most).find('\\') == std::string::npos);
+}
+
+TEST_CASE("a printable text has nothing that a terminal obeys, and everything else as it was",
+          "[base][text]") {
+  CHECK(printable("").empty());
+  CHECK(printable("plain \"text\" \\ 100 %") == "plain \"text\" \\ 100 %");
+  CHECK(printable("\u00e4\u20ac\U0001f600") == "\u00e4\u20ac\U0001f600");
+  CHECK(printable("a\nb\rc\td") == "a\\nb\\rc\\td");
+  CHECK(printable(std::string("\0\x1b[31m\x7f", 7)) == "\\x00\\x1b[31m\\x7f");
+  CHECK(printable("\u009b\u2028\u202e\u2066\u200f") == "\\u009b\\u2028\\u202e\\u2066\\u200f");
+  CHECK(printable("\xff \xc3 \xe2\x82 \xed\xa0\x80 \xc0\xaf \xf5\x80\x80\x80") ==
+        "\\xff \\xc3 \\xe2\\x82 \\xed\\xa0\\x80 \\xc0\\xaf \\xf5\\x80\\x80\\x80");
+}

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "log_server/log_file.hpp"
+#include "orca/base/input_file.hpp"
 #include "temp_folder.hpp"
 
 using orca::logs::LogFile;
@@ -113,6 +114,16 @@ TEST_CASE("on a device that accepts no data every line is lost, and nothing stop
   REQUIRE(file.open().ok());
   for (int i = 0; i < 100; ++i) CHECK_FALSE(file.append("line"));
   CHECK(file.lost() == 100);
+}
+
+TEST_CASE("no line is added to a file that has been read, such as the graph", "[components][log]") {
+  const TempFolder folder;
+  const std::string path = folder.write("graph.xml", "<graph/>");
+  REQUIRE(orca::read_input_file(path, 100));
+  LogFile file(path, 1000, 2);
+  REQUIRE_FALSE(file.open().ok());
+  CHECK_FALSE(file.append("a line"));
+  CHECK(read_text(path) == "<graph/>");
 }
 
 TEST_CASE("a place that cannot be written is an error that names it", "[components][log]") {

@@ -165,6 +165,8 @@ FakeCatalogue::FakeCatalogue() {
   add(base_server(true));
   add(device("orca.hw.Sim",
              {file("world"), file("robot"), choice("realism", {"ideal", "nominal", "harsh"})}));
+  add(device("orca.hw.Deep",
+             {real("depth", "m", 0.0, 1e4, 0.0), param("ship", ParamType::text, std::string("raft"))}));
   add(device("orca.hw.NomadScout", {param("port", ParamType::text, std::string("/dev/ttyS0")),
                                     real("silence", "s", 0.1, 10.0, 1.0)}));
 }
@@ -190,6 +192,8 @@ Result<Contract> FakeCatalogue::hardware(const std::string& type) {
 
 std::vector<orca::HardwareFault> FakeCatalogue::validate_hardware(const graph::HardwareUse& use) {
   calls.push_back("validate " + use.name);
+  if (use.type == "orca.hw.Deep" && std::get<double>(use.params.at("depth")) == 0.0)
+    return {{"ship", "the sea is 0 m deep", {"depth"}}};
   const auto world = use.params.find("world");
   const std::string path = world == use.params.end() ? "" : std::get<std::string>(world->second);
   if (path.ends_with("broken.world")) {
@@ -198,6 +202,12 @@ std::vector<orca::HardwareFault> FakeCatalogue::validate_hardware(const graph::H
   }
   if (path.ends_with("flooded.world")) return {{"world", "it is under water; take another"}};
   return {};
+}
+
+std::vector<orca::HardwareFault> FakeCatalogue::hardware_conflicts(const graph::HardwareUse& use,
+                                                                   const graph::HardwareUse& earlier) {
+  if (use.type != "orca.hw.NomadScout" || use.params.at("port") != earlier.params.at("port")) return {};
+  return {{"port", "hardware \"" + earlier.name + "\" is on this port already"}};
 }
 
 Result<Contract> FakeCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {

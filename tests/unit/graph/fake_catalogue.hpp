@@ -10,7 +10,8 @@
 /// A catalogue without plugins: the contracts of the shipped plugins, and some contracts with faults.
 ///
 /// A hardware whose parameter "world" ends in "broken.world" has a broken world file, one where it ends in
-/// "flooded.world" cannot work with that value. "test.Clock" is unfit for any run, for two reasons.
+/// "flooded.world" cannot work with that value. A hardware "orca.hw.Deep" has a fault at its parameter "ship" that
+/// follows from a "depth" of 0. "test.Clock" is unfit for any run, for two reasons.
 class FakeCatalogue final : public orca::graph::Catalogue {
  public:
   FakeCatalogue();
@@ -18,6 +19,8 @@ class FakeCatalogue final : public orca::graph::Catalogue {
   void add_folders(const std::vector<std::string>& folders) override;
   orca::Result<orca::Contract> hardware(const std::string& type) override;
   std::vector<orca::HardwareFault> validate_hardware(const orca::graph::HardwareUse& use) override;
+  std::vector<orca::HardwareFault> hardware_conflicts(const orca::graph::HardwareUse& use,
+                                                      const orca::graph::HardwareUse& earlier) override;
   orca::Result<orca::Contract> component(const std::string& type,
                                          const orca::graph::HardwareUse* hardware) override;
   std::vector<std::string> unfit(orca::PluginKind kind, const std::string& type) override;

@@ -151,3 +151,23 @@ TEST_CASE("files that include each other tenfold, ten deep, end in one error and
   CHECK(diagnostics.error_count() == 1);
   CHECK(seconds < 5 * kBound);
 }
+
+TEST_CASE(
+    "files that include each other twice, eighteen deep, with a component at the end, are refused in no time",
+    "[graph][large]") {
+  Files files;
+  for (int i = 0; i < 18; ++i) {
+    const std::string next = "<include file='f" + std::to_string(i + 1) + ".xml'/>";
+    files[i == 0 ? "main.xml" : "f" + std::to_string(i) + ".xml"] =
+        "<graph name='g'>" + next + next + "</graph>";
+  }
+  files["f18.xml"] = "<graph name='g'><component name='a' type='orca.Label'/></graph>";
+  orca::xml::Diagnostics diagnostics;
+  const auto start = std::chrono::steady_clock::now();
+  CHECK_FALSE(load_files(files, diagnostics).has_value());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  WARN("refused in " << seconds << " s");
+  CHECK_THAT(diagnostics.text(),
+             Catch::Contains("G045: with this file the graph includes and uses files more than 10000 times"));
+  CHECK(seconds < kBound);
+}

@@ -120,7 +120,8 @@ TEST_CASE("the integrator sets queue, overflow and interval of an edge", "[graph
                policy + "/></graph>")
         .edges.at(0);
   };
-  CHECK(edge("queue='8' overflow='drop_newest'").queue == QueuePolicy{8, QueuePolicy::Overflow::drop_newest});
+  CHECK(edge("queue='8' overflow='drop_newest'").queue ==
+        QueuePolicy{.depth = 8, .overflow = QueuePolicy::Overflow::drop_newest, .drop_limit = 0});
   CHECK(edge("queue='latest'").queue == QueuePolicy{});
   CHECK(edge("interval='100 ms'").interval == 100ms);
   CHECK(edge("deadline='0.5 s'").queue.deadline == 500ms);
@@ -128,6 +129,26 @@ TEST_CASE("the integrator sets queue, overflow and interval of an edge", "[graph
   CHECK(blocking.overflow == QueuePolicy::Overflow::block);
   CHECK(blocking.block_limit == 20ms);
   CHECK(edge("queue='2' overflow='block'").queue.block_limit == 100ms);
+}
+
+TEST_CASE("a queue may drop nothing and \"the latest\" any number, unless the graph sets a limit",
+          "[graph][load]") {
+  const auto drop_limit = [](const std::string& policy) {
+    return must_load(
+               "<graph name='g'><component name='a' type='orca.Localizer'/>"
+               "<component name='b' type='orca.Goto'/>"
+               "<connect from='a.pose' to='b.localizer' " +
+               policy + "/></graph>")
+        .edges.at(0)
+        .queue.drop_limit;
+  };
+  CHECK(drop_limit("queue='latest'") == std::nullopt);
+  CHECK(drop_limit("queue='1'") == std::nullopt);
+  CHECK(drop_limit("queue='1' overflow='drop_newest'") == 0);
+  CHECK(drop_limit("queue='2'") == 0);
+  CHECK(drop_limit("queue='2' overflow='block'") == 0);
+  CHECK(drop_limit("queue='2' drop_limit='30'") == 30);
+  CHECK(drop_limit("queue='latest' drop_limit='0'") == 0);
 }
 
 TEST_CASE("a Send connection refuses when it is full, or lets the sender wait", "[graph][load]") {

@@ -34,5 +34,7 @@ std::string made_graph(const std::string& order) {
   if (what == "bytes")
     return start + "<!--" + std::string(count - start.size() - end.size() - 8, ' ') + "-->\n" + end;
   if (what == "elements") return start + repeated(count - 1, "<connect/>") + end;
+  if (what == "name")
+    return start + "<component name='" + repeated(count, "n") + "' type='orca.Lokalizer'/>\n" + end;
   throw std::invalid_argument("no such order: " + order);
 }

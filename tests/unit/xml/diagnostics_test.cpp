@@ -55,3 +55,23 @@ TEST_CASE("the first errors of a flood are kept, and all are counted", "[xml][di
   CHECK(diagnostics.sorted().size() == Diagnostics::kKept);
   CHECK(diagnostics.text().ends_with("... and 29950 more\n"));
 }
+
+TEST_CASE("what a terminal would obey is printed as an escape sequence, in one line", "[xml][diagnostics]") {
+  Diagnostics diagnostics;
+  diagnostics.error("G016", {"a\x1b[2J.xml", 2, 9}, "there is no \"x\ny\" \u202e");
+  diagnostics.line({"b.xml", 3, 1}, "c.world:1:1: error W001: a\rb");
+  CHECK(diagnostics.text() ==
+        "a\\x1b[2J.xml:2:9: error G016: there is no \"x\\ny\" \\u202e\n"
+        "c.world:1:1: error W001: a\\rb\n");
+}
+
+TEST_CASE("of a message of megabytes the beginning and the end are kept", "[xml][diagnostics]") {
+  Diagnostics diagnostics;
+  diagnostics.error("E", {"a.xml", 1, 1}, "first " + std::string(5'000'000, 'x') + " last");
+  const std::string text = diagnostics.text();
+  CHECK(text.size() < Diagnostics::kLongest + 100);
+  CHECK(text.starts_with("a.xml:1:1: error E: first x"));
+  CHECK(text.ends_with("x last\n"));
+  CHECK(text.find("...(5000011 bytes)...") != std::string::npos);
+  CHECK(diagnostics.json().size() < Diagnostics::kLongest + 300);
+}

@@ -106,6 +106,19 @@ TEST_CASE("each mistake gives one error at its place", "[xml][reading]") {
       {"<a><!-- x -- y --></a>", "1:11: error G119: \"--\" may not stand inside"},
       {"<a><![CDATA[ x ]></a>", "1:4: error G119: the CDATA section is not closed"},
       {"<a><?php x ?></a>", "1:4: error G120: processing instructions"},
+      {"<?xml version='2.0'?><a/>",
+       "1:1: error G122: the file declares version \"2.0\" of XML; only 1.0 is read"},
+      {"<?xml version='1.1'?><a/>", "1:1: error G122"},
+      {"<?xml encoding='UTF-8'?><a/>", "1:1: error G122: the XML declaration has no version"},
+      {"<?xml?>\n<a/>", "1:1: error G122: the XML declaration has no version"},
+      {"<a>\n<b\u00a0c='1'/></a>", "2:3: error G113: a no-break space (U+00A0) stands here"},
+      {"<a b='1'\u00a0c='2'/>", "1:9: error G113: a no-break space (U+00A0) stands here"},
+      {"<a b\u00a0= '2'/>", "1:5: error G113: a no-break space (U+00A0) stands here"},
+      {"<a b=\u3000'2'/>", "1:6: error G113: a blank of another kind (U+3000) stands here"},
+      {"<a b='2'\u2003 \u2003/>", "1:9: error G113: a blank of another kind (U+2003) stands here"},
+      {"<a></a\u202f>", "1:7: error G113: a blank of another kind (U+202F) stands here"},
+      {"\u00a0<a/>", "1:1: error G109: a no-break space (U+00A0) stands here"},
+      {"<a/>\u00a0", "1:5: error G109: there is a no-break space (U+00A0) outside the root element"},
       {" <?xml version='1.0'?><a/>", "1:2: error G120: the XML declaration may only stand at the very start"},
   }));
   const std::string found = errors_of(text);
@@ -155,6 +168,43 @@ TEST_CASE("end tags that cross each other are one error, and hide no other", "[x
   CHECK(std::count(twice.begin(), twice.end(), '\n') == 2);  // the second </c> closes nothing
   const std::string after = errors_of("<r><b><c></b></c><d e=1/></r>");
   CHECK(after.find("error G114") != std::string::npos);
+}
+
+TEST_CASE("an end tag too many in the middle is one error", "[xml][reading]") {
+  CHECK(errors_of("<a><b></c></b></a>") ==
+        "f.xml:1:7: error G111: the end tag </c> does not fit: <b> from line 1, column 4 is open and needs "
+        "</b> "
+        "first\n");
+  const std::string after = errors_of("<a><b></c></b><d e=1/><b></b></a>");
+  CHECK(std::count(after.begin(), after.end(), '\n') == 2);
+  CHECK(after.find("error G114") != std::string::npos);
+}
+
+TEST_CASE("a line ends with LF, CR LF, or CR alone", "[xml][reading]") {
+  CHECK(errors_of("<a>\n\n <b c=1/></a>").starts_with("f.xml:3:7: "));
+  CHECK(errors_of("<a>\r\n\r\n <b c=1/></a>").starts_with("f.xml:3:7: "));
+  CHECK(errors_of("<a>\r\r <b c=1/></a>").starts_with("f.xml:3:7: "));
+  CHECK(errors_of("<a>\n\r <b c=1/></a>").starts_with("f.xml:3:7: "));
+  CHECK(errors_of("<a>\r\n\r <b\r c=1/></a>").starts_with("f.xml:4:4: "));
+}
+
+TEST_CASE("a blank of another kind in a text or value is part of it", "[xml][reading]") {
+  Diagnostics diagnostics;
+  const auto document = read_text("<a b='1\u00a0m'>x\u00a0y</a>", "f.xml", diagnostics);
+  REQUIRE(document.has_value());
+  CHECK(document->root.attribute("b")->value == "1\u00a0m");
+  CHECK(document->root.text() == "x\u00a0y");
+}
+
+TEST_CASE("names of megabytes fill no message", "[xml][reading]") {
+  const std::string name(4'000'000, 'n');
+  for (const std::string& text :
+       {"<" + name + "></b>", "<a></" + name + "></a>", "<a " + name + "></a>", "<a " + name + "=1></a>",
+        "<a " + name + "='1' " + name + "='2'/>", "<" + name + " x='1'y='2'", "<a/><" + name + "/>"}) {
+    const std::string found = errors_of(text);
+    CHECK(found.size() < 1000);
+    CHECK(found.find("nnn...(4000000 bytes)...nnn") != std::string::npos);
+  }
 }
 
 TEST_CASE("the number of errors reported is limited", "[xml][reading]") {

@@ -185,8 +185,8 @@ class ComponentReader {
 
   void read_content() {
     if (checked_.contract) {
-      auto params = read_params(node_, *checked_.contract, report_);
-      if (params) checked_.value.params = std::move(*params);
+      ReadParams params = read_params(node_, *checked_.contract, report_);
+      if (params.sound()) checked_.value.params = std::move(params.values);
     }
     for (const Node& child : node_.children) {
       if (!child.is("property") || child.known("name") == nullptr) continue;

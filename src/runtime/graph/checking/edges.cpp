@@ -67,9 +67,9 @@ struct PolicyAttribute {
   bool send;
 };
 constexpr std::array kPolicyAttributes{
-    PolicyAttribute{"queue", true, true}, PolicyAttribute{"overflow", true, true},
+    PolicyAttribute{"queue", true, true},       PolicyAttribute{"overflow", true, true},
     PolicyAttribute{"block_limit", true, true}, PolicyAttribute{"interval", true, false},
-    PolicyAttribute{"deadline", true, false}};
+    PolicyAttribute{"deadline", true, false},   PolicyAttribute{"drop_limit", true, false}};
 
 // A reader for the policy of an edge.
 class PolicyReader {
@@ -85,6 +85,7 @@ class PolicyReader {
     good = read_time("interval", edge_.interval) && good;
     good = read_time("deadline", edge_.queue.deadline) && good;
     good = check_deadline() && good;
+    good = read_drop_limit() && good;
     return read_time("block_limit", edge_.queue.block_limit) && good;
   }
 
@@ -156,6 +157,18 @@ class PolicyReader {
     return refuse("deadline",
                   "deadline: it is shorter than the interval and could never be kept; make it longer, "
                   "0 for none");
+  }
+
+  // Also fills in the limit that holds without the attribute.
+  bool read_drop_limit() {
+    const Text* text = connection_.find("drop_limit");
+    if (text == nullptr) {
+      if (edge_.pattern == Pattern::push) edge_.queue.drop_limit = edge_.queue.accepted_drops();
+      return true;
+    }
+    const auto limit = read_value(*text, rule_of("drop_limit"), "drop_limit", report_);
+    if (limit) edge_.queue.drop_limit = static_cast<std::uint32_t>(std::get<std::int64_t>(*limit));
+    return limit.has_value();
   }
 
   [[nodiscard]] const xml::ValueRule& rule_of(const char* attribute) const {

@@ -50,6 +50,8 @@ void find_port(Endpoint& end, const CheckedComponent& component, const xml::Posi
     end.port = refused;
   }
   if (end.port != nullptr || report_changed_port(end, component, place, report)) return;
+  if (component.refused_names.contains(end.ref.port))
+    return;  // of a port that does not exist, which is reported
   std::vector<std::string> names;
   for (const PortContract& port : contract.ports) names.push_back(port.name);
   end.guessed = report.nearest(end.ref.port, names);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hardware.hpp"
 
+#include <algorithm>
+
 #include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 #include "reading/node_name.hpp"
@@ -25,28 +27,62 @@ void report_fault(const Node& node, const HardwareFault& fault, Report& report) 
   }
 }
 
+// Returns whether the hardware complains about a default that stands for a value which could not be read.
+bool follows_from(const std::set<std::string>& unread, const HardwareFault& fault) {
+  return unread.contains(fault.param) ||
+         std::ranges::any_of(fault.follows_from,
+                             [&](const std::string& param) { return unread.contains(param); });
+}
+
+HardwareUse use_of(const CheckedHardware& checked) {
+  return {checked.value.name, checked.value.type, checked.value.params};
+}
+
 CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   CheckedHardware checked;
   checked.value = {node.value("name"), node.value("type"), {}, node.position};
   check_name(node, "name", report);
   const std::optional<Contract> contract = types.hardware(node);
   if (!contract) return checked;
-  auto params = read_params(node, *contract, report);
-  if (!params) return checked;
-  checked.value.params = std::move(*params);
-  const HardwareUse use{checked.value.name, checked.value.type, checked.value.params};
-  const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use);
-  for (const HardwareFault& fault : faults) report_fault(node, fault, report);
-  checked.sound = faults.empty();
+  ReadParams params = read_params(node, *contract, report);
+  checked.value.params = std::move(params.values);
+  const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use_of(checked));
+  for (const HardwareFault& fault : faults)
+    if (!follows_from(params.unread, fault)) report_fault(node, fault, report);
+  checked.sound = params.sound() && faults.empty();
   return checked;
+}
+
+// A hardware container without an error of its own, and its node.
+struct Sound {
+  const Node* node;
+  HardwareUse use;
+};
+
+// Each container is compared with all before it, so there is a limit to their number. Beyond it, the start of the
+// system finds what is left.
+constexpr std::size_t kMostCompared = 1000;
+
+void check_conflicts(const std::vector<Sound>& all, Catalogue& catalogue, Report& report) {
+  for (std::size_t i = 0; i < std::min(all.size(), kMostCompared); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      if (all[i].use.type != all[k].use.type) continue;
+      for (const HardwareFault& fault : catalogue.hardware_conflicts(all[i].use, all[k].use))
+        report_fault(*all[i].node, fault, report);
+    }
 }
 
 }  // namespace
 
 void check_hardware(const std::vector<Node>& nodes, Types& types, Model& model, Report& report) {
+  std::vector<Sound> sound;
   for (const Node& node : nodes) {
-    model.add(check_one(node, types, report), !node.value("name").empty() && !node.duplicate);
+    const bool by_name = !node.value("name").empty() && !node.duplicate;
+    CheckedHardware checked = check_one(node, types, report);
+    if (checked.sound && by_name) sound.push_back({&node, use_of(checked)});
+    model.add(std::move(checked), by_name);
   }
+  check_conflicts(sound, types.catalogue(), report);
 }
 
 }  // namespace orca::graph

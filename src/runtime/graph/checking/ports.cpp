@@ -5,6 +5,7 @@
 
 #include "endpoints.hpp"
 #include "orca/base/text.hpp"
+#include "orca/xml/names.hpp"
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
 #include "reading/values.hpp"
@@ -20,7 +21,8 @@ class PortReader {
   void read(const Node& node) {
     const Text* name = node.known("name");
     if (name == nullptr) return;
-    PortContract* port = find(*name);
+    if (node.duplicate) return note_refused(node, name->value);
+    PortContract* port = find(node, *name);
     if (port == nullptr) return;
     title_ = component_.title() + ": port " + in_quotes(name->value);
     PortSetting setting;
@@ -29,6 +31,7 @@ class PortReader {
       disabled_.push_back(port->name);
       checked_.disabled[port->name] = node.position;
     } else if (setting.disabled) {
+      note_refused(node, port->name);
       return report_.error(codes::kPortSetting, node.place("disabled"),
                            title_ + " is disabled: nothing else can be said about it");
     }
@@ -50,18 +53,28 @@ class PortReader {
                                                                             : renaming->second.name);
       if (renaming != checked_.renamed.end()) port.name = renaming->second.name;
     }
+    for (auto& [name, port] : checked_.refused_names)
+      if (const auto renaming = checked_.renamed.find(port); renaming != checked_.renamed.end())
+        port = renaming->second.name;
   }
 
  private:
-  PortContract* find(const Text& name) {
+  // Notes the name that a refused <port> gives, so that connections to it are not refused as well.
+  void note_refused(const Node& node, const std::string& port) {
+    if (const Text* alias = node.known("as")) checked_.refused_names.emplace(alias->value, port);
+  }
+
+  PortContract* find(const Node& node, const Text& name) {
     Contract& contract = *checked_.contract;
     const auto found = std::ranges::find(contract.ports, name.value, &PortContract::name);
     if (found != contract.ports.end()) return &*found;
     std::vector<std::string> names;
     for (const PortContract& port : contract.ports) names.push_back(port.name);
+    const auto near = report_.nearest(name.value, names);
+    note_refused(node, near.value_or(""));
     report_.error(codes::kUnknownPort, name.position,
                   component_.title() + ": port " + in_quotes(name.value) + " does not exist; " +
-                      contract.type + " has " + ports_of(contract) + report_.hint(name.value, names));
+                      contract.type + " has " + ports_of(contract) + xml::did_you_mean(near));
     return nullptr;
   }
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,8 @@ class Arguments {
     bool used = false;
   };
 
+  // Takes "ARG=VALUE" from the command line.
+  void set(const std::string& setting);
   void report_duplicate(const std::string& name, const Node& arg);
   void report_without_value(const std::string& name, const Argument& argument);
   // Reports the error and returns the argument that the setting was probably meant for.
@@ -59,6 +62,7 @@ class Arguments {
   Report& report_;
   const Node* bringer_ = nullptr;  // null: the command line
   std::map<std::string, Setting> settings_;
+  std::set<std::string> valueless_;  // set on the command line without a value, which is reported
   std::map<std::string, Argument> arguments_;
   std::vector<std::string> names_;  // of arguments_, in the order of the file
 };

@@ -101,6 +101,7 @@ class Assembler {
     const std::string path = shown_path(name);
     if (std::ranges::find(chain_, path) != chain_.end()) return report_cycle(name, path);
     if (chain_.size() == kDeepest) return refuse(codes::kExpansion, node, name, "more than 50 files deep");
+    if (!budget_.take_file(node.position, report_)) return nullptr;
     const Files::File& file = files_.open(path);
     if (!file.unreadable.empty()) return refuse(codes::kCannotInclude, node, name, file.unreadable);
     if (!file.document || !budget_.take_elements(file.elements, node.position, report_)) return nullptr;

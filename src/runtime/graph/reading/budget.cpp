@@ -17,11 +17,21 @@ bool take(std::size_t count, std::size_t& left) {
 
 }  // namespace
 
+bool Budget::take_file(const xml::Position& position, Report& report) {
+  if (take(1, files_)) return true;
+  if (!std::exchange(files_told_, true)) {
+    report.error(codes::kExpansion, position,
+                 "with this file the graph includes and uses files more than " + std::to_string(kFiles) +
+                     " times, which is the limit");
+  }
+  return false;
+}
+
 bool Budget::take_elements(std::size_t count, const xml::Position& position, Report& report) {
   if (take(count, elements_)) return true;
   if (!std::exchange(elements_told_, true)) {
     report.error(codes::kExpansion, position,
-                 "with this file the graph has more than " + std::to_string(xml::Limits::kElements) +
+                 "with this file the graph has more than " + std::to_string(kElements) +
                      " elements, which is the limit");
   }
   return false;

@@ -14,12 +14,19 @@ namespace orca::graph {
 class Budget {
  public:
   // Returns false, after one report, when the budget is used up.
+  bool take_file(const xml::Position& position, Report& report);
   bool take_elements(std::size_t count, const xml::Position& position, Report& report);
   bool take_characters(std::size_t count, const xml::Position& position, Report& report);
 
  private:
-  std::size_t elements_ = xml::Limits::kElements;
+  // Copies of files are dear: each has its own arguments and names. A component may be a file of its own.
+  static constexpr std::size_t kFiles = 10'000;
+  static constexpr std::size_t kElements = 100'000;
+
+  std::size_t files_ = kFiles;
+  std::size_t elements_ = kElements;
   std::size_t characters_ = xml::Limits::kBytes;
+  bool files_told_ = false;
   bool elements_told_ = false;
   bool characters_told_ = false;
 };

@@ -17,32 +17,57 @@ void report_unknown(const Node& node, const Node& param, const Contract& contrac
                    " has: " + listed(names) + report.hint(name, names));
 }
 
-// Returns false if the parameter cannot be used.
-bool read_param(const Node& node, const Node& param, const Contract& contract, Params& result,
-                Report& report) {
-  const Text* value = param.known("value");
-  if (param.known("name") == nullptr || value == nullptr) return false;
-  const std::string name = param.value("name");
-  const ParamContract* declared = contract.param(name);
-  if (declared == nullptr) {
-    report_unknown(node, param, contract, report);
-    return false;
+class ParamReader {
+ public:
+  ParamReader(const Node& node, const Contract& contract, Report& report)
+      : node_(node), contract_(contract), report_(report) {
+    for (const ParamContract& declared : contract.params)
+      result_.values[declared.name] = declared.default_value;
   }
-  auto read = read_value(*value, *declared, node.title() + ": parameter " + in_quotes(name), report);
-  if (read) result[name] = std::move(*read);
-  return read.has_value();
-}
+
+  ReadParams read() {
+    for (const Node& child : node_.children)
+      if (child.is("param")) read_one(child);
+    if (some_nameless_)
+      for (const ParamContract& declared : contract_.params)
+        if (!named_.contains(declared.name)) result_.unread.insert(declared.name);
+    return std::move(result_);
+  }
+
+ private:
+  void read_one(const Node& param) {
+    const std::string name = param.value("name");
+    const ParamContract* declared = contract_.param(name);
+    if (declared == nullptr) {
+      some_nameless_ = true;
+      if (param.known("name") != nullptr && param.known("value") != nullptr)
+        report_unknown(node_, param, contract_, report_);
+      return;
+    }
+    named_.insert(name);
+    const Text* value = param.known("value");
+    auto read = value == nullptr ? std::nullopt
+                                 : read_value(*value, *declared,
+                                              node_.title() + ": parameter " + in_quotes(name), report_);
+    if (read) {
+      result_.values[name] = std::move(*read);
+    } else {
+      result_.unread.insert(name);
+    }
+  }
+
+  const Node& node_;
+  const Contract& contract_;
+  Report& report_;
+  ReadParams result_;
+  std::set<std::string> named_;
+  bool some_nameless_ = false;  // a parameter without a name, or with one that the contract does not have
+};
 
 }  // namespace
 
-std::optional<Params> read_params(const Node& node, const Contract& contract, Report& report) {
-  Params result;
-  for (const ParamContract& declared : contract.params) result[declared.name] = declared.default_value;
-  bool sound = true;
-  for (const Node& child : node.children) {
-    if (child.is("param")) sound = read_param(node, child, contract, result, report) && sound;
-  }
-  return sound ? std::optional(std::move(result)) : std::nullopt;
+ReadParams read_params(const Node& node, const Contract& contract, Report& report) {
+  return ParamReader(node, contract, report).read();
 }
 
 }  // namespace orca::graph

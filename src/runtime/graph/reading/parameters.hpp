@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <optional>
+#include <set>
+#include <string>
 
 #include "node.hpp"
 #include "orca/base/contract.hpp"
@@ -10,8 +11,16 @@
 
 namespace orca::graph {
 
-// Returns all parameters of a hardware or component node: the values that it sets, and defaults for the rest.
-// Returns nothing if one of them is wrong.
-std::optional<Params> read_params(const Node& node, const Contract& contract, Report& report);
+// All parameters of a hardware or component node.
+struct ReadParams {
+  Params values;                 // those that the node sets, and defaults for the rest
+  std::set<std::string> unread;  // parameters that have their default because an error is reported instead
+
+  [[nodiscard]] bool sound() const { return unread.empty(); }
+};
+
+// Reads the parameters that the node sets. A misspelt name may stand for any parameter that the node does not
+// set, so all of these count as unread then.
+ReadParams read_params(const Node& node, const Contract& contract, Report& report);
 
 }  // namespace orca::graph

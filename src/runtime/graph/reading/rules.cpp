@@ -92,8 +92,13 @@ constexpr std::array kConnect{
     AttributeRule{"block_limit", false,
                   "Longest time that the publisher waits for room, with overflow=\"block\".",
                   seconds(kMicrosecond)},
-    AttributeRule{"deadline", false, "Time without an object after which the edge counts a missed deadline.",
+    AttributeRule{"deadline", false,
+                  "Time without an object after which the edge counts a missed deadline and logs it.",
                   seconds(0.0)},
+    AttributeRule{"drop_limit", false,
+                  "Number of objects that may be dropped before it is logged; default: any number with "
+                  "queue=\"latest\", otherwise 0.",
+                  integer(0, 1'000'000'000)},
     AttributeRule{"interval", false, "Time in which at most one object is delivered, for example 1 s.",
                   seconds(0.0)}};
 constexpr std::array kPort{

@@ -89,14 +89,15 @@ class Reader {
 
   void drop_duplicates(Node& node) {
     std::map<std::pair<std::string_view, std::string>, xml::Position> seen;
-    std::erase_if(node.children, [&](const Node& child) {
+    std::erase_if(node.children, [&](Node& child) {
       const Text* name = child.known("name");
       if (name == nullptr || !is_setting(child)) return false;
       const auto [first, fresh] = seen.try_emplace({child.rule->name, name->value}, child.position);
       if (fresh) return false;
       report_.error(codes::kDuplicateName, name->position,
                     child.title() + " is given already at " + first->second.text());
-      return true;
+      child.duplicate = true;
+      return !child.is("port");  // connections may use the name that it gives
     });
   }
 

@@ -6,6 +6,7 @@
 
 #include "codes.hpp"
 #include "naming.hpp"
+#include "orca/base/input_file.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/values.hpp"
 #include "rules.hpp"
@@ -66,7 +67,10 @@ class Converter {
 
   std::optional<ParamValue> text(const std::string& value, const ParamContract& contract) {
     if (!one_of(value, contract.choices)) return std::nullopt;
-    return contract.file && !value.empty() ? resolved_path(value, text_) : value;
+    if (!contract.file || value.empty()) return value;
+    const std::string path = resolved_path(value, text_);
+    remember_input_file(path);
+    return path;
   }
 
   std::optional<ParamValue> list(const ParamContract& contract) {

@@ -80,6 +80,7 @@ Attributes attributes_of(const Edge& edge) {
   if (edge.pattern != Pattern::push) return result;
   add(result, "interval", seconds_text(edge.interval));
   add(result, "deadline", seconds_text(edge.queue.deadline));
+  if (edge.queue.drop_limit) add(result, "drop_limit", std::to_string(*edge.queue.drop_limit));
   return result;
 }
 

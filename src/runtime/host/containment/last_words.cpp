@@ -16,12 +16,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <string_view>
 
 #include "containment/environment.hpp"
 #include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
+#include "orca/base/exhaustion.hpp"
+#include "orca/host/stop_signal.hpp"
 #include "orca/plugin/loaded_plugins.hpp"
 
 namespace orca::host {
@@ -30,11 +33,13 @@ namespace {
 constexpr std::array kSignals{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
 constexpr int kHighDescriptor = 900;  // beyond the reach of a plugin that closes every number it can count to
 constexpr std::uintptr_t kNearStack = 64 * 1024;
+constexpr long kHungLimitNs = 200'000'000;
 
 std::atomic<bool> g_armed{false};
 std::atomic<bool> g_said{false};
 int g_stderr = STDERR_FILENO;
 int g_status = EXIT_FAILURE;
+int g_exhausted_status = EXIT_FAILURE;
 std::array<struct sigaction, kSignals.size()> g_before;
 std::terminate_handler g_terminate_before = nullptr;
 
@@ -111,7 +116,28 @@ void add_cause(Line& line, int signal, const siginfo_t& info, const ucontext_t& 
   }
 }
 
+// Returns whether the system gives no more memory. Libraries of C crash without it, and C++ cannot even throw.
+bool lacks_memory() {
+  constexpr std::size_t kLittle = 1024 * 1024;
+  void* const memory = mmap(nullptr, kLittle, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) return true;
+  munmap(memory, kLittle);
+  return false;
+}
+
+// The component that asked last is named; that another one has taken all is possible.
+[[noreturn]] void end_exhausted(const char* text) {
+  Line line;
+  line << "error: " << text;
+  if (const Activity* const activity = Activity::current())
+    line << "; " << activity->who() << " asked for it in " << to_string(activity->hook());
+  if (!g_said.exchange(true)) line.write();
+  StopSignal::stop_motors();
+  _exit(g_exhausted_status);
+}
+
 void on_signal(int signal, siginfo_t* info, void* context) {
+  if (lacks_memory()) end_exhausted(kNoMemoryText);
   const auto place =
       static_cast<std::size_t>(std::find(kSignals.begin(), kSignals.end(), signal) - kSignals.begin());
   sigaction(signal, &g_before[place], nullptr);
@@ -125,11 +151,33 @@ void on_signal(int signal, siginfo_t* info, void* context) {
     add_plugin(line, activity, code_at(where));
     line.write();
   }
+  StopSignal::stop_motors();
   // A fault happens again on return and meets the old action. A signal that was sent must be sent again.
   if (info->si_code <= 0) raise(signal);
 }
 
+// What end_hung() says. Only its own signal reads it.
+const char* g_hung_said = "";
+int g_hung_status = EXIT_FAILURE;
+
+// Runs on the thread that hangs, because only that thread knows what it is doing.
+void on_hung(int /*signal*/, siginfo_t* /*info*/, void* context) {
+  const Activity* const activity = Activity::current();
+  Line line;
+  if (activity != nullptr) {
+    start_line(line, activity);
+  } else {
+    line << "error: the main thread ";
+  }
+  line << g_hung_said;
+  add_plugin(line, activity, code_at(*static_cast<const ucontext_t*>(context)));
+  line.write();
+  _exit(g_hung_status);
+}
+
 void on_terminate() {
+  if (const char* const text = exhaustion_text(std::current_exception())) end_exhausted(text);
+  if (lacks_memory()) end_exhausted(kNoMemoryText);
   Line line;
   const Activity* const activity = Activity::current();
   start_line(line, activity);
@@ -159,6 +207,7 @@ void end_instead_of_exit(std::string_view call) {
   line << "called " << call << "; a plugin must not end the process";
   add_plugin(line, activity, nullptr);
   line.write();
+  StopSignal::stop_motors();
   std::fflush(nullptr);
   _exit(g_status);
 }
@@ -187,34 +236,41 @@ void register_once() {
   (void)registered;
 }
 
-// A stack for signal handlers, unless the thread has one already, as under AddressSanitizer.
-class SignalStack {
- public:
-  SignalStack() {
-    stack_t present{};
-    if (sigaltstack(nullptr, &present) != 0 || (present.ss_flags & SS_DISABLE) == 0) return;
-    memory_ = mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    const stack_t mine{memory_, 0, kSize};
-    if (memory_ != MAP_FAILED) sigaltstack(&mine, nullptr);
-  }
-  ~SignalStack() {
-    if (memory_ == MAP_FAILED) return;
-    const stack_t none{nullptr, SS_DISABLE, 0};
-    sigaltstack(&none, nullptr);
-    munmap(memory_, kSize);
-  }
-  SignalStack(const SignalStack&) = delete;
-  SignalStack& operator=(const SignalStack&) = delete;
+// The stack of a thread for signal handlers, unless the thread has one already, as under AddressSanitizer.
+// A thread_local object would need memory for its destructor, and the system ends a process that has none left.
+constexpr std::size_t kSignalStack = 64 * 1024;
 
- private:
-  static constexpr std::size_t kSize = 64 * 1024;
-  void* memory_ = MAP_FAILED;
-};
+void free_signal_stack(void* memory) {
+  const stack_t none{nullptr, SS_DISABLE, 0};
+  sigaltstack(&none, nullptr);
+  munmap(memory, kSignalStack);
+}
+
+pthread_key_t signal_stack_key() {
+  static const pthread_key_t key = [] {
+    pthread_key_t made{};
+    pthread_key_create(&made, free_signal_stack);
+    return made;
+  }();
+  return key;
+}
+
+void make_signal_stack() {
+  stack_t present{};
+  if (sigaltstack(nullptr, &present) != 0 || (present.ss_flags & SS_DISABLE) == 0) return;
+  void* const memory =
+      mmap(nullptr, kSignalStack, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) return;
+  const stack_t mine{memory, 0, kSignalStack};
+  sigaltstack(&mine, nullptr);
+  pthread_setspecific(signal_stack_key(), memory);
+}
 
 }  // namespace
 
-LastWords::LastWords(int exit_status) {
+LastWords::LastWords(int exit_status, int exhausted_status) {
   g_status = exit_status;
+  g_exhausted_status = exhausted_status;
   const int copy = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, kHighDescriptor);
   if (copy >= 0) g_stderr = copy;
   register_once();
@@ -236,16 +292,33 @@ LastWords::~LastWords() {
 }
 
 void LastWords::prepare_thread() {
-  static thread_local const SignalStack stack;
-  (void)stack;
+  if (pthread_getspecific(signal_stack_key()) == nullptr) make_signal_stack();
 }
 
 void LastWords::say_and_end(const std::string& line) {
   Line words;
   words << line;
   words.write();
+  StopSignal::stop_motors();
   std::fflush(nullptr);
   _exit(g_status);
+}
+
+void LastWords::end_hung(pthread_t thread, const char* said, int exit_status) {
+  g_hung_said = said;
+  g_hung_status = exit_status;
+  struct sigaction action {};
+  action.sa_sigaction = on_hung;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+  sigaction(SIGRTMAX, &action, nullptr);
+  pthread_kill(thread, SIGRTMAX);
+  const timespec moment{0, kHungLimitNs};
+  nanosleep(&moment, nullptr);
+  // It has blocked the signal.
+  Line line;
+  line << "error: the main thread " << said;
+  line.write();
+  _exit(exit_status);
 }
 
 }  // namespace orca::host

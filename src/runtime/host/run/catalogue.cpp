@@ -82,17 +82,30 @@ Result<Contract> PluginCatalogue::hardware(const std::string& type) {
 Result<plugin::DescribedHardware*> PluginCatalogue::described(const graph::HardwareUse& use) {
   const auto known = hardware_.find(use.name);
   if (known != hardware_.end()) return known->second.get();
+  return describe_anew(use);
+}
+
+Result<plugin::DescribedHardware*> PluginCatalogue::describe_anew(const graph::HardwareUse& use) {
   const Result<LoadedType> found = find(PluginKind::hardware, use.type);
   if (!found) return found.error();
   auto made = plugin::describe_hardware(*found->entry, found->library->path(), use.name);
   if (!made) return made.error();
-  return hardware_.emplace(use.name, std::move(made).value()).first->second.get();
+  return hardware_.insert_or_assign(use.name, std::move(made).value()).first->second.get();
 }
 
 std::vector<HardwareFault> PluginCatalogue::validate_hardware(const graph::HardwareUse& use) {
-  const Result<plugin::DescribedHardware*> made = described(use);
+  // A container is prepared only once: a second one of its name, which is an error, gets its own.
+  const Result<plugin::DescribedHardware*> made = describe_anew(use);
   if (!made) return {{"", made.error().text()}};
   return (*made)->prepare(use.params);
+}
+
+std::vector<HardwareFault> PluginCatalogue::hardware_conflicts(const graph::HardwareUse& use,
+                                                               const graph::HardwareUse& earlier) {
+  const auto one = hardware_.find(use.name);
+  const auto other = hardware_.find(earlier.name);
+  if (one == hardware_.end() || other == hardware_.end()) return {};
+  return one->second->conflicts_with(*other->second);
 }
 
 Result<Contract> PluginCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {

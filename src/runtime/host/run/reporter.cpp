@@ -7,13 +7,28 @@
 #include "orca/idl/time.hpp"
 
 namespace orca::host {
+namespace {
+
+constexpr Duration kTroubleInterval = 10s;
+
+// Returns the component of "component.port".
+std::string component_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
+
+std::string mention_left_out(std::uint64_t lines) {
+  if (lines == 0) return {};
+  return lines == 1 ? " (1 more such line was left out before)"
+                    : " (" + std::to_string(lines) + " more such lines were left out before)";
+}
+
+}  // namespace
 
 Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listener, std::string log_name)
     : executive_(executive),
       trace_(trace),
       listener_(listener),
       log_name_(std::move(log_name)),
-      start_(executive.now()) {
+      start_(executive.now()),
+      trouble_lines_(kTroubleInterval) {
   listener_.started(start_);
 }
 
@@ -30,6 +45,24 @@ void Reporter::hear(const ObjectRef& object) {
   last = object;
   arrivals_.push_back(arrived);
   listener_.arrived(arrived);
+}
+
+void Reporter::trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) {
+  const std::string ends = std::string(from) + " to " + std::string(to);
+  std::optional<std::uint64_t> left_out;
+  {
+    const std::lock_guard lock(mutex_);
+    if (ignores_trouble_) return;
+    left_out = trouble_lines_.admit(std::to_string(static_cast<int>(kind)) + ends, executive_.now());
+  }
+  if (!left_out) return;
+  log(log::Level::warning, component_of(kind == LinkTrouble::refused ? from : to),
+      ends + ": " + std::string(text) + mention_left_out(*left_out));
+}
+
+void Reporter::ignore_trouble() {
+  const std::lock_guard lock(mutex_);
+  ignores_trouble_ = true;
 }
 
 void Reporter::report(const std::string& origin, const idl::Contact& contact) {

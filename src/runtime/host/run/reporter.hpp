@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "line_limit.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
@@ -28,6 +29,12 @@ class Reporter final : public LinkObserver {
   void link_changed(std::string_view client, std::string_view server, bool connected) override {
     trace_.link_changed(client, server, connected);
   }
+  /// Writes a warning to the log, under the name of the component that sends, asks or receives. Of one kind
+  /// of trouble of one connection there is at most one line in 10 s of the run's clock.
+  void trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) override;
+
+  /// Reports no more trouble of connections: the system is being taken down.
+  void ignore_trouble();
 
   /// Reports a contact.
   /// @param origin  the hardware container that reports it.
@@ -59,6 +66,8 @@ class Reporter final : public LinkObserver {
   std::vector<idl::Arrived> arrivals_;
   std::vector<idl::Contact> contacts_;
   std::vector<idl::Alarm> alarms_;
+  LineLimit trouble_lines_;
+  bool ignores_trouble_ = false;
 };
 
 }  // namespace orca::host

@@ -2,6 +2,7 @@
 #include "orca/host/run_system.hpp"
 
 #include <atomic>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "containment/environment.hpp"
 #include "containment/stall_monitor.hpp"
 #include "counters.hpp"
+#include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "reporter.hpp"
 #include "system.hpp"
@@ -19,6 +21,7 @@ namespace {
 constexpr Duration kStartLimit = 10s;
 constexpr Duration kRestLimit = 1s;
 constexpr Duration kTakeDownLimit = 1500ms;
+constexpr Duration kMotorLimit = 150ms;
 
 // One run, from bringing up to taking down. Its main() is the executive's main task.
 class Run {
@@ -42,6 +45,7 @@ class Run {
   /// Runs, reports the end, and destroys all instances.
   RunResult execute() {
     run();
+    close_outputs();
     RunResult result = this->result();
     listener_.ended(result);  // before the destructors of plugins, which may end the process
     system_.reset();
@@ -51,8 +55,7 @@ class Run {
 
  private:
   void run() {
-    if (!options_.trace_file.empty())
-      if (const Status opened = trace_.open(options_.trace_file); !opened.ok()) return refuse(opened.error());
+    if (const Status opened = open_outputs(); !opened.ok()) return refuse_output(opened.error());
     if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
     {
       const StallMonitor monitor(
@@ -61,6 +64,29 @@ class Run {
       executive_.run([this] { main(); });
     }
     if (!options_.picture.file.empty()) draw();
+  }
+
+  // Opens all files that the run writes, so that a wrong name is known before anything moves.
+  Status open_outputs() {
+    if (!options_.trace_file.empty())
+      if (Status opened = trace_.open(options_.trace_file); !opened.ok()) return opened;
+    return options_.picture.file.empty() ? ok() : picture_.open(options_.picture.file);
+  }
+
+  void refuse_output(const Error& error) {
+    const bool wrong = error.code == Code::invalid_argument;
+    fail_with(wrong ? RunOutcome::bad_options : RunOutcome::not_started, error);
+  }
+
+  void close_outputs() {
+    for (const Status& closed : {trace_.close(), picture_.close()})
+      if (!closed.ok()) fail_output(closed.error());
+  }
+
+  // What people asked for is not there, so the run has failed, however well it went.
+  void fail_output(const Error& error) {
+    reporter_.log_error(error.text());
+    if (!error_) conclude(RunOutcome::failed, error);
   }
 
   void refuse(const Error& error) { fail_with(RunOutcome::not_started, error); }
@@ -83,18 +109,38 @@ class Run {
   void main() {
     runs_.store(true);
     stop_.on_request([this] { changed_->notify(); });
-    const Status up = system_->bring_up(*changed_, executive_.now() + kStartLimit);
+    stop_.on_crash([this] { stop_motors(); });
+    const Status up = bring_up();
     if (!up.ok() && !stop_.requested()) {
       fail_with(RunOutcome::not_started, up.error());
       reporter_.log_error("not everything came up; taking all down again");
     } else {
-      system_->open_gates();
+      // After a request to stop, some components may not be up, and others would fail for want of them.
+      if (up.ok() && !stop_.requested()) system_->open_gates();
       supervise();
       if (has_ended() && !stop_.requested()) wait_for_rest();
     }
     take_down();
     stop_.on_request(nullptr);
+    stop_.on_crash(nullptr);
     runs_.store(false);
+  }
+
+  Status bring_up() {
+    try {
+      return system_->bring_up(*changed_, executive_.now() + kStartLimit);
+    } catch (...) {
+      const char* const text = exhaustion_text(std::current_exception());
+      if (text == nullptr) throw;
+      return fail(Code::unavailable, text);
+    }
+  }
+
+  // Stops the motors while another thread is about to end the process. If all strands share that thread, only the
+  // watchdogs of the devices can.
+  void stop_motors() {
+    if (executive_.tasks_overlap()) system_->stop_hardware(kMotorLimit);
+    (void)trace_.close();
   }
 
   void supervise() {
@@ -107,6 +153,9 @@ class Run {
     }
     if (error_ || has_ended()) return;
     outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
+    if (const std::string signal = stop_.failure(); !signal.empty())
+      fail_with(RunOutcome::failed,
+                fail(Code::failed_precondition, "the signal " + signal + " ended the run"));
   }
 
   // Returns whether the components that the graph names in `ends` have come to an end. Keeps the reason if
@@ -130,13 +179,17 @@ class Run {
     while (!system_->at_rest() && executive_.now() < limit && !stop_.requested()) changed_->wait_until(limit);
   }
 
+  // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.
   void take_down() {
+    reporter_.ignore_trouble();
+    counters_ = collect_counters(graph_, *system_);
     const std::vector<std::string> stuck = system_->take_down(executive_.now() + kTakeDownLimit);
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
       reporter_.log_error(name + " does not end; the process is ended without it");
     conclude(RunOutcome::failed, fail(Code::deadline_exceeded,
                                       listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
+    close_outputs();
     listener_.abandon(result());  // a thread cannot be ended in any other way
   }
 
@@ -148,6 +201,7 @@ class Run {
     ended.culprit = component;
     ended.error = fail(Code::deadline_exceeded, text, component);
     ended.trace_hash.reset();  // it would depend on the moment at which the standstill was noticed
+    (void)trace_.close();
     listener_.abandon(ended);
   }
 
@@ -164,8 +218,8 @@ class Run {
     scene.start = start_;
     system_->draw(scene);
     reporter_.draw(scene);
-    if (const Status drawn = write_picture(scene, options_.picture); !drawn.ok())
-      reporter_.log_error(drawn.error().text());
+    if (const Status drawn = write_picture(scene, options_.picture, picture_); !drawn.ok())
+      fail_output(drawn.error());
   }
 
   [[nodiscard]] RunResult result() const {
@@ -173,10 +227,11 @@ class Run {
     result.outcome = outcome_;
     result.culprit = culprit_;
     result.error = error_;
-    const bool ran = outcome_ != RunOutcome::not_started;  // without a start there is nothing to compare
+    // Without a start there is nothing to compare.
+    const bool ran = outcome_ != RunOutcome::not_started && outcome_ != RunOutcome::bad_options;
     if (ran && executive_.is_virtual()) result.trace_hash = trace_.hash();
     reporter_.fill(result);
-    if (ran) result.counters = collect_counters(graph_, *system_);
+    if (ran) result.counters = counters_ ? *counters_ : collect_counters(graph_, *system_);
     return result;
   }
 
@@ -188,6 +243,7 @@ class Run {
   RunListener& listener_;
   Trace trace_;
   Reporter reporter_;
+  OutputFile picture_{"the picture"};
   std::atomic<bool> runs_{false};      // whether there are strands
   const KeptEnvironment environment_;  // lives longer than all that runs a plugin's code
   const TimePoint start_ = executive_.now();
@@ -199,6 +255,7 @@ class Run {
                       [this] { changed_->notify(); },
                       !options_.picture.file.empty()};
   std::optional<System> system_{std::in_place, graph_, context_, [this] { return stop_.requested(); }};
+  std::optional<RunCounters> counters_;  // of the run until it was taken down
   RunOutcome outcome_ = RunOutcome::finished;
   std::string culprit_;
   std::optional<Error> error_;

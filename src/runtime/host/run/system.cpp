@@ -2,6 +2,8 @@
 #include "system.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "orca/base/text.hpp"
@@ -169,6 +171,17 @@ std::vector<std::string> System::take_down(TimePoint deadline) {
   for (const auto& hardware : hardware_)
     if (!hardware->container().join_until(deadline)) stuck.push_back(hardware->name());
   return stuck;
+}
+
+void System::stop_hardware(Duration limit) {
+  for (const auto& hardware : hardware_) hardware->container().shut_down();
+  const auto closed = [](const auto& hardware) {
+    const hw::HardwareState state = hardware->container().state();
+    return state == hw::HardwareState::closed || state == hw::HardwareState::fault;
+  };
+  const auto end = std::chrono::steady_clock::now() + limit;
+  while (!std::ranges::all_of(hardware_, closed) && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(1ms);
 }
 
 ComponentInstance* System::find(const std::string& name) const {

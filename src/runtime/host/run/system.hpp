@@ -46,6 +46,11 @@ class System {
   /// @return the names of those that did not end in time, with what they are doing.
   std::vector<std::string> take_down(TimePoint deadline);
 
+  /// Stops the motors and closes the hardware, however the rest is doing.
+  /// @param limit  [s of the steady clock] time to wait for it.
+  /// @thread  any, while the strands run.
+  void stop_hardware(Duration limit);
+
   /// Pause a component between two laps, and resume it.
   /// @errors  not_found; failed_precondition if it cannot be suspended now; deadline_exceeded if a lap does
   ///          not end in time. The order is then carried out when the lap does end.

@@ -1,29 +1,43 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "trace.hpp"
 
-#include <cerrno>
+#include <chrono>
 #include <cstdio>
-#include <cstring>
+#include <string>
 
 namespace orca::host {
+namespace {
+
+constexpr std::chrono::milliseconds kCloseLimit{200};
+
+}  // namespace
 
 Trace::Trace(const Executive& executive) : executive_(executive), start_(executive.now()) {}
 
 Status Trace::open(const std::string& path) {
-  file_.open(path);
-  if (!file_)
-    return fail(Code::unavailable, std::string("cannot write the trace: ") + std::strerror(errno), path);
-  return ok();
+  const Status opened = file_.open(path);
+  if (opened.ok()) file_.flush();  // so that nobody takes an older trace for that of a run that crashed
+  writes_.store(opened.ok());
+  return opened;
 }
 
-template <class... Parts>
-void Trace::write_line(std::string_view event, const Parts&... parts) {
-  if (!file_.is_open()) return;
+Status Trace::close() {
+  const std::unique_lock lock(mutex_, kCloseLimit);
+  if (!lock.owns_lock()) return fail(Code::deadline_exceeded, "the end of the trace could not be written");
+  writes_.store(false);
+  return file_.close();
+}
+
+void Trace::write_line(std::initializer_list<std::string_view> parts) {
+  if (!writes_) return;
   char time[32];
   std::snprintf(time, sizeof time, "%.6f", to_seconds(executive_.now() - start_));
-  file_ << time << ' ' << event;
-  ((file_ << ' ' << parts), ...);
-  file_ << '\n';
+  file_.write(time);
+  for (const std::string_view part : parts) {
+    file_.write(" ");
+    file_.write(part);
+  }
+  file_.write("\n");
 }
 
 void Trace::serialize(const ObjectRef& object) {
@@ -34,7 +48,7 @@ void Trace::serialize(const ObjectRef& object) {
 }
 
 void Trace::delivered(std::string_view component, std::string_view port, const ObjectRef& object) {
-  if (!executive_.is_virtual() && !file_.is_open()) return;
+  if (!executive_.is_virtual() && !writes_) return;
   const std::lock_guard lock(mutex_);
   const idl::OrcaObject& header = object.header();
   if (executive_.is_virtual()) {
@@ -45,17 +59,19 @@ void Trace::delivered(std::string_view component, std::string_view port, const O
     hash_.add_u64(header.seq());
     hash_.add(payload_);
   }
-  write_line("deliver", component, port, header.seq(), object.type().name, "from", header.origin());
+  if (!writes_) return;
+  write_line({"deliver", component, port, std::to_string(header.seq()), object.type().name, "from",
+              header.origin()});
 }
 
 void Trace::link_changed(std::string_view client, std::string_view server, bool connected) {
   const std::lock_guard lock(mutex_);
-  write_line(connected ? "connect" : "disconnect", client, server);
+  write_line({connected ? "connect" : "disconnect", client, server});
 }
 
 void Trace::state_changed(std::string_view who, std::string_view from, std::string_view to) {
   const std::lock_guard lock(mutex_);
-  write_line("state", who, from, to);
+  write_line({"state", who, from, to});
 }
 
 std::uint64_t Trace::hash() const {

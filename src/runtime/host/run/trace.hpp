@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
+#include <initializer_list>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "orca/base/executive.hpp"
 #include "orca/base/hash.hpp"
+#include "orca/base/output_file.hpp"
 #include "orca/base/result.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
 
@@ -27,8 +29,13 @@ class Trace final : public LinkObserver {
   explicit Trace(const Executive& executive);
 
   /// Starts to write a file as well.
-  /// @errors  unavailable with the system's reason if the file cannot be written.
+  /// @errors  as OutputFile::open().
   Status open(const std::string& path);
+
+  /// Writes the rest of the file and closes it. What comes later is not written any more. It does not wait for
+  /// a strand that is stuck while it writes; the rest is lost then.
+  /// @errors  unavailable with the system's reason if anything could not be written.
+  Status close();
 
   void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
   void link_changed(std::string_view client, std::string_view server, bool connected) override;
@@ -38,13 +45,13 @@ class Trace final : public LinkObserver {
 
  private:
   void serialize(const ObjectRef& object);
-  template <class... Parts>
-  void write_line(std::string_view event, const Parts&... parts);
+  void write_line(std::initializer_list<std::string_view> parts);
 
   const Executive& executive_;
   const TimePoint start_;
-  mutable std::mutex mutex_;
-  std::ofstream file_;
+  mutable std::timed_mutex mutex_;
+  std::atomic<bool> writes_{false};
+  OutputFile file_{"the trace"};
   Fnv1a hash_;
   // The object whose payload is in payload_, so that an object with many readers is serialised once.
   ObjectRef serialized_;

@@ -10,6 +10,8 @@
 #include <optional>
 
 #include "demangle.hpp"
+#include "orca/base/exhaustion.hpp"
+#include "orca/base/input_file.hpp"
 #include "orca/base/layout.hpp"
 #include "orca/base/text.hpp"
 #include "orca/component/manifest.hpp"
@@ -55,14 +57,21 @@ std::string shortly_listed(std::vector<std::string> names) {
   return listed(names, kMost);
 }
 
+constexpr std::streamoff kMaxBytes = 1'000'000'000;
+
 Result<std::vector<std::byte>> bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) throw_if_exhausted(errno);
   if (!file) return fail(Code::not_found, std::string("cannot be read: ") + std::strerror(errno), path);
   const std::streamoff size = file.tellg();
+  if (size > kMaxBytes)
+    return fail(Code::invalid_argument, "has " + std::to_string(size) + " bytes; a plugin has at most 1 GB",
+                path);
   std::vector<std::byte> bytes(static_cast<std::size_t>(std::max<std::streamoff>(size, 0)));
   file.seekg(0);
   file.read(reinterpret_cast<char*>(bytes.data()), size);
   if (file.gcount() != size) return fail(Code::data_loss, "cannot be read to its end", path);
+  remember_input_file(path);
   return bytes;
 }
 

@@ -15,9 +15,10 @@ namespace {
 constexpr const char* kRemedy = "; build it again with this Orca";
 constexpr std::size_t kMostNamed = 4;
 
-// Type -> hash, both as written.
-std::map<std::string_view, std::string_view> read(std::string_view layouts) {
-  std::map<std::string_view, std::string_view> hashes;
+using Hashes = std::map<std::string_view, std::string_view>;  // by type, both as written
+
+Hashes read(std::string_view layouts) {
+  Hashes hashes;
   while (!layouts.empty()) {
     const std::string_view line = layouts.substr(0, layouts.find('\0'));
     layouts.remove_prefix(std::min(layouts.size(), line.size() + 1));
@@ -29,6 +30,19 @@ std::map<std::string_view, std::string_view> read(std::string_view layouts) {
 
 std::string difference(std::string_view type, std::string_view theirs, const std::string& ours) {
   return std::string(type) + " (" + std::string(theirs) + " in the plugin, " + ours + " in this Orca)";
+}
+
+std::vector<std::string> differences_between(const Hashes& theirs, const Hashes& ours) {
+  std::vector<std::string> differences;
+  for (const auto& [type, built_for] : theirs) {
+    const auto same = ours.find(type);
+    if (same == ours.end()) {
+      differences.push_back(difference(type, built_for, "none"));
+    } else if (same->second != built_for) {
+      differences.push_back(difference(type, built_for, std::string(same->second)));
+    }
+  }
+  return differences;
 }
 
 std::string listed(const std::vector<std::string>& differences) {
@@ -53,22 +67,13 @@ std::uint64_t hash_of_layouts(std::string_view layouts) {
 
 std::optional<std::string> layout_fault(std::string_view theirs, std::uint64_t hash, std::string_view ours) {
   if (theirs.ends_with(std::string_view("\0\0", 2))) theirs.remove_suffix(1);  // of the array
-  const auto built_with = read(theirs);
-  if (built_with.empty())
+  if (theirs.find(' ') == std::string_view::npos)
     return std::string("does not say for which layouts it was built: it has no section orca_plugin_layouts") +
            "; build it with orca_add_component()";
   if (hash_of_layouts(theirs) != hash)
     return "is damaged: its list of layouts does not have the hash that its manifest gives; build it again";
-  const auto here = read(ours);
-  std::vector<std::string> differences;
-  for (const auto& [type, built_for] : built_with) {
-    const auto same = here.find(type);
-    if (same == here.end()) {
-      differences.push_back(difference(type, built_for, "none"));
-    } else if (same->second != built_for) {
-      differences.push_back(difference(type, built_for, std::string(same->second)));
-    }
-  }
+  if (theirs == ours) return std::nullopt;
+  const std::vector<std::string> differences = differences_between(read(theirs), read(ours));
   if (differences.empty()) return std::nullopt;
   return "was built for other layouts of what crosses the plugin boundary: " + listed(differences) + kRemedy;
 }

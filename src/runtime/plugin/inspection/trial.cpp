@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 
 #include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
+#include "orca/base/exhaustion.hpp"
 
 namespace orca::plugin {
 namespace {
@@ -45,6 +47,7 @@ void report_terminate() {
 
 [[noreturn]] void run_copy(int report_fd, const Attempt& attempt) {
   g_report_fd = report_fd;
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // however the parent ends, the copy does not outlive it
   for (const int signal : kSignals) ::signal(signal, SIG_DFL);
   std::set_terminate(report_terminate);
   const int null = open("/dev/null", O_RDWR);  // the copy must not talk to the user
@@ -107,23 +110,28 @@ std::string how_it_ended(int status, const std::string& thrown) {
   return "ended the process with exit(" + std::to_string(WEXITSTATUS(status)) + ")";
 }
 
+Error cannot_try(int reason) {
+  throw_if_exhausted(reason);
+  return fail(Code::unavailable, std::string("cannot try it out: ") + std::strerror(reason));
+}
+
 }  // namespace
 
 Status survives_trial(const Attempt& attempt, Duration limit) {
   int fds[2];
-  if (pipe2(fds, O_CLOEXEC) != 0)
-    return fail(Code::unavailable, std::string("cannot try it out: ") + std::strerror(errno));
+  if (pipe2(fds, O_CLOEXEC) != 0) return cannot_try(errno);
   ActivityKeeper here;
   here.keep();
   ActivityKeeper().restore();  // this fork() must not count as a plugin's
   const pid_t copy = fork();
+  const int reason = errno;
   if (copy == 0) run_copy(fds[1], attempt);
   here.restore();
   close(fds[1]);
   std::string text;
   const bool ended = copy > 0 && read_all(fds[0], limit, text);
   close(fds[0]);
-  if (copy < 0) return fail(Code::unavailable, std::string("cannot try it out: ") + std::strerror(errno));
+  if (copy < 0) return cannot_try(reason);
   const Ending ending = ending_of(text);
   if (!ended || ending.survived) kill(copy, SIGKILL);
   int status = 0;

@@ -18,14 +18,36 @@ TEST_CASE("the catalogue is given the folders first, then the hardware, then the
                                  "component orca.RobotBaseServer with robot", "component orca.Localizer"});
 }
 
-TEST_CASE("hardware with wrong parameters is not validated", "[graph][catalogue]") {
-  FakeCatalogue catalogue;
-  orca::xml::Diagnostics diagnostics;
-  CHECK_FALSE(
-      load_text("<graph name='g'><hardware name='robot' type='orca.hw.Sim'><param name='x' value='1'/>"
-                "</hardware></graph>",
-                "g.xml", {}, catalogue, diagnostics));
-  CHECK(std::ranges::find(catalogue.calls, "validate robot") == catalogue.calls.end());
+TEST_CASE("hardware with a wrong parameter is looked into all the same, with the default in its place",
+          "[graph][catalogue]") {
+  const std::string said = said_about(
+      "<graph name='g'>\n<hardware name='robot' type='orca.hw.Sim'>\n<param name='realism' value='no'/>\n"
+      "<param name='world' value='flooded.world'/></hardware></graph>");
+  CHECK_THAT(said, Catch::Contains("test.xml:3:30: error G033"));
+  CHECK_THAT(said, Catch::Contains("test.xml:4:28: error G042: hardware \"robot\": parameter \"world\""));
+}
+
+TEST_CASE("what hardware says of a default that stands for a wrong value is not reported",
+          "[graph][catalogue]") {
+  const auto said = [](const std::string& params) {
+    return said_about("<graph name='g'><hardware name='robot' type='orca.hw.Deep'>" + params +
+                      "</hardware></graph>");
+  };
+  CHECK_THAT(said(""), Catch::Contains("G042") && Catch::Contains("the sea is 0 m deep"));
+  // The fault stands at "ship" and follows from "depth".
+  for (const char* wrong : {"<param name='depth' value='much'/>", "<param name='depth'/>",
+                            "<param name='dept' value='3'/>", "<param name='depth' value='${depth}'/>"}) {
+    INFO(wrong);
+    CHECK_THAT(said(wrong), !Catch::Contains("G042"));
+    CHECK_THAT(said(wrong), Catch::Contains("error G"));
+  }
+  CHECK_THAT(said("<param name='ship' value='ark'/><param name='dept' value='3'/>"),
+             !Catch::Contains("G042"));
+  CHECK_THAT(said("<param name='depth' value='0'/><param name='shp' value='ark'/>"),
+             !Catch::Contains("G042"));
+  CHECK_THAT(
+      said("<param name='depth' value='0'/><param name='ship' value='ark'/><param name='x' value='1'/>"),
+      Catch::Contains("G042") && Catch::Contains("G029"));
 }
 
 TEST_CASE("errors in a world file are printed in the simulator's words", "[graph][catalogue]") {
@@ -45,4 +67,19 @@ TEST_CASE("a value that the hardware refuses is reported where the graph sets it
   CHECK(said ==
         "test.xml:3:28: error G042: hardware \"robot\": parameter \"world\": it is under water; take "
         "another\n");
+}
+
+TEST_CASE(
+    "two hardware containers that cannot both be are told at the second, where the graph sets the value",
+    "[graph][catalogue]") {
+  const auto scout = [](const std::string& name, const std::string& port) {
+    return "<hardware name='" + name + "' type='orca.hw.NomadScout'>\n<param name='port' value='" + port +
+           "'/></hardware>\n";
+  };
+  CHECK_THAT(said_about("<graph name='g'>\n" + scout("one", "/dev/a") + scout("two", "/dev/b") + "</graph>"),
+             !Catch::Contains("error"));
+  CHECK_THAT(
+      said_about("<graph name='g'>\n" + scout("one", "/dev/a") + scout("two", "/dev/a") + "</graph>"),
+      Catch::Contains("test.xml:5:27: error G042: hardware \"two\": parameter \"port\": hardware \"one\" is "
+                      "on this port already"));
 }

@@ -62,7 +62,8 @@ class RandomGraph {
            maybe("<property name='room' value=\"" + free_text() + "\"/>") + "</component>" +
            connect("base.SonarRangeReadingsPush", name + ".sonar",
                    maybe(queue()) + maybe(" interval='" + real(0, 10) + "'") +
-                       maybe(" deadline='" + real(10, 20) + "'")) +
+                       maybe(" deadline='" + real(10, 20) + "'") +
+                       maybe(" drop_limit='" + integer(0, 1000) + "'")) +
            (late_bound_ ? ""
                         : connect(name + ".motion", "fuser.motion",
                                   pick(2) == 0 ? " queue='latest'"

@@ -50,7 +50,15 @@ Scene sensing() {
 using IsColour = std::function<bool(int red, int green, int blue)>;
 const IsColour kYellow = [](int r, int g, int b) { return r > 200 && g > 140 && b < 60; };
 const IsColour kBlue = [](int r, int g, int b) { return r < 60 && g < 110 && b > 200; };
+const IsColour kDark = [](int r, int g, int b) { return r < 80 && g < 80 && b < 80; };
 const IsColour kRed = [](int r, int g, int b) { return r > 180 && g < 60 && b < 60; };
+
+Status write(const Scene& scene, const PictureOptions& options) {
+  OutputFile file("the picture");
+  if (Status opened = file.open(options.file); !opened.ok()) return opened;
+  if (Status drawn = write_picture(scene, options, file); !drawn.ok()) return drawn;
+  return file.close();
+}
 
 /// A picture that was written, read back.
 class Pixels {
@@ -58,7 +66,7 @@ class Pixels {
   Pixels(const Scene& scene, PictureOptions options) {
     const TempFolder folder;
     options.file = folder.file("picture.png");
-    const Status written = write_picture(scene, options);
+    const Status written = write(scene, options);
     INFO((written.ok() ? std::string() : written.error().text()));
     REQUIRE(written.ok());
     surface_ = cairo_image_surface_create_from_png(options.file.c_str());
@@ -127,6 +135,15 @@ TEST_CASE("in the robot's view ahead is up, whatever its heading in the world", 
   }
 }
 
+TEST_CASE("a robot is its outline with a line from the middle to the front, and nothing beyond",
+          "[host][picture]") {
+  const Pixels view(sensing(), {"", View::robot, {Layer::walls, Layer::track, Layer::motion, Layer::marks}});
+  const int middle = view.width() / 2;
+  CHECK(view.count(kDark, middle - 3, middle - 15, middle + 3, middle - 3) >= 12);  // the line
+  CHECK(view.count(kDark, middle - 3, middle + 3, middle + 3, middle + 15) == 0);
+  CHECK(view.count(kDark, middle - 40, middle - 155, middle + 40, middle - 30) == 0);
+}
+
 TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments between",
           "[host][picture]") {
   Scene scene = drive(10.0);
@@ -156,11 +173,11 @@ TEST_CASE("a scene without robots or readings is reported, and nothing is writte
   Scene scene = drive(1.0);
   scene.robots[0].moments.clear();
   for (const View view : {View::robot, View::film}) {
-    const Status status = write_picture(scene, {folder.file("no.png"), view, {}});
+    const Status status = write(scene, {folder.file("no.png"), view, {}});
     REQUIRE_FALSE(status.ok());
     CHECK(status.error().message.find("no simulated robot has sensed anything") != std::string::npos);
   }
-  const Status nothing = write_picture({}, {folder.file("no.png"), View::world, {}});
+  const Status nothing = write({}, {folder.file("no.png"), View::world, {}});
   REQUIRE_FALSE(nothing.ok());
   CHECK(nothing.error().message.find("no simulated hardware") != std::string::npos);
   CHECK_FALSE(std::ifstream(folder.file("no.png")).good());

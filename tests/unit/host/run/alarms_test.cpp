@@ -78,7 +78,7 @@ TEST_CASE("descriptors that a component leaves open are an alarm of its stop()",
 }
 
 TEST_CASE("fork() is an alarm, once", "[host][alarms]") {
-  const LastWords words(EXIT_FAILURE);  // ends the copy
+  const LastWords words(EXIT_FAILURE, 3);  // ends the copy
   const RecordedRun run = act("work", "fork");
   REQUIRE(run.alarms.size() == 1);
   CHECK(run.alarms[0].kind() == "FORK");

@@ -26,6 +26,9 @@ class Recorder final : public RunListener {
     record_.heard.push_back("alarm " + alarm.kind());
     record_.alarms.push_back(alarm);
   }
+  void logged(log::Level level, std::string_view who, std::string_view text) override {
+    if (level == log::Level::warning) record_.warnings.push_back(std::string(who) + ": " + std::string(text));
+  }
   void ended(const RunResult& /*result*/) override { record_.heard.emplace_back("ended"); }
   [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
 

@@ -2,6 +2,11 @@
 // The reaction of a byte link's end to a peer that sends invalid data, does not read, or goes away.
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <string>
+#include <vector>
+
+#include "byte_end.hpp"
 #include "courier.hpp"
 #include "executives.hpp"
 #include "orca/base/log.hpp"
@@ -65,6 +70,20 @@ class Wires {
   }
   [[nodiscard]] std::uint64_t frames_received() const { return traffic_.frames_received; }
 
+  /// Waits for that many frames to the peer and returns their kinds.
+  [[nodiscard]] std::vector<FrameKind> kinds_sent(std::size_t count) {
+    std::vector<FrameKind> kinds;
+    FrameSplitter splitter;
+    const auto have_come = [&] {
+      std::array<std::byte, 4096> portion;
+      splitter.append(std::span(portion).first(to_peer_->read(portion)));
+      while (const auto frame = *splitter.next()) kinds.push_back(FrameReader(*frame).kind());
+      return kinds.size() >= count;
+    };
+    CHECK(eventually(executive_, have_come));
+    return kinds;
+  }
+
  private:
   Executive& executive_;
   const std::size_t capacity_;
@@ -100,6 +119,33 @@ TEST_CASE("a subscriber that sends rubbish is cut off, counted, and costs the pu
     REQUIRE(wires.cuts_off());
     CHECK(eventually(executive, [&] { return source.out.subscriber_count() == 0; }));
     source.out.push(full_stop());  // does not wait
+  });
+}
+
+TEST_CASE("a peer that reads nothing is cut off as soon as too much waits for it, even if that is one frame",
+          "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    Wires wires(executive);
+    ByteEnd end(wires.connection());
+    end.start([](FrameReader&) { return ok(); }, [](const Error&) {});
+    FrameWriter frame(FrameKind::offer, 1);
+    frame.add(std::string(std::size_t{65} << 20, 'x'));
+    CHECK(end.send(std::move(frame)));
+    CHECK(wires.cuts_off());
+  });
+}
+
+TEST_CASE("while nothing is lost each object is one frame", "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    Wires wires(executive);
+    Source source(executive);
+    auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
+    server.adopt(std::make_unique<PushSinkOverBytes>(wires.connection(), server.connect(), QueuePolicy{}));
+    wires.say(attach_frame());
+    REQUIRE(eventually(executive, [&] { return source.out.subscriber_count() == 1; }));
+    for (int i = 0; i < 3; ++i) source.out.push(full_stop());
+    CHECK(wires.kinds_sent(4) ==
+          std::vector{FrameKind::granted, FrameKind::object, FrameKind::object, FrameKind::object});
   });
 }
 

@@ -8,6 +8,7 @@
 #include "deployer.hpp"
 #include "orca/sim/bitmap.hpp"
 #include "orca/sim/caster.hpp"
+#include "orca/sim/world_file.hpp"
 #include "public_data.hpp"
 
 using namespace orca::sim;
@@ -92,14 +93,38 @@ TEST_CASE("a picture that cannot serve as a map is refused with its reason", "[s
   CHECK_THAT(error_of("P5 1 1 70000\na"), Catch::Contains("largest value 70000"));
   CHECK_THAT(error_of("P5 200000 200000 255\na"), Catch::Contains("at most 100 million"));
   CHECK_THAT(error_of("\x89PNG\r\n\x1a\nxxxxxxxxxxxxxxxxx"), Catch::Contains("damaged PNG"));
+  // A PNG of 10 x 10 pixels whose first text claims 2 GB.
+  using namespace std::string_literals;
+  CHECK_THAT(
+      error_of(
+          "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\n\0\0\0\n\b\0\0\0\0\xa8\x59\x90\x61\x7f\xff\xff\xfftEXtab"s),
+      Catch::Contains("the part at byte 33 should have 2147483659 bytes, but the file has only 10 more"));
   CHECK_THAT(error_of("P5 1 1 255\na", {.map_width = {}, .resolution = 0.0}),
              Catch::Contains("resolution is"));
   CHECK_THAT(error_of("P5 1 1 255\na", {.map_width = {}, .resolution = {}}),
              Catch::Contains("give map_width"));
   CHECK_THAT(error_of("P5 1 1 255\na", {.map_width = 1.0, .resolution = 1.0}), Catch::Contains("both"));
+  CHECK_THAT(error_of("P2 2 2 255\n128 255 255 255"), Catch::Contains("nothing is solid"));
   const auto missing = read_bitmap_world("/no/such/map.png", {.map_width = 1.0, .resolution = {}});
   REQUIRE_FALSE(missing);
   CHECK(missing.error().text() == "/no/such/map.png: cannot read the picture: No such file or directory");
+}
+
+TEST_CASE("a picture as world shows what is wrong with its number, its scale and itself at once",
+          "[sim][bitmap]") {
+  const auto codes_of = [](const std::string& bytes, const std::string& number, const BitmapScale& scale) {
+    const TemporaryFile file("world.pgm", bytes);
+    orca::xml::Diagnostics diagnostics;
+    CHECK_FALSE(read_world(file.path() + number, scale, diagnostics).has_value());
+    std::vector<std::string> codes;
+    for (const auto& diagnostic : diagnostics.sorted()) codes.push_back(diagnostic.code);
+    return codes;
+  };
+  using Codes = std::vector<std::string>;
+  CHECK(codes_of("P5 1 1 255\n ", "", {}) == Codes{"W023"});
+  CHECK(codes_of("P5 1 1 255\n\xff", "#3", {.map_width = 1e6, .resolution = {}}) ==
+        Codes{"W017", "W023", "W011"});
+  CHECK(codes_of("P5 1", "#3", {.map_width = 1.0, .resolution = {}}) == Codes{"W017", "W011"});
 }
 
 TEST_CASE("the hospital map loads in less than two seconds and casts fast", "[sim][bitmap][data]") {

@@ -52,6 +52,18 @@ std::uint64_t rough_minute(std::uint64_t seed, Realism realism = Realism::nomina
 
 }  // namespace
 
+TEST_CASE("an obstacle whose outline has no edges is nothing to run into or to see", "[sim][world]") {
+  WorldModel model = test_room();
+  model.obstacles.push_back({"blank", Outline{}, 1.0});
+  World world(model, {.seed = 1, .realism = Realism::ideal});
+  const auto id = world.add_robot("dewey", scout(), {});
+  REQUIRE(id);
+  REQUIRE(world.set_velocity_command(*id, 0.5, 0.0));
+  run(world, 1.0);
+  CHECK(world.contacts().empty());
+  CHECK(world.pose(*id).x > 0.2);
+}
+
 TEST_CASE("time is ticks of exactly 10 ms", "[sim][world]") {
   World world(WorldModel{}, {});
   run(world, 1.0);

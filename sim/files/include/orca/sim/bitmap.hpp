@@ -31,6 +31,12 @@ struct BitmapScale {
 ///          neither format or larger than 100 million pixels.
 [[nodiscard]] Result<GreyImage> read_image(const std::string& path);
 
+/// Returns the side of a pixel of the picture [m].
+///
+/// @errors  invalid_argument if the scale is missing, given twice or not positive, or if the map is wider or
+///          higher than 100 km.
+[[nodiscard]] Result<double> pixel_size(const BitmapScale& scale, const GreyImage& image);
+
 /// Returns the boundary of the dark area as exact axis-aligned edges; neighbouring edges are merged to runs.
 ///
 /// Grey below 128 is occupied. The lower left corner of the picture is the origin, so the first row of the
@@ -40,10 +46,17 @@ struct BitmapScale {
 /// @errors  invalid_argument if there are more than 2,000,000 edges: the picture is noise, not a plan.
 [[nodiscard]] Result<Outline> outline_of(const GreyImage& image, double pixel);
 
-/// Reads an occupancy bitmap as a world with one obstacle, "map", of the given height, and no places.
+/// Returns a picture as a world with one obstacle, "map", of the given height, and no places.
 ///
+/// @param pixel  [m] side of one pixel, > 0.
 /// @param height [m]  height of the dark area above the floor, > 0.
-/// @errors  those of read_image; invalid_argument if the scale is missing, given twice or not positive.
+/// @errors  those of outline_of; invalid_argument if no pixel is solid.
+[[nodiscard]] Result<WorldModel> bitmap_world(const GreyImage& image, double pixel, const std::string& name,
+                                              double height = 2.5);
+
+/// Reads an occupancy bitmap as such a world, named after its file.
+///
+/// @errors  those of read_image, pixel_size and bitmap_world.
 [[nodiscard]] Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale,
                                                    double height = 2.5);
 

@@ -44,6 +44,16 @@ struct QueuePolicy {
   Duration min_interval{0};  ///< Push: deliver at most one object per interval [s]; 0: every one.
   Duration deadline{0};      ///< Push: an object is due at least this often [s]; 0: no deadline.
   Duration block_limit{std::chrono::milliseconds(100)};  ///< Longest wait of a sender for room [s].
+  /// Push: objects that may be dropped before the edge reports it; nothing: as many as accepted_drops() says.
+  std::optional<std::uint32_t> drop_limit{};
+
+  /// Returns how many objects a Push edge may drop before it reports it; nothing: any number. Where the author
+  /// and the graph give no limit, "the latest" may drop any number, because that is its purpose, and other
+  /// queues none.
+  [[nodiscard]] constexpr std::optional<std::uint32_t> accepted_drops() const {
+    const bool is_latest = depth == 1 && overflow == Overflow::drop_oldest;
+    return drop_limit || is_latest ? drop_limit : std::optional<std::uint32_t>(0);
+  }
   friend bool operator==(const QueuePolicy&, const QueuePolicy&) = default;
 };
 
@@ -123,6 +133,9 @@ struct HardwareFault {
   /// The parameter to correct; empty: `text` is a whole line about a place in another file.
   std::string param;
   std::string text;  ///< What was found and what was expected.
+  /// Other parameters that the fault follows from. The checker drops the fault if the value of one of them, or
+  /// of `param`, could not be read: what is wrong with that one is reported already.
+  std::vector<std::string> follows_from{};
   friend bool operator==(const HardwareFault&, const HardwareFault&) = default;
 };
 

@@ -17,7 +17,8 @@ enum class Hook {
   params_changed,
   handler,  ///< Of a Send or Query server; the port says which.
   strand,   ///< Everything that a hardware container does while the system runs.
-  destructor
+  destructor,
+  unload  ///< Its library is unloaded: static destructors and atexit handlers.
 };
 
 /// The hook as it stands in front of a verb: "work()", "its constructor".
@@ -36,6 +37,7 @@ enum class Hook {
     case Hook::handler: return "a handler";
     case Hook::strand: return "its strand";
     case Hook::destructor: return "its destructor";
+    case Hook::unload: return "its static destruction";
   }
   return "?";
 }

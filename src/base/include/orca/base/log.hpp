@@ -21,7 +21,7 @@ void set_level(Level level);
 /// Sets the clock that gives the time in front of each line. Without a clock (null) lines carry no time.
 void set_clock(std::function<TimePoint()> now);
 
-/// Writes one line to stderr: time [s], level, who, text.
+/// Writes one line to stderr: time [s], level, who, text. The text is made printable(), see text.hpp.
 ///
 /// @thread  any; lines are not mixed.
 void write(Level level, std::string_view who, std::string_view text);

@@ -35,6 +35,11 @@ class Strand {
   /// woken. Call before start().
   void set_leave_condition(std::function<bool()> leave) { leave_ = std::move(leave); }
 
+  /// Sets a function that looks after something while the strand waits. Each wait calls it at its beginning and
+  /// again at the time that it returns, which must be in the future; kForever: not again in this wait. It has no
+  /// other effect on the wait. Call before start(), or on the strand.
+  void set_watch(std::function<TimePoint()> watch) { watch_ = std::move(watch); }
+
   /// Blocks until `condition` holds or the deadline comes. Serves waits inside a component's own code.
   ///
   /// @return whether the condition holds.
@@ -43,13 +48,13 @@ class Strand {
   bool wait_for(TimePoint deadline, Condition&& condition) {
     while (!condition()) {
       if (leave_ && leave_()) throw Interrupted{};
-      if (!event_->wait_until(deadline) && executive_.now() >= deadline) return condition();
+      if (!wait_until(deadline) && executive_.now() >= deadline) return condition();
     }
     return true;
   }
 
   /// Blocks until woken or until the deadline, without Interrupted. Serves the runtime's own loop.
-  void pause_until(TimePoint deadline) { event_->wait_until(deadline); }
+  void pause_until(TimePoint deadline) { wait_until(deadline); }
 
   /// Counts an act that cannot be repeated: an object was taken or sent, or time was spent asleep. While the
   /// count stays the same, a waiting lap can be abandoned and started again without loss.
@@ -66,10 +71,16 @@ class Strand {
   [[nodiscard]] const std::string& name() const { return options_.name; }
 
  private:
+  bool wait_until(TimePoint deadline) {
+    return watch_ ? wait_watching(deadline) : event_->wait_until(deadline);
+  }
+  bool wait_watching(TimePoint deadline);
+
   Executive& executive_;
   TaskOptions options_;
   std::unique_ptr<Event> event_;
   std::function<bool()> leave_;
+  std::function<TimePoint()> watch_;
   std::unique_ptr<Task> task_;
   std::atomic<std::uint64_t> activity_{0};
 };

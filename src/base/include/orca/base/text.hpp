@@ -8,13 +8,23 @@
 
 namespace orca {
 
-/// `text` between double quotes, as messages show what they found. Nothing is escaped.
+/// Returns `text` with its middle left out if it has more than `most` bytes: "abc...(15000000 bytes)...xyz".
+/// Characters stay whole.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t most);
+
+/// Returns `text` for one line of a terminal: what is no UTF-8 and every character that a terminal or an editor
+/// obeys instead of showing it (control characters, line separators, changes of the writing direction) is written
+/// as an escape sequence: \n, \x1b, \u202e.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// `text` between double quotes, as messages show what they found; shortened to 300 bytes. Nothing is escaped.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// The parts one after the other, with `separator` between them.
 [[nodiscard]] std::string joined(std::span<const std::string> parts, std::string_view separator);
 
-/// "a, b, c" for people; "nothing" if there are no names, "a, b and 3 more" if there are more than `most`.
+/// "a, b, c" for people; "nothing" if there are no names, "a, b and 3 more" if there are more than `most`. Each name
+/// is shortened to 200 bytes.
 [[nodiscard]] std::string listed(std::span<const std::string> names, std::size_t most = 20);
 
 }  // namespace orca

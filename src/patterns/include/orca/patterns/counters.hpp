@@ -10,12 +10,13 @@ struct EdgeCounters {
   std::uint64_t delivered = 0;  ///< Objects put into the queue.
   std::uint64_t dropped = 0;    ///< Objects lost, for any of the reasons that follow.
 
-  std::uint64_t dropped_oldest = 0;    ///< They made room for a newer one.
-  std::uint64_t dropped_newest = 0;    ///< They found the queue full.
-  std::uint64_t dropped_blocked = 0;   ///< Their publisher waited for room in vain, or had waited before.
-  std::uint64_t dropped_by_link = 0;   ///< The link between two processes had no room for them.
-  std::uint64_t left_behind = 0;       ///< They were still in the queue at unsubscribe().
-  std::uint64_t waits = 0;             ///< Times that the publisher had to wait for room.
+  std::uint64_t dropped_oldest = 0;   ///< They made room for a newer one.
+  std::uint64_t dropped_newest = 0;   ///< They found the queue full.
+  std::uint64_t dropped_blocked = 0;  ///< Their publisher waited for room in vain, or had waited before.
+  std::uint64_t dropped_by_link = 0;  ///< The link between two processes had no room for them.
+  std::uint64_t left_behind = 0;      ///< They were still in the queue at unsubscribe().
+  std::uint64_t over_limit = 0;       ///< Dropped while subscribed, beyond the number that the edge may drop.
+  std::uint64_t waits = 0;            ///< Times that the publisher had to wait for room.
   std::uint64_t missed_deadlines = 0;  ///< Deadlines that passed without an object.
   std::uint32_t queued = 0;            ///< Objects in the queue now.
   std::uint32_t high_water = 0;        ///< Largest number that was ever in the queue.

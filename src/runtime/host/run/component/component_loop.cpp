@@ -21,6 +21,7 @@ void ComponentLoop::request_exit() {
 }
 
 void ComponentLoop::run() {
+  if (parts_.ports.has_deadline()) parts_.strand.set_watch([this] { return parts_.ports.watch_deadlines(); });
   if (life_.state() == ComponentState::unloaded) {
     parts_.ports.hold();
     parts_.run.changed();

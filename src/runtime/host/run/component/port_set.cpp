@@ -112,4 +112,15 @@ void PortSet::unsubscribe() {
   for (PushClientEndpoint* client : push_clients_) client->unsubscribe_all();
 }
 
+bool PortSet::has_deadline() const {
+  return std::any_of(push_clients_.begin(), push_clients_.end(),
+                     [](const PushClientEndpoint* client) { return client->has_deadline(); });
+}
+
+TimePoint PortSet::watch_deadlines() {
+  TimePoint next = kForever;
+  for (PushClientEndpoint* client : push_clients_) next = std::min(next, client->watch_deadlines());
+  return next;
+}
+
 }  // namespace orca::host

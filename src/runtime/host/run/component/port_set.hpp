@@ -60,6 +60,12 @@ class PortSet {
   void subscribe();
   void unsubscribe();
 
+  /// Returns whether a connection that ends here has a deadline.
+  [[nodiscard]] bool has_deadline() const;
+  /// Reports missed deadlines.
+  /// @return when to call it again if the strand is not woken before; kForever while no deadline runs.
+  TimePoint watch_deadlines();
+
  private:
   template <class Kind>
   Kind& make(const PortContract& contract);

@@ -28,7 +28,8 @@ struct Diagnostic {
   Position position;
   std::string message;
 
-  /// Returns "graph.xml:12:7: error G017: ...".
+  /// Returns "graph.xml:12:7: error G017: ..." in one line: what a terminal would obey instead of showing it
+  /// is written as an escape sequence.
   [[nodiscard]] std::string text() const;
   friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };
@@ -43,6 +44,8 @@ class Diagnostics {
   /// The number of messages that are kept. Further ones are only counted, because a file of 16 MB must not
   /// cost gigabytes.
   static constexpr std::size_t kKept = 20'000;
+  /// The bytes of a message that are kept. The middle of a longer one is left out.
+  static constexpr std::size_t kLongest = 2000;
 
   void error(std::string code, Position position, std::string message);
   void warning(std::string code, Position position, std::string message);

@@ -62,9 +62,9 @@ struct Limits {
   static constexpr std::size_t kElements = 500'000;
 };
 
-/// Returns the bytes of a file. If the file is larger than Limits::kBytes, it returns only the first ones, at
-/// least one more than allowed.
-/// @errors  not_found or data_loss; the message is the system's text for the error.
+/// Returns the bytes of a file. If the file is larger than Limits::kBytes, it returns only the first ones, one
+/// more than allowed.
+/// @errors  as read_input_file().
 [[nodiscard]] Result<std::string> read_bytes(const std::string& path);
 
 /// Reads an XML file strictly: UTF-8 without byte order mark, one root, no DTD, only the five predefined

@@ -54,6 +54,15 @@ class HardwareContainer : public Device {
   /// @return the faults that were found; empty: none.
   virtual std::vector<HardwareFault> prepare() = 0;
 
+  /// Compares this hardware with one of the same type that the graph names earlier, so that a graph can be
+  /// checked for what the two cannot have both, for instance one serial port.
+  /// @pre  both were prepared, without a fault.
+  /// @return the faults, of this hardware's parameters; empty: none.
+  [[nodiscard]] virtual std::vector<HardwareFault> conflicts_with(
+      const HardwareContainer& /*earlier*/) const {
+    return {};
+  }
+
   [[nodiscard]] const std::vector<SensorEndpoint*>& sensors() const { return sensors_; }
   [[nodiscard]] MotionHW* motion() const { return motion_; }
   /// Returns what this hardware is, for clients that ask by Query.

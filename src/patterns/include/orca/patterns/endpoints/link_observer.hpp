@@ -7,9 +7,16 @@
 
 namespace orca {
 
+/// The kinds of trouble that a connection reports.
+enum class LinkTrouble {
+  late,     ///< A Push edge: no object has come within its deadline.
+  dropped,  ///< A Push edge: it has dropped more objects than it may.
+  refused,  ///< A Send or Query: the server refused, answered with an error, or did not answer in time.
+};
+
 /// An observer of everything that happens on the links of a run, for traces and taps.
 ///
-/// Thread contract: called from the strand that sends; implementations synchronise themselves.
+/// Thread contract: called from the strands of both ends; implementations synchronise themselves.
 class LinkObserver {
  public:
   virtual ~LinkObserver() = default;
@@ -19,6 +26,12 @@ class LinkObserver {
 
   /// Reports that a client's port was connected to, or disconnected from, a server's port.
   virtual void link_changed(std::string_view client, std::string_view server, bool connected) = 0;
+
+  /// Reports trouble on a connection. An observer that keeps no log may ignore it.
+  /// @param from, to  "component.port" of the ends, as in <connect from= to=>.
+  /// @param text      what has happened, without the ends.
+  virtual void trouble(LinkTrouble /*kind*/, std::string_view /*from*/, std::string_view /*to*/,
+                       std::string_view /*text*/) {}
 };
 
 }  // namespace orca

@@ -26,6 +26,11 @@ class PushClientEndpoint final : public Endpoint {
   /// Returns whether an object waits from every server that the port is subscribed to, and there is one.
   [[nodiscard]] bool has_new_from_all() const;
 
+  /// Returns whether one of its edges has a deadline.
+  [[nodiscard]] bool has_deadline() const;
+  /// Does what PushEdge::watch_deadline() does, for all edges.
+  TimePoint watch_deadlines();
+
   void subscribe_all();
   void unsubscribe_all();
 

@@ -49,6 +49,10 @@ class PushEdge final : public PushSink {
   /// stays true until the next object comes. It is always false without a deadline.
   [[nodiscard]] bool deadline_missed() const;
 
+  /// Reports to the observer that a deadline was missed, once until the next object comes.
+  /// @return when to call it again if the strand is not woken before; kForever while no deadline runs.
+  TimePoint watch_deadline();
+
   [[nodiscard]] EdgeCounters counters() const;
   [[nodiscard]] const QueuePolicy& policy() const { return policy_; }
   [[nodiscard]] std::string source_path() const { return source_.path(); }
@@ -69,7 +73,12 @@ class PushEdge final : public PushSink {
   };
 
   bool make_room();
+  void drop(Published<std::uint64_t>& reason, std::uint64_t objects);
+  [[nodiscard]] std::uint64_t drops_to_report();
+  void report_drops(std::uint64_t drops) const;
+  void report(LinkTrouble kind, const std::string& text) const;
   void put(ObjectRef&& object, std::uint32_t count);
+  void expect_first();
   void arrive(TimePoint time);
   [[nodiscard]] UpdateRate rate() const;
   [[nodiscard]] TimePoint now() const { return client_.home().strand.executive().now(); }
@@ -90,10 +99,14 @@ class PushEdge final : public PushSink {
   // Below: guarded by mutex_. The count may be read at any time.
   std::atomic<std::uint32_t> count_{0};
   std::uint32_t first_ = 0;
-  std::vector<ObjectRef> ring_;    // never grows: no allocation per object
-  ObjectRef newest_;               // as long as it is not in the ring
-  bool publisher_waits_ = false;   // for room
-  bool subscriber_stuck_ = false;  // it took nothing during a whole wait: nobody waits for it until it does
+  std::vector<ObjectRef> ring_;      // never grows: no allocation per object
+  ObjectRef newest_;                 // as long as it is not in the ring
+  bool publisher_waits_ = false;     // for room
+  bool subscriber_stuck_ = false;    // it took nothing during a whole wait: nobody waits for it until it does
+  std::uint64_t late_arrivals_ = 0;  // objects that came after their deadline
+  std::uint64_t reported_delays_ = 0;  // those of them that were reported, and the present one if it was
+  Published<std::uint64_t> drops_;     // while subscribed; may be read at any time
+  std::uint64_t report_drops_at_ = 0;  // the number of drops at which they are reported next
 };
 
 }  // namespace orca

@@ -24,7 +24,8 @@ class RequestClient : public Endpoint, public ReplySink<Answer> {
   void connect(RequestTarget<Answer>& target) { target_ = &target; }
   [[nodiscard]] bool connected() const { return target_ != nullptr; }
 
-  /// Returns the answer, or nothing while there is none yet.
+  /// Returns the answer, or nothing while there is none yet. An answer that is an error goes to the observer,
+  /// too.
   /// @errors  not_found for an id that was never given or whose answer has been taken.
   std::optional<Answer> receive(RequestId id);
 
@@ -60,6 +61,8 @@ class RequestClient : public Endpoint, public ReplySink<Answer> {
 
  private:
   using Pending = PendingAnswers<Answer>;
+
+  void report(const std::string& failure) const;
 
   const Words words_;
   RequestTarget<Answer>* target_ = nullptr;

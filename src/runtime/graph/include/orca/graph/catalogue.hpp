@@ -41,6 +41,12 @@ class Catalogue {
   /// @return the errors; empty if there are none.
   [[nodiscard]] virtual std::vector<HardwareFault> validate_hardware(const HardwareUse& use) = 0;
 
+  /// Compares a hardware container with one of the same type that the graph names earlier.
+  /// @pre  validate_hardware() has found no errors in either of them.
+  /// @return the errors of `use`, for instance a serial port that both want; empty if there are none.
+  [[nodiscard]] virtual std::vector<HardwareFault> hardware_conflicts(const HardwareUse& use,
+                                                                      const HardwareUse& earlier) = 0;
+
   /// Returns the contract of a component type.
   /// @param hardware  the hardware that the graph binds to it, or null. The contract of a component that
   ///                  needs hardware and gets none here still has its `needs_hardware` and `params`.

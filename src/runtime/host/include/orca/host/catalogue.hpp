@@ -37,6 +37,8 @@ class PluginCatalogue final : public graph::Catalogue {
   void add_folders(const std::vector<std::string>& folders) override { index_.add(folders); }
   Result<Contract> hardware(const std::string& type) override;
   std::vector<HardwareFault> validate_hardware(const graph::HardwareUse& use) override;
+  std::vector<HardwareFault> hardware_conflicts(const graph::HardwareUse& use,
+                                                const graph::HardwareUse& earlier) override;
   Result<Contract> component(const std::string& type, const graph::HardwareUse* hardware) override;
   /// Returns the machine's time, threads and randomness that the type's plugin uses, if the run is in virtual
   /// time.
@@ -62,6 +64,7 @@ class PluginCatalogue final : public graph::Catalogue {
   Result<std::shared_ptr<plugin::PluginLibrary>> library_of(const std::string& type);
   Result<LoadedType> find(PluginKind kind, const std::string& type);
   Result<plugin::DescribedHardware*> described(const graph::HardwareUse& use);
+  Result<plugin::DescribedHardware*> describe_anew(const graph::HardwareUse& use);
 
   void raise_pinned(const std::string& file, const std::string& why) const;
 

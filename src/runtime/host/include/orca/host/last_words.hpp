@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <pthread.h>
+
 #include <string>
 
 namespace orca::host {
 
 /// The last line of a process that dies of a plugin, on stderr: which component, which hook, which plugin,
-/// what happened. It prevents nothing. A signal or an exception that nobody may catch still ends the process
-/// in the same way, exit() in a plugin ends it with another status, and the watchdogs stop the robot. If a
+/// what happened. It prevents nothing, but stops the motors as far as possible (StopSignal::on_crash()). A signal
+/// or an exception that nobody may catch still ends the process in the same way, and exit() in a plugin ends it
+/// with another status. If a
 /// plugin calls fork(), the copy is ended, because a second robot program must not run.
 ///
 /// No line is written after _exit(), after SIGKILL, or when the process's memory is beyond use.
@@ -15,8 +18,10 @@ namespace orca::host {
 /// Thread contract: one object per process, made first and destroyed last by the main thread.
 class LastWords {
  public:
-  /// @param exit_status  status of a process that a plugin tries to end by exit(), or has made unusable.
-  explicit LastWords(int exit_status);
+  /// @param exit_status       status of a process that a plugin tries to end by exit(), or has made unusable.
+  /// @param exhausted_status  status of a process that ends because the system gives it no more memory, threads
+  ///                          or descriptors, where nobody can catch that.
+  LastWords(int exit_status, int exhausted_status);
   ~LastWords();
   LastWords(const LastWords&) = delete;
   LastWords& operator=(const LastWords&) = delete;
@@ -27,6 +32,11 @@ class LastWords {
   /// Writes a line to the stderr of the time of construction, and ends the process with the exit status given
   /// to the constructor.
   [[noreturn]] static void say_and_end(const std::string& line);
+
+  /// Ends the process because a thread does not end, after a line that says what that thread is doing. Needs no
+  /// object.
+  /// @param said  what is said of it: "has not ended in time".
+  [[noreturn]] static void end_hung(pthread_t thread, const char* said, int exit_status);
 };
 
 }  // namespace orca::host

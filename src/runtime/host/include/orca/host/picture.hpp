@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "orca/base/output_file.hpp"
 #include "orca/base/result.hpp"
 #include "orca/hw/scene.hpp"
 
@@ -35,11 +36,12 @@ struct PictureOptions {
   std::set<Layer> hidden;
 };
 
-/// Draws a scene into a file, as SVG or PNG by the file's ending, with the same scale across as up. Sonar
+/// Draws a scene into an open file, as SVG or PNG by the ending of its name in the options, with the same scale across as up. Sonar
 /// readings are yellow, lasers blue. A red arrow shows how far the robot would drive in a second, and a red
 /// arc how far it would turn.
 ///
-/// @errors  invalid_argument for another ending or an empty scene; unavailable if the file cannot be written.
-Status write_picture(const Scene& scene, const PictureOptions& options);
+/// @errors  invalid_argument for another ending or an empty scene; unavailable if it cannot be drawn. Whether it
+///          could be written is returned by close() of the file.
+Status write_picture(const Scene& scene, const PictureOptions& options, OutputFile& file);
 
 }  // namespace orca::host

@@ -26,7 +26,7 @@ enum class RunOutcome {
   bad_options   ///< The options contradict each other; nothing was started.
 };
 
-/// The counts of what the connections of one run carried. A plain value.
+/// The counts of what the connections of one run carried until it was taken down. A plain value.
 struct RunCounters {
   struct Edge {
     std::string from;  ///< "component.port" of the PushServer.

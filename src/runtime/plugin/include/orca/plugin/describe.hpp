@@ -24,6 +24,9 @@ class DescribedHardware {
   /// Sets the parameters and declares the endpoints.
   /// @return the errors in the files that the parameters name, ready to print.
   virtual std::vector<HardwareFault> prepare(const std::map<std::string, ParamValue>& params) = 0;
+  /// Compares it with another container of the same type. @pre  both are prepared.
+  /// @return the errors that only the two together have.
+  virtual std::vector<HardwareFault> conflicts_with(DescribedHardware& earlier) = 0;
   [[nodiscard]] virtual hw::HardwareContainer& container() = 0;
 };
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include <string>
+
+#include "orca/host/run_result.hpp"
+
+namespace orca::deployer {
+
+/// Returns the text that `--stats` prints at the end of a run: a table of the Push connections, a table of the
+/// ports that send or ask, and a line that sums up what went wrong on them.
+[[nodiscard]] std::string stats_text(const host::RunCounters& counters);
+
+}  // namespace orca::deployer

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <exception>
+
+namespace orca {
+
+/// Exhaustion: the system gives this process no more memory, threads, processes or descriptors. Nobody near the
+/// place can do anything about it, so it travels as an exception: std::bad_alloc, or std::system_error with the
+/// system's number.
+
+/// The sentence for people about lack of memory, with what to do.
+inline constexpr const char* kNoMemoryText =
+    "the system gives no more memory; end other programs, or raise the limit of this one (ulimit -v)";
+
+/// Throws std::system_error if the number, from errno, means exhaustion. Otherwise it does nothing.
+/// @thread  any.
+void throw_if_exhausted(int error_number);
+
+/// Returns the sentence for people if the exception means exhaustion, with what to do; null if it means something
+/// else. It allocates nothing.
+/// @thread  any.
+[[nodiscard]] const char* exhaustion_text(const std::exception_ptr& thrown) noexcept;
+
+}  // namespace orca

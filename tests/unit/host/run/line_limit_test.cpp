@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/line_limit.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace orca;
+using namespace orca::host;
+
+namespace {
+
+constexpr TimePoint at(Duration time) { return TimePoint(time); }
+
+}  // namespace
+
+TEST_CASE("the first line about a thing is written, the next ones only after the interval", "[host][log]") {
+  LineLimit limit(10s);
+  CHECK(limit.admit("a", at(5s)) == 0);
+  CHECK_FALSE(limit.admit("a", at(5s)));
+  CHECK_FALSE(limit.admit("a", at(15s - 1ns)));
+  CHECK(limit.admit("a", at(15s)));
+  CHECK_FALSE(limit.admit("a", at(16s)));
+}
+
+TEST_CASE("a line says how many were left out since the last one, each once", "[host][log]") {
+  LineLimit limit(10s);
+  CHECK(limit.admit("a", at(0s)) == 0);
+  for (int i = 1; i <= 3; ++i) CHECK_FALSE(limit.admit("a", at(1s)));
+  CHECK(limit.admit("a", at(10s)) == 3);
+  CHECK(limit.admit("a", at(20s)) == 0);
+}
+
+TEST_CASE("lines about different things do not limit each other", "[host][log]") {
+  LineLimit limit(10s);
+  CHECK(limit.admit("a", at(0s)) == 0);
+  CHECK(limit.admit("b", at(1s)) == 0);
+  CHECK_FALSE(limit.admit("a", at(2s)));
+  CHECK(limit.admit("b", at(11s)) == 0);
+  CHECK(limit.admit("a", at(11s)) == 1);
+}
