@@ -20,9 +20,9 @@ std::string map_with_occupied_rows(int rows) {
   return text;
 }
 
-Run drive(const std::string& map, const Words& more) {
+Run drive(const std::string& map, const Words& more, const std::string& width = "20 m") {
   return run_deployer(Words{source_file("graphs/scout_hospital.xml"), "--set", "map=" + map, "--set",
-                            "map_width=20 m", "--set", "x=2 m"} +
+                            "map_width=" + width, "--set", "x=2 m"} +
                       more + virtual_clock());
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("map_width gives a bitmap its size", "[system][bitmap]") {
   const std::string map = folder.write("map.pgm", map_with_occupied_rows(kHeight / 2));
   const Words at_nine{"--set", "y=9 m", "--set", "goals=there: 6 9"};
   CHECK(drive(map, at_nine).exit_code() == 2);
-  const Run doubled = drive(map, at_nine + Words{"--set", "map_width=40 m"});
+  const Run doubled = drive(map, at_nine, "40 m");
   INFO(doubled.err);
   CHECK(doubled.exit_code() == 0);
 }
