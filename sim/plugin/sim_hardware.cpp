@@ -217,10 +217,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   Status poll() override {
     const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
     for (const auto& contact : inbox.contacts) report(contact);
-    if (guard_)
-      guard_->look(inbox, [this](std::string_view text) {
-        host().write_log(orca::log::Level::warning, *name_ + " " + std::string(text));
-      });
+    if (guard_) guard_->look(inbox);
     if (keeps_moments_) moments_->add(inbox);
     if (state() == orca::hw::HardwareState::active) sensors_->publish(inbox);
     return orca::ok();

@@ -21,17 +21,14 @@ std::string side_name(double angle) {
 
 }  // namespace
 
-void TouchGuard::look(const SharedWorld::Inbox& inbox, const std::function<void(std::string_view)>& report) {
-  for (const auto& contact : inbox.contacts)
-    if (motion_.obstruct("it touched " + contact.event.other))
-      report("stands: it touched " + contact.event.other);
-  for (const auto& [ring, reading] : inbox.bumper)
-    if (motion_.press(pressed(ring, reading))) report("stands: a bumper is pressed");
+void TouchGuard::look(const SharedWorld::Inbox& inbox) {
+  for (const auto& contact : inbox.contacts) motion_.obstruct("it touched " + contact.event.other);
+  for (const auto& [ring, reading] : inbox.bumper) motion_.press(pressed(ring, reading));
   for (const OdometryReading& reading : inbox.odometry) {
     if (!turned_at_ || !is_stalled(reading)) turned_at_ = reading.stamp;
     if (reading.stamp - *turned_at_ < kStallTime) continue;
     turned_at_.reset();
-    if (motion_.obstruct("its motors are stalled")) report("stands: its motors are stalled");
+    motion_.obstruct("its motors are stalled");
   }
 }
 

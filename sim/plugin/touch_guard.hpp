@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <string>
-#include <string_view>
+#include <vector>
 
 #include "orca/hw/endpoints.hpp"
 #include "orca/sim/robot_model.hpp"
@@ -21,9 +19,8 @@ class TouchGuard {
   /// @param robot, motion  outlive this object.
   TouchGuard(const RobotModel& robot, hw::MotionHW& motion) : robot_(robot), motion_(motion) {}
 
-  /// Looks at what the base has sensed since the last call.
-  /// @param report  called with a sentence for people when the base was stopped.
-  void look(const SharedWorld::Inbox& inbox, const std::function<void(std::string_view)>& report);
+  /// Stops the base if what it has sensed since the last call says so.
+  void look(const SharedWorld::Inbox& inbox);
 
   /// Notes what the motors were told last.
   void driven(const Twist2& velocity, TimePoint now);

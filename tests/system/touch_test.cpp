@@ -2,6 +2,8 @@
 // The reflex of a base that touches something, in a whole system.
 #include <catch2/catch.hpp>
 
+#include <string>
+
 #include "deployer.hpp"
 
 using namespace orca::test;
@@ -15,13 +17,14 @@ Run into_the_pillar() {
 
 }  // namespace
 
-TEST_CASE("a robot that drives into a pillar stands there, says why, and refuses to push on",
+TEST_CASE("a robot that drives into a pillar stands there, says why once, and does not push on",
           "[system][touch]") {
   const Run run = into_the_pillar();
   INFO(run.err);
-  CHECK(run.contacts().size() == 1);  // it does not bounce against it again and again
-  CHECK(run.says("stands: it touched pillar"));
-  CHECK(run.says("the base refuses commands: "));
-  CHECK(run.says("it touched pillar; ask for another direction"));
+  CHECK(run.contacts().size() == 1);
   CHECK(run.arrivals().empty());
+  const std::string reason = "the base stands: it touched pillar; ask for another direction";
+  const auto first = run.err.find(reason);
+  REQUIRE(first != std::string::npos);
+  CHECK(run.err.find(reason, first + 1) == std::string::npos);
 }

@@ -70,22 +70,19 @@ Status MotionHW::move(const Twist2& wanted, TimePoint now) {
   return ok();
 }
 
-bool MotionHW::obstruct(const std::string& reason) {
+void MotionHW::obstruct(const std::string& reason) {
   const std::lock_guard lock(mutex_);
-  const bool moved = !setpoint_.stands();
   obstruction_.meet(setpoint_.velocity, reason);
   stand();
-  return moved;
 }
 
-bool MotionHW::press(const std::vector<Obstruction::Pressed>& bumpers) {
+void MotionHW::press(const std::vector<Obstruction::Pressed>& bumpers) {
   const std::lock_guard lock(mutex_);
   obstruction_.press(bumpers);
   const auto reason = obstruction_.against(setpoint_.velocity);
-  if (!reason) return false;
+  if (!reason) return;
   obstruction_.meet(setpoint_.velocity, *reason);
   stand();
-  return true;
 }
 
 // @pre  mutex_ is held.

@@ -167,12 +167,23 @@ Status HardwareServer::carry_out(const ObjectPtr<Command>& command, bool stands)
   last_command_ = now();
   if (container_->state() == HardwareState::active) {
     stay_active(!stands);
-    return container_->command(*command);
+    return told_once(container_->command(*command));
   }
   // Idle hardware stands already; the command for which it was to be started is discarded.
   waiting_command_ = nullptr;
   if (!stands) waiting_command_ = [this, command] { return container_->command(*command); };
   stay_active(!stands);
+  return ok();
+}
+
+// A base that stands in front of an obstacle gets command after command: only the first one for each reason is told.
+Status HardwareServer::told_once(const Status& taken) {
+  if (taken.ok() || taken.error().code != Code::unavailable) {
+    obstruction_.clear();
+    return taken;
+  }
+  const std::string reason = taken.error().text();
+  if (std::exchange(obstruction_, reason) != reason) log_warning(reason);
   return ok();
 }
 

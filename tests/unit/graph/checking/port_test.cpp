@@ -29,7 +29,7 @@ TEST_CASE("a renamed port has only its new name, everywhere", "[graph][port]") {
                 "<component name='avoid' type='orca.SonarAvoid' on='echoes'><port name='sonar' as='echoes'/>"
                 "</component><connect from='base.SonarRangeReadingsPush' to='avoid.echoes'/></graph>");
   CHECK(graph.edges.at(0).to.port == "echoes");
-  CHECK(graph.find_component("avoid")->trigger->port == "echoes");
+  CHECK(graph.find_component("avoid")->trigger->ports == std::vector<std::string>{"echoes"});
   CHECK(graph.find_component("avoid")->ports.at("sonar").alias == "echoes");
 }
 

@@ -18,11 +18,12 @@ namespace {
 constexpr TimePoint kStart{100s};
 
 PortContract input(const std::string& name, bool many = false) {
-  return {.name = name,
-          .pattern = Pattern::push,
-          .role = Role::proxy,
-          .type = type_id(object_type<MotionCommand>()),
-          .many = many};
+  PortContract contract;
+  contract.name = name;
+  contract.role = Role::proxy;
+  contract.type = type_id(object_type<MotionCommand>());
+  contract.many = many;
+  return contract;
 }
 
 struct Speaker : Peer {

@@ -132,11 +132,9 @@ class MotionHW {
   /// Reports that the base has met something, or that its motors are stalled. If it is moving it stands until a command
   /// asks for another direction.
   /// @param reason  for people, e.g. "it touched a wall".
-  /// @return whether it was moving.
-  bool obstruct(const std::string& reason);
+  void obstruct(const std::string& reason);
   /// Reports which bumpers are pressed now. A base that moves towards one is obstructed, and no command moves it there.
-  /// @return whether it was moving there.
-  bool press(const std::vector<Obstruction::Pressed>& bumpers);
+  void press(const std::vector<Obstruction::Pressed>& bumpers);
 
   /// Returns when the present command becomes too old; kForever when the base stands.
   [[nodiscard]] TimePoint expiry() const;

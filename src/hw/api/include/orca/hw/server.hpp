@@ -53,6 +53,7 @@ class HardwareServer : public Component {
   Status on_turret(const ObjectPtr<idl::TurretCommand>& turret);
   template <class Command>
   Status carry_out(const ObjectPtr<Command>& command, bool stands);
+  Status told_once(const Status& taken);
   void carry_out_waiting_command();
   void release_idle_motion();
 
@@ -63,6 +64,7 @@ class HardwareServer : public Component {
   std::unique_ptr<SendServer<idl::TurretCommand>> turret_;
   std::function<Status()> waiting_command_;  // came while the hardware was idle
   TimePoint last_command_{};
+  std::string obstruction_;  // why the base did not carry out the last command
 };
 
 }  // namespace orca::hw
