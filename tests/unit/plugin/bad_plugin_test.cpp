@@ -131,3 +131,12 @@ TEST_CASE("a plugin whose static initialisation ends the process is refused, and
   CHECK_THAT(error.text(), Contains("its static initialisation " + text));
   CHECK_FALSE(is_mapped(path));
 }
+
+TEST_CASE(
+    "a plugin with an object whose creation or end ends the process is refused, be it component or hardware",
+    "[plugin][bad][trial]") {
+  CHECK_THAT(refusal(test_plugin("bad/bad_constructor_exits")).text(),
+             Contains("the constructor or destructor of test.Leaves ended the process with exit(5)"));
+  CHECK_THAT(refusal(test_plugin("bad/bad_hardware_exits")).text(),
+             Contains("the constructor or destructor of test.hw.Leaves ended the process with exit(6)"));
+}
