@@ -94,3 +94,14 @@ TEST_CASE("a library is searched in the folders of the search path, $ORIGIN bein
   }
   CHECK_THAT(explained(user(), "/elsewhere/user.so"), Contains("not found: libsample_provider.so"));
 }
+
+TEST_CASE("the first folder of the search path that has the library counts", "[plugin][load_error]") {
+  // A library of the same name without the symbol.
+  const std::string other = kSamples + "/other";
+  std::filesystem::create_directories(other);
+  std::filesystem::copy_file(sample("sample_bare"), other + "/libsample_provider.so",
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(explained(user("$ORIGIN/provider:$ORIGIN/other"), kUser) == kWords);
+  CHECK_THAT(explained(user("$ORIGIN/other:$ORIGIN/provider"), kUser), Contains("it uses sample_provided"));
+  std::filesystem::remove_all(other);
+}
