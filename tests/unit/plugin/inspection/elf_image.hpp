@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "../places.hpp"
-#include "inspection/elf_file.hpp"
+#include "inspection/plugin_file.hpp"
 
 namespace orca::test {
 
@@ -68,6 +68,13 @@ class ElfImage {
     segment(PT_GNU_STACK) = {PT_LOAD, PF_R, offset, kFarAway + offset, 0, more.size(), more.size(), 1};
     return kFarAway + offset;
   }
+  /// Replaces the first place where some bytes occur by as many others.
+  void replace(const std::string& from, const std::string& to) {
+    const auto* const first = reinterpret_cast<const std::byte*>(from.data());
+    const auto place = std::search(bytes_.begin(), bytes_.end(), first, first + from.size());
+    if (place == bytes_.end() || to.size() != from.size()) throw std::runtime_error("cannot be replaced");
+    std::memcpy(&*place, to.data(), to.size());
+  }
   void resize(std::size_t size) { bytes_.resize(size); }
 
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
@@ -78,6 +85,11 @@ class ElfImage {
   /// Parses a copy, which must be a good library; or which must not: returns why.
   [[nodiscard]] plugin::ElfFile parsed() const {
     auto file = plugin::ElfFile::parse(bytes_);
+    if (!file) FAIL("refused: " << file.error().text());
+    return std::move(file).value();
+  }
+  [[nodiscard]] plugin::PluginFile plugin() const {
+    auto file = plugin::PluginFile::parse(bytes_);
     if (!file) FAIL("refused: " << file.error().text());
     return std::move(file).value();
   }
