@@ -3,6 +3,7 @@
 #include "inspection/trial.hpp"
 
 #include <signal.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -95,6 +96,25 @@ TEST_CASE("nothing is left of a trial: no process and no open file", "[plugin][t
   CHECK(open_files() == before);
   CHECK(waitpid(-1, nullptr, WNOHANG) == -1);
   CHECK(errno == ECHILD);
+}
+
+TEST_CASE("signals to this process do not disturb a trial, neither during it nor before", "[plugin][trial]") {
+  struct sigaction nothing {
+  }, before{};
+  nothing.sa_handler = [](int) {};  // without SA_RESTART: system calls are interrupted
+  REQUIRE(sigaction(SIGALRM, &nothing, &before) == 0);
+  const itimerval often{{0, 3000}, {0, 3000}}, never{};
+  REQUIRE(setitimer(ITIMER_REAL, &often, nullptr) == 0);
+  CHECK(survives_trial([](const Step&) { usleep(100'000); }, 2s).ok());
+  CHECK_THAT(death([] {
+               usleep(100'000);
+               _exit(3);
+             }),
+             Contains("exit(3)"));
+  REQUIRE(setitimer(ITIMER_REAL, &never, nullptr) == 0);
+  REQUIRE(sigaction(SIGALRM, &before, nullptr) == 0);
+  errno = EINTR;
+  CHECK(survives_trial([](const Step&) {}, 2s).ok());
 }
 
 TEST_CASE("what is tried out cannot talk to the user", "[plugin][trial]") {
