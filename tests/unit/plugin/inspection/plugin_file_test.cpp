@@ -64,6 +64,22 @@ TEST_CASE("of many exported symbols four are named, each with at most 80 charact
   CHECK_THAT(fault_of(*file, start), Catch::StartsWith(start + expected + " and"));
 }
 
+TEST_CASE("the layout of a type is found behind that of another one, without a gap between them",
+          "[plugin][file]") {
+  ElfImage image(test_plugin("bad/bad_layout"));
+  const ElfFile file = image.parsed();
+  const auto section = file.section("orca_layouts");
+  REQUIRE(section.has_value());
+  const std::string before(reinterpret_cast<const char*>(section->data()), section->size());
+  const auto start = before.find("GoalPoint{");
+  REQUIRE(start != std::string::npos);
+  std::string after = "A{}\0"s + before.substr(start, before.find('\0', start) - start);
+  after.resize(before.size());
+  image.replace(before, after);
+  CHECK_THAT(fault_of(image.plugin(), "was built for another layout of the object type GoalPoint"),
+             Contains("the field \"creation_time.ns\""));
+}
+
 TEST_CASE("an empty file and a file that does not exist are no plugins", "[plugin][file]") {
   const std::string path = kForTests + "/empty.so";
   std::ofstream{path};
