@@ -90,5 +90,6 @@ def mutants_of(path, source):
         for match in pattern.finditer(blanked):
             for kind, (start, end), new in change(match):
                 line = source.count("\n", 0, start) + 1
+                new = new.replace(blanked[start:end], source[start:end])  # with its strings again
                 found.append(Mutant(path, line, kind, start, end, source[start:end], new))
     return sorted(found, key=lambda mutant: (mutant.start, mutant.kind, mutant.new))

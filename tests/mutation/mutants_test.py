@@ -30,6 +30,11 @@ class Mutants(unittest.TestCase):
     def test_a_condition_that_declares_is_not_negated(self):
         self.assertEqual(changes("if (const auto x = find(y)) go();"), [])
 
+    def test_a_negated_condition_or_return_keeps_its_strings(self):
+        self.assertIn(("condition", 'a.starts_with("x == 1")', '!(a.starts_with("x == 1"))'),
+                      changes('if (a.starts_with("x == 1")) go();'))
+        self.assertIn(("return", "a.find(' ') == b", "!(a.find(' ') == b)"), changes("return a.find(' ') == b;"))
+
     def test_a_return_gives_the_opposite_or_nothing(self):
         self.assertEqual(changes("return list.empty();"), [("return", "list.empty()", "!(list.empty())")])
         self.assertEqual(changes("return name_;"), [("return", "name_", "{}")])

@@ -78,7 +78,7 @@ TEST_CASE("a standard output that is closed is an error, and no file takes its p
 }
 
 TEST_CASE("a reader that goes away is an error, not a signal that ends the program", "[system][output]") {
-  const Run run = run_in_shell("{ \"$@\"; echo $? >&2; } | true", {"--schema"});
+  const Run run = run_in_shell("{ sleep 1; \"$@\"; echo $? >&2; } | true", {"--schema"});
   CHECK(run.says("error: cannot write to standard output: Broken pipe\n1"));
 }
 

@@ -28,6 +28,13 @@ struct Sender : Peer {
   SendProxy<MotionCommand> out{*this, "out"};
 };
 
+// Subscribes the relay, and waits until the server knows: over bytes that takes a while.
+template <class Kit>
+void subscribe_relay(Kit& kit, Relay& relay, const Source& source) {
+  relay.in.subscribe();
+  CHECK(eventually(kit.executive, [&] { return source.out.subscriber_count() == 1; }));
+}
+
 template <class Kit>
 void listen_to_relay(Kit& kit, Relay& relay, Listener& listener) {
   kit.connect(relay.endpoint("out"), listener.endpoint("in"));
@@ -66,7 +73,7 @@ TEMPLATE_LIST_TEST_CASE(
     Relay relay(kit.executive);
     Listener listener(kit.executive);
     kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
-    relay.in.subscribe();
+    subscribe_relay(kit, relay, source);
     listen_to_relay(kit, relay, listener);
     source.push_numbers(0, 0);
     auto of_mission = numbered(1);
@@ -128,7 +135,7 @@ TEMPLATE_LIST_TEST_CASE("an object without a mission is a cause, but leaves the 
     Relay relay(kit.executive);
     Listener listener(kit.executive);
     kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
-    relay.in.subscribe();
+    subscribe_relay(kit, relay, source);
     listen_to_relay(kit, relay, listener);
     auto of_mission = numbered(1);
     of_mission->mission(42);
@@ -153,7 +160,7 @@ TEMPLATE_LIST_TEST_CASE("the mission of a task holds in all its laps, until the 
     Listener listener(kit.executive);
     kit.connect(sender.endpoint("out"), relay.endpoint("sent"));
     kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
-    relay.in.subscribe();
+    subscribe_relay(kit, relay, source);
     listen_to_relay(kit, relay, listener);
     relay.open();
     const auto mission_of_next_lap = [&] {

@@ -34,12 +34,15 @@ TEMPLATE_LIST_TEST_CASE("a server announces its base period before and while it 
   on_each_executive<TestType>([](TestType& kit) {
     Source source(kit.executive);
     Listener listener(kit.executive);
+    CHECK(source.out.base_period() == 0s);
     source.out.start(50ms);
+    CHECK(source.out.base_period() == 50ms);
     kit.connect(source.endpoint("out"), listener.endpoint("in"));
     CHECK(eventually(kit.executive, [&] { return listener.in.base_period() == 50ms; }));
     listener.in.subscribe();
     CHECK(is_granted(listener, {50ms, 1, 50ms}));
     source.out.start(20ms);
+    CHECK(source.out.base_period() == 20ms);
     CHECK(eventually(kit.executive, [&] { return listener.in.base_period() == 20ms; }));
     CHECK(is_granted(listener, {20ms, 1, 20ms}));
   });

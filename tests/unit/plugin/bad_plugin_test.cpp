@@ -29,8 +29,8 @@ TEST_CASE("a file that is no shared library is refused as that", "[plugin][bad]"
 }
 
 TEST_CASE("a program is refused as a program", "[plugin][bad]") {
-  CHECK_THAT(refusal(ORCA_BINARY_DIR "/bin/deployer").text(),
-             Contains("is no shared library, but a program"));
+  const std::string this_program = std::filesystem::read_symlink("/proc/self/exe").string();
+  CHECK_THAT(refusal(this_program).text(), Contains("is no shared library, but a program"));
 }
 
 TEST_CASE("a library without a manifest is refused and never mapped", "[plugin][bad]") {
@@ -130,4 +130,13 @@ TEST_CASE("a plugin whose static initialisation ends the process is refused, and
   CHECK(error.where == path);
   CHECK_THAT(error.text(), Contains("its static initialisation " + text));
   CHECK_FALSE(is_mapped(path));
+}
+
+TEST_CASE(
+    "a plugin with an object whose creation or end ends the process is refused, be it component or hardware",
+    "[plugin][bad][trial]") {
+  CHECK_THAT(refusal(test_plugin("bad/bad_constructor_exits")).text(),
+             Contains("the constructor or destructor of test.Leaves ended the process with exit(5)"));
+  CHECK_THAT(refusal(test_plugin("bad/bad_hardware_exits")).text(),
+             Contains("the constructor or destructor of test.hw.Leaves ended the process with exit(6)"));
 }

@@ -228,7 +228,7 @@ void after_fork_in_copy() {
 
 void register_once() {
   static const bool registered = [] {
-    on_exit(on_exit_called, nullptr);
+    LastWords::catch_exit();
     std::at_quick_exit(on_quick_exit);
     pthread_atfork(nullptr, after_fork_here, after_fork_in_copy);
     return true;
@@ -290,6 +290,10 @@ LastWords::~LastWords() {
   if (g_stderr != STDERR_FILENO) close(g_stderr);
   g_stderr = STDERR_FILENO;
 }
+
+// exit() calls first what was registered last, and in between it destroys static variables, which the other threads
+// still use.
+void LastWords::catch_exit() { on_exit(on_exit_called, nullptr); }
 
 void LastWords::prepare_thread() {
   if (pthread_getspecific(signal_stack_key()) == nullptr) make_signal_stack();

@@ -12,6 +12,7 @@
 #include "counters.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
+#include "orca/host/last_words.hpp"
 #include "reporter.hpp"
 #include "system.hpp"
 
@@ -116,6 +117,7 @@ class Run {
       reporter_.log_error("not everything came up; taking all down again");
     } else {
       // After a request to stop, some components may not be up, and others would fail for want of them.
+      LastWords::catch_exit();
       if (up.ok() && !stop_.requested()) system_->open_gates();
       supervise();
       if (has_ended() && !stop_.requested()) wait_for_rest();

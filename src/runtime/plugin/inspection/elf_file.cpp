@@ -227,8 +227,8 @@ std::size_t ElfFile::symbol_count(const Dynamic& dynamic) const {
   std::size_t count = 0;
   if (dynamic.gnu_hash != 0) {
     count = count_by_gnu_hash(dynamic.gnu_hash);
-  } else if (const auto words = get_at<std::array<Elf64_Word, 2>>(dynamic.hash)) {
-    count = (*words)[1];
+  } else if (dynamic.hash != 0) {
+    if (const auto words = get_at<std::array<Elf64_Word, 2>>(dynamic.hash)) count = (*words)[1];
   }
   return std::min(count, bytes_.size() / sizeof(Elf64_Sym));
 }
@@ -262,7 +262,7 @@ std::optional<ElfFile::Bytes> ElfFile::section(std::string_view name) const {
   const auto names_section = get<Elf64_Shdr>(place(header->e_shstrndx));
   if (!names_section) return std::nullopt;
   const auto names = at_offset(names_section->sh_offset, names_section->sh_size);
-  for (std::uint64_t i = 0; names && i < header->e_shnum; ++i) {
+  for (std::uint64_t i = 1; names && i < header->e_shnum; ++i) {  // the first one means "no section"
     const auto section = get<Elf64_Shdr>(place(i));
     if (!section) break;
     if (section->sh_type != SHT_NOBITS && text(*names, section->sh_name) == name)

@@ -51,6 +51,25 @@ TEST_CASE("a misspelt required port is not also reported as missing", "[graph][o
         Codes{"G021"});
 }
 
+TEST_CASE("a connection with a bad policy does not take the place of another one, whichever attribute is bad",
+          "[graph][one cause]") {
+  const std::string second =
+      "<hardware name='robot2' type='orca.hw.Sim'/><component name='base2' type='orca.RobotBaseServer' "
+      "hardware='robot2'/><connect from='base2.SonarRangeReadingsPush' to='avoid.sonar'/>";
+  const auto with = [&](const std::string& policy) {
+    return codes(graph(kBase + kAvoid + "<connect from='base.SonarRangeReadingsPush' to='avoid.sonar'" +
+                       policy + "/>" + second));
+  };
+  CHECK(with("") == Codes{"G023"});
+  for (const std::string policy : {"queue='many'", "overflow='some'", "interval='often'", "deadline='soon'",
+                                   "interval='2 s' deadline='1 s'", "block_limit='1 s'"}) {
+    CAPTURE(policy);
+    const Codes found = with(" " + policy);
+    CHECK(found.size() == 1);
+    CHECK(found.count("G023") == 0);
+  }
+}
+
 TEST_CASE("a misspelt element or attribute is taken for what it was meant to be", "[graph][one cause]") {
   CHECK(codes(graph(kBase + "<componet name='avoid' type='orca.SonarAvoid'/>" + kEdge)) == Codes{"G003"});
   CHECK(codes(graph(kBase + "<component nmae='avoid' type='orca.SonarAvoid'/>" + kEdge)) == Codes{"G006"});

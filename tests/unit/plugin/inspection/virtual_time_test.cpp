@@ -64,3 +64,16 @@ TEST_CASE("only whole names count, not names that begin like them", "[plugin][vi
   CHECK_FALSE(unfit_for_virtual_time("_ZN4mine4timeEv"));
   CHECK_FALSE(unfit_for_virtual_time(""));
 }
+
+TEST_CASE("each function that starts a thread counts by itself, by its whole name", "[plugin][virtual]") {
+  for (const std::string_view name : {"pthread_create", "thrd_create", "clone",
+                                      "_ZNSt6thread15_M_start_threadESt10unique_ptrINS_6_StateE"}) {
+    CAPTURE(name);
+    CHECK(starts_threads(name));
+    CHECK_FALSE(starts_threads("my_" + std::string(name)));
+  }
+  for (const std::string_view name : {"", "pthread_create_with", "clone3", "fork", "_ZNSt6thread4joinEv"}) {
+    CAPTURE(name);
+    CHECK_FALSE(starts_threads(name));
+  }
+}

@@ -29,6 +29,10 @@ class LastWords {
   /// Gives the calling thread a stack to report from after an overflow of its own. Needed once per thread.
   static void prepare_thread();
 
+  /// Makes sure that exit() ends the process before it destroys anything that has been made so far. Called when the
+  /// components begin to work.
+  static void catch_exit();
+
   /// Writes a line to the stderr of the time of construction, and ends the process with the exit status given
   /// to the constructor.
   [[noreturn]] static void say_and_end(const std::string& line);
