@@ -13,8 +13,7 @@ const char* text_for(int error_number) noexcept {
     case ENOMEM: return kNoMemoryText;
     case EAGAIN:
       return "the system gives no more threads or processes, or no memory for them; end other programs, or "
-             "raise "
-             "the limits (ulimit -u, ulimit -v)";
+             "raise the limits (ulimit -u, ulimit -v)";
     case EMFILE:
     case ENFILE:
       return "the system gives no more descriptors; close files elsewhere, or raise the limit (ulimit -n)";

@@ -24,7 +24,8 @@ class UsedFiles {
   void remove_written(const std::string& path);
 
   [[nodiscard]] bool is_read(const struct stat& file) const;
-  /// Returns the use of a file for people: "the graph or a file that it names", "the trace"; empty: not in use.
+  /// Returns the use of a file for people: "a file that has been read", "a file that the graph names", or what is
+  /// written there, such as "the trace"; empty: not in use.
   [[nodiscard]] std::string use_of(const struct stat& file) const;
 
  private:

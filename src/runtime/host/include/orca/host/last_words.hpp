@@ -31,6 +31,7 @@ class LastWords {
 
   /// Makes sure that exit() ends the process before it destroys anything that has been made so far. Called when the
   /// components begin to work.
+  /// @thread  any.
   static void catch_exit();
 
   /// Writes a line to the stderr of the time of construction, and ends the process with the exit status given
