@@ -49,7 +49,7 @@ class Trace final : public LinkObserver {
 
   const Executive& executive_;
   const TimePoint start_;
-  mutable std::timed_mutex mutex_;
+  mutable std::mutex mutex_;
   std::atomic<bool> writes_{false};
   OutputFile file_{"the trace"};
   Fnv1a hash_;

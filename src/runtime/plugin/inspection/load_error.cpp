@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
@@ -78,6 +79,7 @@ class Needed {
   std::vector<std::string> missing_;
 };
 
+// Sorted by name: the order of a symbol table is the compiler's, and an error must not change with it.
 std::vector<std::string> unprovided_symbols(const ElfFile& library, const Needed& needed) {
   std::vector<std::string> names;
   for (const ElfSymbol& symbol : library.symbols()) {
@@ -87,6 +89,7 @@ std::vector<std::string> unprovided_symbols(const ElfFile& library, const Needed
       names.back() += " (expected in " + std::string(symbol.version_of) + ", version " +
                       std::string(symbol.version) + ")";
   }
+  std::sort(names.begin(), names.end());
   return names;
 }
 

@@ -49,6 +49,11 @@ TEST_CASE("a plugin with several reasons for the steady clock gives them all, an
         "runs with the steady clock only (--clock steady): b");
 }
 
+TEST_CASE("a plugin that uses what starts threads may start them, another one may not", "[plugin][file]") {
+  CHECK(ElfImage(test_plugin("test_thread_left")).plugin().may_start_threads());
+  CHECK_FALSE(ElfImage(test_plugin("test_statics")).plugin().may_start_threads());
+}
+
 TEST_CASE("of many exported symbols four are named, each with at most 80 characters", "[plugin][file]") {
   const auto file = PluginFile::read(test_plugin("bad/bad_pinned"));
   REQUIRE(file.has_value());
