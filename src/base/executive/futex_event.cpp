@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <ctime>
 
+#include "sanitizer.hpp"
 #include "steady_time.hpp"
 #include "thread_watch.hpp"
 
@@ -34,6 +35,14 @@ timespec to_timespec(TimePoint time) {
   const auto since_boot = std::max(to_steady(time).time_since_epoch(), Duration{0});
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since_boot);
   return {seconds.count(), (since_boot - seconds).count()};
+}
+
+// Sleeps until the word changes or the deadline comes, or for a shorter time.
+void sleep_once(std::atomic<std::uint32_t>& word, std::uint32_t value, TimePoint deadline) {
+  if constexpr (kLongestSleep != Duration::max()) deadline = std::min(deadline, steady_now() + kLongestSleep);
+  const timespec limit = deadline == kForever ? timespec{} : to_timespec(deadline);
+  futex(word, FUTEX_WAIT_BITSET, value, deadline == kForever ? nullptr : &limit);
+  let_signals_be_handled();
 }
 
 }  // namespace
@@ -75,16 +84,14 @@ bool FutexEvent::spin(TimePoint until) {
 }
 
 bool FutexEvent::sleep(TimePoint deadline) {
-  const bool limited = deadline != kForever;
-  const timespec limit = limited ? to_timespec(deadline) : timespec{};
   std::uint32_t seen = kIdle;
   if (!state_.compare_exchange_strong(seen, kAsleep, std::memory_order_acquire)) return take();
   while (state_.load(std::memory_order_acquire) == kAsleep) {
-    if (limited && steady_now() >= deadline) {
+    if (deadline != kForever && steady_now() >= deadline) {
       seen = kAsleep;
       if (state_.compare_exchange_strong(seen, kIdle, std::memory_order_acquire)) return false;
     } else {
-      futex(state_, FUTEX_WAIT_BITSET, kAsleep, limited ? &limit : nullptr);
+      sleep_once(state_, kAsleep, deadline);
     }
   }
   return take();
