@@ -11,55 +11,17 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "deployer.hpp"
+#include "shipped_graph.hpp"
 #include "temp_folder.hpp"
+#include "terminal.hpp"
 
 using namespace orca::test;
 
 namespace {
-
-/// A terminal whose keys the test presses.
-class Terminal {
- public:
-  Terminal() : keys_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
-    REQUIRE(keys_ >= 0);
-    REQUIRE(grantpt(keys_) == 0);
-    REQUIRE(unlockpt(keys_) == 0);
-    char name[64];
-    REQUIRE(ptsname_r(keys_, name, sizeof name) == 0);
-    name_ = name;
-    // The line is held open, so that its settings can be read at any time.
-    line_ = open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
-    REQUIRE(line_ >= 0);
-  }
-  ~Terminal() {
-    close(line_);
-    close(keys_);
-  }
-
-  [[nodiscard]] const std::string& name() const { return name_; }
-  void press(const std::string& bytes) const {
-    REQUIRE(write(keys_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
-  }
-  [[nodiscard]] bool echoes() const {
-    termios settings{};
-    REQUIRE(tcgetattr(line_, &settings) == 0);
-    return (settings.c_lflag & (ICANON | ECHO)) == (ICANON | ECHO);
-  }
-  // Waits, for at most 5 s, because nothing announces a change of a terminal's settings.
-  [[nodiscard]] bool comes_to_echo(bool wanted) const {
-    for (int i = 0; i < 500 && echoes() != wanted; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return echoes() == wanted;
-  }
-
- private:
-  int keys_;
-  int line_ = -1;
-  std::string name_;
-};
 
 Words teleop(const Words& more) {
   return deployer(Words{system_graph("teleop.xml")} + with_test_plugins() + more);
@@ -185,4 +147,36 @@ TEST_CASE("the shipped graph for teleop is sound", "[system][teleop]") {
   const Run run = run_deployer({source_file("graphs/scout_teleop.xml"), "--check"});
   INFO(run.err);
   CHECK(run.exit_code() == 0);
+}
+
+TEST_CASE("without avoid a person who holds the key drives into the trolley, with it not", "[system][teleop][ablation]") {
+  for (const bool avoids : {true, false}) {
+    const TempFolder folder;
+    ShippedGraph graph("scout_teleop");
+    if (!avoids) graph.remove("avoid");
+    const Terminal terminal;
+    Subprocess program(deployer({folder.write("graph.xml", graph.text()), "--until", "18 s", "--set",
+                                 "keyboard=" + terminal.name()}));
+    std::optional<Ending> ending;
+    while (!(ending = program.wait(Seconds(0.2)))) terminal.press("w");
+    CAPTURE(avoids);
+    INFO(program.err());
+    CHECK(ending->exit_code == 0);
+    CHECK((program.out().find("contact") != std::string::npos) == !avoids);
+  }
+}
+
+TEST_CASE("without any other component of the teleop graph the robot stands", "[system][teleop][ablation]") {
+  for (const char* component : {"teleop", "fuser", "base"}) {
+    const TempFolder folder;
+    ShippedGraph graph("scout_teleop");
+    graph.watch_motion("base");
+    const Terminal terminal;
+    Subprocess program(deployer({folder.write("graph.xml", graph.text()), "--until", "3 s", "--set",
+                                 "keyboard=" + terminal.name(), "--fail", std::string(component) + "=silent@0s"}));
+    while (!program.wait(Seconds(0.2))) terminal.press("w");
+    CAPTURE(component);
+    INFO(program.err());
+    CHECK(program.err().find("watch: moves") == std::string::npos);
+  }
 }

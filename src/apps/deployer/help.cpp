@@ -16,6 +16,8 @@ What to run
   --set ARG=VALUE       set an <arg> of the graph; may be repeated
   --until DURATION      end after this time of the run's clock, e.g. 60s
   --seed N              seed of all random streams (default 1)
+  --fail NAME=HOW@TIME  rehearse a failure of the component NAME, e.g. avoid=silent@20s; HOW: silent, throw, hang, or
+                        slow (each lap nine periods late); may be repeated
 
 How to run it
   --clock KIND          steady: real time (default); virtual: simulated time, bit-identical for the same seed

@@ -12,7 +12,7 @@ namespace {
 // Returns a behaviour that must be heard and is not; null if there is none.
 const std::string* silent(std::span<const Voice> voices, const Rules& rules) {
   for (const Voice& voice : voices)
-    if (voice.age > voice.silence_limit) return &voice.name;
+    if (voice.lost || voice.age > voice.silence_limit) return &voice.name;
   for (const std::string& name : rules.required)
     if (std::none_of(voices.begin(), voices.end(), [&](const Voice& voice) { return voice.name == name; }))
       return &name;

@@ -40,7 +40,7 @@ struct Decision {
 };
 
 /// Decides on a command; safety comes before any mode. The robot stops if any behaviour has said full stop, if
-/// one has been silent for longer than its limit, or if a required one is not listened to. Messages without an
+/// one has been silent for longer than its limit or is lost, or if a required one is not listened to. Messages without an
 /// opinion, messages that are too old and wishes without weight never count.
 ///
 /// @param last_rate  [rad/s] decided in the lap before.

@@ -12,6 +12,7 @@
 #include "orca/idl/motion.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
+#include "reliance.hpp"
 
 namespace {
 
@@ -39,6 +40,7 @@ struct Listened {
   orca::TimePoint since{};  // when the fuser began to listen to it
   ObjectPtr<orca::idl::MotionCommand> last = {};
   ObjectPtr<orca::idl::MotionCommand> last_wish = {};  // opinions only
+  orca::fuse::Reliance reliance = {};
 };
 
 /// The component that fuses the wishes of the behaviours in a client's list into one crisp command (thesis
@@ -150,17 +152,22 @@ class MotionCommandFuser final : public orca::Component {
   }
 
   Voice hear(Listened& behaviour) {
+    const double limit = silence_limit(behaviour);
     const auto newest = behaviour.source.take_latest();
-    if (newest && orca::check_command(*newest).ok()) {  // else it is as if it had not been said
+    if (newest && newest != behaviour.last && orca::check_command(*newest).ok()) {  // else it is as if it had not been said
+      const double gap = behaviour.last ? age_of(*behaviour.last) - age_of(*newest) : kNever;
+      behaviour.reliance.heard(gap, limit);
       behaviour.last = newest;
       if (newest->kind() == orca::idl::NORMAL) behaviour.last_wish = newest;
     }
     Voice voice;
     voice.name = behaviour.name;
-    voice.silence_limit = silence_limit(behaviour);
+    voice.silence_limit = limit;
     if (!behaviour.last) return voice;
     voice.said = said(*behaviour.last);
     voice.age = age_of(*behaviour.last);
+    behaviour.reliance.look(voice.age, limit);
+    voice.lost = behaviour.reliance.is_lost();
     if (!behaviour.last_wish) return voice;
     voice.wish = wish_of(*behaviour.last_wish);
     voice.wish_age = age_of(*behaviour.last_wish);
@@ -232,6 +239,7 @@ class MotionCommandFuser final : public orca::Component {
 
   // Reports silence and its end, but not the moment before all have spoken for the first time.
   void tell_change(const Decision& decision) {
+    if (decision.verdict == Verdict::told_to_stop) return;  // which says nothing about the other behaviours
     const bool is_silent = decision.verdict == Verdict::required_silent && has_had_time(decision.decided_by);
     if (is_silent && !told_silence_)
       log_warning("stops the robot: nothing is heard of the behaviour \"" + decision.decided_by + "\"");

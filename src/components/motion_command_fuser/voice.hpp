@@ -19,6 +19,7 @@ struct Voice {
   double wish_age = std::numeric_limits<double>::infinity();  ///< [s] since then.
   /// [s] silence of this behaviour that stops the robot; infinity: it may be silent.
   double silence_limit = std::numeric_limits<double>::infinity();
+  bool lost = false;  ///< It fell silent, and does not speak regularly again yet.
 };
 
 }  // namespace orca::fuse

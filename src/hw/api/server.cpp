@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/server.hpp"
 
+#include <atomic>
 #include <utility>
 
 #include "orca/idl/system.hpp"
@@ -42,11 +43,15 @@ class HardwareServer::SensorPorts {
 
   void connect() {
     sensor_.set_sink(this, [this](ObjectLoan reading) {
+      if (!open_.load(std::memory_order_acquire)) return std::move(reading).seal();
       ObjectRef pushed = push_.push(std::move(reading));
       server_.host().strand().wake();  // a query may wait for it
       return pushed;
     });
   }
+  // Readings are pushed while the component works. Hardware that others use too goes on when it does not, or has
+  // failed.
+  void set_open(bool open) { open_.store(open, std::memory_order_release); }
 
  private:
   class Push final : public PushServerHandle {
@@ -74,6 +79,7 @@ class HardwareServer::SensorPorts {
   SensorEndpoint& sensor_;
   Push push_;
   QueryServerHandle query_;
+  std::atomic<bool> open_{false};
 };
 
 HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectType* only)
@@ -111,6 +117,7 @@ Status HardwareServer::configure() {
 }
 
 Status HardwareServer::start() {
+  for (const auto& sensor : sensors_) sensor->set_open(true);
   container_->acquire();
   host().strand().wait_for(now() + kStartLimit, [this] {
     return container_->state() == HardwareState::active || container_->state() == HardwareState::fault;
@@ -139,7 +146,10 @@ Outcome HardwareServer::work() {
   return again();
 }
 
-void HardwareServer::stop() { container_->release(); }
+void HardwareServer::stop() {
+  for (const auto& sensor : sensors_) sensor->set_open(false);
+  container_->release();
+}
 
 Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {
   if (Status checked = MotionHW::check(*command); !checked.ok()) return checked;

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "orca/base/executive.hpp"
+#include "orca/host/rehearsal.hpp"
 #include "reporter.hpp"
 #include "trace.hpp"
 
@@ -21,6 +23,8 @@ struct RunContext {
   std::function<void()> changed;
   /// Whether a picture is to be drawn at the end.
   bool wants_scene = false;
+  /// What is to fail on purpose.
+  std::vector<Rehearsal> rehearsals{};
 };
 
 }  // namespace orca::host

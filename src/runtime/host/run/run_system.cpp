@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/run_system.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "containment/environment.hpp"
 #include "containment/stall_monitor.hpp"
@@ -13,6 +15,7 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/host/last_words.hpp"
+#include "orca/xml/names.hpp"
 #include "reporter.hpp"
 #include "system.hpp"
 
@@ -255,13 +258,26 @@ class Run {
                       reporter_,
                       options_.seed.value_or(graph_.seed.value_or(1)),
                       [this] { changed_->notify(); },
-                      !options_.picture.file.empty()};
+                      !options_.picture.file.empty(),
+                      options_.rehearsals};
   std::optional<System> system_{std::in_place, graph_, context_, [this] { return stop_.requested(); }};
   std::optional<RunCounters> counters_;  // of the run until it was taken down
   RunOutcome outcome_ = RunOutcome::finished;
   std::string culprit_;
   std::optional<Error> error_;
 };
+
+// Returns the error of a rehearsal of a component that the graph does not have.
+std::optional<Error> unknown_rehearsal(const graph::Graph& graph, const std::vector<Rehearsal>& rehearsals) {
+  std::vector<std::string> names;
+  for (const graph::ComponentNode& node : graph.components) names.push_back(node.name);
+  for (const Rehearsal& rehearsal : rehearsals)
+    if (std::ranges::find(names, rehearsal.component) == names.end())
+      return fail(Code::not_found, "the graph has no component " + in_quotes(rehearsal.component) +
+                                       " that could fail" +
+                                       xml::did_you_mean(xml::nearest_name(rehearsal.component, names)));
+  return std::nullopt;
+}
 
 RunResult refuse_options(const Error& error, const RunOptions& options) {
   log::error(options.log_name, error.text());
@@ -277,6 +293,7 @@ RunResult run_system(const graph::Graph& graph, PluginCatalogue& catalogue, cons
                      StopSignal& stop, RunListener& listener) {
   Result<std::unique_ptr<Executive>> executive = make_executive(options.executive);
   if (!executive) return refuse_options(executive.error(), options);
+  if (const auto unknown = unknown_rehearsal(graph, options.rehearsals)) return refuse_options(*unknown, options);
   const TimePoint start = (*executive)->now();
   log::set_clock([clock = executive->get(), start] { return TimePoint(clock->now() - start); });
   RunResult result = Run(graph, catalogue, options, **executive, stop, listener).execute();

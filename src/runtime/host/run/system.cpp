@@ -23,7 +23,7 @@ bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline, 
   return true;
 }
 
-ComponentSettings settings_of(const graph::ComponentNode& node) {
+ComponentSettings settings_of(const graph::ComponentNode& node, const std::vector<Rehearsal>& rehearsals) {
   ComponentSettings settings;
   settings.name = node.name;
   settings.priority = node.priority;
@@ -35,6 +35,8 @@ ComponentSettings settings_of(const graph::ComponentNode& node) {
   settings.params = node.params;
   for (const auto& [port, setting] : node.ports)
     if (!setting.alias.empty()) settings.port_names[port] = setting.alias;
+  for (const Rehearsal& rehearsal : rehearsals)
+    if (rehearsal.component == node.name) settings.rehearsal = rehearsal;
   return settings;
 }
 
@@ -62,7 +64,7 @@ Status System::build_hardware(PluginCatalogue& catalogue) {
 Status System::build_components(PluginCatalogue& catalogue) {
   for (const graph::ComponentNode& node : graph_.components) {
     auto instance = std::make_unique<ComponentInstance>(
-        run_, settings_of(node),
+        run_, settings_of(node, run_.rehearsals),
         [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
         [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
         container(node.hardware));

@@ -11,6 +11,7 @@ ComponentLoop::ComponentLoop(ComponentParts& parts, Residency& residency, Lifecy
 }
 
 void ComponentLoop::open_gate() {
+  parts_.rehearser.begin();
   gate_open_.store(true, std::memory_order_release);
   parts_.strand.wake();
 }
@@ -34,8 +35,10 @@ void ComponentLoop::run() {
 
 void ComponentLoop::turn() {
   if (parts_.orders.carry_out_next()) return parts_.run.changed();
-  if (handle_one_intake()) return;
+  const bool silent = parts_.rehearser.is_silent();
+  if (!silent && handle_one_intake()) return;
   if (const auto event = look()) return life_.handle(*event);
+  if (silent) return parts_.strand.pause_until(kForever);
   if (life_.state() == ComponentState::work && parts_.laps.is_due(parts_.site.now())) return lap();
   parts_.strand.pause_until(next_wake_up());
 }
@@ -58,7 +61,10 @@ void ComponentLoop::lap() {
   activity_before_lap_ = parts_.strand.activity();
   parts_.home.provenance.begin_lap();
   in_lap_ = true;
-  const auto fault = parts_.hooks.call(Hook::work, [&] { outcome = residency_.component()->work(); });
+  const auto fault = parts_.hooks.call(Hook::work, [&] {
+    parts_.rehearser.act();
+    outcome = residency_.component()->work();
+  });
   in_lap_ = false;
   if (!fault) {
     conclude(outcome);
@@ -89,11 +95,17 @@ bool ComponentLoop::handle_one_intake() {
 }
 
 bool ComponentLoop::handle_sent(SendServerEndpoint& endpoint) {
+  if (!endpoint.has_waiting()) return false;
   const std::string& port = endpoint.contract().name;
   bool handled = false;
   Status outcome;
   const auto fault = parts_.hooks.call(
-      Hook::handler, [&] { handled = endpoint.handle_one(outcome); }, port.c_str());
+      Hook::handler,
+      [&] {
+        parts_.rehearser.act();
+        handled = endpoint.handle_one(outcome);
+      },
+      port.c_str());
   contain(endpoint, fault);
   if (!outcome.ok())
     parts_.site.write_log(log::Level::warning, port + ": could not handle an object that it had accepted: " +
@@ -102,9 +114,15 @@ bool ComponentLoop::handle_sent(SendServerEndpoint& endpoint) {
 }
 
 bool ComponentLoop::handle_asked(QueryServerEndpoint& endpoint) {
+  if (!endpoint.has_waiting()) return false;
   bool handled = false;
   const auto fault = parts_.hooks.call(
-      Hook::handler, [&] { handled = endpoint.handle_one(); }, endpoint.contract().name.c_str());
+      Hook::handler,
+      [&] {
+        parts_.rehearser.act();
+        handled = endpoint.handle_one();
+      },
+      endpoint.contract().name.c_str());
   contain(endpoint, fault);
   return handled || fault;
 }

@@ -13,6 +13,7 @@ ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings setting
       ports(home),
       site(run, settings, strand, laps, hardware),
       hooks(settings.name),
+      rehearser(settings.rehearsal, site, strand, laps),
       params(settings.params),
       orders(strand) {}
 

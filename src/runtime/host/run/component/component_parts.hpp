@@ -12,6 +12,7 @@
 #include "order_queue.hpp"
 #include "parameters.hpp"
 #include "port_set.hpp"
+#include "rehearser.hpp"
 #include "run/run_context.hpp"
 
 namespace orca::host {
@@ -35,6 +36,7 @@ struct ComponentParts {
   LapTrigger laps;
   ComponentSite site;
   HookCaller hooks;
+  Rehearser rehearser;
   Parameters params;
   OrderQueue orders;
 };

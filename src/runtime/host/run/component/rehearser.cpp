@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "rehearser.hpp"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+namespace orca::host {
+namespace {
+
+constexpr Duration kPeriodOfNone = std::chrono::milliseconds(100);
+constexpr int kPeriodsLate = 9;
+
+const std::map<std::string_view, Failure> kFailures{{"silent", Failure::silent},
+                                                    {"throw", Failure::throws},
+                                                    {"hang", Failure::hang},
+                                                    {"slow", Failure::slow}};
+
+}  // namespace
+
+std::optional<Failure> failure_from(std::string_view name) {
+  const auto found = kFailures.find(name);
+  return found == kFailures.end() ? std::nullopt : std::optional(found->second);
+}
+
+const std::vector<std::string>& failure_names() {
+  static const std::vector<std::string> names{"silent", "throw", "hang", "slow"};
+  return names;
+}
+
+void Rehearser::begin() {
+  if (rehearsal_) begins_ = saturating_add(site_.now(), rehearsal_->at);
+}
+
+// Tells people that the failure is no real one when it begins.
+bool Rehearser::has_begun(Failure failure) {
+  if (!rehearsal_ || rehearsal_->failure != failure || site_.now() < begins_) return false;
+  if (!told_) site_.write_log(log::Level::warning, "fails from now on, because the run rehearses it (--fail)");
+  told_ = true;
+  return true;
+}
+
+bool Rehearser::is_silent() { return has_begun(Failure::silent); }
+
+void Rehearser::act() {
+  if (has_begun(Failure::throws)) throw std::runtime_error("it threw because the run rehearses it (--fail)");
+  const bool hangs = has_begun(Failure::hang);
+  if (!hangs && !has_begun(Failure::slow)) return;
+  const Duration period = laps_.period() > Duration{0} ? laps_.period() : kPeriodOfNone;
+  strand_.note_activity();  // so that the wait is not taken for one that can be begun again
+  strand_.wait_for(hangs ? kForever : saturating_add(site_.now(), kPeriodsLate * period), [] { return false; });
+}
+
+}  // namespace orca::host

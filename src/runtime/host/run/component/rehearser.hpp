@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "component_site.hpp"
+#include "lap_trigger.hpp"
+#include "orca/base/strand.hpp"
+#include "orca/host/rehearsal.hpp"
+
+namespace orca::host {
+
+/// Makes one component fail as the run's options ask for.
+///
+/// Thread contract: begin() once, before the component works; the rest on the component's strand.
+class Rehearser {
+ public:
+  /// All are those of the component, and outlive this object.
+  Rehearser(const std::optional<Rehearsal>& rehearsal, const ComponentSite& site, Strand& strand,
+            const LapTrigger& laps)
+      : rehearsal_(rehearsal), site_(site), strand_(strand), laps_(laps) {}
+
+  /// Starts to count the time.
+  void begin();
+  /// Returns whether the component is to do nothing now.
+  [[nodiscard]] bool is_silent();
+  /// To be called inside each lap and handler, before the component's own code: throws, hangs or waits.
+  /// @errors  std::runtime_error on purpose; Interrupted while it waits.
+  void act();
+
+ private:
+  [[nodiscard]] bool has_begun(Failure failure);
+
+  const std::optional<Rehearsal>& rehearsal_;
+  const ComponentSite& site_;
+  Strand& strand_;
+  const LapTrigger& laps_;
+  TimePoint begins_ = kForever;
+  bool told_ = false;
+};
+
+}  // namespace orca::host

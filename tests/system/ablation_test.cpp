@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What each component of each shipped graph is for: without it the run gets worse, in the way that the comment of the graph
+// says. scout_teleop is in teleop_test.cpp, because it needs a person at the keys.
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "deployer.hpp"
+#include "shipped_graph.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+// A way to do without a component.
+enum class How {
+  silent,   // It is there and does nothing.
+  crashed,  // Its first lap throws.
+  removed,  // It is not in the graph, nor are its connections.
+};
+
+enum class Worse {
+  contact,  // The robot touches something.
+  nowhere,  // It reaches none of its goals.
+  stands,   // It does not move.
+};
+
+struct Case {
+  std::string graph;
+  std::string component;
+  How how;
+  Worse worse;
+};
+
+const std::vector<Case> kCases{
+    {"scout_goto", "command", How::silent, Worse::stands},
+    {"scout_goto", "goto", How::silent, Worse::nowhere},
+    {"scout_goto", "avoid", How::removed, Worse::contact},
+    {"scout_goto", "fuser", How::silent, Worse::stands},
+    {"scout_goto", "base", How::silent, Worse::stands},
+    {"scout_goto", "localizer", How::crashed, Worse::nowhere},
+
+    {"scout_gallery", "command", How::silent, Worse::stands},
+    {"scout_gallery", "goto", How::silent, Worse::nowhere},
+    {"scout_gallery", "avoid", How::removed, Worse::contact},
+    {"scout_gallery", "fuser", How::silent, Worse::stands},
+    {"scout_gallery", "base", How::silent, Worse::stands},
+    {"scout_gallery", "localizer", How::crashed, Worse::nowhere},
+
+    {"scout_hospital", "command", How::silent, Worse::stands},
+    {"scout_hospital", "goto", How::silent, Worse::nowhere},
+    {"scout_hospital", "avoid", How::removed, Worse::contact},
+    {"scout_hospital", "fuser", How::silent, Worse::stands},
+    {"scout_hospital", "base", How::silent, Worse::stands},
+    {"scout_hospital", "localizer", How::crashed, Worse::nowhere},
+
+    {"pioneer_laser_goto", "command", How::silent, Worse::stands},
+    {"pioneer_laser_goto", "goto", How::silent, Worse::nowhere},
+    {"pioneer_laser_goto", "avoid", How::removed, Worse::contact},
+    {"pioneer_laser_goto", "fuser", How::silent, Worse::stands},
+    {"pioneer_laser_goto", "base", How::silent, Worse::stands},
+    {"pioneer_laser_goto", "laser", How::crashed, Worse::nowhere},
+    {"pioneer_laser_goto", "localizer", How::crashed, Worse::nowhere},
+
+    {"random_walk", "walk", How::silent, Worse::stands},
+    {"random_walk", "avoid", How::removed, Worse::contact},
+    {"random_walk", "fuser", How::silent, Worse::stands},
+    {"random_walk", "base", How::silent, Worse::stands},
+};
+
+// A hall of 20 x 12 m with a pillar in the middle, 1.2 m wide.
+std::string hall_with_pillar(const TempFolder& folder) {
+  constexpr int kWidth = 200;
+  constexpr int kHeight = 120;
+  std::string text = "P5\n" + std::to_string(kWidth) + " " + std::to_string(kHeight) + "\n255\n";
+  for (int row = 0; row < kHeight; ++row)
+    for (int column = 0; column < kWidth; ++column)
+      text += std::abs(row - kHeight / 2) <= 6 && std::abs(column - kWidth / 2) <= 6 ? '\0' : '\xff';
+  return folder.write("hall.pgm", text);
+}
+
+// Returns the arguments without which a graph does not run.
+Words arguments(const std::string& graph, const TempFolder& folder) {
+  if (graph != "scout_hospital") return {};
+  return {"--set", "map=" + hall_with_pillar(folder), "--set", "map_width=20 m", "--set", "x=2 m", "--set", "y=5.8 m",
+          "--set", "goals=east: 18 5.8"};
+}
+
+Run run(const ShippedGraph& graph, const std::string& name, const Words& more) {
+  const TempFolder folder;
+  return run_deployer(Words{folder.write(name + ".xml", graph.text()), "--until", "200 s"} + arguments(name, folder) +
+                      virtual_clock() + more);
+}
+
+bool moves(const Run& run) { return run.says("watch: moves after"); }
+
+Run run_without(const Case& c) {
+  ShippedGraph graph(c.graph);
+  graph.watch_motion("base");
+  if (c.how == How::removed) graph.remove(c.component);
+  Words more;
+  if (c.how == How::silent) more = {"--fail", c.component + "=silent@0s"};
+  if (c.how == How::crashed) more = {"--fail", c.component + "=throw@0s"};
+  return run(graph, c.graph, more);
+}
+
+void check_worse(const Run& run, Worse worse) {
+  if (worse == Worse::contact) CHECK_FALSE(run.contacts().empty());
+  if (worse != Worse::contact) CHECK(run.arrivals().empty());
+  if (worse == Worse::stands) CHECK_FALSE(moves(run));
+}
+
+}  // namespace
+
+TEST_CASE("every component of every shipped graph has its case", "[system][ablation]") {
+  std::set<std::string> missing;
+  for (const std::string& graph : shipped_graphs())
+    for (const std::string& component : ShippedGraph(graph).components())
+      if (graph != "scout_teleop") missing.insert(graph + "." + component);
+  for (const Case& c : kCases) CHECK(missing.erase(c.graph + "." + c.component) == 1);
+  CHECK(missing.empty());
+}
+
+TEST_CASE("with all its components each shipped graph drives, arrives and touches nothing", "[system][ablation]") {
+  std::set<std::string> graphs;
+  for (const Case& c : kCases) graphs.insert(c.graph);
+  for (const std::string& name : graphs) {
+    ShippedGraph graph(name);
+    graph.watch_motion("base");
+    const Run whole = run(graph, name, {});
+    CAPTURE(name);
+    INFO(whole.err);
+    CHECK(whole.exit_code() == 0);
+    CHECK(whole.contacts().empty());
+    CHECK(moves(whole));
+    CHECK(whole.arrivals().empty() == (name == "random_walk"));
+  }
+}
+
+TEST_CASE("without any one of its components the run of a shipped graph gets worse", "[system][ablation]") {
+  for (const Case& c : kCases) {
+    CAPTURE(c.graph, c.component);
+    const Run run = run_without(c);
+    INFO(run.err);
+    CHECK(run.ended);
+    CHECK(run.exit_code() != 2);
+    check_worse(run, c.worse);
+  }
+}
