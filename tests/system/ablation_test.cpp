@@ -82,14 +82,17 @@ std::string hall_with_pillar(const TempFolder& folder) {
 // Returns the arguments without which a graph does not run.
 Words arguments(const std::string& graph, const TempFolder& folder) {
   if (graph != "scout_hospital") return {};
-  return {"--set", "map=" + hall_with_pillar(folder), "--set", "map_width=20 m", "--set", "x=2 m", "--set", "y=5.8 m",
+  return {"--set", "map=" + hall_with_pillar(folder),
+          "--set", "map_width=20 m",
+          "--set", "x=2 m",
+          "--set", "y=5.8 m",
           "--set", "goals=east: 18 5.8"};
 }
 
 Run run(const ShippedGraph& graph, const std::string& name, const Words& more) {
   const TempFolder folder;
-  return run_deployer(Words{folder.write(name + ".xml", graph.text()), "--until", "200 s"} + arguments(name, folder) +
-                      virtual_clock() + more);
+  return run_deployer(Words{folder.write(name + ".xml", graph.text()), "--until", "200 s"} +
+                      arguments(name, folder) + virtual_clock() + more);
 }
 
 bool moves(const Run& run) { return run.says("watch: moves after"); }
@@ -121,7 +124,8 @@ TEST_CASE("every component of every shipped graph has its case", "[system][ablat
   CHECK(missing.empty());
 }
 
-TEST_CASE("with all its components each shipped graph drives, arrives and touches nothing", "[system][ablation]") {
+TEST_CASE("with all its components each shipped graph drives, arrives and touches nothing",
+          "[system][ablation]") {
   std::set<std::string> graphs;
   for (const Case& c : kCases) graphs.insert(c.graph);
   for (const std::string& name : graphs) {

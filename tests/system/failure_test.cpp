@@ -50,15 +50,18 @@ std::optional<double> last_time(const Run& run, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("silence, an exception, a hang or slowness of any behaviour stops a shipped robot for good, and it is said why",
-          "[system][failure]") {
+TEST_CASE(
+    "silence, an exception, a hang or slowness of any behaviour stops a shipped robot for good, and it is "
+    "said why",
+    "[system][failure]") {
   for (const Driver& driver : kDrivers) {
     for (const std::string& behaviour : driver.behaviours) {
       for (const char* how : {"silent", "throw", "hang", "slow"}) {
         CAPTURE(driver.graph, behaviour, how);
         const Run run = drive(driver, behaviour, how);
         INFO(run.err);
-        const auto stopped = last_time(run, "stops the robot: nothing is heard of the behaviour \"" + behaviour + "\"");
+        const auto stopped =
+            last_time(run, "stops the robot: nothing is heard of the behaviour \"" + behaviour + "\"");
         REQUIRE(stopped);
         CHECK(*stopped >= kFailsAt);
         CHECK(*stopped <= kFailsAt + kStopLimit);
@@ -80,7 +83,8 @@ TEST_CASE("a rehearsed failure is told as one, and a run without it has another 
   CHECK(failing.says("avoid: fails from now on, because the run rehearses it (--fail)"));
   CHECK_FALSE(whole.says("rehearse"));
   CHECK(failing.trace_hash() != whole.trace_hash());
-  CHECK(failing.trace_hash() == run_deployer(graph + Words{"--fail", "avoid=silent@10s"} + virtual_clock()).trace_hash());
+  CHECK(failing.trace_hash() ==
+        run_deployer(graph + Words{"--fail", "avoid=silent@10s"} + virtual_clock()).trace_hash());
 }
 
 TEST_CASE("a failure that cannot be rehearsed is refused, with what was expected", "[system][failure]") {
@@ -89,7 +93,8 @@ TEST_CASE("a failure that cannot be rehearsed is refused, with what was expected
     CHECK(run.exit_code() == 2);
     return run.err;
   };
-  CHECK_THAT(refused("avoi=silent@1s"), Catch::Contains("no component \"avoi\"") && Catch::Contains("\"avoid\""));
+  CHECK_THAT(refused("avoi=silent@1s"),
+             Catch::Contains("no component \"avoi\"") && Catch::Contains("\"avoid\""));
   CHECK_THAT(refused("avoid=dead@1s"), Catch::Contains("silent, throw, hang, slow"));
   CHECK_THAT(refused("avoid"), Catch::Contains("COMPONENT=HOW@TIME"));
   CHECK_THAT(refused("avoid=silent@1 parsec"), Catch::Contains("--fail: "));

@@ -149,7 +149,8 @@ TEST_CASE("the shipped graph for teleop is sound", "[system][teleop]") {
   CHECK(run.exit_code() == 0);
 }
 
-TEST_CASE("without avoid a person who holds the key drives into the trolley, with it not", "[system][teleop][ablation]") {
+TEST_CASE("without avoid a person who holds the key drives into the trolley, with it not",
+          "[system][teleop][ablation]") {
   for (const bool avoids : {true, false}) {
     const TempFolder folder;
     ShippedGraph graph("scout_teleop");
@@ -172,8 +173,9 @@ TEST_CASE("without any other component of the teleop graph the robot stands", "[
     ShippedGraph graph("scout_teleop");
     graph.watch_motion("base");
     const Terminal terminal;
-    Subprocess program(deployer({folder.write("graph.xml", graph.text()), "--until", "3 s", "--set",
-                                 "keyboard=" + terminal.name(), "--fail", std::string(component) + "=silent@0s"}));
+    Subprocess program(
+        deployer({folder.write("graph.xml", graph.text()), "--until", "3 s", "--set",
+                  "keyboard=" + terminal.name(), "--fail", std::string(component) + "=silent@0s"}));
     while (!program.wait(Seconds(0.2))) terminal.press("w");
     CAPTURE(component);
     INFO(program.err());

@@ -154,7 +154,8 @@ class MotionCommandFuser final : public orca::Component {
   Voice hear(Listened& behaviour) {
     const double limit = silence_limit(behaviour);
     const auto newest = behaviour.source.take_latest();
-    if (newest && newest != behaviour.last && orca::check_command(*newest).ok()) {  // else it is as if it had not been said
+    if (newest && newest != behaviour.last &&
+        orca::check_command(*newest).ok()) {  // else it is as if it had not been said
       const double gap = behaviour.last ? age_of(*behaviour.last) - age_of(*newest) : kNever;
       behaviour.reliance.heard(gap, limit);
       behaviour.last = newest;

@@ -293,7 +293,8 @@ RunResult run_system(const graph::Graph& graph, PluginCatalogue& catalogue, cons
                      StopSignal& stop, RunListener& listener) {
   Result<std::unique_ptr<Executive>> executive = make_executive(options.executive);
   if (!executive) return refuse_options(executive.error(), options);
-  if (const auto unknown = unknown_rehearsal(graph, options.rehearsals)) return refuse_options(*unknown, options);
+  if (const auto unknown = unknown_rehearsal(graph, options.rehearsals))
+    return refuse_options(*unknown, options);
   const TimePoint start = (*executive)->now();
   log::set_clock([clock = executive->get(), start] { return TimePoint(clock->now() - start); });
   RunResult result = Run(graph, catalogue, options, **executive, stop, listener).execute();

@@ -35,7 +35,8 @@ void Rehearser::begin() {
 // Tells people that the failure is no real one when it begins.
 bool Rehearser::has_begun(Failure failure) {
   if (!rehearsal_ || rehearsal_->failure != failure || site_.now() < begins_) return false;
-  if (!told_) site_.write_log(log::Level::warning, "fails from now on, because the run rehearses it (--fail)");
+  if (!told_)
+    site_.write_log(log::Level::warning, "fails from now on, because the run rehearses it (--fail)");
   told_ = true;
   return true;
 }
@@ -48,7 +49,8 @@ void Rehearser::act() {
   if (!hangs && !has_begun(Failure::slow)) return;
   const Duration period = laps_.period() > Duration{0} ? laps_.period() : kPeriodOfNone;
   strand_.note_activity();  // so that the wait is not taken for one that can be begun again
-  strand_.wait_for(hangs ? kForever : saturating_add(site_.now(), kPeriodsLate * period), [] { return false; });
+  strand_.wait_for(hangs ? kForever : saturating_add(site_.now(), kPeriodsLate * period),
+                   [] { return false; });
 }
 
 }  // namespace orca::host

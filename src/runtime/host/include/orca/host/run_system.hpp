@@ -25,7 +25,7 @@ struct RunOptions {
   std::string trace_file;             ///< Empty: no trace is written.
   PictureOptions picture;
   std::vector<Rehearsal> rehearsals;  ///< What is to fail on purpose.
-  std::string log_name = "orca";  ///< Name in the log for what concerns the run as a whole.
+  std::string log_name = "orca";      ///< Name in the log for what concerns the run as a whole.
 };
 
 /// Runs a checked graph in this process: brings everything up, watches it, stops the robot and takes
