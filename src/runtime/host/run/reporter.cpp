@@ -88,6 +88,12 @@ void Reporter::note(idl::Alarm alarm) {
   listener_.alarm(alarms_.back());
 }
 
+void Reporter::introduce(RobotNames robots) {
+  const std::lock_guard lock(mutex_);
+  robots_ = std::move(robots);
+  listener_.robots(robots_);
+}
+
 void Reporter::log(log::Level level, const std::string& who, std::string_view text) {
   log::write(level, who, text);
   const std::lock_guard lock(mutex_);
@@ -108,6 +114,7 @@ void Reporter::fill(RunResult& result) const {
   result.arrivals = arrivals_;
   result.contacts = contacts_;
   result.alarms = alarms_;
+  result.robots = robots_;
 }
 
 }  // namespace orca::host

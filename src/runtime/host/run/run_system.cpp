@@ -14,6 +14,7 @@
 #include "orca/base/text.hpp"
 #include "orca/host/last_words.hpp"
 #include "reporter.hpp"
+#include "robot_finder.hpp"
 #include "system.hpp"
 
 namespace orca::host {
@@ -58,6 +59,7 @@ class Run {
   void run() {
     if (const Status opened = open_outputs(); !opened.ok()) return refuse_output(opened.error());
     if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
+    reporter_.introduce(find_robots(graph_, system_->robots()));
     {
       const StallMonitor monitor(
           executive_, [this](const idl::Alarm& alarm) { reporter_.raise(alarm); },
