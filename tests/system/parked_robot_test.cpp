@@ -2,11 +2,13 @@
 // A robot that stands still costs the other robots of its world no reading.
 #include <catch2/catch.hpp>
 
+#include <map>
 #include <sstream>
 #include <utility>
 
 #include "deployer.hpp"
 #include "temp_folder.hpp"
+#include "trace_file.hpp"
 
 using namespace orca::test;
 
@@ -83,6 +85,26 @@ TEST_CASE("next to a parked robot a robot gets as many readings as alone, whiche
     CHECK(readings_of(first) == alone);
     CHECK(first.trace_hash() == second.trace_hash());
   }
+}
+
+TEST_CASE(
+    "each of five robots receives its odometry at the end of each of its periods, neither later nor twice",
+    "[system][several]") {
+  const TempFolder folder;
+  const Run run = run_deployer(
+      Words{source_file("graphs/five_robots.xml"), "--until", "5 s", "--trace", folder.file("trace")} +
+      virtual_clock());
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  std::map<std::string, int> received;
+  const TraceFile trace(folder.file("trace"));
+  for (const TraceLine& line : trace.lines()) {
+    if (line.event != "deliver" || line.words[1] != "odometry") continue;
+    CAPTURE(line.words[0]);
+    CHECK(line.time == Approx(++received[line.words[0]] * kOdometryPeriod).margin(1e-6));
+  }
+  CHECK(received.size() == 5);
+  for (const auto& [component, count] : received) CHECK(count >= 99);
 }
 
 // How many of them a busy machine lets through is not fixed: a world that has fallen behind does not catch up.

@@ -124,6 +124,16 @@ TEST_CASE("several robots are as repeatable as one: one trace hash with fiber an
     CHECK(hash_on(graph, "fiber") == hash_on(graph, "baton"));
 }
 
+TEST_CASE("a picture of a shared world names its places unless they are hidden", "[system][several]") {
+  const TempFolder folder;
+  const auto draw = [&](const std::string& name, const Words& more) {
+    const Run run = drive("two_robots", Words{"--until", "1 s", "--picture", folder.file(name)} + more);
+    CHECK(run.exit_code() == 0);
+    return read_text(folder.file(name));
+  };
+  CHECK(draw("with.svg", {}).size() > draw("without.svg", {"--hide", "places"}).size() + 1000);
+}
+
 TEST_CASE("a robot that is alone is not named in the lines about arrivals", "[system][several]") {
   const Run run = drive("scout_goto", {"--until", "20 s"});
   REQUIRE(run.arrivals().size() == 1);

@@ -26,7 +26,8 @@ What to write
   --picture FILE        draws the run, in the end, if it was simulated: .svg or .png
   --view WHAT           of the picture: world (default), robot (around the first robot, ahead is up) or film (key
                         moments: start, arrivals, contacts, end)
-  --hide LAYERS         of the picture, e.g. sonar,track; layers: walls, track, robot, sonar, laser, motion, marks
+  --hide LAYERS         of the picture, e.g. sonar,track; layers: walls, track, robot, sonar, laser, motion, marks,
+                        places
   --stats               in the end, on stderr: what each connection carried, dropped and delivered late
   --log LEVEL           debug, info (default), warning, error or off; logs go to stderr
 

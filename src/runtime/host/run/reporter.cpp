@@ -103,9 +103,13 @@ void Reporter::log(log::Level level, const std::string& who, std::string_view te
 void Reporter::draw(Scene& scene) const {
   const std::lock_guard lock(mutex_);
   for (const idl::Arrived& arrived : arrivals_)
-    scene.arrivals.push_back({arrived.name(), {arrived.x(), arrived.y()}, to_time_point(arrived.stamp())});
+    scene.arrivals.push_back({arrived.name(),
+                              {arrived.x(), arrived.y()},
+                              to_time_point(arrived.stamp()),
+                              robots_.of(arrived.origin())});
   for (const idl::Contact& contact : contacts_)
-    scene.contacts.push_back({contact.robot(), {contact.x(), contact.y()}, to_time_point(contact.stamp())});
+    scene.contacts.push_back(
+        {contact.robot(), {contact.x(), contact.y()}, to_time_point(contact.stamp()), contact.robot()});
 }
 
 void Reporter::fill(RunResult& result) const {
