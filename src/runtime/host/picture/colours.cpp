@@ -12,7 +12,7 @@ namespace {
 constexpr Colour kChosen[] = {{0.55, 0.15, 0.65}, {0.85, 0.42, 0.0}, {0.0, 0.6, 0.65},  {0.5, 0.32, 0.1},
                               {0.95, 0.45, 0.7},  {0.5, 0.62, 0.05}, {0.4, 0.45, 0.55}, {0.15, 0.15, 0.45}};
 
-constexpr double kGoldenRatio = 0.618033988749895;  // steps of it never come near an earlier hue soon
+constexpr double kGoldenRatio = 0.618033988749895;  // multiples of it are spread evenly over the hues
 constexpr double kBrightness = 0.75;
 constexpr double kSaturation = 0.8;
 

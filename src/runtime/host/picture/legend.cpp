@@ -30,8 +30,12 @@ std::string length_text(double metres) {
   return std::to_string(std::lround(100.0 * metres)) + " cm";
 }
 
+// Returns the name, cut between two characters of UTF-8 if it is long.
 std::string shortened(const std::string& name) {
-  return name.size() <= kLongestName ? name : name.substr(0, kLongestName - 2) + "..";
+  if (name.size() <= kLongestName) return name;
+  std::size_t end = kLongestName - 2;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+  return name.substr(0, end) + "..";
 }
 
 template <class Has>

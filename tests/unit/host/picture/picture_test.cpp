@@ -188,6 +188,17 @@ TEST_CASE("every view shows all robots, each in a colour of its own", "[host][pi
   }
 }
 
+TEST_CASE("a long name of a robot in many bytes a letter is cut so that it can still be drawn",
+          "[host][picture]") {
+  for (const char* letter : {"o", "\u00e5", "\u20ac", "\U0001f916"}) {
+    CAPTURE(letter);
+    Scene scene = drive(1.0);
+    scene.robots[0].name.clear();
+    for (int i = 0; i < 20; ++i) scene.robots[0].name += letter;
+    CHECK(Pixels(scene, {"", View::world, {}}).width() == 1200);
+  }
+}
+
 TEST_CASE("fifty robots have fifty colours", "[host][picture]") {
   for (std::size_t a = 0; a < 50; ++a)
     for (std::size_t b = 0; b < a; ++b) {
