@@ -82,6 +82,7 @@ void draw(const Snapshot& from, const std::string& name, const RobotModel& model
   if (to.walls.empty()) {
     for (const Segment& edge : from.edges) to.walls.push_back({edge.a, edge.b});
     for (const Circle& circle : from.circles) draw_circle(circle, to);
+    for (const Place& place : from.places) to.places.push_back({place.name, place.pose.position()});
   }
   for (const RobotSnapshot& body : from.robots) {
     if (body.name != name) continue;

@@ -30,7 +30,7 @@ void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
 /// Adds the sensors to the robot's description.
 void describe_sensors(const RobotModel& model, idl::Robot& robot);
 
-/// Adds the robot of that name to the scene, and the walls if no other robot of the same world has added
+/// Adds the robot of that name to the scene, and the walls and places if no other robot of the same world has added
 /// them.
 void draw(const Snapshot& from, const std::string& name, const RobotModel& model,
           std::vector<Scene::Moment> moments, Scene& to);

@@ -50,12 +50,22 @@ Result<RobotId> SharedWorld::add_robot(const std::string& name, const RobotModel
   const std::lock_guard lock(mutex_);
   const Result<RobotId> robot = world_.add_robot(name, model, X_WB);
   const TimePoint next_turret = model.turret ? world_.time() + model.turret->period : kForever;
-  if (robot) members_.push_back({*robot, name, truth_period, world_.time() + truth_period, next_turret, {}});
+  const TimePoint now = world_.time();
+  if (robot) members_.push_back({*robot, name, truth_period, now + truth_period, next_turret, now, {}});
   return robot;
 }
 
-Status SharedWorld::command(RobotId robot, const Twist2& wanted, double turret_angle) {
+const SharedWorld::Member& SharedWorld::member(RobotId robot) const {
+  return members_.at(static_cast<std::size_t>(robot));
+}
+
+SharedWorld::Member& SharedWorld::member(RobotId robot) {
+  return members_.at(static_cast<std::size_t>(robot));
+}
+
+Status SharedWorld::command(RobotId robot, const Twist2& wanted, double turret_angle, TimePoint now) {
   const std::lock_guard lock(mutex_);
+  catch_up(now);
   if (world_.robot_model(robot).turret)
     if (Status pointed = world_.set_turret_command(robot, turret_angle); !pointed.ok()) return pointed;
   return world_.set_velocity_command(robot, wanted);
@@ -63,12 +73,16 @@ Status SharedWorld::command(RobotId robot, const Twist2& wanted, double turret_a
 
 SharedWorld::Inbox SharedWorld::advance(RobotId robot, TimePoint now) {
   const std::lock_guard lock(mutex_);
+  catch_up(now);
+  Member& polling = member(robot);
+  polling.seen = world_.time();
+  return std::exchange(polling.inbox, {});
+}
+
+void SharedWorld::catch_up(TimePoint now) {
   const Duration behind = now - on_run_clock(world_.time());
   if (behind > kFarBehind) epoch_ += behind - World::kTick;
   while (on_run_clock(world_.time() + World::kTick) <= now) step();
-  for (Member& member : members_)
-    if (member.robot == robot) return std::exchange(member.inbox, {});
-  return {};
 }
 
 void SharedWorld::step() {
@@ -114,9 +128,9 @@ void SharedWorld::collect(Member& member) {
   }
 }
 
-TimePoint SharedWorld::next_tick() const {
+TimePoint SharedWorld::next_tick(RobotId robot) const {
   const std::lock_guard lock(mutex_);
-  return on_run_clock(world_.time() + World::kTick);
+  return on_run_clock(member(robot).seen + World::kTick);
 }
 
 Snapshot SharedWorld::snapshot() const {

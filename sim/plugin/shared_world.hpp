@@ -16,7 +16,9 @@ namespace orca::sim {
 
 /// The world that the simulated robots of one run share, tied to the run's clock.
 ///
-/// The first of them that polls advances it. The events of each robot wait in its Inbox until it polls.
+/// Whichever of them comes first at a tick advances it. The events of each robot wait in its Inbox until it
+/// polls. So the order in which the robots' strands run at one time changes neither what a robot senses nor
+/// when its commands take effect.
 ///
 /// Thread contract: any strand; synchronised.
 class SharedWorld {
@@ -61,17 +63,21 @@ class SharedWorld {
   Result<RobotId> add_robot(const std::string& name, const RobotModel& model, const Pose2& X_WB,
                             Duration truth_period);
 
+  /// Sets the command that the robot follows from `now` [run's clock] on: the ticks until then come first.
+  ///
   /// @errors  as World::set_velocity_command() and, for a robot with a turret, set_turret_command().
-  Status command(RobotId robot, const Twist2& wanted, double turret_angle);
+  Status command(RobotId robot, const Twist2& wanted, double turret_angle, TimePoint now);
 
-  /// Simulates up to `now` [run's clock] and returns what the robot has sensed, stamped by the run's clock.
+  /// Simulates up to `now` [run's clock] and returns what the robot has sensed since its last call, stamped by
+  /// the run's clock.
   ///
   /// A world that has fallen far behind, because the process was stopped or the machine is too slow, does not
   /// catch up. Its clock stands still for that long, so that no robot continues with an old command.
   Inbox advance(RobotId robot, TimePoint now);
 
-  /// Returns the time at which the next tick is due [run's clock].
-  [[nodiscard]] TimePoint next_tick() const;
+  /// Returns the time of the first tick that the robot has not seen yet [run's clock]. It may have passed
+  /// already: another robot may have advanced the world.
+  [[nodiscard]] TimePoint next_tick(RobotId robot) const;
   [[nodiscard]] Snapshot snapshot() const;
 
  private:
@@ -81,9 +87,13 @@ class SharedWorld {
     Duration truth_period{0};
     TimePoint next_truth;
     TimePoint next_turret;
+    TimePoint seen;  // World's clock when it last polled.
     Inbox inbox;
   };
 
+  [[nodiscard]] Member& member(RobotId robot);
+  [[nodiscard]] const Member& member(RobotId robot) const;
+  void catch_up(TimePoint now);
   void step();
   void collect(Member& member);
   void collect_readings(Member& member);
@@ -93,8 +103,8 @@ class SharedWorld {
   mutable std::mutex mutex_;
   World world_;
   const std::string settings_;
-  Duration epoch_;  // The run's clock when the world's clock was zero.
-  std::vector<Member> members_;
+  Duration epoch_;               // The run's clock when the world's clock was zero.
+  std::vector<Member> members_;  // By RobotId.
 };
 
 }  // namespace orca::sim

@@ -20,8 +20,10 @@ std::vector<Arrival> Run::arrivals() const {
     std::istringstream words(line);
     std::string kind;
     Arrival arrival;
-    if (words >> kind >> arrival.name >> arrival.x >> arrival.y >> arrival.t && kind == "arrived")
-      arrivals.push_back(arrival);
+    if (!(words >> kind >> arrival.name >> arrival.x >> arrival.y >> arrival.t) || kind != "arrived")
+      continue;
+    words >> arrival.robot;
+    arrivals.push_back(arrival);
   }
   return arrivals;
 }

@@ -26,12 +26,13 @@ inline constexpr bool kThreadSanitizer = false;
 /// Factor on upper bounds of time, which are for the optimised program; sanitizers make it many times slower.
 inline constexpr double kSlowdown = kSanitized ? 20.0 : 1.0;
 
-/// A line "arrived NAME x y t".
+/// A line "arrived NAME x y t", or "arrived NAME x y t ROBOT" where there are several robots.
 struct Arrival {
   std::string name;
   double x = 0.0;  ///< [m]
   double y = 0.0;  ///< [m]
   double t = 0.0;  ///< [s] since the start of the run.
+  std::string robot;
 };
 
 /// The result of a run of the deployer.

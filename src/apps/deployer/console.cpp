@@ -27,13 +27,19 @@ double Console::seconds(const idl::TimeValue& stamp) const {
   return to_seconds(to_time_point(stamp) - start_);
 }
 
+// Returns the end of a line about a robot: its name, if there are others.
+std::string Console::ending(const std::string& robot) const {
+  return robots_.several() && !robot.empty() ? " " + robot + "\n" : "\n";
+}
+
 void Console::arrived(const idl::Arrived& arrived) {
   write_out("arrived " + arrived.name() + " " + fixed(arrived.x(), 3) + " " + fixed(arrived.y(), 3) + " " +
-            fixed(seconds(arrived.stamp()), 2) + "\n");
+            fixed(seconds(arrived.stamp()), 2) + ending(robots_.of(arrived.origin())));
 }
 
 void Console::contact(const idl::Contact& contact) {
-  write_out("contact " + contact.robot() + " " + fixed(seconds(contact.stamp()), 2) + "\n");
+  write_out("contact " + contact.robot() + " " + fixed(seconds(contact.stamp()), 2) +
+            ending(contact.robot()));
 }
 
 void Console::ended(const host::RunResult& result) {

@@ -2,14 +2,16 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
+#include <string>
+
 #include "orca/host/run_listener.hpp"
 
 namespace orca::deployer {
 
 /// A listener that writes one line per event of a run to standard output, each at once: `arrived NAME x y t`,
-/// `contact NAME t`, and last, in virtual time, `trace-hash <16 hex digits>`. Lengths are in metres, times in
-/// seconds since the start of the run. On request, what the connections carried goes to standard error at the
-/// end.
+/// `contact NAME t`, and last, in virtual time, `trace-hash <16 hex digits>`. If there are several robots, the
+/// first two end with the name of the robot. Lengths are in metres, times in seconds since the start of the
+/// run. On request, what the connections carried goes to standard error at the end.
 ///
 /// Thread contract: as RunListener.
 class Console final : public host::RunListener {
@@ -18,6 +20,7 @@ class Console final : public host::RunListener {
   explicit Console(bool stats) : stats_(stats) {}
 
   void started(TimePoint now) override { start_ = now; }
+  void robots(const host::RobotNames& robots) override { robots_ = robots; }
   void arrived(const idl::Arrived& arrived) override;
   void contact(const idl::Contact& contact) override;
   void ended(const host::RunResult& result) override;
@@ -25,9 +28,11 @@ class Console final : public host::RunListener {
 
  private:
   [[nodiscard]] double seconds(const idl::TimeValue& stamp) const;
+  [[nodiscard]] std::string ending(const std::string& robot) const;
 
   const bool stats_;
   TimePoint start_;
+  host::RobotNames robots_;
 };
 
 }  // namespace orca::deployer

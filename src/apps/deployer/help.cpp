@@ -28,7 +28,8 @@ What to write
   --picture FILE        draws the run, in the end, if it was simulated: .svg or .png
   --view WHAT           of the picture: world (default), robot (around the first robot, ahead is up) or film (key
                         moments: start, arrivals, contacts, end)
-  --hide LAYERS         of the picture, e.g. sonar,track; layers: walls, track, robot, sonar, laser, motion, marks
+  --hide LAYERS         of the picture, e.g. sonar,track; layers: walls, track, robot, sonar, laser, motion, marks,
+                        places
   --stats               in the end, on stderr: what each connection carried, dropped and delivered late
   --log LEVEL           debug, info (default), warning, error or off; logs go to stderr
 
@@ -46,7 +47,8 @@ How to check
   --strict              warnings are errors: nothing starts with one
   --json                for programs; with --check, --print, --list-ports, --diff and --describe
 
-stdout  arrived NAME x y t | contact NAME t | trace-hash HASH (virtual clock, last line)
+stdout  arrived NAME x y t | contact NAME t | trace-hash HASH (virtual clock, last line);
+        with several robots the first two end with the name of the robot
 exit    0 finished or stopped on request   1 failed while running, output not written, or --diff found a difference
         2 graph or arguments wrong, nothing started   3 could not start, all taken down again
 )";

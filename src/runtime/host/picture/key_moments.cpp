@@ -12,24 +12,22 @@ namespace {
 constexpr std::size_t kLeast = 6;
 constexpr std::size_t kMost = 12;
 
-// Returns the moment nearest to that time.
-const Scene::Moment& at(const Scene::Robot& robot, TimePoint time) {
-  return *std::ranges::min_element(robot.moments, {}, [time](const Scene::Moment& moment) {
-    return moment.time < time ? time - moment.time : moment.time - time;
-  });
-}
-
 bool is_near(const Scene::Robot& robot, const Scene::Mark& mark) {
-  const Scene::Moment& moment = at(robot, mark.time);
+  const Scene::Moment& moment = moment_at(robot, mark.time);
   return std::hypot(moment.pose.x - mark.position.x, moment.pose.y - mark.position.y) <
          std::max(1.0, 2.0 * robot.radius_m);
 }
 
-// Adds the marks near a robot. Marks do not name their robot, so those near enough count as its own.
+// Marks that do not name their robot count as a robot's own if they are near.
+bool is_own(const Scene::Robot& robot, const Scene::Mark& mark) {
+  return mark.robot.empty() ? is_near(robot, mark) : mark.robot == robot.name;
+}
+
+// Adds the marks of a robot.
 void add_marks(const Scene::Robot& robot, const std::vector<Scene::Mark>& marks, const std::string& verb,
                std::vector<KeyMoment>& found) {
   for (const Scene::Mark& mark : marks)
-    if (is_near(robot, mark)) found.push_back({&robot, &at(robot, mark.time), verb + mark.label});
+    if (is_own(robot, mark)) found.push_back({&robot, &moment_at(robot, mark.time), verb + mark.label});
 }
 
 // Joins moments at the same time, so that a moment with two reasons is shown once.
@@ -53,7 +51,7 @@ std::optional<KeyMoment> middle_of_the_longest_gap(const Scene::Robot& robot,
   for (std::size_t i = 1; i < keys.size(); ++i) {
     const Scene::Moment& from = *keys[i - 1].moment;
     const Duration gap = keys[i].moment->time - from.time;
-    const Scene::Moment& middle = at(robot, from.time + gap / 2);
+    const Scene::Moment& middle = moment_at(robot, from.time + gap / 2);
     if (gap <= longest || &middle == &from || &middle == keys[i].moment) continue;
     longest = gap;
     best = &middle;
@@ -84,6 +82,12 @@ std::vector<KeyMoment> moments_of(const Scene::Robot& robot, const Scene& scene)
 }
 
 }  // namespace
+
+const Scene::Moment& moment_at(const Scene::Robot& robot, TimePoint time) {
+  return *std::ranges::min_element(robot.moments, {}, [time](const Scene::Moment& moment) {
+    return moment.time < time ? time - moment.time : moment.time - time;
+  });
+}
 
 std::vector<KeyMoment> key_moments(const Scene& scene) {
   std::vector<KeyMoment> all;

@@ -22,4 +22,8 @@ struct KeyMoment {
 /// @return pointers into `scene`.
 [[nodiscard]] std::vector<KeyMoment> key_moments(const Scene& scene);
 
+/// Returns the moment of a robot's run that is nearest to a time.
+/// @pre  the robot has a moment.
+[[nodiscard]] const Scene::Moment& moment_at(const Scene::Robot& robot, TimePoint time);
+
 }  // namespace orca::host

@@ -73,7 +73,8 @@ const std::vector<std::string>& view_names() {
 }
 
 const std::vector<std::string>& layer_names() {
-  static const std::vector<std::string> names{"walls", "track", "robot", "sonar", "laser", "motion", "marks"};
+  static const std::vector<std::string> names{"walls", "track",  "robot", "sonar",
+                                              "laser", "motion", "marks", "places"};
   return names;
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "legend.hpp"
 #include "painter.hpp"
 #include "views.hpp"
 
@@ -47,9 +48,15 @@ Scene::Moment last_moment(const Scene::Robot& robot) {
 
 void paint(Painter& painter, const Scene& scene) {
   painter.walls(scene.walls);
-  for (const Scene::Robot& robot : scene.robots) {
-    painter.track(robot.track);
-    painter.robot(robot, last_moment(robot));
+  // The readings of many robots cover each other and the world, so each are drawn the paler.
+  const double strength = 1.0 / std::max(1.0, static_cast<double>(scene.robots.size()));
+  for (const Scene::Robot& robot : scene.robots) painter.readings(last_moment(robot), strength);
+  painter.places(scene);
+  for (std::size_t i = 0; i < scene.robots.size(); ++i) painter.track(scene.robots[i].track, robot_colour(i));
+  for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+    const Scene::Moment last = last_moment(scene.robots[i]);
+    painter.robot(scene.robots[i], last, robot_colour(i));
+    if (scene.robots.size() > 1) painter.name(scene.robots[i], last, robot_colour(i));
   }
   for (const Scene::Mark& arrival : scene.arrivals) painter.arrival(arrival);
   for (const Scene::Mark& contact : scene.contacts) painter.contact(contact);
@@ -65,9 +72,13 @@ Result<Drawing> world_view(const Scene& scene, const std::set<Layer>& hidden) {
   const double height = std::ceil(scale * (box.max_y - box.min_y));
   const Vec2 centre{0.5 * (box.min_x + box.max_x), 0.5 * (box.min_y + box.max_y)};
   const Window window{0, 0, kWidthPixels, height, centre, 0.5 * std::numbers::pi, scale};
-  return Drawing{kWidthPixels, height, [&scene, &hidden, window](cairo_t* cairo) {
-                   Painter painter(cairo, window, hidden);
-                   paint(painter, scene);
+  const Legend legend(scene, hidden, kWidthPixels, scale);
+  return Drawing{kWidthPixels, height + legend.height(), [&scene, &hidden, window, legend](cairo_t* cairo) {
+                   {
+                     Painter painter(cairo, window, hidden);
+                     paint(painter, scene);
+                   }
+                   legend.draw(cairo, window.height);
                  }};
 }
 

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "orca/base/text.hpp"
+
 namespace orca::host {
 
 HardwareInstance::HardwareInstance(RunContext& run, std::string name, LoadedType type)
@@ -27,10 +29,19 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
     errors = container_->prepare();
     if (hw::Drawable* const drawable = container_->drawable(); drawable != nullptr && run_.wants_scene)
       drawable->keep_moments();
+    if (errors.empty()) robot_ = find_robot();
   });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, name_);
   if (!errors.empty()) return fail(Code::invalid_argument, errors.front().text, name_);
   return ok();
+}
+
+// Returns the name that the driver gives the robot, or the one in the graph if that is not one word.
+std::string HardwareInstance::find_robot() const {
+  if (container_->motion() == nullptr) return {};
+  const std::string name = container_->description().name();
+  const bool is_word = !name.empty() && name.find(' ') == std::string::npos && printable(name) == name;
+  return is_word ? name : name_;
 }
 
 void HardwareInstance::state_changed(hw::HardwareState state) {

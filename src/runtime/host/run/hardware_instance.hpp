@@ -26,6 +26,9 @@ class HardwareInstance final : public hw::HardwareHost {
   Status construct(const std::map<std::string, ParamValue>& params);
 
   [[nodiscard]] hw::HardwareContainer& container() { return *container_; }
+  /// Returns the name of the robot that this hardware moves, one word; empty if it moves nothing.
+  /// @pre  construct() has succeeded.
+  [[nodiscard]] const std::string& robot() const { return robot_; }
 
   // PluginHost and HardwareHost
   void declare_param(ParamDeclaration declaration) override { params_.push_back(std::move(declaration)); }
@@ -44,11 +47,14 @@ class HardwareInstance final : public hw::HardwareHost {
   [[nodiscard]] Executive& executive() override { return run_.executive; }
 
  private:
+  [[nodiscard]] std::string find_robot() const;
+
   RunContext& run_;
   const std::string name_;
   const LoadedType type_;  // outlives the container
   std::vector<ParamDeclaration> params_;
   hw::HardwareContainer* container_ = nullptr;
+  std::string robot_;
   hw::HardwareState traced_ = hw::HardwareState::closed;
 };
 

@@ -88,6 +88,12 @@ void Reporter::note(idl::Alarm alarm) {
   listener_.alarm(alarms_.back());
 }
 
+void Reporter::introduce(RobotNames robots) {
+  const std::lock_guard lock(mutex_);
+  robots_ = std::move(robots);
+  listener_.robots(robots_);
+}
+
 void Reporter::log(log::Level level, const std::string& who, std::string_view text) {
   log::write(level, who, text);
   const std::lock_guard lock(mutex_);
@@ -97,9 +103,13 @@ void Reporter::log(log::Level level, const std::string& who, std::string_view te
 void Reporter::draw(Scene& scene) const {
   const std::lock_guard lock(mutex_);
   for (const idl::Arrived& arrived : arrivals_)
-    scene.arrivals.push_back({arrived.name(), {arrived.x(), arrived.y()}, to_time_point(arrived.stamp())});
+    scene.arrivals.push_back({arrived.name(),
+                              {arrived.x(), arrived.y()},
+                              to_time_point(arrived.stamp()),
+                              robots_.of(arrived.origin())});
   for (const idl::Contact& contact : contacts_)
-    scene.contacts.push_back({contact.robot(), {contact.x(), contact.y()}, to_time_point(contact.stamp())});
+    scene.contacts.push_back(
+        {contact.robot(), {contact.x(), contact.y()}, to_time_point(contact.stamp()), contact.robot()});
 }
 
 void Reporter::fill(RunResult& result) const {
@@ -108,6 +118,7 @@ void Reporter::fill(RunResult& result) const {
   result.arrivals = arrivals_;
   result.contacts = contacts_;
   result.alarms = alarms_;
+  result.robots = robots_;
 }
 
 }  // namespace orca::host

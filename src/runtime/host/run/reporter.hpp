@@ -43,6 +43,8 @@ class Reporter final : public LinkObserver {
   void raise(idl::Alarm alarm);
   /// Reports an alarm whose text is in the log already, whatever it is about.
   void note(idl::Alarm alarm);
+  /// Sets the robots of the run and reports them, before anything moves.
+  void introduce(RobotNames robots);
   void log(log::Level level, const std::string& who, std::string_view text);
   /// Writes an error of the run as a whole to the log.
   void log_error(std::string_view text) const { log::error(log_name_, text); }
@@ -66,6 +68,7 @@ class Reporter final : public LinkObserver {
   std::vector<idl::Arrived> arrivals_;
   std::vector<idl::Contact> contacts_;
   std::vector<idl::Alarm> alarms_;
+  RobotNames robots_;
   LineLimit trouble_lines_;
   bool ignores_trouble_ = false;
 };

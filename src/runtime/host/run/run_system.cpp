@@ -17,6 +17,7 @@
 #include "orca/host/last_words.hpp"
 #include "orca/xml/names.hpp"
 #include "reporter.hpp"
+#include "robot_finder.hpp"
 #include "system.hpp"
 
 namespace orca::host {
@@ -61,6 +62,7 @@ class Run {
   void run() {
     if (const Status opened = open_outputs(); !opened.ok()) return refuse_output(opened.error());
     if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
+    reporter_.introduce(find_robots(graph_, system_->robots()));
     {
       const StallMonitor monitor(
           executive_, [this](const idl::Alarm& alarm) { reporter_.raise(alarm); },

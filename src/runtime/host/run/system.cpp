@@ -237,6 +237,13 @@ hw::HardwareContainer* System::container(const std::string& name) const {
   return nullptr;
 }
 
+std::map<std::string, std::string> System::robots() const {
+  std::map<std::string, std::string> robots;
+  for (const auto& hardware : hardware_)
+    if (!hardware->robot().empty()) robots[hardware->name()] = hardware->robot();
+  return robots;
+}
+
 void System::draw(Scene& scene) {
   for (const auto& hardware : hardware_)
     if (hw::Drawable* const drawable = hardware->container().drawable()) drawable->draw(scene);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -68,6 +69,9 @@ class System {
   [[nodiscard]] const std::vector<std::unique_ptr<ComponentInstance>>& components() const {
     return components_;
   }
+  /// Returns the names of the robots, by their hardware.
+  /// @pre  build() has succeeded.
+  [[nodiscard]] std::map<std::string, std::string> robots() const;
   void draw(Scene& scene);
 
  private:

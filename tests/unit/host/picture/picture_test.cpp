@@ -3,10 +3,12 @@
 #include <cairo.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <functional>
 
 #include "orca/host/picture.hpp"
+#include "picture/colours.hpp"
 #include "picture/key_moments.hpp"
 #include "temp_folder.hpp"
 
@@ -52,6 +54,33 @@ const IsColour kYellow = [](int r, int g, int b) { return r > 200 && g > 140 && 
 const IsColour kBlue = [](int r, int g, int b) { return r < 60 && g < 110 && b > 200; };
 const IsColour kDark = [](int r, int g, int b) { return r < 80 && g < 80 && b < 80; };
 const IsColour kRed = [](int r, int g, int b) { return r > 180 && g < 60 && b < 60; };
+
+// Not too light for the thin letters of places, too light for walls.
+const IsColour kGrey = [](int r, int g, int b) {
+  return r > 95 && r < 200 && std::abs(r - g) < 12 && std::abs(g - b) < 12;
+};
+
+IsColour is_like(const Colour& colour) {
+  return [colour](int r, int g, int b) {
+    const auto near = [](double part, int value) { return std::abs(255.0 * part - value) < 6.0; };
+    return near(colour.red, r) && near(colour.green, g) && near(colour.blue, b);
+  };
+}
+
+// Three robots on parallel ways, all within a few metres.
+Scene three_in_sight() {
+  Scene scene = drive(1.0);
+  for (const char* name : {"Huey", "Louie"}) {
+    Scene::Robot robot = scene.robots.back();
+    robot.name = name;
+    for (Scene::Moment& moment : robot.moments) moment.pose.y += 1.0;
+    robot.pose = robot.moments.back().pose;
+    scene.robots.push_back(robot);
+  }
+  for (Scene::Robot& robot : scene.robots)
+    robot.track = {robot.moments.front().pose.position(), robot.moments.back().pose.position()};
+  return scene;
+}
 
 Status write(const Scene& scene, const PictureOptions& options) {
   OutputFile file("the picture");
@@ -129,9 +158,9 @@ TEST_CASE("in the robot's view ahead is up, whatever its heading in the world", 
     const Pixels view(scene, {"", View::robot, {}});
     const int middle = view.width() / 2;  // the square is as high as wide
     CHECK(view.count(kRed, middle - 5, middle - 155, middle + 5, middle - 20) > 100);
-    CHECK(view.count(kRed, 0, middle + 20, view.width(), view.height()) == 0);
+    CHECK(view.count(kRed, 0, middle + 20, view.width(), view.width()) == 0);
     CHECK(view.count(kYellow, 0, 0, middle, middle) > 10);  // the sonar looks to the left
-    CHECK(view.count(kYellow, middle + 20, 0, view.width(), view.height()) == 0);
+    CHECK(view.count(kYellow, middle + 20, 0, view.width(), view.width()) == 0);
   }
 }
 
@@ -142,6 +171,92 @@ TEST_CASE("a robot is its outline with a line from the middle to the front, and 
   CHECK(view.count(kDark, middle - 3, middle - 15, middle + 3, middle - 3) >= 12);  // the line
   CHECK(view.count(kDark, middle - 3, middle + 3, middle + 3, middle + 15) == 0);
   CHECK(view.count(kDark, middle - 40, middle - 155, middle + 40, middle - 30) == 0);
+}
+
+TEST_CASE("every view shows all robots, each in a colour of its own", "[host][picture]") {
+  const Scene scene = three_in_sight();
+  for (const View view : {View::world, View::robot, View::film}) {
+    CAPTURE(static_cast<int>(view));
+    const Pixels all(scene, {"", view, {}});
+    const Pixels nobody(scene, {"", view, {Layer::robot, Layer::track}});
+    for (std::size_t number = 0; number < scene.robots.size(); ++number) {
+      CAPTURE(number);
+      const IsColour own = is_like(robot_colour(number));
+      CHECK(all.count(own) > nobody.count(own) + 50);  // without robots only the legend has their colours
+      CHECK(nobody.count(own) >= 100);
+    }
+  }
+}
+
+TEST_CASE("a long name of a robot in many bytes a letter is cut so that it can still be drawn",
+          "[host][picture]") {
+  for (const char* letter : {"o", "\u00e5", "\u20ac", "\U0001f916"}) {
+    CAPTURE(letter);
+    Scene scene = drive(1.0);
+    scene.robots[0].name.clear();
+    for (int i = 0; i < 20; ++i) scene.robots[0].name += letter;
+    CHECK(Pixels(scene, {"", View::world, {}}).width() == 1200);
+  }
+}
+
+TEST_CASE("fifty robots have fifty colours", "[host][picture]") {
+  for (std::size_t a = 0; a < 50; ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      CAPTURE(a, b);
+      const Colour one = robot_colour(a);
+      const Colour other = robot_colour(b);
+      CHECK(std::abs(one.red - other.red) + std::abs(one.green - other.green) +
+                std::abs(one.blue - other.blue) >
+            0.01);
+    }
+}
+
+TEST_CASE("a film's key moments of a robot are its own, whoever is near", "[host][picture]") {
+  Scene scene = three_in_sight();
+  scene.arrivals = {{"park", {1.0, 0.0}, TimePoint(1s), "Huey"}};
+  std::vector<std::string> who;
+  for (const KeyMoment& key : key_moments(scene))
+    if (key.why.find("park") != std::string::npos) who.push_back(key.robot->name);
+  CHECK(who == std::vector<std::string>{"Huey"});
+}
+
+TEST_CASE("names of places are written unless they are hidden, or an arrival says the same",
+          "[host][picture]") {
+  const std::set<Layer> bare{Layer::walls, Layer::track, Layer::robot};
+  Scene scene = drive(1.0);
+  scene.places = {{"kitchen", {5.0, 0.0}}};
+  const auto grey_in_the_picture = [&](std::set<Layer> hidden) {
+    const Pixels pixels(scene, {"", View::world, std::move(hidden)});
+    return pixels.count(kGrey, 0, 0, pixels.width(), pixels.height() - 40);  // above the legend
+  };
+  CHECK(grey_in_the_picture(bare) > 30);
+  std::set<Layer> barer = bare;
+  barer.insert(Layer::places);
+  CHECK(grey_in_the_picture(barer) == 0);
+  scene.arrivals = {{"kitchen", {5.1, 0.0}, TimePoint(1s)}};
+  CHECK(grey_in_the_picture(bare) < 10);
+}
+
+TEST_CASE("of two names of places that would lie on each other one is written", "[host][picture]") {
+  const auto grey = [](const std::vector<Scene::Place>& places) {
+    Scene scene = drive(1.0);
+    scene.places = places;
+    const Pixels pixels(scene, {"", View::world, {Layer::walls, Layer::track, Layer::robot}});
+    return pixels.count(kGrey, 0, 0, pixels.width(), pixels.height() - 40);
+  };
+  const int one = grey({{"kitchen", {5.0, 0.0}}});
+  CHECK(grey({{"kitchen", {5.0, 0.0}}, {"kitchen", {5.0, 1.0}}}) > 1.8 * one);
+  CHECK(grey({{"kitchen", {5.0, 0.0}}, {"kitchen", {5.3, 0.0}}}) < 1.6 * one);  // and two rings
+}
+
+TEST_CASE("a bar below the picture shows a round length at its scale", "[host][picture]") {
+  const Scene scene = drive(1.0);
+  const Pixels view(scene, {"", View::robot, {Layer::walls, Layer::track, Layer::robot, Layer::motion}});
+  // 8 m are 800 pixels, so the longest of 1, 2, 5 m that fits into 180 pixels is 1 m, 100 pixels.
+  const int top = view.width() + 26 + 11;
+  const int dark = view.count(kDark, 200, top, 760, top + 2);
+  CHECK(dark >= 190);  // two rows of pixels
+  CHECK(dark <= 212);
 }
 
 TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments between",

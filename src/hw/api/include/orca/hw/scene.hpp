@@ -50,11 +50,18 @@ struct Scene {
   struct Mark {
     std::string label;
     Vec2 position;
-    TimePoint time;  ///< Of the run's clock.
+    TimePoint time;       ///< Of the run's clock.
+    std::string robot{};  ///< Name of the robot that it is about; empty: not known.
+  };
+  /// A place of the world that has a name.
+  struct Place {
+    std::string name;
+    Vec2 position;
   };
 
   TimePoint start;  ///< Of the run: times are shown from here.
   std::vector<Line> walls;
+  std::vector<Place> places;
   std::vector<Robot> robots;
   std::vector<Mark> arrivals;  ///< Where a robot said it had arrived.
   std::vector<Mark> contacts;  ///< Where a robot touched something.

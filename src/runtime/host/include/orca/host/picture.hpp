@@ -21,7 +21,7 @@ enum class View {
 };
 
 /// The parts of a picture that can be left out.
-enum class Layer { walls, track, robot, sonar, laser, motion, marks };
+enum class Layer { walls, track, robot, sonar, laser, motion, marks, places };
 
 /// Return the view or the layer that people call by this name; nothing if there is none.
 [[nodiscard]] std::optional<View> view_from(std::string_view name);
@@ -36,9 +36,10 @@ struct PictureOptions {
   std::set<Layer> hidden;
 };
 
-/// Draws a scene into an open file, as SVG or PNG by the ending of its name in the options, with the same scale across as up. Sonar
-/// readings are yellow, lasers blue. A red arrow shows how far the robot would drive in a second, and a red
-/// arc how far it would turn.
+/// Draws a scene into an open file, as SVG or PNG by the ending of its name in the options, with the same scale
+/// across as up. Each robot has a colour of its own. Sonar readings are yellow, lasers blue. A red arrow shows
+/// how far the robot would drive in a second, and a red arc how far it would turn. A strip below explains the
+/// colours and shows the scale.
 ///
 /// @errors  invalid_argument for another ending or an empty scene; unavailable if it cannot be drawn. Whether it
 ///          could be written is returned by close() of the file.

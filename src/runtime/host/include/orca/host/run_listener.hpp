@@ -24,6 +24,8 @@ class RunListener {
   /// Reports the start of the run; the first call.
   /// @param now  time of the run's clock, which all stamps refer to.
   virtual void started(TimePoint /*now*/) {}
+  /// Reports which robots there are and which components serve them, before anything moves.
+  virtual void robots(const RobotNames& /*robots*/) {}
   /// Reports that an Arrived was delivered to a component, once for each object, however many components take
   /// it.
   virtual void arrived(const idl::Arrived& /*arrived*/) {}

@@ -9,6 +9,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
+#include "orca/host/robot_names.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
@@ -48,6 +49,7 @@ struct RunResult {
   std::vector<idl::Arrived> arrivals;       ///< In the order of their delivery.
   std::vector<idl::Contact> contacts;       ///< In the order in which they were reported.
   std::vector<idl::Alarm> alarms;           ///< In the order in which they were raised.
+  RobotNames robots;                        ///< None if the system could not be built.
   RunCounters counters;
 };
 
