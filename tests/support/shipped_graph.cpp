@@ -43,14 +43,6 @@ void ShippedGraph::watch_motion(const std::string& base) {
   text_.insert(text_.find('>', text_.find("<graph ")), plugins);
 }
 
-std::vector<std::string> ShippedGraph::components() const {
-  const std::regex declaration("<component name=\"([^\"]+)\"");
-  std::vector<std::string> names;
-  for (std::sregex_iterator found(text_.begin(), text_.end(), declaration), end; found != end; ++found)
-    names.push_back((*found)[1]);
-  return names;
-}
-
 std::vector<std::string> shipped_graphs() {
   std::vector<std::string> names;
   for (const auto& file : std::filesystem::directory_iterator(source_file("graphs")))

@@ -19,8 +19,6 @@ class ShippedGraph {
   void watch_motion(const std::string& base);
 
   [[nodiscard]] const std::string& text() const { return text_; }
-  /// Returns the names of all its components, those of its profiles included.
-  [[nodiscard]] std::vector<std::string> components() const;
 
  private:
   std::string text_;

@@ -2,6 +2,9 @@
 // What each component of each shipped graph is for: without it the run gets worse, in the way that the comment of the graph
 // says. scout_teleop is in teleop_test.cpp, because it needs a person at the keys.
 #include <catch2/catch.hpp>
+#include <cctype>
+#include <map>
+#include <regex>
 #include <set>
 
 #include "deployer.hpp"
@@ -68,6 +71,9 @@ const std::vector<Case> kCases{
     {"random_walk", "base", How::silent, Worse::stands},
 };
 
+// Shipped graphs of several robots, and of how many. Each robot has the components of scout_goto under its own prefix.
+const std::map<std::string, std::size_t> kOfSeveral{{"two_robots", 2}, {"five_robots", 5}};
+
 // A hall of 20 x 12 m with a pillar in the middle, 1.2 m wide.
 std::string hall_with_pillar(const TempFolder& folder) {
   constexpr int kWidth = 200;
@@ -87,6 +93,20 @@ Words arguments(const std::string& graph, const TempFolder& folder) {
           "--set", "x=2 m",
           "--set", "y=5.8 m",
           "--set", "goals=east: 18 5.8"};
+}
+
+// Returns the names of all components of a shipped graph in its default profile.
+std::vector<std::string> components_of(const std::string& graph) {
+  const TempFolder folder;
+  const Run printed =
+      run_deployer(Words{source_file("graphs/" + graph + ".xml"), "--print"} + arguments(graph, folder));
+  REQUIRE(printed.exit_code() == 0);
+  const std::regex declaration("<component name=\"([^\"]+)\"");
+  std::vector<std::string> names;
+  for (std::sregex_iterator found(printed.out.begin(), printed.out.end(), declaration), end; found != end;
+       ++found)
+    names.push_back((*found)[1]);
+  return names;
 }
 
 Run run(const ShippedGraph& graph, const std::string& name, const Words& more) {
@@ -118,10 +138,30 @@ void check_worse(const Run& run, Worse worse) {
 TEST_CASE("every component of every shipped graph has its case", "[system][ablation]") {
   std::set<std::string> missing;
   for (const std::string& graph : shipped_graphs())
-    for (const std::string& component : ShippedGraph(graph).components())
-      if (graph != "scout_teleop") missing.insert(graph + "." + component);
+    for (const std::string& component : components_of(graph))
+      if (graph != "scout_teleop" && !kOfSeveral.contains(graph)) missing.insert(graph + "." + component);
   for (const Case& c : kCases) CHECK(missing.erase(c.graph + "." + c.component) == 1);
   CHECK(missing.empty());
+}
+
+TEST_CASE("where several robots drive, the one that lacks a component does not arrive",
+          "[system][ablation]") {
+  for (const auto& [graph, robots] : kOfSeveral) {
+    const std::vector<std::string> components = components_of(graph);
+    CHECK(components.size() == 6 * robots);
+    for (const std::string& component : components) {
+      const std::string prefix = component.substr(0, component.find('/'));
+      const bool serves_sensor = component.ends_with("/localizer");
+      CAPTURE(graph, component);
+      const Run run = run_deployer(Words{source_file("graphs/" + graph + ".xml"), "--until", "60 s", "--fail",
+                                         component + (serves_sensor ? "=throw@0s" : "=silent@0s")} +
+                                   virtual_clock());
+      INFO(run.err);
+      CHECK(run.ended);
+      for (const Arrival& arrival : run.arrivals())
+        CHECK(arrival.robot != static_cast<char>(std::toupper(prefix[0])) + prefix.substr(1));
+    }
+  }
 }
 
 TEST_CASE("with all its components each shipped graph drives, arrives and touches nothing",
