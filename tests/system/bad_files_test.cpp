@@ -217,7 +217,7 @@ TEST_CASE("a world or a robot that is not there is named together with the param
 }
 
 TEST_CASE("a start that does not exist is refused with the nearest place", "[system][bad]") {
-  check_graph({"<param name=\"place\" value=\"start\"/>",
+  check_graph({"<param name=\"place\" value=\"${place}\"/>",
                "<param name=\"place\" value=\"strat\"/>",
                "strat",
                {"\"start\""}});
@@ -227,7 +227,7 @@ TEST_CASE("a start inside a wall is refused before anything starts", "[system][b
   const TempFolder folder;
   const std::string wall = "<param name=\"x\" value=\"0 m\"/><param name=\"y\" value=\"5 m\"/>";
   const std::string graph =
-      folder.write("graph.xml", scout_graph_with("<param name=\"place\" value=\"start\"/>", wall));
+      folder.write("graph.xml", scout_graph_with("<param name=\"place\" value=\"${place}\"/>", wall));
   const Run run = start(graph);
   INFO(run.err);
   check_refused(run);
