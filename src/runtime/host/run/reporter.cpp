@@ -14,6 +14,10 @@ constexpr Duration kTroubleInterval = 10s;
 // Returns the component of "component.port".
 std::string component_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
 
+std::string mention(std::uint64_t mission) {
+  return mission == 0 ? "" : " (mission " + std::to_string(mission) + ")";
+}
+
 std::string mention_left_out(std::uint64_t lines) {
   if (lines == 0) return {};
   return lines == 1 ? " (1 more such line was left out before)"
@@ -88,10 +92,11 @@ void Reporter::note(idl::Alarm alarm) {
   listener_.alarm(alarms_.back());
 }
 
-void Reporter::log(log::Level level, const std::string& who, std::string_view text) {
-  log::write(level, who, text);
+void Reporter::log(log::Level level, const std::string& who, std::string_view text, std::uint64_t mission) {
+  const std::string line = std::string(text) + mention(mission);
+  log::write(level, who, line);
   const std::lock_guard lock(mutex_);
-  listener_.logged(level, who, text);
+  listener_.logged(level, who, line);
 }
 
 void Reporter::draw(Scene& scene) const {

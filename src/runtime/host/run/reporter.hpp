@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <string>
@@ -43,7 +44,9 @@ class Reporter final : public LinkObserver {
   void raise(idl::Alarm alarm);
   /// Reports an alarm whose text is in the log already, whatever it is about.
   void note(idl::Alarm alarm);
-  void log(log::Level level, const std::string& who, std::string_view text);
+  /// Writes a line to the log and reports it.
+  /// @param mission  mission that the line belongs to, which the line then names; 0: none.
+  void log(log::Level level, const std::string& who, std::string_view text, std::uint64_t mission = 0);
   /// Writes an error of the run as a whole to the log.
   void log_error(std::string_view text) const { log::error(log_name_, text); }
 

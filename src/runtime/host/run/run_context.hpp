@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 
@@ -21,6 +22,8 @@ struct RunContext {
   std::function<void()> changed;
   /// Whether a picture is to be drawn at the end.
   bool wants_scene = false;
+  /// Number of missions begun so far; the last one has it as its id.
+  std::atomic<std::uint64_t> missions{0};
 };
 
 }  // namespace orca::host
