@@ -8,6 +8,7 @@
 #include <string>
 
 #include "exit_code.hpp"
+#include "orca/base/text.hpp"
 #include "orca/idl/time.hpp"
 #include "stats.hpp"
 #include "streams.hpp"
@@ -30,6 +31,10 @@ double Console::seconds(const idl::TimeValue& stamp) const {
 void Console::arrived(const idl::Arrived& arrived) {
   write_out("arrived " + arrived.name() + " " + fixed(arrived.x(), 3) + " " + fixed(arrived.y(), 3) + " " +
             fixed(seconds(arrived.stamp()), 2) + "\n");
+}
+
+void Console::goal_failed(const idl::GoalFailed& failed) {
+  write_out("failed " + failed.name() + " " + printable(failed.reason()) + "\n");
 }
 
 void Console::contact(const idl::Contact& contact) {

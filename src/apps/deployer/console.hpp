@@ -7,7 +7,7 @@
 namespace orca::deployer {
 
 /// A listener that writes one line per event of a run to standard output, each at once: `arrived NAME x y t`,
-/// `contact NAME t`, and last, in virtual time, `trace-hash <16 hex digits>`. Lengths are in metres, times in
+/// `failed NAME reason`, `contact NAME t`, and last, in virtual time, `trace-hash <16 hex digits>`. Lengths are in metres, times in
 /// seconds since the start of the run. On request, what the connections carried goes to standard error at the
 /// end.
 ///
@@ -19,6 +19,7 @@ class Console final : public host::RunListener {
 
   void started(TimePoint now) override { start_ = now; }
   void arrived(const idl::Arrived& arrived) override;
+  void goal_failed(const idl::GoalFailed& failed) override;
   void contact(const idl::Contact& contact) override;
   void ended(const host::RunResult& result) override;
   [[noreturn]] void abandon(const host::RunResult& result) override;

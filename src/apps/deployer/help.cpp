@@ -44,7 +44,7 @@ How to check
   --strict              warnings are errors: nothing starts with one
   --json                for programs; with --check, --print, --list-ports, --diff and --describe
 
-stdout  arrived NAME x y t | contact NAME t | trace-hash HASH (virtual clock, last line)
+stdout  arrived NAME x y t | failed NAME reason | contact NAME t | trace-hash HASH (virtual clock, last line)
 exit    0 finished or stopped on request   1 failed while running, output not written, or --diff found a difference
         2 graph or arguments wrong, nothing started   3 could not start, all taken down again
 )";

@@ -36,19 +36,22 @@ Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listen
   listener_.started(start_);
 }
 
-void Reporter::delivered(std::string_view component, std::string_view port, const ObjectRef& object) {
-  trace_.delivered(component, port, object);
-  if (&object.type() == &object_type<idl::Arrived>()) hear(object);
+void Reporter::pushed(const ObjectRef& object) {
+  if (&object.type() == &object_type<idl::Arrived>()) hear(*static_cast<const idl::Arrived*>(object.get()));
+  if (&object.type() == &object_type<idl::GoalFailed>())
+    hear(*static_cast<const idl::GoalFailed*>(object.get()));
 }
 
-void Reporter::hear(const ObjectRef& object) {
-  const auto& arrived = *static_cast<const idl::Arrived*>(object.get());
+void Reporter::hear(const idl::Arrived& arrived) {
   const std::lock_guard lock(mutex_);
-  ObjectRef& last = last_arrived_[arrived.origin()];
-  if (last == object) return;
-  last = object;
   arrivals_.push_back(arrived);
   listener_.arrived(arrived);
+}
+
+void Reporter::hear(const idl::GoalFailed& failed) {
+  const std::lock_guard lock(mutex_);
+  failures_.push_back(failed);
+  listener_.goal_failed(failed);
 }
 
 void Reporter::trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) {
@@ -111,6 +114,7 @@ void Reporter::fill(RunResult& result) const {
   const std::lock_guard lock(mutex_);
   result.start = start_;
   result.arrivals = arrivals_;
+  result.failures = failures_;
   result.contacts = contacts_;
   result.alarms = alarms_;
 }
