@@ -28,11 +28,15 @@ std::vector<Arrival> Run::arrivals() const {
   return arrivals;
 }
 
-std::vector<std::string> Run::contacts() const {
-  std::vector<std::string> contacts;
+std::vector<std::string> Run::failures() const { return lines_with("failed "); }
+
+std::vector<std::string> Run::contacts() const { return lines_with("contact "); }
+
+std::vector<std::string> Run::lines_with(std::string_view beginning) const {
+  std::vector<std::string> found;
   for (const std::string& line : lines())
-    if (line.starts_with("contact")) contacts.push_back(line);
-  return contacts;
+    if (line.starts_with(beginning)) found.push_back(line);
+  return found;
 }
 
 std::optional<std::string> Run::trace_hash() const {

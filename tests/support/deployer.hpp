@@ -45,9 +45,13 @@ struct Run {
   [[nodiscard]] int exit_code() const { return ending.exit_code; }
   [[nodiscard]] std::vector<std::string> lines() const;         ///< Lines of stdout.
   [[nodiscard]] std::vector<Arrival> arrivals() const;          ///< In order.
+  [[nodiscard]] std::vector<std::string> failures() const;      ///< Whole lines "failed NAME reason".
   [[nodiscard]] std::vector<std::string> contacts() const;      ///< Whole lines.
   [[nodiscard]] std::optional<std::string> trace_hash() const;  ///< If it is the last line.
   [[nodiscard]] bool says(std::string_view text) const;         ///< Whether stderr contains it.
+
+ private:
+  [[nodiscard]] std::vector<std::string> lines_with(std::string_view beginning) const;
 };
 
 /// Returns the command build/PRESET/bin/deployer with the words as arguments.

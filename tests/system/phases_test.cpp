@@ -52,11 +52,15 @@ std::size_t count_deliveries(const std::string& component, const std::string& po
   return count;
 }
 
-const std::vector<std::string> kAllConnections{
-    "avoid.goal goto.GoalPush",         "avoid.localizer localizer.RobotPosePush",
-    "avoid.odometry base.OdometryPush", "avoid.sonar base.SonarRangeReadingsPush",
-    "command.arrived goto.ArrivedPush", "fuser.motion avoid.motion",
-    "fuser.motion goto.MotionCmdPush",  "goto.localizer localizer.RobotPosePush"};
+const std::vector<std::string> kAllConnections{"avoid.goal goto.GoalPush",
+                                               "avoid.localizer localizer.RobotPosePush",
+                                               "avoid.odometry base.OdometryPush",
+                                               "avoid.sonar base.SonarRangeReadingsPush",
+                                               "command.arrived goto.ArrivedPush",
+                                               "command.failed goto.GoalFailedPush",
+                                               "fuser.motion avoid.motion",
+                                               "fuser.motion goto.MotionCmdPush",
+                                               "goto.localizer localizer.RobotPosePush"};
 
 }  // namespace
 

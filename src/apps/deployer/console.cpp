@@ -8,6 +8,7 @@
 #include <string>
 
 #include "exit_code.hpp"
+#include "orca/base/text.hpp"
 #include "orca/idl/time.hpp"
 #include "stats.hpp"
 #include "streams.hpp"
@@ -35,6 +36,11 @@ std::string Console::ending(const std::string& robot) const {
 void Console::arrived(const idl::Arrived& arrived) {
   write_out("arrived " + arrived.name() + " " + fixed(arrived.x(), 3) + " " + fixed(arrived.y(), 3) + " " +
             fixed(seconds(arrived.stamp()), 2) + ending(robots_.of(arrived.origin())));
+}
+
+void Console::goal_failed(const idl::GoalFailed& failed) {
+  write_out("failed " + failed.name() + " " + printable(failed.reason()) +
+            ending(robots_.of(failed.origin())));
 }
 
 void Console::contact(const idl::Contact& contact) {

@@ -9,9 +9,9 @@
 namespace orca::deployer {
 
 /// A listener that writes one line per event of a run to standard output, each at once: `arrived NAME x y t`,
-/// `contact NAME t`, and last, in virtual time, `trace-hash <16 hex digits>`. If there are several robots, the
-/// first two end with the name of the robot. Lengths are in metres, times in seconds since the start of the
-/// run. On request, what the connections carried goes to standard error at the end.
+/// `failed NAME reason`, `contact NAME t`, and last, in virtual time, `trace-hash <16 hex digits>`. If there are
+/// several robots, all but the last end with the name of the robot. Lengths are in metres, times in seconds since
+/// the start of the run. On request, what the connections carried goes to standard error at the end.
 ///
 /// Thread contract: as RunListener.
 class Console final : public host::RunListener {
@@ -22,6 +22,7 @@ class Console final : public host::RunListener {
   void started(TimePoint now) override { start_ = now; }
   void robots(const host::RobotNames& robots) override { robots_ = robots; }
   void arrived(const idl::Arrived& arrived) override;
+  void goal_failed(const idl::GoalFailed& failed) override;
   void contact(const idl::Contact& contact) override;
   void ended(const host::RunResult& result) override;
   [[noreturn]] void abandon(const host::RunResult& result) override;

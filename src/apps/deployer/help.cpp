@@ -47,8 +47,8 @@ How to check
   --strict              warnings are errors: nothing starts with one
   --json                for programs; with --check, --print, --list-ports, --diff and --describe
 
-stdout  arrived NAME x y t | contact NAME t | trace-hash HASH (virtual clock, last line);
-        with several robots the first two end with the name of the robot
+stdout  arrived NAME x y t | failed NAME reason | contact NAME t | trace-hash HASH (virtual clock, last line);
+        with several robots the first three end with the name of the robot
 exit    0 finished or stopped on request   1 failed while running, output not written, or --diff found a difference
         2 graph or arguments wrong, nothing started   3 could not start, all taken down again
 )";

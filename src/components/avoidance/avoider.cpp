@@ -98,6 +98,7 @@ Status Avoider::start() {
 }
 
 Outcome Avoider::work() {
+  if (const auto goal = present_goal()) note_cause(*goal);  // it avoids on the way to that goal
   if (odometry_.connected()) follow(*odometry_.get_update());
   if (sensor().new_data_arrived()) {
     if (!odometry_.connected()) memory_.clear();
@@ -141,12 +142,16 @@ std::optional<Pose2> Avoider::pose() const {
   return plane_pose(*pose);
 }
 
-std::optional<double> Avoider::goal_direction() const {
-  if (!goal_.connected()) return std::nullopt;
+ObjectPtr<idl::GoalPoint> Avoider::present_goal() const {
   const auto goal = goal_.latest();
-  const std::optional<Pose2> here = pose();
-  if (!goal || !here || to_seconds(now() - to_time_point(goal->creation_time())) > *goal_max_age_)
-    return std::nullopt;
+  const bool fresh = goal && to_seconds(now() - to_time_point(goal->creation_time())) <= *goal_max_age_;
+  return fresh ? goal : ObjectPtr<idl::GoalPoint>{};
+}
+
+std::optional<double> Avoider::goal_direction() const {
+  const auto goal = present_goal();
+  const std::optional<Pose2> here = goal ? pose() : std::nullopt;
+  if (!here) return std::nullopt;
   const auto& place = goal->coordinate().point();
   const Vec2 seen = seen_from(*here, Vec2{place.x(), place.y()});
   return std::atan2(seen.y, seen.x);

@@ -2,6 +2,9 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
 #include <deque>
 #include <optional>
 #include <sstream>
@@ -10,20 +13,25 @@
 
 #include "goal_list.hpp"
 #include "orca/base/input_file.hpp"
+#include "orca/base/text.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/system.hpp"
+#include "orca/idl/time.hpp"
+#include "orca/patterns/synchronizer.hpp"
 
 namespace {
 
 using orca::command::Route;
 
-constexpr std::size_t kMaxBytes = 1'000'000;  // of a file of goals
+constexpr std::size_t kMaxBytes = 1'000'000;                    // of a file of goals
+constexpr orca::Duration kRoomLimit = std::chrono::seconds(5);  // for Goto to take a point
+constexpr orca::Duration kGrace = std::chrono::seconds(2);      // for Goto to say that the time is up
 
 /// A component that sends the robot to one goal after the other, taken from a parameter, a file or a prompt
-/// (thesis 11.1). For each goal it subscribes to the arrivals, sends the coordinates to Goto and the list of
-/// behaviours to the fuser, and waits. After the arrival it unsubscribes and clears the list. It is done when
-/// there are no more goals.
+/// (thesis 11.1). For each goal it begins a mission, subscribes to its results, sends the coordinates to Goto
+/// and the list of behaviours to the fuser, and waits. After the result it unsubscribes and clears the list.
+/// When there are no more goals it is done, or has failed if one was not reached.
 class Command final : public orca::Component {
  public:
   explicit Command(orca::ComponentHost& host) : Component(host) {}
@@ -31,6 +39,8 @@ class Command final : public orca::Component {
  private:
   orca::Status configure() override {
     stay_active(true);
+    results_.add(arrived_);
+    results_.add(failed_);
     for (const std::string& text : *goals_)
       if (orca::Status added = add(text); !added.ok()) return added;
     return goals_file_->empty() ? orca::ok() : read_file();
@@ -38,23 +48,76 @@ class Command final : public orca::Component {
 
   orca::Outcome work() override {
     const std::optional<Route> route = next();
-    if (!route) return orca::done();
-    return drive(*route);
+    if (!route) return conclude();
+    const std::uint64_t mission = begin_mission();
+    drive(*route, mission);
+    if (const orca::Status sent = send_clients({}); !sent.ok())
+      log_warning("the robot may drive on: " + sent.error().text());
+    end_mission();
+    return orca::again();
   }
 
-  orca::Outcome drive(const Route& route) {
+  orca::Outcome conclude() const {
+    if (unreached_.empty()) return orca::done();
+    return orca::failed("not reached: " + orca::listed(unreached_) + " (" +
+                        std::to_string(unreached_.size()) + " of " + std::to_string(tried_) + " goals)");
+  }
+
+  void drive(const Route& route, std::uint64_t mission) {
+    ++tried_;
     arrived_.subscribe();
-    for (const orca::command::Place& via : route.via)
-      if (orca::Status sent = send_point(route, via, true); !sent.ok()) return give_up(sent);
-    if (orca::Status sent = send_point(route, route.goal, false); !sent.ok()) return give_up(sent);
-    if (orca::Status sent = send_clients(*behaviours_); !sent.ok()) return give_up(sent);
-    const auto arrived = arrived_.get_update_wait_max(orca::from_seconds(*goal_timeout_));
-    if (!arrived)
-      return orca::failed("goal \"" + route.name + "\" was not reached within " +
-                          std::to_string(*goal_timeout_) + " s");
+    failed_.subscribe();
+    const orca::Status sent = send_route(route);
+    if (!sent.ok()) give_up(route, orca::idl::GOAL_REFUSED, "refused: " + sent.error().text());
+    if (!sent.ok() || !wait_for_result(route, mission)) unreached_.push_back(route.name);
     arrived_.unsubscribe();
-    if (orca::Status sent = send_clients({}); !sent.ok()) return give_up(sent);
-    return orca::again();
+    failed_.unsubscribe();
+  }
+
+  orca::Status send_route(const Route& route) {
+    for (const orca::command::Place& via : route.via)
+      if (orca::Status sent = send_point(route, via, true); !sent.ok()) return sent;
+    if (orca::Status sent = send_point(route, route.goal, false); !sent.ok()) return sent;
+    return send_clients(*behaviours_);
+  }
+
+  // Returns whether the goal was reached. Results of other missions are late: their goals have been given up.
+  bool wait_for_result(const Route& route, std::uint64_t mission) {
+    const orca::TimePoint end = now() + orca::from_seconds(*goal_timeout_) + grace();
+    while (const orca::PushProxyHandle* port = results_.wait(end - now())) {
+      if (port == &arrived_) {
+        if (is_of(*arrived_.get_update(), mission)) return true;
+      } else if (const auto failed = failed_.get_update(); is_of(*failed, mission)) {
+        log_failure(route, failed->reason());
+        return false;
+      }
+    }
+    char limit[32];
+    std::snprintf(limit, sizeof limit, "%g s", *goal_timeout_);
+    give_up(route, orca::idl::GOAL_UNANSWERED, std::string("unanswered: no arrival within ") + limit);
+    return false;
+  }
+
+  static bool is_of(const orca::idl::OrcaObject& result, std::uint64_t mission) {
+    return result.mission() == mission;
+  }
+
+  void log_failure(const Route& route, const std::string& reason) const {
+    log_warning("goal \"" + route.name + "\" was not reached; " + reason);
+  }
+
+  // A Goto that says why gives up first.
+  [[nodiscard]] orca::Duration grace() const { return failed_.connected() ? kGrace : orca::Duration{0}; }
+
+  // Reports that the goal has failed, because Goto has not.
+  void give_up(const Route& route, orca::idl::GoalFailure kind, const std::string& reason) {
+    log_failure(route, reason);
+    auto failed = given_up_.loan();
+    failed->name() = route.name;
+    failed->kind(kind);
+    failed->reason() = reason;
+    failed->stamp(orca::to_time_value(now()));
+    given_up_.push(std::move(failed));
   }
 
   void stop() override {
@@ -72,7 +135,8 @@ class Command final : public orca::Component {
     point->use_orientation(!via && route.use_orientation);
     point->orientation(route.orientation);
     point->reach_angle(*reach_angle_);
-    return goto_.send(std::move(point));
+    point->time_limit(*goal_timeout_);
+    return goto_.send_wait_max(std::move(point), kRoomLimit);
   }
 
   orca::Status send_clients(const std::vector<std::string>& names) {
@@ -80,8 +144,6 @@ class Command final : public orca::Component {
     list->clients() = names;
     return clients_.send(std::move(list));
   }
-
-  static orca::Outcome give_up(const orca::Status& status) { return orca::failed(status.error().text()); }
 
   std::optional<Route> next() {
     while (waiting_.empty() && asks())
@@ -156,6 +218,15 @@ class Command final : public orca::Component {
   orca::PushProxy<orca::idl::Arrived> arrived_{
       *this, "arrived", {.text = "Reports that a goal is reached.", .manual = true, .depth = 16}};
 
+  orca::PushProxy<orca::idl::GoalFailed> failed_{
+      *this,
+      "failed",
+      {.text = "Reports that a goal is given up, and why.", .optional = true, .manual = true, .depth = 16}};
+  orca::PushServer<orca::idl::GoalFailed> given_up_{
+      *this,
+      "GoalFailedPush",
+      {.text = "Goals that failed without a word of Goto: not taken, or not answered."}};
+
   orca::Param<std::vector<std::string>> goals_{
       *this,
       "goals",
@@ -189,7 +260,10 @@ class Command final : public orca::Component {
       300.0,
       {.unit = "s", .min = 1.0, .text = "Longest time for one goal; after it the goal has failed."}};
 
+  orca::Synchronizer results_;
   std::deque<Route> waiting_;
+  std::size_t tried_ = 0;
+  std::vector<std::string> unreached_;
 };
 
 }  // namespace

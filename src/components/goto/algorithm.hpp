@@ -27,8 +27,7 @@ struct Limits {
 
 /// The state of the lap before: where the robot was, and what Goto commanded.
 struct Before {
-  bool near = false;   ///< It has been within reach before: a little drift out of it does not start the
-                       ///< approach again.
+  bool near = false;   ///< It has come within reach and is about to rest there: Step::near of that lap.
   double speed = 0.0;  ///< [m/s] that was commanded.
   double time = 0.0;   ///< [s] since then.
 };
@@ -39,15 +38,21 @@ struct Step {
   Kind kind = Kind::drive;
   double direction = 0.0;  ///< [rad] robot frame, counter-clockwise positive, in (-pi, pi].
   double speed = 0.0;      ///< [m/s]
+  bool near = false;       ///< The robot comes to rest at the target.
 };
 
 /// Computes one control step towards a target. The robot drives straight at it, slower near a goal and when
 /// the target lies off the robot's axis. Within reach it decelerates evenly to rest, then turns to the
-/// target's orientation. It circles counter-clockwise around a target without reach.
+/// target's orientation. It may drift out of reach meanwhile, by at most half the reach_radius; but then it
+/// approaches once more before it has reached the target. It circles counter-clockwise around a target
+/// without reach.
 [[nodiscard]] Step step_towards(const Target& target, const Pose2& pose, const Limits& limits,
                                 const Before& before);
 
 /// Returns whether the pose lies within the target's reach radius.
 [[nodiscard]] bool within_reach(const Target& target, const Pose2& pose);
+
+/// Returns the distance from the pose to the target [m], on the floor.
+[[nodiscard]] double distance(const Target& target, const Pose2& pose);
 
 }  // namespace orca::go

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cmath>
-#include <deque>
+#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -11,6 +11,8 @@
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
+#include "patience.hpp"
+#include "route.hpp"
 
 namespace {
 
@@ -21,8 +23,9 @@ using orca::go::Step;
 
 /// A behaviour that drives to a goal in a straight line (thesis 11.1). It circles around a goal whose
 /// reach_radius is 0 until another goal comes. A goal may lie above or below the robot: its reach is a ball.
-/// Via points that come before a goal are passed in order. A goal that comes when the route already ends in a
-/// goal replaces the whole route.
+/// Via points that come before a goal are passed in order. A point that comes when the route already ends in
+/// a goal, or belongs to another mission, replaces the whole route. While somebody subscribes to its failures
+/// it gives up goals that it cannot reach.
 class Goto final : public orca::Component {
  public:
   using Component::Component;
@@ -42,12 +45,21 @@ class Goto final : public orca::Component {
   }
 
   Status on_goal(const ObjectPtr<orca::idl::GoalPoint>& goal) {
-    if (const char* fault = fault_of(*goal); fault != nullptr)
-      return orca::fail(orca::Code::invalid_argument, "the goal \"" + goal->name() + "\" " + fault);
-    if (!route_.empty() && !route_.back()->via()) route_.clear();
-    route_.push_back(goal);
+    if (route_.is_given_up(*goal))
+      return orca::fail(orca::Code::failed_precondition,
+                        "the route to \"" + goal->name() + "\" has been given up");
+    if (const char* fault = fault_of(*goal); fault != nullptr) return refuse(*goal, fault);
+    route_.add(goal, now());
     before_.near = false;
+    patience_.begin();
     return orca::ok();
+  }
+
+  Status refuse(const orca::idl::GoalPoint& goal, const char* fault) {
+    if (goal.mission() != 0) route_.give_up(goal.mission());
+    if (failed_.subscriber_count() > 0)
+      announce(goal, orca::idl::GOAL_REFUSED, std::string("refused: it ") + fault);
+    return orca::fail(orca::Code::invalid_argument, "the goal \"" + goal.name() + "\" " + fault);
   }
 
   // Returns why the robot cannot go there; null if it can.
@@ -70,22 +82,68 @@ class Goto final : public orca::Component {
     if (route_.empty()) {
       before_ = {};
       motion_.push(orca::dont_care());
-      return orca::again();
-    }
-    goal_push_.push(*route_.front());
-    before_.near = before_.near || within_reach(target(), pose);
-    const Step step = step_towards(target(), pose, limits(), before_);
-    before_.speed = step.speed;
-    if (step.kind == Step::Kind::reached) {
-      arrive(pose);
-    } else {
-      motion_.push(orca::head(step.direction, step.speed, *weight_));
+    } else if (!is_hopeless(pose)) {
+      drive(pose);
     }
     return orca::again();
   }
 
+  void drive(const Pose2& pose) {
+    goal_push_.push(route_.next());
+    const Step step = step_towards(target(), pose, limits(), before_);
+    before_.near = step.near;
+    before_.speed = step.speed;
+    if (step.kind == Step::Kind::reached) return arrive(pose);
+    motion_.push(orca::head(step.direction, step.speed, *weight_));
+  }
+
+  // Returns whether it has given up the route. It does not as long as nobody wants to know.
+  bool is_hopeless(const Pose2& pose) {
+    const double stuck = patience_.note(distance(target(), pose), now());
+    const orca::idl::GoalPoint& next = route_.next();
+    if (failed_.subscriber_count() == 0 || next.reach_radius() <= 0.0) return false;
+    if (next.time_limit() > 0.0 && route_.age(now()) >= next.time_limit()) {
+      end_route(orca::idl::GOAL_TIMED_OUT,
+                "timed out: not reached within " + in_short(next.time_limit()) + " s");
+    } else if (*blocked_after_ > 0.0 && stuck >= *blocked_after_) {
+      end_route(orca::idl::GOAL_BLOCKED, "blocked: no nearer than " + in_short(patience_.nearest()) +
+                                             " m to " + place() + " for " + in_short(*blocked_after_) + " s");
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // Names what the robot drives to now, for people.
+  [[nodiscard]] std::string place() const { return route_.next().via() ? "the next via point" : "the goal"; }
+
+  static std::string in_short(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", number);
+    return text;
+  }
+
+  void end_route(orca::idl::GoalFailure kind, const std::string& reason) {
+    const ObjectPtr<orca::idl::GoalPoint> goal = route_.point();
+    route_.give_up(goal->mission());
+    before_ = {};
+    motion_.push(orca::full_stop());
+    announce(*goal, kind, reason);
+    end_mission();
+  }
+
+  void announce(const orca::idl::GoalPoint& goal, orca::idl::GoalFailure kind, const std::string& reason) {
+    auto failed = failed_.loan();
+    failed->name() = goal.name();
+    failed->kind(kind);
+    failed->reason() = reason;
+    failed->stamp(orca::to_time_value(now()));
+    failed_.push(std::move(failed));
+  }
+
   void stop() override {
     before_ = {};
+    patience_.begin();
     posed_at_.reset();
   }
 
@@ -107,23 +165,28 @@ class Goto final : public orca::Component {
   }
 
   void pass_via_points(const Pose2& pose) {
-    while (!route_.empty() && route_.front()->via() && within_reach(target(), pose)) route_.pop_front();
+    while (!route_.empty() && route_.next().via() && within_reach(target(), pose)) {
+      route_.pop();
+      patience_.begin();
+    }
   }
 
   void arrive(const Pose2& pose) {
     auto arrived = arrived_.loan();
-    arrived->name() = route_.front()->name();
+    arrived->name() = route_.next().name();
     arrived->x(pose.x);
     arrived->y(pose.y);
     arrived->stamp(orca::to_time_value(*posed_at_));
-    route_.pop_front();
+    route_.pop();
     before_ = {};
+    patience_.begin();
     motion_.push(orca::full_stop());
     arrived_.push(std::move(arrived));
+    end_mission();
   }
 
   [[nodiscard]] orca::go::Target target() const {
-    const orca::idl::GoalPoint& goal = *route_.front();
+    const orca::idl::GoalPoint& goal = route_.next();
     const auto& place = goal.coordinate().point();
     return {{place.x(), place.y()}, place.z() - *height_, goal.reach_radius(), goal.use_orientation(),
             goal.orientation(),     goal.reach_angle(),   goal.via()};
@@ -141,6 +204,8 @@ class Goto final : public orca::Component {
       {.text = "One command per lap: a wish, full stop on arrival, no opinion without a goal."}};
   orca::PushServer<orca::idl::Arrived> arrived_{
       *this, "ArrivedPush", {.text = "One object per goal reached; none for via points."}};
+  orca::PushServer<orca::idl::GoalFailed> failed_{
+      *this, "GoalFailedPush", {.text = "One object per goal given up: refused, blocked or timed out."}};
   orca::PushServer<orca::idl::GoalPoint> goal_push_{
       *this, "GoalPush", {.text = "The via point or goal that it drives to now, once per lap."}};
   orca::PushProxy<orca::idl::Odometry> odometry_{
@@ -180,6 +245,13 @@ class Goto final : public orca::Component {
       "circle_radius",
       0.6,
       {.unit = "m", .min = 0.05, .text = "Radius of the circle around a goal whose reach_radius is 0."}};
+  orca::Param<double> blocked_after_{
+      *this,
+      "blocked_after",
+      30.0,
+      {.unit = "s",
+       .min = 0.0,
+       .text = "Time without coming nearer to a point after which its goal is given up; 0: it never is."}};
   orca::Param<double> height_{
       *this, "height", 0.0, {.unit = "m", .text = "Height (z) of the robot in the frame of the goals."}};
   orca::Param<double> weight_{
@@ -188,7 +260,8 @@ class Goto final : public orca::Component {
       1.0,
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
-  std::deque<ObjectPtr<orca::idl::GoalPoint>> route_;
+  orca::go::Route route_;
+  orca::go::Patience patience_;
   orca::go::Before before_;
   std::optional<orca::TimePoint> posed_at_;
 };

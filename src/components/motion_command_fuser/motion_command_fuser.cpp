@@ -125,8 +125,16 @@ class MotionCommandFuser final : public orca::Component {
     tell_change(decision);
     if (!heard && decision.verdict == decision_.verdict) return orca::again();  // it only looked for silence
     decision_ = std::move(decision);
+    name_cause();
     explain(send());
     return orca::again();
+  }
+
+  // The command answers the message that decided, and belongs to the mission of the client list. Without a
+  // list, or with one that belongs to no mission, it belongs to the mission of that message.
+  void name_cause() {
+    for (const Listened& behaviour : listened_)
+      if (behaviour.name == decision_.decided_by && behaviour.last) note_cause(*behaviour.last);
   }
 
   [[nodiscard]] bool has_news() const {

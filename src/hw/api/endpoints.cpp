@@ -40,7 +40,7 @@ Status MotionHW::check(const idl::MotionCommand& command) {
 
 Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
   if (Status checked = check(command); !checked.ok()) return checked;
-  return move(command.kind() == idl::FULLSTOP ? Twist2{} : within_limits(command), now);
+  return move(command.kind() == idl::FULLSTOP ? Twist2{} : within_limits(command), command.mission(), now);
 }
 
 Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) {
@@ -48,7 +48,7 @@ Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) 
     return fail(Code::failed_precondition,
                 "this base cannot move sideways; send it a MotionCommand, not a HolonomicVelocity");
   if (Status checked = check_command(velocity); !checked.ok()) return checked;
-  return move(within_limits(velocity), now);
+  return move(within_limits(velocity), velocity.mission(), now);
 }
 
 Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
@@ -59,8 +59,9 @@ Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
   return ok();
 }
 
-Status MotionHW::move(const Twist2& wanted, TimePoint now) {
+Status MotionHW::move(const Twist2& wanted, std::uint64_t mission, TimePoint now) {
   const std::lock_guard lock(mutex_);
+  mission_ = mission;
   if (const auto reason = obstruction_.against(wanted)) {
     stand();
     return fail(Code::unavailable, "the base stands: " + *reason + "; ask for another direction");
@@ -123,6 +124,16 @@ DriveSetpoint MotionHW::due(TimePoint now) {
 void MotionHW::halt() {
   const std::lock_guard lock(mutex_);
   stand();
+}
+
+void MotionHW::end_mission() {
+  const std::lock_guard lock(mutex_);
+  mission_ = 0;
+}
+
+std::uint64_t MotionHW::mission() const {
+  const std::lock_guard lock(mutex_);
+  return mission_;
 }
 
 TimePoint MotionHW::expiry() const {

@@ -40,7 +40,7 @@ HardwareLifecycle::FollowUp HardwareLifecycle::carry_out(HardwareAction action, 
     case HardwareAction::enter: enter(to); return std::nullopt;
     case HardwareAction::open: return checked(container_.open());
     case HardwareAction::start: return checked(container_.start());
-    case HardwareAction::halt: halt(); return std::nullopt;
+    case HardwareAction::halt: halt(to); return std::nullopt;
     case HardwareAction::stand: return checked(drive_to(standing()));
     case HardwareAction::stop: container_.stop(); return std::nullopt;
     case HardwareAction::try_stop: try_stop(); return std::nullopt;
@@ -57,8 +57,11 @@ void HardwareLifecycle::enter(HardwareState state) {
   for (Strand* watcher : watchers_) watcher->wake();
 }
 
-void HardwareLifecycle::halt() {
-  if (container_.motion() != nullptr) container_.motion()->halt();
+// A fault belongs to the mission in which it happened.
+void HardwareLifecycle::halt(HardwareState to) {
+  if (container_.motion() == nullptr) return;
+  container_.motion()->halt();
+  if (to != HardwareState::fault) container_.motion()->end_mission();
 }
 
 void HardwareLifecycle::forget() {

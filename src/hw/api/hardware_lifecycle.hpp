@@ -44,7 +44,7 @@ class HardwareLifecycle {
   FollowUp carry_out(const HardwareTransition& transition);
   FollowUp carry_out(HardwareAction action, HardwareState to);
   void enter(HardwareState state);
-  void halt();
+  void halt(HardwareState to);
   void forget();
   void try_stop();
   Status drive_to(const DriveSetpoint& setpoint);

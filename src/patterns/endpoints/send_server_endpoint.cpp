@@ -139,7 +139,10 @@ bool SendServerEndpoint::handle_one(Status& outcome) {
     count_failure(*accepted.edge);
     throw;
   }
-  if (!outcome.ok()) count_failure(*accepted.edge);
+  if (!outcome.ok()) {
+    home().provenance.refuse_task();
+    count_failure(*accepted.edge);
+  }
   return true;
 }
 

@@ -77,6 +77,9 @@ class ComponentDescriber final : public Describer<ComponentHost> {
     return hardware_;
   }
   void stay_active(bool /*active*/) override { refuse("called stay_active()"); }
+  std::uint64_t begin_mission() override { refuse("began a mission"); }
+  void end_mission() override { refuse("ended a mission"); }
+  void note_cause(const idl::OrcaObject& /*object*/) override { refuse("named the cause of what it sends"); }
   [[nodiscard]] Strand& strand() override { refuse("blocked"); }
 
  private:

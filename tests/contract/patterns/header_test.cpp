@@ -14,9 +14,10 @@ struct Relay : Peer {
 
   Status on_command(const ObjectPtr<MotionCommand>& command) {
     out.push(numbered(number_of(command) + 100));
-    return ok();
+    return refuses ? Status(fail(Code::invalid_argument, "no")) : ok();
   }
 
+  bool refuses = false;
   PushProxy<MotionCommand> in{*this, "in"};
   SendServer<MotionCommand> sent{*this, "sent", &Relay::on_command};
   PushServer<MotionCommand> out{*this, "out"};
@@ -151,42 +152,102 @@ TEMPLATE_LIST_TEST_CASE("an object without a mission is a cause, but leaves the 
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("the mission of a task holds in all its laps, until the task ends or another comes",
-                        "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Sender sender(kit.executive);
-    Source source(kit.executive);
-    Relay relay(kit.executive);
-    Listener listener(kit.executive);
+namespace {
+
+// A relay that gets tasks by Send and objects by Push, and a listener to what it pushes in its laps.
+template <class Kit>
+struct Workplace {
+  explicit Workplace(Kit& of) : kit(of) {
     kit.connect(sender.endpoint("out"), relay.endpoint("sent"));
     kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
     subscribe_relay(kit, relay, source);
     listen_to_relay(kit, relay, listener);
     relay.open();
-    const auto mission_of_next_lap = [&] {
-      relay.home().provenance.begin_lap();
-      relay.out.push(numbered(3));
-      const auto pushed = listener.in.get_update_wait_max(5s);
-      return pushed ? pushed->mission() : 999;
-    };
-    const auto send_task = [&](std::uint64_t mission) {
-      auto task = numbered(1);
-      task->mission(mission);
-      REQUIRE(sender.out.send(std::move(task)).ok());
-      REQUIRE(eventually(kit.executive, [&] { return relay.handle_one(); }));
-      REQUIRE(listener.in.get_update_wait_max(5s));  // what the handler pushed
-    };
-    CHECK(mission_of_next_lap() == 0);
-    send_task(7);
-    auto other = numbered(1);
-    other->mission(42);
-    source.out.push(std::move(other));
-    REQUIRE(relay.in.get_update_wait_max(5s));
-    CHECK(relay.home().provenance.mission() == 42);
-    CHECK(mission_of_next_lap() == 7);
-    send_task(8);
-    CHECK(mission_of_next_lap() == 8);
-    relay.home().provenance.end_task();
-    CHECK(mission_of_next_lap() == 0);
+  }
+
+  // Returns the mission of an object that is pushed in a new lap, after the relay has taken one of `taken`.
+  std::uint64_t mission_of_next_lap(std::uint64_t taken = 0) {
+    relay.home().provenance.begin_lap();
+    if (taken != 0) {
+      auto other = numbered(1);
+      other->mission(taken);
+      source.out.push(std::move(other));
+      REQUIRE(relay.in.get_update_wait_max(5s));
+    }
+    return mission_of_push();
+  }
+
+  std::uint64_t mission_of_push() {
+    relay.out.push(numbered(3));
+    const auto pushed = listener.in.get_update_wait_max(5s);
+    return pushed ? pushed->mission() : 999;
+  }
+
+  void send_task(std::uint64_t mission, bool refused = false) {
+    relay.refuses = refused;
+    auto task = numbered(1);
+    task->mission(mission);
+    REQUIRE(sender.out.send(std::move(task)).ok());
+    REQUIRE(eventually(kit.executive, [&] { return relay.handle_one(); }));
+    REQUIRE(listener.in.get_update_wait_max(5s));  // what the handler pushed
+  }
+
+  Kit& kit;
+  Sender sender{kit.executive};
+  Source source{kit.executive};
+  Relay relay{kit.executive};
+  Listener listener{kit.executive};
+};
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("the mission of a task holds in all its laps, until the task ends or another comes",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Workplace<TestType> work(kit);
+    CHECK(work.mission_of_next_lap() == 0);
+    work.send_task(7);
+    CHECK(work.mission_of_next_lap() == 7);
+    work.send_task(8);
+    CHECK(work.mission_of_next_lap() == 8);
+    work.relay.home().provenance.end_task();
+    CHECK(work.mission_of_next_lap() == 0);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("objects of other missions do not lead a component away from its task",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Workplace<TestType> work(kit);
+    CHECK(work.mission_of_next_lap(42) == 42);
+    work.send_task(7);
+    CHECK(work.mission_of_next_lap(42) == 7);
+    work.relay.home().provenance.end_task();
+    CHECK(work.mission_of_next_lap(42) == 42);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("an object that a Send handler refuses is no task: the one before goes on",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Workplace<TestType> work(kit);
+    work.send_task(7);
+    work.send_task(8, true);
+    CHECK(work.mission_of_push() == 8);  // the refusal itself, and the line in the log about it
+    CHECK(work.mission_of_next_lap() == 7);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("a mission that a component begins is its task from that moment",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Workplace<TestType> work(kit);
+    work.relay.home().provenance.begin_mission(5);
+    CHECK(work.mission_of_push() == 5);
+    CHECK(work.mission_of_next_lap(42) == 5);
+    work.relay.home().provenance.begin_mission(6);
+    CHECK(work.mission_of_next_lap() == 6);
+    work.relay.home().provenance.end_task();
+    CHECK(work.mission_of_push() == 0);
   });
 }

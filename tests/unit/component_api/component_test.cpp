@@ -35,6 +35,9 @@ class Host final : public ComponentHost {
   [[nodiscard]] Device* hardware() override { return nullptr; }
   void stay_active(bool /*active*/) override {}
   [[nodiscard]] Strand& strand() override { return peer_.strand(); }
+  std::uint64_t begin_mission() override { return 1; }
+  void end_mission() override {}
+  void note_cause(const idl::OrcaObject& /*object*/) override {}
 
  private:
   mutable Peer peer_;

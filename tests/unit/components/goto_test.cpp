@@ -42,8 +42,8 @@ struct Drive {
   Before before{.time = kLap};
 
   Step lap(const Target& target) {
-    before.near = before.near || within_reach(target, pose);
     const Step step = step_towards(target, pose, kLimits, before);
+    before.near = step.near;
     before.speed = step.speed;
     if (step.kind == Step::Kind::reached) return step;
     pose.yaw = wrapped(pose.yaw + std::clamp(2.0 * step.direction, -1.0, 1.0) * kLap);
@@ -93,7 +93,7 @@ TEST_CASE("a target with orientation is reached only when the robot faces it", "
   CHECK(step.direction == Approx(6.0 - 2 * pi));
 }
 
-TEST_CASE("a robot that drifts out of the radius while it turns does not approach again",
+TEST_CASE("a robot that drifts a little out of the radius while it turns goes on turning",
           "[components][goto]") {
   Target target = target_at(0.0, 0.0);
   target.use_orientation = true;
@@ -101,6 +101,41 @@ TEST_CASE("a robot that drifts out of the radius while it turns does not approac
   const Pose2 drifted{0.25, 0.0, 1.0};
   CHECK(step_towards(target, drifted, kLimits, {.near = true}).kind == Step::Kind::turn);
   CHECK(step_towards(target, drifted, kLimits, {.near = true}).direction == Approx(-1.0));
+}
+
+TEST_CASE("a target is never reached from outside its radius, however near the robot has been",
+          "[components][goto]") {
+  Target target = target_at(0.0, 0.0);
+  for (const bool faces : {false, true}) {
+    target.use_orientation = faces;
+    target.orientation = pi;
+    target.reach_angle = 0.1;
+    for (const double off : {0.21, 0.29, 0.31, 3.0}) {
+      const Step step = step_towards(target, {off, 0.0, pi}, kLimits, {.near = true});
+      CAPTURE(faces, off);
+      CHECK(step.kind == Step::Kind::drive);
+      CHECK(step.speed >= kLimits.min_speed);
+      CHECK_FALSE(step.near);
+    }
+  }
+}
+
+TEST_CASE("a robot that is pushed away from its goal while it turns comes back before it has arrived",
+          "[components][goto]") {
+  orca::RandomStream random(8, "test", "push");
+  for (int i = 0; i < 100; ++i) {
+    Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
+    target.use_orientation = true;
+    target.orientation = random.uniform(-pi, pi);
+    target.reach_angle = 0.05;
+    Drive drive{random_pose(random)};
+    for (int laps = 0; laps < 4000 && !drive.before.near; ++laps) drive.lap(target);
+    drive.pose.x += random.uniform(-1.0, 1.0);
+    drive.pose.y += random.uniform(-1.0, 1.0);
+    CAPTURE(i);
+    CHECK(drive.follow(target).kind == Step::Kind::reached);
+    CHECK(within_reach(target, drive.pose));
+  }
 }
 
 TEST_CASE("a via point needs no orientation, and the robot does not slow down for it", "[components][goto]") {

@@ -41,6 +41,9 @@ class ComponentBench final : public ComponentHost {
   [[nodiscard]] Device* hardware() override { return hardware_; }
   void stay_active(bool active) override { stays_active_ = active; }
   [[nodiscard]] Strand& strand() override { return peer_.strand(); }
+  std::uint64_t begin_mission() override { return 1; }
+  void end_mission() override {}
+  void note_cause(const idl::OrcaObject& /*object*/) override {}
 
  private:
   void turn(Component& component) {

@@ -241,3 +241,30 @@ TEST_CASE("a base without turret refuses to point it", "[hw][motion]") {
   REQUIRE_FALSE(refused.ok());
   CHECK_THAT(refused.error().text(), Contains("no turret"));
 }
+
+TEST_CASE("a base belongs to the mission of its last command, even while it stands, until its use ends",
+          "[hw][motion][missions]") {
+  MotionHW motion(kLimits, kAge);
+  CHECK(motion.mission() == 0);
+  auto command = turn(0.1, 0.5);
+  command->mission(7);
+  REQUIRE(motion.command(*command, kStart).ok());
+  CHECK(motion.mission() == 7);
+  motion.obstruct("it touched a wall");
+  CHECK(motion.mission() == 7);
+  command = full_stop();
+  command->mission(8);
+  REQUIRE(motion.command(*command, kStart).ok());
+  motion.halt();
+  CHECK(motion.mission() == 8);
+  motion.end_mission();
+  CHECK(motion.mission() == 0);
+}
+
+TEST_CASE("a command that a base refuses does not change its mission", "[hw][motion][missions]") {
+  MotionHW motion(kLimits, kAge);
+  auto opinion = dont_care();
+  opinion->mission(7);
+  REQUIRE_FALSE(motion.command(*opinion, kStart).ok());
+  CHECK(motion.mission() == 0);
+}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// GoalPoint, Door, Arrived (thesis 8.3). idl/orca/navigation.idl gives the meaning, unit and frame of each
+/// GoalPoint, Door, Arrived, GoalFailed (thesis 8.3). idl/orca/navigation.idl gives the meaning, unit and frame of each
 /// field.
 #pragma once
 

@@ -44,13 +44,27 @@ std::string HardwareInstance::find_robot() const {
   return is_word ? name : name_;
 }
 
+std::uint64_t HardwareInstance::mission() const {
+  const bool moves = container_ != nullptr && container_->motion() != nullptr;
+  return moves ? container_->motion()->mission() : 0;
+}
+
+void HardwareInstance::report(const idl::Contact& contact) {
+  idl::Contact of_mission = contact;
+  of_mission.mission(mission());
+  run_.reporter.report(name_, of_mission);
+}
+
 void HardwareInstance::state_changed(hw::HardwareState state) {
   LastWords::prepare_thread();  // the first call from its strand
   run_.trace.state_changed(name_, to_string(traced_), to_string(state));
   traced_ = state;
-  if (state == hw::HardwareState::fault)  // the container has written the reason to the log
-    run_.reporter.note(
-        make_alarm(AlarmKind::hardware_fault, name_, to_string(Hook::strand), container_->fault()));
+  if (state == hw::HardwareState::fault) {  // the container has written the reason to the log
+    idl::Alarm alarm =
+        make_alarm(AlarmKind::hardware_fault, name_, to_string(Hook::strand), container_->fault());
+    alarm.mission(mission());
+    run_.reporter.note(std::move(alarm));
+  }
   run_.changed();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,9 +39,9 @@ class HardwareInstance final : public hw::HardwareHost {
     return {run_.seed, name_, stream};
   }
   void write_log(log::Level level, std::string_view text) const override {
-    run_.reporter.log(level, name_, text);
+    run_.reporter.log(level, name_, text, mission());
   }
-  void report(const idl::Contact& contact) override { run_.reporter.report(name_, contact); }
+  void report(const idl::Contact& contact) override;
   [[nodiscard]] std::uint64_t run_seed() const override { return run_.seed; }
   void state_changed(hw::HardwareState state) override;
   void pausing() override { pause_plugin_turn(); }
@@ -48,6 +49,8 @@ class HardwareInstance final : public hw::HardwareHost {
 
  private:
   [[nodiscard]] std::string find_robot() const;
+  // Returns the mission of the command that its base carries out; 0: none.
+  [[nodiscard]] std::uint64_t mission() const;
 
   RunContext& run_;
   const std::string name_;

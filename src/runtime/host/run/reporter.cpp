@@ -14,6 +14,10 @@ constexpr Duration kTroubleInterval = 10s;
 // Returns the component of "component.port".
 std::string component_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
 
+std::string mention(std::uint64_t mission) {
+  return mission == 0 ? "" : " (mission " + std::to_string(mission) + ")";
+}
+
 std::string mention_left_out(std::uint64_t lines) {
   if (lines == 0) return {};
   return lines == 1 ? " (1 more such line was left out before)"
@@ -32,19 +36,22 @@ Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listen
   listener_.started(start_);
 }
 
-void Reporter::delivered(std::string_view component, std::string_view port, const ObjectRef& object) {
-  trace_.delivered(component, port, object);
-  if (&object.type() == &object_type<idl::Arrived>()) hear(object);
+void Reporter::pushed(const ObjectRef& object) {
+  if (&object.type() == &object_type<idl::Arrived>()) hear(*static_cast<const idl::Arrived*>(object.get()));
+  if (&object.type() == &object_type<idl::GoalFailed>())
+    hear(*static_cast<const idl::GoalFailed*>(object.get()));
 }
 
-void Reporter::hear(const ObjectRef& object) {
-  const auto& arrived = *static_cast<const idl::Arrived*>(object.get());
+void Reporter::hear(const idl::Arrived& arrived) {
   const std::lock_guard lock(mutex_);
-  ObjectRef& last = last_arrived_[arrived.origin()];
-  if (last == object) return;
-  last = object;
   arrivals_.push_back(arrived);
   listener_.arrived(arrived);
+}
+
+void Reporter::hear(const idl::GoalFailed& failed) {
+  const std::lock_guard lock(mutex_);
+  failures_.push_back(failed);
+  listener_.goal_failed(failed);
 }
 
 void Reporter::trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) {
@@ -94,10 +101,11 @@ void Reporter::introduce(RobotNames robots) {
   listener_.robots(robots_);
 }
 
-void Reporter::log(log::Level level, const std::string& who, std::string_view text) {
-  log::write(level, who, text);
+void Reporter::log(log::Level level, const std::string& who, std::string_view text, std::uint64_t mission) {
+  const std::string line = std::string(text) + mention(mission);
+  log::write(level, who, line);
   const std::lock_guard lock(mutex_);
-  listener_.logged(level, who, text);
+  listener_.logged(level, who, line);
 }
 
 void Reporter::draw(Scene& scene) const {
@@ -116,6 +124,7 @@ void Reporter::fill(RunResult& result) const {
   const std::lock_guard lock(mutex_);
   result.start = start_;
   result.arrivals = arrivals_;
+  result.failures = failures_;
   result.contacts = contacts_;
   result.alarms = alarms_;
   result.robots = robots_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <map>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -15,8 +15,8 @@
 
 namespace orca::host {
 
-/// The collector of everything in a run that is meant for people and programs outside: arrivals, contacts,
-/// alarms, log lines. It passes each on to the listener and keeps it for the result. Deliveries go to the
+/// The collector of everything in a run that is meant for people and programs outside: results of missions,
+/// contacts, alarms, log lines. It passes each on to the listener and keeps it for the result. Deliveries go to the
 /// trace first.
 ///
 /// Thread contract: any strand or thread.
@@ -25,7 +25,11 @@ class Reporter final : public LinkObserver {
   /// @param log_name  name in the log for whatever concerns no single component.
   Reporter(const Executive& executive, Trace& trace, RunListener& listener, std::string log_name);
 
-  void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
+  void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override {
+    trace_.delivered(component, port, object);
+  }
+  /// Passes on the results of missions: Arrived and GoalFailed.
+  void pushed(const ObjectRef& object) override;
   void link_changed(std::string_view client, std::string_view server, bool connected) override {
     trace_.link_changed(client, server, connected);
   }
@@ -45,7 +49,9 @@ class Reporter final : public LinkObserver {
   void note(idl::Alarm alarm);
   /// Sets the robots of the run and reports them, before anything moves.
   void introduce(RobotNames robots);
-  void log(log::Level level, const std::string& who, std::string_view text);
+  /// Writes a line to the log and reports it.
+  /// @param mission  mission that the line belongs to, which the line then names; 0: none.
+  void log(log::Level level, const std::string& who, std::string_view text, std::uint64_t mission = 0);
   /// Writes an error of the run as a whole to the log.
   void log_error(std::string_view text) const { log::error(log_name_, text); }
 
@@ -55,7 +61,8 @@ class Reporter final : public LinkObserver {
   void fill(RunResult& result) const;
 
  private:
-  void hear(const ObjectRef& object);
+  void hear(const idl::Arrived& arrived);
+  void hear(const idl::GoalFailed& failed);
 
   const Executive& executive_;
   Trace& trace_;
@@ -63,9 +70,8 @@ class Reporter final : public LinkObserver {
   const std::string log_name_;
   const TimePoint start_;
   mutable std::mutex mutex_;
-  std::map<std::string, ObjectRef>
-      last_arrived_;  // by origin: an object with several readers is reported once
   std::vector<idl::Arrived> arrivals_;
+  std::vector<idl::GoalFailed> failures_;
   std::vector<idl::Contact> contacts_;
   std::vector<idl::Alarm> alarms_;
   RobotNames robots_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -25,6 +26,8 @@ struct RunContext {
   bool wants_scene = false;
   /// What is to fail on purpose.
   std::vector<Rehearsal> rehearsals{};
+  /// Number of missions begun so far; the last one has it as its id.
+  std::atomic<std::uint64_t> missions{0};
 };
 
 }  // namespace orca::host

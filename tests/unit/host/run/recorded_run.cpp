@@ -19,6 +19,9 @@ class Recorder final : public RunListener {
 
   void started(TimePoint /*now*/) override { record_.heard.emplace_back("started"); }
   void arrived(const idl::Arrived& arrived) override { record_.heard.push_back("arrived " + arrived.name()); }
+  void goal_failed(const idl::GoalFailed& failed) override {
+    record_.heard.push_back("failed " + failed.name() + ": " + failed.reason());
+  }
   void contact(const idl::Contact& contact) override {
     record_.heard.push_back("contact " + contact.robot());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -109,6 +110,18 @@ class Component : public PortOwner {
 
   /// Sets whether the component works even without subscribers, from now on.
   void stay_active(bool active) { host_.stay_active(active); }
+
+  /// Begins a mission, the component's task from now on. Everything that it sends and logs belongs to this
+  /// mission until it begins another or ends it, and so does whatever the receivers send because of it.
+  /// @return the mission's id, which is in the header of all these objects; never 0.
+  std::uint64_t begin_mission() { return host_.begin_mission(); }
+  /// Ends the mission at which the component works, whether it has begun it or got it by Send: what it sends
+  /// from now on belongs to none.
+  void end_mission() { host_.end_mission(); }
+  /// Makes an object the cause of what is sent from now on. If the component has no task, the object's mission
+  /// is its mission in this lap. What a PushProxy returns counts without this; what a component only looks at
+  /// with latest() or gets from a PushProxyArray does not.
+  void note_cause(const idl::OrcaObject& object) { host_.note_cause(object); }
 
   [[nodiscard]] ComponentHost& host() const { return host_; }
 

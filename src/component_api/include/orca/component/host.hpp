@@ -53,6 +53,13 @@ class ComponentHost : public PluginHost {
   [[nodiscard]] virtual Device* hardware() = 0;
 
   virtual void stay_active(bool active) = 0;
+
+  /// Begins a mission of this component and returns its id, which no other mission of the run has.
+  virtual std::uint64_t begin_mission() = 0;
+  /// Ends the component's mission, begun or received.
+  virtual void end_mission() = 0;
+  /// Makes an object the cause of everything sent from now on.
+  virtual void note_cause(const idl::OrcaObject& object) = 0;
   /// Returns the strand on which the component runs.
   [[nodiscard]] virtual Strand& strand() = 0;
 };

@@ -11,7 +11,7 @@ ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings setting
       strand(run.executive, {settings.name, settings.priority}),
       home{strand, settings.name, &run.reporter, {}},
       ports(home),
-      site(run, settings, strand, laps, hardware),
+      site(run, settings, home, laps, hardware),
       hooks(settings.name),
       rehearser(settings.rehearsal, site, strand, laps),
       params(settings.params),

@@ -5,11 +5,11 @@
 
 namespace orca::host {
 
-ComponentSite::ComponentSite(RunContext& run, const ComponentSettings& settings, Strand& strand,
+ComponentSite::ComponentSite(RunContext& run, const ComponentSettings& settings, PortHome& home,
                              const LapTrigger& laps, Device* hardware)
     : run_(run),
       settings_(settings),
-      strand_(strand),
+      home_(home),
       laps_(laps),
       hardware_(hardware),
       stays_active_(settings.autonomous.value_or(false)) {}
@@ -43,7 +43,13 @@ RandomStream ComponentSite::random(std::string_view stream) const {
 }
 
 void ComponentSite::write_log(log::Level level, std::string_view text) const {
-  run_.reporter.log(level, settings_.name, text);
+  run_.reporter.log(level, settings_.name, text, home_.provenance.mission());
+}
+
+std::uint64_t ComponentSite::begin_mission() {
+  const std::uint64_t mission = ++run_.missions;
+  home_.provenance.begin_mission(mission);
+  return mission;
 }
 
 }  // namespace orca::host

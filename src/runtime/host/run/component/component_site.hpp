@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "component_settings.hpp"
 #include "lap_trigger.hpp"
 #include "orca/component/host.hpp"
+#include "orca/patterns/endpoints/endpoint.hpp"
 #include "run/run_context.hpp"
 
 namespace orca::host {
@@ -25,9 +27,10 @@ struct Declarations {
 /// Thread contract: as ComponentHost; the rest on the component's strand, or before that starts.
 class ComponentSite final : public ComponentHost {
  public:
-  /// @param laps      what starts the component's laps; outlives this object.
+  /// @param home      of the component's ports, with its strand; outlives this object, as does `laps`.
+  /// @param laps      what starts the component's laps.
   /// @param hardware  the hardware that the graph binds to the component, or null.
-  ComponentSite(RunContext& run, const ComponentSettings& settings, Strand& strand, const LapTrigger& laps,
+  ComponentSite(RunContext& run, const ComponentSettings& settings, PortHome& home, const LapTrigger& laps,
                 Device* hardware);
 
   [[nodiscard]] const Declarations& declared() const { return declared_; }
@@ -46,15 +49,19 @@ class ComponentSite final : public ComponentHost {
   [[nodiscard]] const std::string& name() const override { return settings_.name; }
   [[nodiscard]] TimePoint now() const override { return run_.executive.now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override;
+  /// Writes a line to the log. It names the mission at which the component works, if there is one.
   void write_log(log::Level level, std::string_view text) const override;
   [[nodiscard]] Device* hardware() override { return hardware_; }
   void stay_active(bool active) override { stays_active_ = active; }
-  [[nodiscard]] Strand& strand() override { return strand_; }
+  [[nodiscard]] Strand& strand() override { return home_.strand; }
+  std::uint64_t begin_mission() override;
+  void end_mission() override { home_.provenance.end_task(); }
+  void note_cause(const idl::OrcaObject& object) override { home_.provenance.note(object); }
 
  private:
   RunContext& run_;
   const ComponentSettings& settings_;
-  Strand& strand_;
+  PortHome& home_;
   const LapTrigger& laps_;
   Device* const hardware_;
   Declarations declared_;

@@ -50,6 +50,8 @@ class Avoider : public Component {
   void follow(const idl::Odometry& odometry);
   void advise();
   [[nodiscard]] Limits limits() const;
+  /// Returns the goal that the robot drives to now; null if there is none, or if nobody has said so lately.
+  [[nodiscard]] ObjectPtr<idl::GoalPoint> present_goal() const;
   [[nodiscard]] std::optional<double> goal_direction() const;
   [[nodiscard]] std::optional<Pose2> pose() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -136,6 +137,13 @@ class MotionHW {
   /// Reports which bumpers are pressed now. A base that moves towards one is obstructed, and no command moves it there.
   void press(const std::vector<Obstruction::Pressed>& bumpers);
 
+  /// Returns the mission of the command that came last, even if the base stands since; 0: none. What happens to
+  /// the base meanwhile happens in that mission.
+  /// @thread  any.
+  [[nodiscard]] std::uint64_t mission() const;
+  /// Forgets the mission: the use of the base has ended.
+  void end_mission();
+
   /// Returns when the present command becomes too old; kForever when the base stands.
   [[nodiscard]] TimePoint expiry() const;
 
@@ -148,7 +156,7 @@ class MotionHW {
   [[nodiscard]] Twist2 within_limits(const idl::MotionCommand& command) const;
   [[nodiscard]] Twist2 within_limits(const idl::HolonomicVelocity& velocity) const;
   [[nodiscard]] double within_limits(double turn_rate) const;
-  Status move(const Twist2& wanted, TimePoint now);
+  Status move(const Twist2& wanted, std::uint64_t mission, TimePoint now);
   void stand();
 
   const DriveLimits limits_;
@@ -157,6 +165,7 @@ class MotionHW {
   DriveSetpoint setpoint_;
   Obstruction obstruction_;
   TimePoint received_{};
+  std::uint64_t mission_ = 0;
   std::uint64_t expired_ = 0;
 };
 

@@ -26,9 +26,10 @@ class RunListener {
   virtual void started(TimePoint /*now*/) {}
   /// Reports which robots there are and which components serve them, before anything moves.
   virtual void robots(const RobotNames& /*robots*/) {}
-  /// Reports that an Arrived was delivered to a component, once for each object, however many components take
-  /// it.
+  /// Reports that a component has pushed an Arrived, once for each object, however many components take it.
   virtual void arrived(const idl::Arrived& /*arrived*/) {}
+  /// Reports that a component has pushed a GoalFailed.
+  virtual void goal_failed(const idl::GoalFailed& /*failed*/) {}
   /// Reports that a robot touched something.
   virtual void contact(const idl::Contact& /*contact*/) {}
   virtual void alarm(const idl::Alarm& /*alarm*/) {}

@@ -46,7 +46,8 @@ struct RunResult {
   std::optional<Error> error;  ///< The reason, unless the run ended well.
   std::optional<std::uint64_t> trace_hash;  ///< In virtual time only, if the run started.
   TimePoint start;                          ///< Time of the run's clock, which all stamps refer to.
-  std::vector<idl::Arrived> arrivals;       ///< In the order of their delivery.
+  std::vector<idl::Arrived> arrivals;       ///< In the order in which they were pushed.
+  std::vector<idl::GoalFailed> failures;    ///< In the order in which they were pushed.
   std::vector<idl::Contact> contacts;       ///< In the order in which they were reported.
   std::vector<idl::Alarm> alarms;           ///< In the order in which they were raised.
   RobotNames robots;                        ///< None if the system could not be built.

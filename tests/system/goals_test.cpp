@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Goals that cannot be reached: who says so, why, and what happens next.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "deployer.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+Run rounds(const Words& more = {}) {
+  return run_deployer(Words{source_file("graphs/scout_rounds.xml")} + virtual_clock() + more);
+}
+
+// Drives by odometry, from the origin, with a pillar 3 m ahead and a Goto that tells why it gives up.
+Run drive(const std::string& goals, const Words& more = {}) {
+  return run_deployer(
+      Words{system_graph("goto_odometry.xml"), "--profile", "tells", "--set", "goals=" + goals} +
+      virtual_clock() + more);
+}
+
+// The same, with a Goto that only reports arrivals.
+Run drive_untold(const std::string& goals, const Words& more = {}) {
+  return run_deployer(Words{system_graph("goto_odometry.xml"), "--set", "goals=" + goals} + virtual_clock() +
+                      more);
+}
+
+std::string kinds(const Run& run) {
+  std::string kinds;
+  for (const std::string& line : run.lines())
+    kinds += line.substr(0, line.find(' ', line.find(' ') + 1)) + "; ";
+  return kinds.substr(0, kinds.find("trace-hash"));
+}
+
+}  // namespace
+
+TEST_CASE("the shipped rounds: the walled-in goal is reported as blocked, and the next one is reached",
+          "[system][goals]") {
+  const Run run = rounds();
+  INFO(run.out << run.err);
+  CHECK(kinds(run) == "arrived lab; failed archive; arrived store; ");
+  REQUIRE(run.failures().size() == 1);
+  CHECK(run.failures()[0].starts_with("failed archive blocked: no nearer than "));
+  CHECK(run.contacts().empty());
+  CHECK(run.arrivals().back().t < 120.0);
+}
+
+TEST_CASE("a goal that was not reached makes the Command fail in the end, which the graph waits for: exit 1",
+          "[system][goals]") {
+  const Run run = rounds();
+  CHECK(run.exit_code() == 1);
+  CHECK(run.says("command: work() failed: not reached: archive (1 of 3 goals)"));
+  const Run without = rounds({"--set", "goals=lab: 2 3 > 2 5.4 > 2 6.5"});
+  INFO(without.err);
+  CHECK(without.exit_code() == 0);
+  CHECK(without.failures().empty());
+}
+
+TEST_CASE("the lines about a goal that fails name its mission, and no other does", "[system][goals]") {
+  const Run run = rounds();
+  INFO(run.err);
+  CHECK(run.says("goal \"archive\" was not reached; blocked"));
+  CHECK(run.says("(mission 2)"));
+  CHECK_FALSE(run.says("(mission 1)"));
+  CHECK_FALSE(run.says("(mission 3)"));
+}
+
+TEST_CASE("the shipped rounds have one trace hash, with fiber and baton", "[system][goals]") {
+  const Words graph{source_file("graphs/scout_rounds.xml"), "--clock", "virtual", "--executor"};
+  const Run baton = run_deployer(graph + Words{"baton"}, Seconds(120));
+  REQUIRE(baton.trace_hash());
+  CHECK(baton.trace_hash() == run_deployer(graph + Words{"baton"}, Seconds(120)).trace_hash());
+  if (!kThreadSanitizer)  // which does not support fibers
+    CHECK(baton.trace_hash() == run_deployer(graph + Words{"fiber"}, Seconds(120)).trace_hash());
+}
+
+TEST_CASE("a goal that Goto refuses is reported at once with the reason, and the next one is driven to",
+          "[system][goals]") {
+  const Run run = drive("high: 0.5 0 > 1 0 1.5; low: 1 0");
+  INFO(run.out << run.err);
+  CHECK(run.exit_code() == 1);
+  REQUIRE(run.failures().size() == 1);
+  CHECK(run.failures()[0].starts_with("failed high refused: it lies so far above or below the robot"));
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(run.arrivals()[0].name == "low");
+  CHECK(run.arrivals()[0].t < drive("low: 1 0").arrivals().at(0).t + 0.5);
+}
+
+TEST_CASE("after a goal that was refused nothing is left of its route", "[system][goals]") {
+  const Run run = drive("high: 0 -2 > 1 0 1.5; low: 1 0");
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(run.arrivals()[0].t < drive("low: 1 0").arrivals().at(0).t + 0.5);  // it did not drive by 0 -2
+}
+
+TEST_CASE("a goal that takes longer than goal_timeout has timed out, and the next one is driven to",
+          "[system][goals]") {
+  const Run run = drive("far: -1 0 > 2 0; home: 0 0", {"--set", "goal_timeout=5 s"});
+  INFO(run.out << run.err);
+  CHECK(kinds(run) == "failed far; arrived home; ");
+  REQUIRE(run.failures().size() == 1);
+  CHECK(run.failures()[0] == "failed far timed out: not reached within 5 s");
+}
+
+TEST_CASE("a robot that touches what stands in its way gives up the goal behind it and drives away",
+          "[system][goals]") {
+  const Run run = drive("beyond: 6 0; home: 0 0", {"--set", "blocked_after=5 s"});
+  INFO(run.out << run.err);
+  CHECK(run.contacts().size() == 1);
+  REQUIRE(run.failures().size() == 1);
+  CHECK(run.failures()[0].starts_with("failed beyond blocked: "));
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(run.arrivals()[0].name == "home");
+}
+
+TEST_CASE("where Goto tells only arrivals, Command itself gives a goal up after goal_timeout",
+          "[system][goals]") {
+  const Run run =
+      drive_untold("beyond: 6 0; home: 0 0", {"--set", "goal_timeout=20 s", "--set", "blocked_after=5 s"});
+  INFO(run.out << run.err);
+  CHECK(run.exit_code() == 1);
+  REQUIRE(run.failures().size() == 1);
+  CHECK(run.failures()[0] == "failed beyond unanswered: no arrival within 20 s");
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(run.arrivals()[0].name == "home");
+}
+
+TEST_CASE("a goal may have more via points than Goto's queue has places", "[system][goals]") {
+  std::string goals = "far: ";
+  for (int i = 1; i <= 40; ++i) goals += std::to_string(i * 0.05) + " 0 > ";
+  const Run run = drive_untold(goals + "2 0");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(std::abs(run.arrivals()[0].x - 2.0) < 0.2);
+}
+
+TEST_CASE("at the prompt a goal that fails is no reason not to ask for the next", "[system][goals]") {
+  Subprocess program(
+      deployer(Words{system_graph("goto_odometry.xml"), "--profile", "tells", "--set", "goals="} +
+               virtual_clock()),
+      {.input = "high: 1 0 1.5\nlow: 1 0\n\n"});
+  const Run run = finish(program, Seconds(30));
+  INFO(run.out << run.err);
+  CHECK(kinds(run) == "failed high; arrived low; ");
+}
