@@ -24,6 +24,15 @@ void check_refused(const Words& words, const std::vector<std::string>& hints) {
   }
 }
 
+// Returns the number of the first line of a file that holds a text.
+std::string line_of(const std::string& file, const std::string& text) {
+  const std::vector<std::string> lines = split_lines(read_text(file));
+  const auto found = std::ranges::find_if(
+      lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+  REQUIRE(found != lines.end());
+  return std::to_string(found - lines.begin() + 1);
+}
+
 }  // namespace
 
 TEST_CASE("without a graph the deployer says what it needs", "[system][bad]") {
@@ -93,11 +102,12 @@ TEST_CASE(
   INFO(run.err);
   CHECK(run.exit_code() == 2);
   CHECK(run.out.empty());
+  const std::string world = "scout_goto.xml:" + line_of(kGraph, "<param name=\"world\"") +
+                            ":34: error G042: hardware \"scout\": parameter \"world\"";
   for (const char* hint :
        {"command line: error G014: --set a has no value", "command line: error C002: --clock expects",
         "command line: error C002: --seed expects", "command line: error C001: unknown option \"--stict\"",
-        "command line: error C002: --until", "command line: error G014: --set gaols",
-        "scout_goto.xml:36:34: error G042: hardware \"scout\": parameter \"world\""}) {
+        "command line: error C002: --until", "command line: error G014: --set gaols", world.c_str()}) {
     CAPTURE(hint);
     CHECK(run.says(hint));
   }
