@@ -97,7 +97,7 @@ TEST_CASE(
        {"command line: error G014: --set a has no value", "command line: error C002: --clock expects",
         "command line: error C002: --seed expects", "command line: error C001: unknown option \"--stict\"",
         "command line: error C002: --until", "command line: error G014: --set gaols",
-        "scout_goto.xml:33:34: error G042: hardware \"scout\": parameter \"world\""}) {
+        "scout_goto.xml:34:34: error G042: hardware \"scout\": parameter \"world\""}) {
     CAPTURE(hint);
     CHECK(run.says(hint));
   }

@@ -92,6 +92,13 @@ class Run {
 
   void refuse(const Error& error) { fail_with(RunOutcome::not_started, error); }
 
+  // A component that has failed has said itself why.
+  void refuse_start(const Error& error) {
+    const ComponentInstance* const component = system_->component(error.where);
+    if (component == nullptr || !component->has_failed()) reporter_.log_error(error.text());
+    conclude(RunOutcome::not_started, error);
+  }
+
   void fail_with(RunOutcome outcome, const Error& error) {
     reporter_.log_error(error.text());
     conclude(outcome, error);
@@ -113,7 +120,7 @@ class Run {
     stop_.on_crash([this] { stop_motors(); });
     const Status up = bring_up();
     if (!up.ok() && !stop_.requested()) {
-      fail_with(RunOutcome::not_started, up.error());
+      refuse_start(up.error());
       reporter_.log_error("not everything came up; taking all down again");
     } else {
       // After a request to stop, some components may not be up, and others would fail for want of them.

@@ -40,6 +40,8 @@ class PluginCatalogue final : public graph::Catalogue {
   std::vector<HardwareFault> hardware_conflicts(const graph::HardwareUse& use,
                                                 const graph::HardwareUse& earlier) override;
   Result<Contract> component(const std::string& type, const graph::HardwareUse* hardware) override;
+  std::vector<graph::ComponentFault> try_components(const graph::Graph& graph,
+                                                    const graph::Candidates& candidates) override;
   /// Returns the machine's time, threads and randomness that the type's plugin uses, if the run is in virtual
   /// time.
   [[nodiscard]] std::vector<std::string> unfit(PluginKind kind, const std::string& type) override;
@@ -56,6 +58,9 @@ class PluginCatalogue final : public graph::Catalogue {
   /// Sends later alarms about plugins to `sink`; null: only to the log, as at first.
   /// @thread  while nobody uses the catalogue.
   void on_alarm(AlarmSink sink) { sink_ = std::move(sink); }
+
+  /// Returns the hardware of a graph as it was prepared to be described, closed; null if it cannot be.
+  [[nodiscard]] Device* closed_hardware(const graph::HardwareUse& use);
 
   /// Releases everything that was loaded and constructed only to answer questions.
   void forget_answers();
