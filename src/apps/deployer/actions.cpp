@@ -110,6 +110,7 @@ ExitCode run(const Options& options) {
   static auto& stop =
       *new host::StopSignal(static_cast<int>(ExitCode::finished), static_cast<int>(ExitCode::failed_running));
   Loaded loaded(options);
+  loaded.catalogue.give_up_if([] { return stop.requested(); });
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;
   Console console(options.stats);

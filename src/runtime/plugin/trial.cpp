@@ -33,6 +33,8 @@ constexpr int kSignals[] = {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SI
 // Out of the reach of code that closes descriptors which are not its own.
 constexpr int kHighDescriptor = 500;
 
+constexpr std::chrono::milliseconds kLook{50};  // between two questions whether to give up
+
 constexpr const char* kEffectText = "would have left a trace outside its trial";
 
 // What the copy says: a kind, then a text with its length before it.
@@ -154,14 +156,24 @@ class Heard {
   std::string bytes_;
 };
 
-// Hears the copy out; false if it is still running at the deadline.
-bool hear_out(int fd, Clock::time_point deadline, Heard& heard) {
+// Whoever waits for the copy, and for how long.
+struct Patience {
+  Clock::time_point deadline;
+  const std::function<bool()>& give_up;
+
+  [[nodiscard]] bool given_up() const { return give_up && give_up(); }
+};
+
+// Hears the copy out; false if it is still running when the patience is over.
+bool hear_out(int fd, const Patience& patience, Heard& heard) {
+  using std::chrono::milliseconds;
   while (!heard.over) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    const auto left = std::chrono::ceil<milliseconds>(patience.deadline - Clock::now());
     pollfd input{fd, POLLIN, 0};
-    const int ready = poll(&input, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
+    const int ready = poll(&input, 1, static_cast<int>(std::clamp(left, milliseconds(0), kLook).count()));
     if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return false;
+    if (ready <= 0 && (left <= kLook || patience.given_up())) return false;
+    if (ready <= 0) continue;
     char buffer[512];
     const ssize_t count = read(fd, buffer, sizeof buffer);
     if (count < 0 && errno == EINTR) continue;
@@ -197,17 +209,17 @@ std::string how_it_died(int status, const std::string& thrown) {
   return "ended the process with exit(" + std::to_string(WEXITSTATUS(status)) + ")";
 }
 
-TrialResult conclude(pid_t copy, int fd, Duration limit) {
-  const auto deadline = Clock::now() + limit;
+TrialResult conclude(pid_t copy, int fd, Duration limit, const std::function<bool()>& give_up) {
+  const Patience patience{Clock::now() + limit, give_up};
   Heard heard;
-  const bool heard_out = hear_out(fd, deadline, heard);
+  const bool heard_out = hear_out(fd, patience, heard);
   close(fd);
   int status = 0;
-  if (heard.over || !heard_out || !has_ended(copy, deadline, status)) {
+  if (heard.over || !heard_out || !has_ended(copy, patience.deadline, status)) {
     end_copy(copy);  // its child processes may live on
     if (heard.over) return std::move(heard.result);
     // A copy that has closed the line and runs on says nothing.
-    heard.result.ending = heard_out ? Ending::silent : Ending::too_long;
+    heard.result.ending = heard_out || patience.given_up() ? Ending::silent : Ending::too_long;
     heard.result.text = "did not return within " +
                         std::to_string(std::chrono::duration_cast<std::chrono::seconds>(limit).count()) +
                         " s";
@@ -229,7 +241,8 @@ TrialResult cannot_try(int reason) {
 
 }  // namespace
 
-TrialResult run_trial(const std::function<void(TrialLine&)>& attempt, Duration limit, Effects effects) {
+TrialResult run_trial(const std::function<void(TrialLine&)>& attempt, Duration limit, Effects effects,
+                      const std::function<bool()>& give_up) {
   int fds[2];
   if (pipe2(fds, O_CLOEXEC) != 0) return cannot_try(errno);
   ActivityKeeper here;
@@ -240,7 +253,7 @@ TrialResult run_trial(const std::function<void(TrialLine&)>& attempt, Duration l
   if (copy == 0) run_copy(fds[1], attempt, effects);
   here.restore();
   close(fds[1]);
-  if (copy > 0) return conclude(copy, fds[0], limit);
+  if (copy > 0) return conclude(copy, fds[0], limit, give_up);
   close(fds[0]);
   return cannot_try(reason);
 }

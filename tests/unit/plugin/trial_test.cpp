@@ -223,6 +223,13 @@ TEST_CASE("a trial without effects lets code read, write to its streams, and use
   CHECK(without_effects([] { pause(); }).ending == Ending::too_long);
 }
 
+TEST_CASE("a trial that is given up ends soon, and blames nobody", "[plugin][trial]") {
+  const auto start = std::chrono::steady_clock::now();
+  const TrialResult tried = run_trial([](TrialLine&) { pause(); }, 30s, Effects::none, [&] { return true; });
+  CHECK(tried.ending == Ending::silent);
+  CHECK(std::chrono::steady_clock::now() - start < 10s);
+}
+
 TEST_CASE("code that closes all its descriptors does not escape its trial, nor hold it up",
           "[plugin][trial]") {
   const auto close_all = [] {

@@ -124,7 +124,7 @@ Result<Contract> PluginCatalogue::component(const std::string& type, const graph
 
 std::vector<graph::ComponentFault> PluginCatalogue::try_components(const graph::Graph& graph,
                                                                    const graph::Candidates& candidates) {
-  return rehearse(graph, candidates, *this, clock_);
+  return rehearse(graph, candidates, *this, clock_, give_up_);
 }
 
 Device* PluginCatalogue::closed_hardware(const graph::HardwareUse& use) {

@@ -72,7 +72,10 @@ class Rehearsal {
   }
 
  private:
+  void step(const std::string& component, Hook hook) { line_.step(packed({component, "", to_string(hook)})); }
+
   void add(const graph::ComponentNode& node, PluginCatalogue& catalogue) {
+    step(node.name, Hook::constructor);
     ComponentSettings settings = settings_of(node);
     settings.on_demand = false;
     auto instance = std::make_unique<ComponentInstance>(
@@ -98,7 +101,7 @@ class Rehearsal {
   }
 
   void configure(ComponentInstance& component, bool doubtful) {
-    line_.step(component.name());
+    step(component.name(), Hook::configure);
     start(component);
     const auto left_init = [&] { return component.state() != ComponentState::init; };
     if (!wait_until_holds(executive_, *changed_, executive_.now() + kLimit, left_init)) {
@@ -158,14 +161,15 @@ class Trials {
   /// Takes the findings of a trial. Returns whether another one without its culprit makes sense.
   bool take(const TrialResult& tried) {
     for (const std::string& bytes : tried.findings) add(unpacked(bytes));
-    const bool has_culprit = tried.ending != TrialResult::Ending::well &&
-                             tried.ending != TrialResult::Ending::silent && !tried.last_step.empty();
-    if (!has_culprit) return false;
+    const bool ended_early =
+        tried.ending != TrialResult::Ending::well && tried.ending != TrialResult::Ending::silent;
+    if (!ended_early || tried.last_step.empty()) return false;
+    const ComponentFault culprit = unpacked(tried.last_step);  // its text is the hook
     if (tried.ending == TrialResult::Ending::too_long) ++hangs_;
-    if (tried.ending != TrialResult::Ending::effect && !all_.doubtful.contains(tried.last_step))
-      add({tried.last_step, "", "configure() " + tried.text});
-    std::erase(left_.names, tried.last_step);
-    return ++ends_ < kMostEnds && hangs_ < kMostHangs;
+    if (tried.ending != TrialResult::Ending::effect && !all_.doubtful.contains(culprit.component))
+      add({culprit.component, "", culprit.text + " " + tried.text});
+    const bool was_left = std::erase(left_.names, culprit.component) > 0;
+    return was_left && ++ends_ < kMostEnds && hangs_ < kMostHangs;
   }
 
   [[nodiscard]] std::vector<ComponentFault> faults() const {
@@ -188,7 +192,8 @@ class Trials {
 }  // namespace
 
 std::vector<ComponentFault> rehearse(const graph::Graph& graph, const graph::Candidates& candidates,
-                                     PluginCatalogue& catalogue, ClockKind clock) {
+                                     PluginCatalogue& catalogue, ClockKind clock,
+                                     const std::function<bool()>& give_up) {
 #if defined(__SANITIZE_THREAD__)
   constexpr bool kPossible = false;
 #else
@@ -198,7 +203,7 @@ std::vector<ComponentFault> rehearse(const graph::Graph& graph, const graph::Can
   for (bool more = kPossible && !candidates.names.empty(); more;)
     more = trials.take(
         plugin::run_trial([&](TrialLine& line) { play(graph, trials.left(), catalogue, clock, line); },
-                          kLimit, plugin::Effects::none));
+                          kLimit, plugin::Effects::none, give_up));
   return trials.faults();
 }
 

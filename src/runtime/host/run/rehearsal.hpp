@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <string>
+#include <functional>
 #include <vector>
 
 #include "orca/host/catalogue.hpp"
@@ -16,10 +16,12 @@ namespace orca::host {
 /// Under ThreadSanitizer, which can follow neither fibers nor the threads of a copied process, nothing is tried.
 ///
 /// @param clock  clock of the run that the graph is checked for.
+/// @param give_up  asked several times a second; true ends the trials. Empty: never.
 /// @return their faults, in the order of the candidates.
 /// @thread  the one that uses the catalogue.
 [[nodiscard]] std::vector<graph::ComponentFault> rehearse(const graph::Graph& graph,
                                                           const graph::Candidates& candidates,
-                                                          PluginCatalogue& catalogue, ClockKind clock);
+                                                          PluginCatalogue& catalogue, ClockKind clock,
+                                                          const std::function<bool()>& give_up);
 
 }  // namespace orca::host

@@ -50,11 +50,12 @@ enum class Effects {
 /// Runs `attempt` in a copy of this process, so that a crash, exit() or endless loop affects only the copy. Its
 /// changes to memory are lost, its standard streams lead nowhere. An exception is not a failure of the trial.
 ///
-/// @param limit  [s of the steady clock] for the whole trial.
+/// @param limit    [s of the steady clock] for the whole trial.
+/// @param give_up  asked several times a second; true ends the trial, with the ending `silent`. Empty: never.
 /// @errors  ending `silent` with the reason in `text`.
 /// @thread  any; the copy has only the calling thread.
 [[nodiscard]] TrialResult run_trial(const std::function<void(TrialLine&)>& attempt, Duration limit,
-                                    Effects effects);
+                                    Effects effects, const std::function<bool()>& give_up = {});
 
 /// Runs `attempt` in a copy of this process, with any effects, and says whether the copy survived it.
 ///
