@@ -31,12 +31,11 @@ class ConfigurationCheck {
   }
 
  private:
-  // Returns whether the component can be made and connected.
-  [[nodiscard]] bool is_known(const CheckedComponent& component) const {
-    if (component.duplicate || component.value.name.empty() || !component.contract || !component.ports_known)
-      return false;
-    const CheckedHardware* const hardware = all_.model.find_hardware(component.value.hardware);
-    return component.value.hardware.empty() || (hardware != nullptr && hardware->sound);
+  // Returns whether the component can be made and connected. Its ports are known only if the hardware that it needs
+  // is sound, and every edge ends at such components.
+  static bool is_known(const CheckedComponent& component) {
+    return !component.duplicate && !component.value.name.empty() && component.contract &&
+           component.ports_known;
   }
 
   [[nodiscard]] bool is_doubtful(const ComponentNode& node) const {

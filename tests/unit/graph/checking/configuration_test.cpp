@@ -96,3 +96,20 @@ TEST_CASE("a component whose connection is wrong is in doubt: what it refuses ma
   CHECK(tried(kAvoider + fuser + "<connect from='avoid.motion' to='fuser.motion' queue='many'/>") ==
         Names{"base", "avoid?", "fuser?"});
 }
+
+TEST_CASE("a component that is given hardware which it does not take is tried all the same",
+          "[graph][configuration]") {
+  CHECK(tried(kAvoider + "<component name='fuser' type='orca.MotionCommandFuser' hardware='nothing'/>"
+                         "<connect from='avoid.motion' to='fuser.motion'/>") ==
+        Names{"base", "avoid", "fuser"});
+}
+
+TEST_CASE("components of the hardware that is wrong are not tried, and those behind them are in doubt",
+          "[graph][configuration]") {
+  std::string drowned = kAvoider;
+  const std::string hardware = "<hardware name='robot' type='orca.hw.Sim'/>";
+  drowned.replace(0, hardware.size(),
+                  "<hardware name='robot' type='orca.hw.Sim'><param name='world' "
+                  "value='flooded.world'/></hardware>");
+  CHECK(tried(drowned) == Names{"avoid?"});
+}

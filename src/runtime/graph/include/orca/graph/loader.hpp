@@ -17,9 +17,10 @@ namespace orca::graph {
 
 /// The command line's settings for a graph.
 struct LoadOptions {
-  std::vector<std::string> profiles{};  ///< Merged in this order; none: the graph's default_profile.
-  std::vector<std::string>
-      settings{};               ///< "ARG=VALUE"; a relative path in VALUE starts at the current folder.
+  /// Merged in this order; none: the graph's default_profile.
+  std::vector<std::string> profiles{};
+  /// "ARG=VALUE"; a relative path in VALUE starts at the current folder.
+  std::vector<std::string> settings{};
   bool strict = false;          ///< Warnings are errors.
   bool try_components = false;  ///< Also call configure() of the components, as a trial.
 };
