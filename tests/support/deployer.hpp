@@ -26,6 +26,9 @@ inline constexpr bool kThreadSanitizer = false;
 /// Factor on upper bounds of time, which are for the optimised program; sanitizers make it many times slower.
 inline constexpr double kSlowdown = kSanitized ? 20.0 : 1.0;
 
+/// The exit status of a start that a configure() refuses. Under ThreadSanitizer there is no trial before it.
+inline constexpr int kRefusedByComponent = kThreadSanitizer ? 3 : 2;
+
 /// A line "arrived NAME x y t", or "arrived NAME x y t ROBOT" where there are several robots.
 struct Arrival {
   std::string name;

@@ -80,8 +80,8 @@ TEST_CASE("a rehearsed failure is told as one, and a run without it has another 
   const Words graph{source_file("graphs/scout_goto.xml"), "--until", "12 s"};
   const Run whole = run_deployer(graph + virtual_clock());
   const Run failing = run_deployer(graph + Words{"--fail", "avoid=silent@10s"} + virtual_clock());
-  CHECK(failing.says("avoid: fails from now on, because the run rehearses it (--fail)"));
-  CHECK_FALSE(whole.says("rehearse"));
+  CHECK(failing.says("avoid: fails from now on, because --fail asks for it"));
+  CHECK_FALSE(whole.says("--fail"));
   CHECK(failing.trace_hash() != whole.trace_hash());
   CHECK(failing.trace_hash() ==
         run_deployer(graph + Words{"--fail", "avoid=silent@10s"} + virtual_clock()).trace_hash());

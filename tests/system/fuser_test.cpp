@@ -160,7 +160,7 @@ TEST_CASE(
       Words{system_graph("voices.xml"), "--set", "then=silence", "--set", "required=gard", "--until", "4 s"} +
       with_test_plugins() + virtual_clock());
   INFO(run.err);
-  CHECK(run.exit_code() == 3);
+  CHECK(run.exit_code() == kRefusedByComponent);
   CHECK(run.says("no behaviour \"gard\" is connected to fuser.motion; connected are:"));
   CHECK(run.out.find("trace-hash") == std::string::npos);  // nothing ran
 }
@@ -173,6 +173,6 @@ TEST_CASE("an unknown mode is refused with those that there are; priority withou
   CHECK(unknown.says("vote"));
   const Run unordered =
       run_deployer(graph + Words{"--set", "mode=priority", "--set", "order="} + virtual_clock());
-  CHECK(unordered.exit_code() == 3);
+  CHECK(unordered.exit_code() == kRefusedByComponent);
   CHECK(unordered.says("mode priority needs the parameter order"));
 }

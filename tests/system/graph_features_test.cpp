@@ -55,10 +55,26 @@ TEST_CASE("behaviours that are only candidates of the fuser drive the robot to i
   check_arrives(drive(folder, scout_graph(kLateBound)));
 }
 
-TEST_CASE("a behaviour that is not a candidate is refused at run time with the reason", "[system][graph]") {
+TEST_CASE("a behaviour that is not a candidate is an error of the graph at its place, and nothing starts",
+          "[system][graph]") {
   const TempFolder folder;
   Replacements lurker = kLateBound;
   lurker.emplace_back("value=\"goto; avoid\"", "value=\"goto; lurker\"");
+  const Run run = drive(folder, scout_graph(lurker));
+  INFO(run.err);
+  CHECK(run.exit_code() == kRefusedByComponent);
+  CHECK(run.says("no behaviour \"lurker\" is connected to fuser.motion"));
+  if (kThreadSanitizer) return;
+  CHECK(run.says("graph.xml:14:37: error G062: component \"command\": parameter \"behaviours\""));
+  CHECK(split_lines(run.err).size() == 1);
+}
+
+TEST_CASE("a behaviour that is not a candidate is refused at run time if nobody has asked before",
+          "[system][graph]") {
+  const TempFolder folder;
+  Replacements lurker = kLateBound;
+  lurker.emplace_back("value=\"goto; avoid\"", "value=\"goto; lurker\"");
+  lurker.emplace_back("<connect from=\"command.check\" to=\"fuser.ClientListQuery\"/>", "");
   const Run run = drive(folder, scout_graph(lurker));
   INFO(run.err);
   CHECK(run.exit_code() == 1);

@@ -43,6 +43,25 @@ TEST_CASE("a log that cannot be written stops no component, and the loss is repo
 
 TEST_CASE("a log in a folder that is not there keeps the system from starting", "[system][log]") {
   const Run run = logging_to("/no/such/folder/robot.log");
-  CHECK(run.exit_code() == 3);
+  CHECK(run.exit_code() == kRefusedByComponent);
   CHECK(run.says("/no/such/folder/robot.log"));
+}
+
+TEST_CASE("--check writes no log, and leaves to the start what only opening the file can tell",
+          "[system][log]") {
+  const TempFolder folder;
+  const Words graph = Words{system_graph("log_server.xml"), "--set", "file=" + folder.file("robot.log")};
+  CHECK(run_deployer(graph + with_test_plugins() + Words{"--check"}).exit_code() == 0);
+  CHECK_FALSE(std::filesystem::exists(folder.file("robot.log")));
+}
+
+TEST_CASE("what configure() refuses only at the start is told once", "[system][log]") {
+  const Run run = logging_to("/tmp");
+  INFO(run.err);
+  CHECK(run.exit_code() == 3);
+  const auto lines = split_lines(run.err);
+  CHECK(std::ranges::count_if(lines, [](const std::string& line) {
+          return line.find("Is a directory") != std::string::npos;
+        }) == 1);
+  CHECK(run.says("log: configure() said: parameter \"file\": /tmp: cannot be written: Is a directory"));
 }

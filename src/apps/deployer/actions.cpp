@@ -46,7 +46,8 @@ struct Loaded {
 };
 
 void load(const std::string& file, const Options& options, Loaded& loaded) {
-  loaded.graph = graph::load_file(file, {options.profiles, options.settings, options.strict},
+  const bool judges = options.action == Action::check || options.action == Action::run;
+  loaded.graph = graph::load_file(file, {options.profiles, options.settings, options.strict, judges},
                                   loaded.catalogue, loaded.diagnostics);
   const bool as_json = options.json && options.action == Action::check;
   if (!as_json) std::fputs(loaded.diagnostics.text().c_str(), stderr);
@@ -109,6 +110,7 @@ ExitCode run(const Options& options) {
   static auto& stop =
       *new host::StopSignal(static_cast<int>(ExitCode::finished), static_cast<int>(ExitCode::failed_running));
   Loaded loaded(options);
+  loaded.catalogue.give_up_if([] { return stop.requested(); });
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;
   Console console(options.stats);

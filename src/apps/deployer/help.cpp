@@ -34,7 +34,8 @@ What to write
   --log LEVEL           debug, info (default), warning, error or off; logs go to stderr
 
 Instead of running
-  --check               only check the graph against the plugins; all errors at once
+  --check               only check the graph against the plugins, and what the components say to their parameters, in
+                        a trial that leaves no trace; all errors at once
   --print               the graph as it is: files, arguments and profiles merged, defaults filled in, in SI
   --list-ports          every port of every component: pattern, role, type, and what it is connected to
   --dot, --mermaid      the graph as a picture, for Graphviz (| dot -Tsvg > graph.svg) or for a web page

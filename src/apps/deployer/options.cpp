@@ -72,7 +72,7 @@ Status set_until(Options& options, const std::string& value) {
 }
 
 // Reads COMPONENT=HOW@TIME.
-Status add_rehearsal(Options& options, const std::string& value) {
+Status add_failure(Options& options, const std::string& value) {
   const auto equals = value.find('=');
   const auto at = value.find('@', equals == std::string::npos ? 0 : equals);
   if (equals == std::string::npos || equals == 0 || at == std::string::npos)
@@ -82,7 +82,7 @@ Status add_rehearsal(Options& options, const std::string& value) {
   if (!failure) return expected("--fail", listed(host::failure_names()) + " before the @", how);
   const Result<Duration> time = xml::parse_duration(value.substr(at + 1));
   if (!time) return fail(Code::invalid_argument, "--fail: " + time.error().message);
-  options.run.rehearsals.push_back({value.substr(0, equals), *failure, *time});
+  options.run.planned_failures.push_back({value.substr(0, equals), *failure, *time});
   return ok();
 }
 
@@ -152,7 +152,7 @@ std::map<std::string, Option> option_table(Words& executor) {
        {true, [&executor](Options&, const std::string& v) { return set_executor(executor, v); }}},
       {"--seed", {true, set_seed}},
       {"--until", {true, set_until}},
-      {"--fail", {true, add_rehearsal, true}},
+      {"--fail", {true, add_failure, true}},
       {"--trace", {true, [](Options& o, const std::string& v) { return o.run.trace_file = v, ok(); }}},
       {"--picture", {true, set_picture}},
       {"--view", {true, set_view}},

@@ -76,7 +76,7 @@ Avoider::Avoider(ComponentHost& host, double echo_time)
 
 Status Avoider::params_changed() {
   if (*stop_distance_ < *safe_distance_) return ok();
-  return fail(Code::invalid_argument, "stop_distance must be less than safe_distance");
+  return stop_distance_.refuse("it must be less than safe_distance");
 }
 
 Status Avoider::configure() {

@@ -42,8 +42,23 @@ class Command final : public orca::Component {
     results_.add(arrived_);
     results_.add(failed_);
     for (const std::string& text : *goals_)
-      if (orca::Status added = add(text); !added.ok()) return added;
-    return goals_file_->empty() ? orca::ok() : read_file();
+      if (const orca::Status added = add(text); !added.ok()) return goals_.refuse(added.error());
+    if (!goals_file_->empty())
+      if (const orca::Status read = read_file(); !read.ok()) return goals_file_.refuse(read.error());
+    return check_behaviours();
+  }
+
+  // Asks the fuser whether it knows the behaviours, because a list with a wrong name would be refused on the way.
+  orca::Status check_behaviours() {
+    if (!check_.connected()) return orca::ok();
+    auto list = check_.loan();
+    list->clients() = *behaviours_;
+    const auto checked = check_.query(std::move(list));
+    if (checked) return orca::ok();
+    if (checked.error().code == orca::Code::not_found) return behaviours_.refuse(checked.error());
+    return orca::fail(checked.error().code,
+                      "cannot ask whether its behaviours are there: " + checked.error().message +
+                          "; let it come up after the fuser, with start_after");
   }
 
   orca::Outcome work() override {
@@ -215,6 +230,11 @@ class Command final : public orca::Component {
       *this, "goto", {.text = "Receiver of the coordinates: a Goto."}};
   orca::SendProxy<orca::idl::ClientList> clients_{
       *this, "clients", {.text = "Receiver of the list of behaviours: a fuser."}};
+  orca::QueryProxy<orca::idl::ClientList, orca::idl::ClientList> check_{
+      *this,
+      "check",
+      {.text = "Asked once, before the start, whether the list of behaviours is right: a fuser.",
+       .optional = true}};
   orca::PushProxy<orca::idl::Arrived> arrived_{
       *this, "arrived", {.text = "Reports that a goal is reached.", .manual = true, .depth = 16}};
 

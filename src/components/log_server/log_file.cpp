@@ -41,6 +41,11 @@ LogFile::~LogFile() {
 Status LogFile::open() {
   if (has_been_read(path_))
     return fail(Code::invalid_argument, "the log would be written into a file that has been read", path_);
+  // Said without opening anything, so that a check of the graph can say it too.
+  const std::size_t slash = path_.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : path_.substr(0, slash + 1);
+  if (access(folder.c_str(), X_OK) != 0)
+    return fail(Code::unavailable, std::string("cannot be written: ") + std::strerror(errno), path_);
   fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0644);
   if (fd_ < 0)
     return fail(Code::unavailable, std::string("cannot be written: ") + std::strerror(errno), path_);

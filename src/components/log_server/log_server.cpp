@@ -32,7 +32,8 @@ class LogServer final : public orca::Component {
  private:
   Status configure() override {
     file_.emplace(*path_, static_cast<std::uint64_t>(*most_bytes_), static_cast<int>(*keep_));
-    return file_->open();
+    if (const Status opened = file_->open(); !opened.ok()) return path_.refuse(opened.error());
+    return orca::ok();
   }
 
   // Records are handled between laps, so a lap has nothing to do.

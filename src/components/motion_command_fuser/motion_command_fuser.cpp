@@ -24,6 +24,7 @@ using orca::fuse::Voice;
 using orca::fuse::Wish;
 using MotionPort = orca::PushProxyArray<orca::idl::MotionCommand>;
 using Source = MotionPort::Source;
+using Names = orca::Param<std::vector<std::string>>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -57,19 +58,22 @@ class MotionCommandFuser final : public orca::Component {
       lap_on("motion", kWatchPeriod);
     }
     if (Status sound = params_changed(); !sound.ok()) return sound;
-    return first_clients_->empty() ? orca::ok() : choose(*first_clients_);
+    if (const Status chosen = choose(*first_clients_); !chosen.ok())
+      return first_clients_.refuse(chosen.error());
+    return orca::ok();
   }
 
   Status params_changed() override {
     orca::fuse::Rules rules = this->rules();
     if (rules.mode == orca::fuse::Mode::priority && rules.order.empty())
-      return orca::fail(orca::Code::invalid_argument, "mode priority needs the parameter order");
-    if (Status read = read_nodes(*suppress_, rules.wiring.suppress); !read.ok()) return read;
-    if (Status read = read_nodes(*inhibit_, rules.wiring.inhibit); !read.ok()) return read;
-    // A required behaviour that is absent would keep the robot standing for good.
-    for (const std::vector<std::string>* names : {&*required_, &*optional_})
-      for (const std::string& name : *names)
-        if (!source_of(name)) return not_connected(name);
+      return mode_.refuse("mode priority needs the parameter order: the behaviours, highest first");
+    if (Status read = read_nodes(suppress_, rules.wiring.suppress); !read.ok()) return read;
+    if (Status read = read_nodes(inhibit_, rules.wiring.inhibit); !read.ok()) return read;
+    // A required behaviour that is absent would keep the robot standing for good, and a misspelt name in the order
+    // would silently change who goes first.
+    for (const Names* names : {&required_, &optional_, &order_})
+      for (const std::string& name : **names)
+        if (!source_of(name)) return names->refuse(not_connected(name).error());
     rules_ = std::move(rules);
     return orca::ok();
   }
@@ -98,6 +102,12 @@ class MotionCommandFuser final : public orca::Component {
       listed ? source.subscribe() : source.unsubscribe();
     }
     return orca::ok();
+  }
+
+  orca::Result<orca::Loan<orca::idl::ClientList>> on_check(const ObjectPtr<orca::idl::ClientList>& list) {
+    for (const std::string& name : list->clients())
+      if (!source_of(name)) return not_connected(name).error();
+    return orca::make_object<orca::idl::ClientList>(*list);
   }
 
   // Forgets the messages of the behaviours that it listened to before.
@@ -263,13 +273,13 @@ class MotionCommandFuser final : public orca::Component {
     return true;
   }
 
-  static Status read_nodes(const std::vector<std::string>& texts, std::vector<orca::fuse::Node>& nodes) {
-    for (const std::string& text : texts) {
+  Status read_nodes(const Names& texts, std::vector<orca::fuse::Node>& nodes) const {
+    for (const std::string& text : *texts) {
       const auto node = orca::fuse::parse_node(text);
       if (!node)
-        return orca::fail(orca::Code::invalid_argument, "cannot read \"" + text +
-                                                            "\"; expected \"higher > lower\", as "
-                                                            "\"avoid > goto\"");
+        return texts.refuse("cannot read \"" + text + "\"; expected \"higher > lower\", as \"avoid > goto\"");
+      for (const std::string& name : {node->higher, node->lower})
+        if (!source_of(name)) return texts.refuse(not_connected(name).error());
       nodes.push_back(*node);
     }
     return orca::ok();
@@ -319,6 +329,11 @@ class MotionCommandFuser final : public orca::Component {
       "ClientListSend",
       &MotionCommandFuser::on_client_list,
       {.text = "List of the behaviours to listen to from now on."}};
+  orca::QueryServer<orca::idl::ClientList, orca::idl::ClientList> check_{
+      *this,
+      "ClientListQuery",
+      &MotionCommandFuser::on_check,
+      {.text = "Whether a list of behaviours is right: the list itself, or the error that it would give."}};
   orca::SendProxy<orca::idl::MotionCommand> base_{
       *this, "base", {.text = "Receiver of the fused command: a robot base."}};
 
@@ -349,14 +364,14 @@ class MotionCommandFuser final : public orca::Component {
       "all_wait",
       0.2,
       {.unit = "s", .min = 0.001, .text = "Longest wait for silent behaviours, with sync all."}};
-  orca::Param<std::vector<std::string>> first_clients_{
+  Names first_clients_{
       *this, "clients", {}, {.fixed = true, .text = "Behaviours to listen to until a client list comes."}};
-  orca::Param<std::vector<std::string>> required_{
+  Names required_{
       *this,
       "required",
       {},
       {.text = "Behaviours without which the robot does not move, even if a client list leaves them out."}};
-  orca::Param<std::vector<std::string>> optional_{
+  Names optional_{
       *this,
       "optional",
       {},
@@ -408,14 +423,14 @@ class MotionCommandFuser final : public orca::Component {
       {.min = 0.0,
        .max = 1.0,
        .text = "Mode vote: votes for its last choice; 0: none, 1: as many as all wishes have together."}};
-  orca::Param<std::vector<std::string>> order_{
+  Names order_{
       *this, "order", {}, {.text = "Mode priority: behaviours in order of priority, highest first."}};
-  orca::Param<std::vector<std::string>> suppress_{
+  Names suppress_{
       *this,
       "suppress",
       {},
       {.text = "Mode subsumption: with \"avoid > goto\" a wish of avoid replaces the wish of goto."}};
-  orca::Param<std::vector<std::string>> inhibit_{
+  Names inhibit_{
       *this, "inhibit", {}, {.text = "Mode subsumption: with \"arm > goto\" a wish of arm silences goto."}};
   orca::Param<double> hold_{
       *this,

@@ -34,7 +34,7 @@ class RandomWalk final : public orca::Component {
 
   orca::Status params_changed() override {
     if (*least_turn_ <= *greatest_turn_) return orca::ok();
-    return orca::fail(orca::Code::invalid_argument, "least_turn must not be above greatest_turn");
+    return least_turn_.refuse("it must not be above greatest_turn");
   }
 
   orca::Status start() override {

@@ -68,8 +68,7 @@ class Teleop final : public orca::Component {
  private:
   Status configure() override {
     if (keyboard_->empty() && joystick_->empty())
-      return orca::fail(orca::Code::invalid_argument,
-                        "one of its parameters keyboard and joystick must be set");
+      return keyboard_.refuse("it and joystick are both empty; set one of them");
     return orca::ok();
   }
 

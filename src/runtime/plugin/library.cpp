@@ -16,13 +16,13 @@
 #include "inspection/load_error.hpp"
 #include "inspection/plugin_file.hpp"
 #include "inspection/plugin_threads.hpp"
-#include "inspection/trial.hpp"
 #include "loaded_plugins.hpp"
 #include "orca/base/activity.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/plugin/describe.hpp"
+#include "orca/plugin/trial.hpp"
 
 namespace orca::plugin {
 namespace {

@@ -21,7 +21,7 @@ namespace {
 const fs::path kFolder = fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs/broken";
 
 graph::LoadOptions options_in(const std::string& text) {
-  graph::LoadOptions options;
+  graph::LoadOptions options{.try_components = true};
   std::istringstream words(text.substr(0, text.find('\n')));
   std::string word;
   words >> word >> word;

@@ -216,6 +216,21 @@ Result<Contract> FakeCatalogue::component(const std::string& type, const graph::
   return find(type, PluginKind::component);
 }
 
+std::vector<graph::ComponentFault> FakeCatalogue::try_components(const graph::Graph& graph,
+                                                                 const graph::Candidates& candidates) {
+  std::vector<graph::ComponentFault> faults;
+  for (const std::string& name : candidates.names) {
+    calls.push_back((candidates.doubtful.contains(name) ? "doubt " : "try ") + name);
+    const graph::ComponentNode& node = *graph.find_component(name);
+    const auto label = node.params.find("label");
+    if (label == node.params.end()) continue;
+    const std::string& text = std::get<std::string>(label->second);
+    if (text == "torn") faults.push_back({name, "label", "nobody can read it; write another"});
+    if (text == "lost") faults.push_back({name, "", "configure() ended the process with exit(3)"});
+  }
+  return faults;
+}
+
 std::vector<std::string> FakeCatalogue::unfit(PluginKind /*kind*/, const std::string& type) {
   if (type != "test.Clock") return {};
   return {"uses time, which reads the machine's clock; use now()",

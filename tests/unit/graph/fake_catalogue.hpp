@@ -11,7 +11,8 @@
 ///
 /// A hardware whose parameter "world" ends in "broken.world" has a broken world file, one where it ends in
 /// "flooded.world" cannot work with that value. A hardware "orca.hw.Deep" has a fault at its parameter "ship" that
-/// follows from a "depth" of 0. "test.Clock" is unfit for any run, for two reasons.
+/// follows from a "depth" of 0. A component whose parameter "label" is "torn" refuses it, one where it is "lost" ends
+/// its trial. "test.Clock" is unfit for any run, for two reasons.
 class FakeCatalogue final : public orca::graph::Catalogue {
  public:
   FakeCatalogue();
@@ -23,13 +24,15 @@ class FakeCatalogue final : public orca::graph::Catalogue {
                                                       const orca::graph::HardwareUse& earlier) override;
   orca::Result<orca::Contract> component(const std::string& type,
                                          const orca::graph::HardwareUse* hardware) override;
+  std::vector<orca::graph::ComponentFault> try_components(const orca::graph::Graph& graph,
+                                                          const orca::graph::Candidates& candidates) override;
   std::vector<std::string> unfit(orca::PluginKind kind, const std::string& type) override;
   [[nodiscard]] std::vector<std::string> type_names(orca::PluginKind kind) const override;
 
   void add(orca::Contract contract) { types_[contract.type] = std::move(contract); }
 
   /// The calls that it received, in order: "folders /a;/b", "hardware T", "validate NAME", "component T with
-  /// NAME".
+  /// NAME", "try NAME" or "doubt NAME" for each component that is to be configured.
   std::vector<std::string> calls;
 
  private:

@@ -186,6 +186,7 @@ class ComponentReader {
   void read_content() {
     if (checked_.contract) {
       ReadParams params = read_params(node_, *checked_.contract, report_);
+      checked_.sound = params.sound();
       if (params.sound()) checked_.value.params = std::move(params.values);
     }
     for (const Node& child : node_.children) {

@@ -11,18 +11,11 @@
 namespace orca::graph {
 namespace {
 
-// Returns the place that sets the parameter, or the hardware's own place if it has its default.
-const xml::Position& place_of(const Node& node, const std::string& param) {
-  for (const Node& child : node.children)
-    if (child.is("param") && child.value("name") == param) return child.place("value");
-  return node.position;
-}
-
 void report_fault(const Node& node, const HardwareFault& fault, Report& report) {
   if (fault.param.empty()) {
     report.line(node.position, fault.text);
   } else {
-    report.error(codes::kHardwareRefuses, place_of(node, fault.param),
+    report.error(codes::kHardwareRefuses, place_of_param(node, fault.param),
                  node.title() + ": parameter " + in_quotes(fault.param) + ": " + fault.text);
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "components.hpp"
+#include "configuration.hpp"
 #include "hardware.hpp"
 #include "influence.hpp"
 #include "model.hpp"
@@ -70,9 +71,12 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   check_components(parts.components, types, model, report);
   check_start_order(model, report);
   graph.ends = read_ends(root, model, report);
-  graph.edges = check_wiring(parts.connections, model, report);
+  WiredEdges wired = check_wiring(parts.connections, model, report);
+  graph.edges = std::move(wired.edges);
   note_candidates(model, graph.edges);
   if (report.no_errors()) check_influence(model, graph, report);
+  if (options.try_components)
+    check_configuration({parts.components, model, graph, wired.doubtful}, catalogue, report);
   for (CheckedHardware& hardware : model.hardware) graph.hardware.push_back(std::move(hardware.value));
   for (CheckedComponent& component : model.components) graph.components.push_back(std::move(component.value));
   return graph;

@@ -37,6 +37,7 @@ struct CheckedComponent {
   std::optional<Contract> contract;  // nothing if the type is missing or unknown
   bool ports_known = false;          // false: its ports cannot be checked, for a reason reported already
   bool duplicate = false;
+  bool sound = false;                             // whether its own values are all known
   std::map<std::string, xml::Position> disabled;  // disabled ports, and the places that disable them
   std::map<std::string, Renaming> renamed;        // by the name that the author gave
   // Names that the graph wanted to give to ports and could not, which is reported.

@@ -29,8 +29,9 @@ class Wiring {
     const Endpoint to = resolve_endpoint(connection, "to", model_, report_);
     touch(from, to);
     touch(to, from);
-    if (from.port == nullptr || to.port == nullptr) return;
+    if (from.port == nullptr || to.port == nullptr) return doubt(from, to);
     auto edge = make_edge(connection, from, to, report_);
+    if (!edge) doubt(from, to);
     if (!edge || connection.duplicate) return;
     edge->late_bound = late_bound;
     if (late_bound && is_there_already(*edge)) return;
@@ -45,6 +46,7 @@ class Wiring {
         for (const std::string& name : split_names(late.candidates.value)) {
           const auto connection = candidate_connection(component, late, name, model_, report_);
           if (connection) connect(*connection, true);
+          if (!connection) doubtful_.insert(component.value.name);
         }
       }
     }
@@ -62,9 +64,50 @@ class Wiring {
     }
   }
 
-  std::vector<Edge> edges() && { return std::move(edges_); }
+  WiredEdges result() && {
+    doubt_whoever_fits();
+    return {std::move(edges_), std::move(doubtful_)};
+  }
 
  private:
+  // The properties that an end of a connection must share with the other end.
+  using Plug = std::tuple<Pattern, Role, std::string, std::uint64_t>;
+
+  static Plug plug_of(const PortContract& port, Role role) {
+    return {port.pattern, role, port.type.name, port.type.hash};
+  }
+  static Plug counterpart(const PortContract& port) {
+    return plug_of(port, port.role == Role::proxy ? Role::server : Role::proxy);
+  }
+
+  // Notes which components may lack the connection between these ends, of which at least one is wrong.
+  void doubt(const Endpoint& from, const Endpoint& to) {
+    doubt_end(from, to);
+    doubt_end(to, from);
+  }
+
+  void doubt_end(const Endpoint& end, const Endpoint& other) {
+    if (const std::string named = known_component(end.ref.component); !named.empty()) {
+      doubtful_.insert(named);
+    } else if (other.port != nullptr) {
+      looked_for_.insert(counterpart(*other.port));
+    } else {
+      all_doubtful_ = true;
+    }
+  }
+
+  // Adds the components that a connection with an unknown end may be meant for.
+  void doubt_whoever_fits() {
+    if (!all_doubtful_ && looked_for_.empty()) return;
+    for (const CheckedComponent& component : model_.components) {
+      const auto fits = [&](const PortContract& port) {
+        return looked_for_.contains(plug_of(port, port.role));
+      };
+      if (all_doubtful_ || !component.contract || std::ranges::any_of(component.contract->ports, fits))
+        doubtful_.insert(component.value.name);
+    }
+  }
+
   // A connection whose other end could not be found, although the graph names one.
   struct Loose {
     const PortContract* port;
@@ -114,6 +157,7 @@ class Wiring {
     report_.error(codes::kUnconnected, component.value.position,
                   "component " + in_quotes(ref.component) + ": port " + in_quotes(port.name) + " (" +
                       described(port) + ") must be connected; " + offers(port));
+    doubtful_.insert(ref.component);
   }
 
   // Returns whether a connection with an unknown end may be the one that is missing here. Reporting it as
@@ -128,22 +172,17 @@ class Wiring {
     return true;
   }
 
-  // The properties that an end of a connection must share with the other end.
-  using Plug = std::tuple<Pattern, Role, std::string, std::uint64_t>;
-
   void index_offers() {
     for (const CheckedComponent& component : model_.components) {
       if (!component.contract) continue;
       for (const PortContract& port : component.contract->ports) {
-        const Plug plug{port.pattern, port.role, port.type.name, port.type.hash};
-        offers_[plug].push_back(component.value.name + "." + port.name);
+        offers_[plug_of(port, port.role)].push_back(component.value.name + "." + port.name);
       }
     }
   }
 
   std::string offers(const PortContract& wanted) {
-    const Role other = wanted.role == Role::proxy ? Role::server : Role::proxy;
-    const auto found = offers_.find(Plug{wanted.pattern, other, wanted.type.name, wanted.type.hash});
+    const auto found = offers_.find(counterpart(wanted));
     if (found == offers_.end()) return "no component of the graph offers it";
     return "it is offered by: " + listed(found->second);
   }
@@ -151,6 +190,9 @@ class Wiring {
   const Model& model_;
   Report& report_;
   std::vector<Edge> edges_;
+  std::set<std::string> doubtful_;
+  std::set<Plug> looked_for_;  // ports that connections with an unknown end may be meant for
+  bool all_doubtful_ = false;
   std::set<PortRef> touched_;
   std::vector<Loose> loose_;
   std::map<Plug, std::vector<std::string>> offers_;  // ports, by the plug that fits them
@@ -159,12 +201,12 @@ class Wiring {
 
 }  // namespace
 
-std::vector<Edge> check_wiring(const std::vector<Node>& connections, const Model& model, Report& report) {
+WiredEdges check_wiring(const std::vector<Node>& connections, const Model& model, Report& report) {
   Wiring wiring(model, report);
   for (const Node& connection : connections) wiring.connect(connection);
   wiring.connect_candidates();
   wiring.check_required();
-  return std::move(wiring).edges();
+  return std::move(wiring).result();
 }
 
 }  // namespace orca::graph

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <set>
+#include <string>
 #include <vector>
 
 #include "model.hpp"
@@ -10,6 +12,14 @@
 
 namespace orca::graph {
 
-std::vector<Edge> check_wiring(const std::vector<Node>& connections, const Model& model, Report& report);
+// The connections of a graph.
+struct WiredEdges {
+  std::vector<Edge> edges;
+  // Components that may lack a connection which the graph means to give them. What they say about their connections
+  // may follow from an error that is reported already.
+  std::set<std::string> doubtful;
+};
+
+WiredEdges check_wiring(const std::vector<Node>& connections, const Model& model, Report& report);
 
 }  // namespace orca::graph

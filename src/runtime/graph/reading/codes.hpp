@@ -60,5 +60,6 @@ inline constexpr const char* kUnusedHardware = "G052";
 inline constexpr const char* kNeverTriggered = "G053";
 inline constexpr const char* kLoading = "G060";
 inline constexpr const char* kUnfit = "G061";
+inline constexpr const char* kComponentRefuses = "G062";
 
 }  // namespace orca::graph::codes

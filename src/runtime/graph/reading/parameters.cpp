@@ -70,4 +70,10 @@ ReadParams read_params(const Node& node, const Contract& contract, Report& repor
   return ParamReader(node, contract, report).read();
 }
 
+const xml::Position& place_of_param(const Node& node, const std::string& param) {
+  for (const Node& child : node.children)
+    if (child.is("param") && child.value("name") == param) return child.place("value");
+  return node.position;
+}
+
 }  // namespace orca::graph

@@ -23,4 +23,7 @@ struct ReadParams {
 // set, so all of these count as unread then.
 ReadParams read_params(const Node& node, const Contract& contract, Report& report);
 
+// Returns the place that sets the parameter, or the node's own place if nothing sets it.
+[[nodiscard]] const xml::Position& place_of_param(const Node& node, const std::string& param);
+
 }  // namespace orca::graph

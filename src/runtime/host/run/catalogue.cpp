@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "rehearsal.hpp"
+
 namespace orca::host {
 
 PluginCatalogue::PluginCatalogue(plugin::PluginIndex index, ClockKind clock)
@@ -118,6 +120,16 @@ Result<Contract> PluginCatalogue::component(const std::string& type, const graph
     container = &(*made)->container();
   }
   return plugin::describe_component(*found->entry, found->library->path(), container);
+}
+
+std::vector<graph::ComponentFault> PluginCatalogue::try_components(const graph::Graph& graph,
+                                                                   const graph::Candidates& candidates) {
+  return rehearse(graph, candidates, *this, clock_, give_up_);
+}
+
+Device* PluginCatalogue::closed_hardware(const graph::HardwareUse& use) {
+  const Result<plugin::DescribedHardware*> made = described(use);
+  return made ? &(*made)->container() : nullptr;
 }
 
 std::vector<std::string> PluginCatalogue::unfit(PluginKind kind, const std::string& type) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "orca/base/executive.hpp"
-#include "orca/host/rehearsal.hpp"
+#include "orca/host/planned_failure.hpp"
 #include "reporter.hpp"
 #include "trace.hpp"
 
@@ -25,7 +25,7 @@ struct RunContext {
   /// Whether a picture is to be drawn at the end.
   bool wants_scene = false;
   /// What is to fail on purpose.
-  std::vector<Rehearsal> rehearsals{};
+  std::vector<PlannedFailure> failures{};
   /// Number of missions begun so far; the last one has it as its id.
   std::atomic<std::uint64_t> missions{0};
 };

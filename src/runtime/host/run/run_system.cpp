@@ -97,6 +97,13 @@ class Run {
 
   void refuse(const Error& error) { fail_with(RunOutcome::not_started, error); }
 
+  // A component that has failed has said itself why.
+  void refuse_start(const Error& error) {
+    const ComponentInstance* const component = system_->component(error.where);
+    if (component == nullptr || !component->has_failed()) reporter_.log_error(error.text());
+    conclude(RunOutcome::not_started, error);
+  }
+
   void fail_with(RunOutcome outcome, const Error& error) {
     reporter_.log_error(error.text());
     conclude(outcome, error);
@@ -118,7 +125,7 @@ class Run {
     stop_.on_crash([this] { stop_motors(); });
     const Status up = bring_up();
     if (!up.ok() && !stop_.requested()) {
-      fail_with(RunOutcome::not_started, up.error());
+      refuse_start(up.error());
       reporter_.log_error("not everything came up; taking all down again");
     } else {
       // After a request to stop, some components may not be up, and others would fail for want of them.
@@ -261,7 +268,7 @@ class Run {
                       options_.seed.value_or(graph_.seed.value_or(1)),
                       [this] { changed_->notify(); },
                       !options_.picture.file.empty(),
-                      options_.rehearsals};
+                      options_.planned_failures};
   std::optional<System> system_{std::in_place, graph_, context_, [this] { return stop_.requested(); }};
   std::optional<RunCounters> counters_;  // of the run until it was taken down
   RunOutcome outcome_ = RunOutcome::finished;
@@ -269,15 +276,15 @@ class Run {
   std::optional<Error> error_;
 };
 
-// Returns the error of a rehearsal of a component that the graph does not have.
-std::optional<Error> unknown_rehearsal(const graph::Graph& graph, const std::vector<Rehearsal>& rehearsals) {
+// Returns the error of a planned failure of a component that the graph does not have.
+std::optional<Error> unknown_failure(const graph::Graph& graph, const std::vector<PlannedFailure>& failures) {
   std::vector<std::string> names;
   for (const graph::ComponentNode& node : graph.components) names.push_back(node.name);
-  for (const Rehearsal& rehearsal : rehearsals)
-    if (std::ranges::find(names, rehearsal.component) == names.end())
-      return fail(Code::not_found, "the graph has no component " + in_quotes(rehearsal.component) +
+  for (const PlannedFailure& planned : failures)
+    if (std::ranges::find(names, planned.component) == names.end())
+      return fail(Code::not_found, "the graph has no component " + in_quotes(planned.component) +
                                        " that could fail" +
-                                       xml::did_you_mean(xml::nearest_name(rehearsal.component, names)));
+                                       xml::did_you_mean(xml::nearest_name(planned.component, names)));
   return std::nullopt;
 }
 
@@ -295,7 +302,7 @@ RunResult run_system(const graph::Graph& graph, PluginCatalogue& catalogue, cons
                      StopSignal& stop, RunListener& listener) {
   Result<std::unique_ptr<Executive>> executive = make_executive(options.executive);
   if (!executive) return refuse_options(executive.error(), options);
-  if (const auto unknown = unknown_rehearsal(graph, options.rehearsals))
+  if (const auto unknown = unknown_failure(graph, options.planned_failures))
     return refuse_options(*unknown, options);
   const TimePoint start = (*executive)->now();
   log::set_clock([clock = executive->get(), start] { return TimePoint(clock->now() - start); });

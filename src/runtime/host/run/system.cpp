@@ -6,48 +6,20 @@
 #include <thread>
 #include <utility>
 
+#include "component_making.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/settings.hpp"
 #include "orca/patterns/local/local_links.hpp"
 
 namespace orca::host {
-namespace {
-
-// Calls `done` each time something changes, until it returns true or the deadline comes.
-template <class Done>
-bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline, Done&& done) {
-  while (!done()) {
-    if (executive.now() >= deadline) return false;
-    changed.wait_until(deadline);
-  }
-  return true;
-}
-
-ComponentSettings settings_of(const graph::ComponentNode& node, const std::vector<Rehearsal>& rehearsals) {
-  ComponentSettings settings;
-  settings.name = node.name;
-  settings.priority = node.priority;
-  settings.autonomous = node.autonomous;
-  settings.trigger = node.trigger;
-  settings.on_demand = node.on_demand;
-  settings.stay_warm = node.stay_warm;
-  settings.idle_time = node.idle_time;
-  settings.params = node.params;
-  for (const auto& [port, setting] : node.ports)
-    if (!setting.alias.empty()) settings.port_names[port] = setting.alias;
-  for (const Rehearsal& rehearsal : rehearsals)
-    if (rehearsal.component == node.name) settings.rehearsal = rehearsal;
-  return settings;
-}
-
-}  // namespace
 
 Status System::build(PluginCatalogue& catalogue) {
   if (Status built = build_hardware(catalogue); !built.ok()) return built;
   if (Status built = build_components(catalogue); !built.ok()) return built;
   catalogue.forget_answers();
   LocalLinks within_this_process;
-  return connect(within_this_process);
+  return connect(
+      graph_, [this](const std::string& name) { return find(name); }, within_this_process);
 }
 
 Status System::build_hardware(PluginCatalogue& catalogue) {
@@ -64,7 +36,7 @@ Status System::build_hardware(PluginCatalogue& catalogue) {
 Status System::build_components(PluginCatalogue& catalogue) {
   for (const graph::ComponentNode& node : graph_.components) {
     auto instance = std::make_unique<ComponentInstance>(
-        run_, settings_of(node, run_.rehearsals),
+        run_, settings_of(node, run_.failures),
         [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
         [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
         container(node.hardware));
@@ -84,20 +56,6 @@ Status System::declare(const graph::ComponentNode& node, ComponentInstance& inst
   const Result<Contract> contract = catalogue.component(node.type, use ? &*use : nullptr);
   if (!contract) return contract.error();
   instance.declare(*contract);
-  return ok();
-}
-
-Status System::connect(Links& links) {
-  for (const graph::Edge& edge : graph_.edges) {
-    Endpoint* const from = find(edge.from.component)->endpoint(edge.from.port);
-    Endpoint* const to = find(edge.to.component)->endpoint(edge.to.port);
-    if (from == nullptr || to == nullptr)
-      return fail(Code::internal, "a port that was there when the graph was checked is not there now",
-                  edge.position.text());
-    QueuePolicy policy = edge.queue;
-    policy.min_interval = edge.interval;
-    if (Status connected = links.connect(*from, *to, policy); !connected.ok()) return connected;
-  }
   return ok();
 }
 

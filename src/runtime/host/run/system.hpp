@@ -14,7 +14,6 @@
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/hw/scene.hpp"
-#include "orca/patterns/endpoints/links.hpp"
 #include "run_context.hpp"
 
 namespace orca::host {
@@ -78,7 +77,6 @@ class System {
   Status build_hardware(PluginCatalogue& catalogue);
   Status build_components(PluginCatalogue& catalogue);
   Status declare(const graph::ComponentNode& node, ComponentInstance& instance, PluginCatalogue& catalogue);
-  Status connect(Links& links);
   Status open_hardware(Event& changed, TimePoint deadline);
   Status configure(ComponentInstance& component, Event& changed, TimePoint deadline);
   Status carry_out(const std::string& name, Event& changed, TimePoint deadline,

@@ -18,7 +18,7 @@ using namespace orca::test;
 
 namespace {
 
-const fs::path kFolder = fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs/plugins";
+const fs::path kGraphs = fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs";
 const std::string kShipped = ORCA_BINARY_DIR "/plugins";
 
 // Writes the folder of broken plugins, each with the list that says which types it should hold.
@@ -48,13 +48,11 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-std::string errors_of(const fs::path& path, const TempFolder& plugins) {
+std::string errors_of(const fs::path& path, const graph::LoadOptions& options) {
   PluginCatalogue catalogue{PluginIndex({kShipped})};
   xml::Diagnostics diagnostics;
-  const graph::LoadOptions options{{}, {"plugins=" + plugins.path().string()}, false};
   CHECK_FALSE(graph::load_file(path.string(), options, catalogue, diagnostics).has_value());
-  std::string said = replaced(diagnostics.text(), plugins.path().string(), "PLUGINS");
-  said = replaced(said, kFolder.string() + "/", "");
+  std::string said = replaced(diagnostics.text(), path.parent_path().string() + "/", "");
   said = replaced(said, kShipped, "SHIPPED");
   return replaced(said, ORCA_SOURCE_DIR, "SOURCE");
 }
@@ -64,6 +62,22 @@ std::string errors_of(const fs::path& path, const TempFolder& plugins) {
 TEST_CASE("each graph with a broken plugin, world or robot gives its approved errors", "[graph][approval]") {
   const TempFolder plugins;
   lay_out_plugins(plugins);
-  for (const fs::path& path : files_in(kFolder, ".xml"))
-    check_approved(approved_text_of(path), errors_of(path, plugins));
+  const std::string folder = plugins.path().string();
+  for (const fs::path& path : files_in(kGraphs / "plugins", ".xml"))
+    check_approved(approved_text_of(path),
+                   replaced(errors_of(path, {.settings = {"plugins=" + folder}}), folder, "PLUGINS"));
 }
+
+#if !defined(__SANITIZE_THREAD__)  // nothing is tried out then
+TEST_CASE("each graph that only configure() can judge gives its approved errors, all of them at their places",
+          "[graph][approval]") {
+  const fs::path folder = kGraphs / "configure";
+  CHECK(files_in(folder, ".xml").size() >= 20);
+  for (const fs::path& path : files_in(folder, ".xml")) {
+    graph::LoadOptions options{.try_components = true};
+    if (bytes_of(path).find("${misbehaving}") != std::string::npos)
+      options.settings.push_back("misbehaving=" ORCA_BINARY_DIR "/tests/plugins");
+    check_approved(approved_text_of(path), errors_of(path, options));
+  }
+}
+#endif

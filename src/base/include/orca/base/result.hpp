@@ -30,14 +30,19 @@ enum class Code {
 /// An error as a value.
 ///
 /// `message` says in plain words what was found, what was expected and what to do; `where` is the file
-/// position or component concerned, empty if there is none. A plain value; any thread.
+/// position or component concerned, empty if there is none; `param` is the parameter of the component to correct,
+/// empty if it is none (see Param::refuse()). A plain value; any thread.
 struct Error {
   Code code = Code::internal;
   std::string message;
   std::string where;
+  std::string param{};
 
-  /// Returns "where: message", or the message alone.
-  [[nodiscard]] std::string text() const { return where.empty() ? message : where + ": " + message; }
+  /// Returns "where: message", or the message alone, and before it the parameter.
+  [[nodiscard]] std::string text() const {
+    const std::string placed = where.empty() ? message : where + ": " + message;
+    return param.empty() ? placed : "parameter \"" + param + "\": " + placed;
+  }
 };
 
 /// A value or an Error, with the member names of C++23's std::expected.

@@ -36,8 +36,13 @@ class Component : public PortOwner {
   Component(const Component&) = delete;
   Component& operator=(const Component&) = delete;
 
-  /// Checks the parameters and allocates. Called in INIT, once, after the parameters are set. An error keeps
-  /// the whole system from starting.
+  /// Checks the parameters and connections, and allocates. Called in INIT, once, after the parameters are set. An
+  /// error keeps the whole system from starting; Param::refuse() gives it the place of a parameter.
+  ///
+  /// `deployer --check` and each start call it before in a copy of the process, as a trial, while all hardware is
+  /// closed. The errors of all components are then reported at once, with their places in the graph, except
+  /// unavailable and deadline_exceeded, which may be due to the trial. The trial ends at the first call that would
+  /// leave a trace outside the copy: writing a file, opening a device, connecting to another program.
   virtual Status configure() { return ok(); }
 
   /// Prepares for work. Called in CONNECT, each time a first client comes, after the component's own

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "orca/base/result.hpp"
 #include "orca/component/host.hpp"
 
 namespace orca {
@@ -32,9 +33,10 @@ template <class T>
 class Param {
  public:
   template <class Owner>
-  Param(Owner& owner, std::string name, T default_value, ParamOptions options = {}) : value_(default_value) {
+  Param(Owner& owner, std::string name, T default_value, ParamOptions options = {})
+      : name_(std::move(name)), value_(default_value) {
     ParamContract contract;
-    contract.name = std::move(name);
+    contract.name = name_;
     contract.type = type();
     contract.unit = std::move(options.unit);
     contract.min = options.min;
@@ -53,6 +55,18 @@ class Param {
   [[nodiscard]] const T& operator*() const { return value_; }
   [[nodiscard]] const T* operator->() const { return &value_; }
 
+  /// Makes an error about this parameter's value, to return from configure() or params_changed(). It is reported
+  /// at the place in the graph that sets the parameter.
+  /// @param why  what was found, what was expected and what to do.
+  [[nodiscard]] Error refuse(std::string why) const {
+    return {Code::invalid_argument, std::move(why), {}, name_};
+  }
+  /// Makes such an error from one that has no place of its own, and keeps its code.
+  [[nodiscard]] Error refuse(Error why) const {
+    why.param = name_;
+    return why;
+  }
+
  private:
   static constexpr ParamType type() {
     if constexpr (std::is_same_v<T, bool>) return ParamType::boolean;
@@ -62,6 +76,7 @@ class Param {
     if constexpr (std::is_same_v<T, std::vector<std::string>>) return ParamType::text_list;
   }
 
+  const std::string name_;
   T value_;
 };
 

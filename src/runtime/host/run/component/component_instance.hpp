@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,8 @@ class ComponentInstance final {
   [[nodiscard]] bool has_failed() const { return life_.has_failed(); }
   /// Returns why it is in WORK_FAILED, or why it could not be configured.
   [[nodiscard]] std::string failure() const { return life_.failure(); }
+  /// Returns why it could not be configured; nothing if it could.
+  [[nodiscard]] std::optional<Error> refusal() const { return life_.refusal(); }
   /// Returns the hook that the strand is in now, for people: "work()"; for a handler its port; else "".
   [[nodiscard]] const char* current_hook() const { return parts_.hooks.current(); }
   /// Fills in the mission and cause of what the component works on. To be called on its strand.

@@ -11,7 +11,7 @@ ComponentLoop::ComponentLoop(ComponentParts& parts, Residency& residency, Lifecy
 }
 
 void ComponentLoop::open_gate() {
-  parts_.rehearser.begin();
+  parts_.injector.begin();
   gate_open_.store(true, std::memory_order_release);
   parts_.strand.wake();
 }
@@ -35,7 +35,7 @@ void ComponentLoop::run() {
 
 void ComponentLoop::turn() {
   if (parts_.orders.carry_out_next()) return parts_.run.changed();
-  const bool silent = parts_.rehearser.is_silent();
+  const bool silent = parts_.injector.is_silent();
   if (!silent && handle_one_intake()) return;
   if (const auto event = look()) return life_.handle(*event);
   if (silent) return parts_.strand.pause_until(kForever);
@@ -62,7 +62,7 @@ void ComponentLoop::lap() {
   parts_.home.provenance.begin_lap();
   in_lap_ = true;
   const auto fault = parts_.hooks.call(Hook::work, [&] {
-    parts_.rehearser.act();
+    parts_.injector.act();
     outcome = residency_.component()->work();
   });
   in_lap_ = false;
@@ -102,7 +102,7 @@ bool ComponentLoop::handle_sent(SendServerEndpoint& endpoint) {
   const auto fault = parts_.hooks.call(
       Hook::handler,
       [&] {
-        parts_.rehearser.act();
+        parts_.injector.act();
         handled = endpoint.handle_one(outcome);
       },
       port.c_str());
@@ -119,7 +119,7 @@ bool ComponentLoop::handle_asked(QueryServerEndpoint& endpoint) {
   const auto fault = parts_.hooks.call(
       Hook::handler,
       [&] {
-        parts_.rehearser.act();
+        parts_.injector.act();
         handled = endpoint.handle_one();
       },
       endpoint.contract().name.c_str());

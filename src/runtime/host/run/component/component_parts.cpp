@@ -13,7 +13,7 @@ ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings setting
       ports(home),
       site(run, settings, home, laps, hardware),
       hooks(settings.name),
-      rehearser(settings.rehearsal, site, strand, laps),
+      injector(settings.failure, site, strand, laps),
       params(settings.params),
       orders(strand) {}
 

@@ -6,13 +6,13 @@
 #include "component_settings.hpp"
 #include "component_site.hpp"
 #include "containment/guard.hpp"
+#include "failure_injector.hpp"
 #include "hook_caller.hpp"
 #include "lap_trigger.hpp"
 #include "orca/base/strand.hpp"
 #include "order_queue.hpp"
 #include "parameters.hpp"
 #include "port_set.hpp"
-#include "rehearser.hpp"
 #include "run/run_context.hpp"
 
 namespace orca::host {
@@ -36,7 +36,7 @@ struct ComponentParts {
   LapTrigger laps;
   ComponentSite site;
   HookCaller hooks;
-  Rehearser rehearser;
+  FailureInjector injector;
   Parameters params;
   OrderQueue orders;
 };

@@ -7,7 +7,7 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/base/time.hpp"
-#include "orca/host/rehearsal.hpp"
+#include "orca/host/planned_failure.hpp"
 
 namespace orca::host {
 
@@ -21,7 +21,7 @@ struct ComponentSettings {
   bool stay_warm = false;          ///< Stays in memory once it is loaded.
   Duration idle_time{0};           ///< An on-demand component that is not used for that long is unloaded.
   std::map<std::string, ParamValue> params;
-  std::optional<Rehearsal> rehearsal;  ///< How it is made to fail.
+  std::optional<PlannedFailure> failure;  ///< How it is made to fail.
   /// Names of ports in the graph, by the author's names.
   std::map<std::string, std::string> port_names;
 

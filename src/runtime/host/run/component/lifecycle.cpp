@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "lifecycle.hpp"
 
+#include <utility>
+
 namespace orca::host {
 
 Lifecycle::Lifecycle(ComponentParts& parts, Residency& residency)
@@ -11,6 +13,11 @@ Lifecycle::Lifecycle(ComponentParts& parts, Residency& residency)
 std::string Lifecycle::failure() const {
   const std::lock_guard lock(mutex_);
   return failure_;
+}
+
+std::optional<Error> Lifecycle::refusal() const {
+  const std::lock_guard lock(mutex_);
+  return refusal_;
 }
 
 void Lifecycle::handle(ComponentEvent event) {
@@ -96,12 +103,24 @@ Lifecycle::FollowUp Lifecycle::configure() {
   Status configured;
   const auto fault =
       parts_.hooks.call(Hook::configure, [&] { configured = residency_.component()->configure(); });
-  if (fault) return report(ComponentEvent::threw, Hook::configure, fault->text);
+  if (fault)
+    return refuse(ComponentEvent::threw, fail(Code::invalid_argument, "configure() " + fault->text),
+                  fault->text);
   if (configured.ok())
     configured =
         parts_.laps.choose(parts_.settings.trigger.value_or(parts_.site.declared().trigger), parts_.ports);
   if (configured.ok()) return ComponentEvent::configured;
-  return report(ComponentEvent::failed, Hook::configure, "said: " + configured.error().text());
+  const Error& error = configured.error();
+  return refuse(ComponentEvent::failed, error, "said: " + error.text());
+}
+
+// Keeps why the component cannot be configured, and reports it.
+Lifecycle::FollowUp Lifecycle::refuse(ComponentEvent event, Error reason, const std::string& what) {
+  {
+    const std::lock_guard lock(mutex_);
+    refusal_ = std::move(reason);
+  }
+  return report(event, Hook::configure, what);
 }
 
 Lifecycle::FollowUp Lifecycle::start() {

@@ -15,7 +15,7 @@ namespace orca::host {
 /// The state of one component. It looks up in the table of component_states.hpp what an event means, carries
 /// out the actions, and keeps the reason for a failure.
 ///
-/// Thread contract: state(), has_failed() and failure() from anywhere, the rest on the component's strand.
+/// Thread contract: state(), has_failed(), failure() and refusal() from anywhere, the rest on the component's strand.
 class Lifecycle {
  public:
   Lifecycle(ComponentParts& parts, Residency& residency);
@@ -44,6 +44,8 @@ class Lifecycle {
   [[nodiscard]] bool has_failed() const { return has_failed_.load(std::memory_order_acquire); }
   /// Returns why the component is in WORK_FAILED.
   [[nodiscard]] std::string failure() const;
+  /// Returns why the component could not be configured; nothing if it could.
+  [[nodiscard]] std::optional<Error> refusal() const;
 
  private:
   using FollowUp = std::optional<ComponentEvent>;  // the event that an action ended in
@@ -55,6 +57,7 @@ class Lifecycle {
 
   FollowUp load();
   FollowUp configure();
+  FollowUp refuse(ComponentEvent event, Error reason, const std::string& what);
   FollowUp start();
   void try_stop();
   FollowUp call(Hook hook, void (Component::*function)());
@@ -69,6 +72,7 @@ class Lifecycle {
   std::atomic<bool> has_failed_{false};
   mutable std::mutex mutex_;
   std::string failure_;
+  std::optional<Error> refusal_;
 };
 
 }  // namespace orca::host

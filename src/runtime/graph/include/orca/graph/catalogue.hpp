@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,21 @@ struct HardwareUse {
   std::string name;
   std::string type;
   Params params;  ///< Complete, in SI, files absolute.
+};
+
+/// The refusal of a component's configure().
+struct ComponentFault {
+  std::string component;  ///< Its name in the graph.
+  std::string param;      ///< The parameter to correct; empty: none alone.
+  std::string text;       ///< What was found and what was expected.
+};
+
+/// The components of a graph whose configure() is to be tried.
+struct Candidates {
+  std::vector<std::string> names;  ///< In the order in which they come up.
+  /// Those of `names` that may lack a connection, or another component that must be up before them. Only what they
+  /// say about the value of one of their parameters counts: invalid_argument with Error::param.
+  std::set<std::string> doubtful;
 };
 
 /// The checker's source of knowledge about plugins. The plugin loader implements it; tests have a fake.
@@ -52,6 +68,15 @@ class Catalogue {
   ///                  needs hardware and gets none here still has its `needs_hardware` and `params`.
   /// @errors  as hardware(); the message of "does not fit that hardware" names both.
   [[nodiscard]] virtual Result<Contract> component(const std::string& type, const HardwareUse* hardware) = 0;
+
+  /// Calls configure() of components as a trial, in a copy of the process, while all hardware is closed.
+  ///
+  /// @param graph  the components and what connects them, as far as they are known. Others than the candidates are
+  ///               there, but are not configured.
+  /// @pre  all questions about their types and hardware have been asked, and answered without errors.
+  /// @return what they refuse, at most one fault per component; empty: nothing, or it could not be tried.
+  [[nodiscard]] virtual std::vector<ComponentFault> try_components(const Graph& graph,
+                                                                   const Candidates& candidates) = 0;
 
   /// Returns why a type cannot be part of the run that the graph is loaded for; empty: it can. Called only
   /// for types whose contract it has returned.

@@ -17,15 +17,18 @@ namespace orca::graph {
 
 /// The command line's settings for a graph.
 struct LoadOptions {
-  std::vector<std::string> profiles;  ///< Merged in this order; none: the graph's default_profile.
-  std::vector<std::string> settings;  ///< "ARG=VALUE"; a relative path in VALUE starts at the current folder.
-  bool strict = false;                ///< Warnings are errors.
+  /// Merged in this order; none: the graph's default_profile.
+  std::vector<std::string> profiles{};
+  /// "ARG=VALUE"; a relative path in VALUE starts at the current folder.
+  std::vector<std::string> settings{};
+  bool strict = false;          ///< Warnings are errors.
+  bool try_components = false;  ///< Also call configure() of the components, as a trial.
 };
 
 /// A function that returns the text of an included file. The path starts at the current folder.
 using FileReader = std::function<Result<std::string>(const std::string& path)>;
 
-/// Reads a system graph and checks it against the contracts of its plugins. It loads and starts nothing.
+/// Reads a system graph and checks it against the contracts of its plugins. It starts nothing.
 ///
 /// @param diagnostics  receives all errors and warnings of the whole graph (docs/errors.md), not just one.
 /// @return the graph, if there is no error at all.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -40,6 +41,8 @@ class PluginCatalogue final : public graph::Catalogue {
   std::vector<HardwareFault> hardware_conflicts(const graph::HardwareUse& use,
                                                 const graph::HardwareUse& earlier) override;
   Result<Contract> component(const std::string& type, const graph::HardwareUse* hardware) override;
+  std::vector<graph::ComponentFault> try_components(const graph::Graph& graph,
+                                                    const graph::Candidates& candidates) override;
   /// Returns the machine's time, threads and randomness that the type's plugin uses, if the run is in virtual
   /// time.
   [[nodiscard]] std::vector<std::string> unfit(PluginKind kind, const std::string& type) override;
@@ -57,6 +60,12 @@ class PluginCatalogue final : public graph::Catalogue {
   /// @thread  while nobody uses the catalogue.
   void on_alarm(AlarmSink sink) { sink_ = std::move(sink); }
 
+  /// Returns the hardware of a graph as it was prepared to be described, closed; null if it cannot be.
+  [[nodiscard]] Device* closed_hardware(const graph::HardwareUse& use);
+
+  /// Sets the question whether to give up trials of components, for a program that is asked to stop meanwhile.
+  void give_up_if(std::function<bool()> give_up) { give_up_ = std::move(give_up); }
+
   /// Releases everything that was loaded and constructed only to answer questions.
   void forget_answers();
 
@@ -71,6 +80,7 @@ class PluginCatalogue final : public graph::Catalogue {
   plugin::PluginIndex index_;
   const ClockKind clock_;
   AlarmSink sink_;
+  std::function<bool()> give_up_;
   mutable std::mutex mutex_;
   std::map<std::string, std::weak_ptr<plugin::PluginLibrary>> libraries_;  // by file
   std::map<std::string, LoadedType> held_;  // by type; kept because answers came from them

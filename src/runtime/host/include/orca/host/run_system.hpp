@@ -10,7 +10,7 @@
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/picture.hpp"
-#include "orca/host/rehearsal.hpp"
+#include "orca/host/planned_failure.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/stop_signal.hpp"
@@ -24,8 +24,8 @@ struct RunOptions {
   std::optional<Duration> until;      ///< Time limit [s of the run's clock]; none: no limit.
   std::string trace_file;             ///< Empty: no trace is written.
   PictureOptions picture;
-  std::vector<Rehearsal> rehearsals;  ///< What is to fail on purpose.
-  std::string log_name = "orca";      ///< Name in the log for what concerns the run as a whole.
+  std::vector<PlannedFailure> planned_failures;  ///< What is to fail on purpose.
+  std::string log_name = "orca";                 ///< Name in the log for what concerns the run as a whole.
 };
 
 /// Runs a checked graph in this process: brings everything up, watches it, stops the robot and takes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "rehearser.hpp"
+#include "failure_injector.hpp"
 
 #include <algorithm>
 #include <map>
@@ -28,23 +28,23 @@ const std::vector<std::string>& failure_names() {
   return names;
 }
 
-void Rehearser::begin() {
-  if (rehearsal_) begins_ = saturating_add(site_.now(), rehearsal_->at);
+void FailureInjector::begin() {
+  if (planned_) begins_ = saturating_add(site_.now(), planned_->at);
 }
 
 // Tells people that the failure is no real one when it begins.
-bool Rehearser::has_begun(Failure failure) {
-  if (!rehearsal_ || rehearsal_->failure != failure || site_.now() < begins_) return false;
+bool FailureInjector::has_begun(Failure failure) {
+  if (!planned_ || planned_->failure != failure || site_.now() < begins_) return false;
   if (!told_)
-    site_.write_log(log::Level::warning, "fails from now on, because the run rehearses it (--fail)");
+    site_.write_log(log::Level::warning, "fails from now on, because --fail asks for it");
   told_ = true;
   return true;
 }
 
-bool Rehearser::is_silent() { return has_begun(Failure::silent); }
+bool FailureInjector::is_silent() { return has_begun(Failure::silent); }
 
-void Rehearser::act() {
-  if (has_begun(Failure::throws)) throw std::runtime_error("it threw because the run rehearses it (--fail)");
+void FailureInjector::act() {
+  if (has_begun(Failure::throws)) throw std::runtime_error("it threw because --fail asks for it");
   const bool hangs = has_begun(Failure::hang);
   if (!hangs && !has_begun(Failure::slow)) return;
   const Duration period = laps_.period() > Duration{0} ? laps_.period() : kPeriodOfNone;

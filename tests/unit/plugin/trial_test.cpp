@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Code that is tried out in a copy of the process cannot harm this process.
-#include "inspection/trial.hpp"
+#include "orca/plugin/trial.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/ipc.h>
+#include <sys/mman.h>
+#include <sys/shm.h>
+#include <sys/socket.h>
 #include <sys/time.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,7 +20,11 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <thread>
+
+#include "temp_folder.hpp"
 
 using namespace orca;
 using namespace orca::plugin;
@@ -33,6 +43,26 @@ std::string death(const std::function<void()>& deed) {
       },
       2s);
   return status.ok() ? "" : status.error().text();
+}
+
+using Ending = TrialResult::Ending;
+
+// Tries code that must leave no trace; it finds "before" and, if it gets there, "after".
+TrialResult without_effects(const std::function<void()>& deed) {
+  return run_trial(
+      [&](TrialLine& line) {
+        line.step("the deed");
+        line.find("before");
+        deed();
+        line.find("after");
+      },
+      2s, Effects::none);
+}
+
+bool is_stopped(const std::function<void()>& deed) {
+  const TrialResult tried = without_effects(deed);
+  CHECK(tried.findings.front() == "before");
+  return tried.ending == Ending::effect && tried.findings.size() == 1;
 }
 
 void no_way_out() { throw std::runtime_error("no way out"); }
@@ -130,3 +160,82 @@ TEST_CASE("a trial changes nothing in this process", "[plugin][trial]") {
   CHECK(survives_trial([&](const Step&) { value = 2; }, 2s).ok());
   CHECK(value == 1);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they use such calls themselves
+TEST_CASE("what is found in a trial comes back whole, whatever bytes it has", "[plugin][trial]") {
+  const std::string odd("a\n\0b", 4);
+  const TrialResult tried = run_trial(
+      [&](TrialLine& line) {
+        line.find(odd);
+        line.end();
+      },
+      2s, Effects::none);
+  CHECK(tried.ending == Ending::well);
+  CHECK(tried.findings == std::vector<std::string>{odd});
+}
+
+TEST_CASE("a trial without effects ends before files are written, made, renamed or removed",
+          "[plugin][trial]") {
+  const orca::test::TempFolder folder;
+  const std::string there = folder.write("there", "whole");
+  const std::string fresh = folder.file("fresh");
+  CHECK(is_stopped([&] { std::ofstream(fresh) << "trace"; }));
+  CHECK(is_stopped([&] { std::ofstream(there, std::ios::app) << "trace"; }));
+  CHECK(is_stopped([&] { std::filesystem::remove(there); }));
+  CHECK(is_stopped([&] { std::filesystem::rename(there, fresh); }));
+  CHECK(is_stopped([&] { std::filesystem::create_directory(fresh); }));
+  CHECK(is_stopped([&] { std::filesystem::create_symlink(there, fresh); }));
+  CHECK(is_stopped([&] { std::filesystem::resize_file(there, 0); }));
+  CHECK_FALSE(std::filesystem::exists(fresh));
+  CHECK(orca::test::read_text(there) == "whole");
+}
+
+TEST_CASE("a trial without effects ends before shared memory, terminals, sockets and processes come to be",
+          "[plugin][trial]") {
+  const orca::test::TempFolder folder;
+  CHECK(is_stopped([] { (void)shm_open("/orca_trial_test", O_CREAT | O_RDWR, 0600); }));
+  CHECK(shm_open("/orca_trial_test", O_RDONLY, 0) == -1);
+  CHECK(is_stopped([] { (void)shmget(IPC_PRIVATE, 4096, IPC_CREAT | 0600); }));
+  CHECK(is_stopped([] { (void)posix_openpt(O_RDWR); }));
+  CHECK(is_stopped([] {
+    if (fork() == 0) _exit(0);
+  }));
+  CHECK(is_stopped([] { (void)std::system("true"); }));
+  CHECK(is_stopped([] { kill(getppid(), SIGCONT); }));
+  CHECK(is_stopped([&] {
+    sockaddr_un address{AF_UNIX, {}};
+    folder.file("socket").copy(address.sun_path, sizeof address.sun_path - 1);
+    bind(socket(AF_UNIX, SOCK_STREAM, 0), reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  }));
+  CHECK_FALSE(std::filesystem::exists(folder.file("socket")));
+}
+
+TEST_CASE("a trial without effects lets code read, write to its streams, and use threads",
+          "[plugin][trial]") {
+  const orca::test::TempFolder folder;
+  const std::string file = folder.write("there", "whole");
+  CHECK(without_effects([&] {
+          if (orca::test::read_text(file) != "whole") _exit(3);
+        }).ending == Ending::well);
+  CHECK(without_effects([] { std::puts("hello"); }).ending == Ending::well);
+  CHECK(without_effects([] { std::thread([] {}).join(); }).ending == Ending::well);
+  CHECK(without_effects([] { std::abort(); }).text == "ended the process with the signal ABRT (Aborted)");
+  CHECK(without_effects([] { pause(); }).ending == Ending::too_long);
+}
+
+TEST_CASE("a trial that is given up ends soon, and blames nobody", "[plugin][trial]") {
+  const auto start = std::chrono::steady_clock::now();
+  const TrialResult tried = run_trial([](TrialLine&) { pause(); }, 30s, Effects::none, [&] { return true; });
+  CHECK(tried.ending == Ending::silent);
+  CHECK(std::chrono::steady_clock::now() - start < 10s);
+}
+
+TEST_CASE("code that closes all its descriptors does not escape its trial, nor hold it up",
+          "[plugin][trial]") {
+  const auto close_all = [] {
+    for (int fd = 0; fd < 2000; ++fd) close(fd);
+    pause();
+  };
+  CHECK(without_effects(close_all).ending == Ending::silent);
+}
+#endif

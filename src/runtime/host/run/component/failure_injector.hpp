@@ -6,19 +6,19 @@
 #include "component_site.hpp"
 #include "lap_trigger.hpp"
 #include "orca/base/strand.hpp"
-#include "orca/host/rehearsal.hpp"
+#include "orca/host/planned_failure.hpp"
 
 namespace orca::host {
 
 /// Makes one component fail as the run's options ask for.
 ///
 /// Thread contract: begin() once, before the component works; the rest on the component's strand.
-class Rehearser {
+class FailureInjector {
  public:
   /// All are those of the component, and outlive this object.
-  Rehearser(const std::optional<Rehearsal>& rehearsal, const ComponentSite& site, Strand& strand,
+  FailureInjector(const std::optional<PlannedFailure>& planned, const ComponentSite& site, Strand& strand,
             const LapTrigger& laps)
-      : rehearsal_(rehearsal), site_(site), strand_(strand), laps_(laps) {}
+      : planned_(planned), site_(site), strand_(strand), laps_(laps) {}
 
   /// Starts to count the time.
   void begin();
@@ -31,7 +31,7 @@ class Rehearser {
  private:
   [[nodiscard]] bool has_begun(Failure failure);
 
-  const std::optional<Rehearsal>& rehearsal_;
+  const std::optional<PlannedFailure>& planned_;
   const ComponentSite& site_;
   Strand& strand_;
   const LapTrigger& laps_;

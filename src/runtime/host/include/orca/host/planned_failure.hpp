@@ -22,8 +22,8 @@ enum class Failure {
 [[nodiscard]] std::optional<Failure> failure_from(std::string_view name);
 [[nodiscard]] const std::vector<std::string>& failure_names();
 
-/// A failure that a run rehearses, to see what the rest of the system makes of it.
-struct Rehearsal {
+/// A failure on purpose, to see what the rest of the system makes of it.
+struct PlannedFailure {
   std::string component;  ///< Its name in the graph.
   Failure failure = Failure::silent;
   Duration at{0};  ///< When it begins [s after the components began to work].

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "configuration.hpp"
+
+#include <algorithm>
+
+#include "reading/codes.hpp"
+#include "reading/parameters.hpp"
+
+namespace orca::graph {
+namespace {
+
+class ConfigurationCheck {
+ public:
+  explicit ConfigurationCheck(const Configuration& configuration)
+      : all_(configuration), graph_(configuration.graph) {
+    for (const CheckedHardware& hardware : all_.model.hardware)
+      if (hardware.sound) graph_.hardware.push_back(hardware.value);
+    for (const CheckedComponent& component : all_.model.components)
+      if (is_known(component)) graph_.components.push_back(component.value);
+  }
+
+  void run(Catalogue& catalogue, Report& report) const {
+    const Candidates candidates = in_start_order();
+    if (candidates.names.empty()) return;
+    for (const ComponentFault& fault : catalogue.try_components(graph_, candidates)) {
+      const Node& node = all_.nodes[all_.model.component_by_name.at(fault.component)];
+      const std::string param = fault.param.empty() ? "" : "parameter \"" + fault.param + "\": ";
+      report.error(codes::kComponentRefuses, place_of_param(node, fault.param),
+                   node.title() + ": " + param + fault.text);
+    }
+  }
+
+ private:
+  // Returns whether the component can be made and connected. Its ports are known only if the hardware that it needs
+  // is sound, and every edge ends at such components.
+  static bool is_known(const CheckedComponent& component) {
+    return !component.duplicate && !component.value.name.empty() && component.contract &&
+           component.ports_known;
+  }
+
+  [[nodiscard]] bool is_doubtful(const ComponentNode& node) const {
+    return all_.model.parts_missing || all_.doubtful.contains(node.name);
+  }
+
+  // Returns the components that can be tried, each after those that must be up before it, as far as these can.
+  [[nodiscard]] Candidates in_start_order() const {
+    std::vector<const ComponentNode*> left;
+    for (const CheckedComponent& component : all_.model.components)
+      if (is_known(component) && component.sound) left.push_back(&component.value);
+    Candidates result;
+    std::set<std::string> ordered;
+    const auto take = [&](const ComponentNode& node, bool doubtful) {
+      result.names.push_back(node.name);
+      if (doubtful) result.doubtful.insert(node.name);
+      return ordered.insert(node.name).second;
+    };
+    const auto is_up = [&](const std::string& name) { return ordered.contains(name); };
+    while (std::erase_if(left, [&](const ComponentNode* node) {
+             return std::ranges::all_of(node->start_after, is_up) && take(*node, is_doubtful(*node));
+           }) > 0) {
+    }
+    for (const ComponentNode* node : left) take(*node, true);
+    return result;
+  }
+
+  const Configuration& all_;
+  Graph graph_;
+};
+
+}  // namespace
+
+void check_configuration(const Configuration& configuration, Catalogue& catalogue, Report& report) {
+  ConfigurationCheck(configuration).run(catalogue, report);
+}
+
+}  // namespace orca::graph

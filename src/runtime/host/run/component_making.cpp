@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "component_making.hpp"
+
+namespace orca::host {
+
+ComponentSettings settings_of(const graph::ComponentNode& node, const std::vector<PlannedFailure>& failures) {
+  ComponentSettings settings;
+  settings.name = node.name;
+  settings.priority = node.priority;
+  settings.autonomous = node.autonomous;
+  settings.trigger = node.trigger;
+  settings.on_demand = node.on_demand;
+  settings.stay_warm = node.stay_warm;
+  settings.idle_time = node.idle_time;
+  settings.params = node.params;
+  for (const auto& [port, setting] : node.ports)
+    if (!setting.alias.empty()) settings.port_names[port] = setting.alias;
+  for (const PlannedFailure& failure : failures)
+    if (failure.component == node.name) settings.failure = failure;
+  return settings;
+}
+
+Status connect(const graph::Graph& graph, const std::function<ComponentInstance*(const std::string&)>& find,
+               Links& links) {
+  for (const graph::Edge& edge : graph.edges) {
+    Endpoint* const from = find(edge.from.component)->endpoint(edge.from.port);
+    Endpoint* const to = find(edge.to.component)->endpoint(edge.to.port);
+    if (from == nullptr || to == nullptr)
+      return fail(Code::internal, "a port that was there when the graph was checked is not there now",
+                  edge.position.text());
+    QueuePolicy policy = edge.queue;
+    policy.min_interval = edge.interval;
+    if (Status connected = links.connect(*from, *to, policy); !connected.ok()) return connected;
+  }
+  return ok();
+}
+
+bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline,
+                      const std::function<bool()>& done) {
+  while (!done()) {
+    if (executive.now() >= deadline) return false;
+    changed.wait_until(deadline);
+  }
+  return true;
+}
+
+}  // namespace orca::host

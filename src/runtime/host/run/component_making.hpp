@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "component/component_instance.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/patterns/endpoints/links.hpp"
+
+namespace orca::host {
+
+/// Returns what the graph sets for a component, and how the run's options make it fail.
+[[nodiscard]] ComponentSettings settings_of(const graph::ComponentNode& node,
+                                            const std::vector<PlannedFailure>& failures = {});
+
+/// Connects the ports of a graph's components.
+/// @param find  returns a component by name.
+/// @errors  internal if a port is not there; those of the links.
+Status connect(const graph::Graph& graph, const std::function<ComponentInstance*(const std::string&)>& find,
+               Links& links);
+
+/// Waits until `done` holds, and evaluates it each time something changes.
+/// @return false if it does not hold at the deadline.
+bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline,
+                      const std::function<bool()>& done);
+
+}  // namespace orca::host

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+
+namespace orca::plugin {
+
+/// The line from the copy of the process in which a trial runs to the process that waits for it.
+///
+/// Thread contract: one thread of the copy at a time.
+class TrialLine {
+ public:
+  virtual ~TrialLine() = default;
+
+  /// Announces the next step, in words for people. The last one says how far the copy has come.
+  virtual void step(const std::string& what) = 0;
+  /// Hands over a finding; any bytes.
+  virtual void find(const std::string& finding) = 0;
+  /// Ends the trial well from wherever it is.
+  [[noreturn]] virtual void end() = 0;
+};
+
+/// The result of a trial.
+struct TrialResult {
+  enum class Ending {
+    well,      ///< It came to its end.
+    died,      ///< A signal, exit() or an exception that nothing can catch ended the copy.
+    too_long,  ///< It was ended at its time limit.
+    effect,    ///< It was ended before it left a trace outside the copy.
+    silent,    ///< It could not be tried, or not be heard. That says nothing about the code.
+  };
+  Ending ending = Ending::silent;
+  std::string last_step;
+  std::string text;  ///< How it ended, after the last step: "ended the process with exit(3)"; empty if well.
+  std::vector<std::string> findings;
+};
+
+/// What a trial may do to the world outside its copy of the process.
+enum class Effects {
+  any,  ///< Whatever the code does.
+  none,  ///< It is ended before it opens a file for writing or a device, changes the file system, reaches for another
+  ///< process, starts one, or talks to a network.
+};
+
+/// Runs `attempt` in a copy of this process, so that a crash, exit() or endless loop affects only the copy. Its
+/// changes to memory are lost, its standard streams lead nowhere. An exception is not a failure of the trial.
+///
+/// @param limit    [s of the steady clock] for the whole trial.
+/// @param give_up  asked several times a second; true ends the trial, with the ending `silent`. Empty: never.
+/// @errors  ending `silent` with the reason in `text`.
+/// @thread  any; the copy has only the calling thread.
+[[nodiscard]] TrialResult run_trial(const std::function<void(TrialLine&)>& attempt, Duration limit,
+                                    Effects effects, const std::function<bool()>& give_up = {});
+
+/// Runs `attempt` in a copy of this process, with any effects, and says whether the copy survived it.
+///
+/// @param attempt  calls its argument before each step with a description of the step, for people.
+/// @errors  internal with the step and how it ended the copy; deadline_exceeded if it takes too long; unavailable if it
+///          could not be tried.
+/// @thread  any; the copy has only the calling thread.
+[[nodiscard]] Status survives_trial(
+    const std::function<void(const std::function<void(const std::string&)>&)>& attempt, Duration limit);
+
+}  // namespace orca::plugin
