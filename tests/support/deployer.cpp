@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "deployer.hpp"
 
+#include <fstream>
 #include <sstream>
 
 namespace orca::test {
@@ -84,6 +85,16 @@ Words with_test_plugins() { return {"--set", "plugins=" ORCA_BINARY_DIR "/tests/
 
 std::string system_graph(std::string_view name) {
   return source_file("tests/data/graphs/system/") + std::string(name);
+}
+
+std::string line_of(const std::string& file, std::string_view text) {
+  std::ifstream lines(file);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.find(text) != std::string::npos) return std::to_string(number);
+  }
+  return "0";
 }
 
 }  // namespace orca::test

@@ -78,5 +78,7 @@ struct Run {
 [[nodiscard]] std::string system_graph(std::string_view name);
 
 [[nodiscard]] std::vector<std::string> split_lines(std::string_view text);
+/// Returns the number of the first line of a file that holds a text; 0 if none does.
+[[nodiscard]] std::string line_of(const std::string& file, std::string_view text);
 
 }  // namespace orca::test

@@ -24,15 +24,6 @@ void check_refused(const Words& words, const std::vector<std::string>& hints) {
   }
 }
 
-// Returns the number of the first line of a file that holds a text.
-std::string line_of(const std::string& file, const std::string& text) {
-  const std::vector<std::string> lines = split_lines(read_text(file));
-  const auto found = std::ranges::find_if(
-      lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
-  REQUIRE(found != lines.end());
-  return std::to_string(found - lines.begin() + 1);
-}
-
 }  // namespace
 
 TEST_CASE("without a graph the deployer says what it needs", "[system][bad]") {

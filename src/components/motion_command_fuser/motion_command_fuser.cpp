@@ -8,21 +8,22 @@
 #include <vector>
 
 #include "decide.hpp"
+#include "listened.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
-#include "reliance.hpp"
 
 namespace {
 
 using orca::ObjectPtr;
 using orca::Status;
 using orca::fuse::Decision;
+using orca::fuse::Listened;
+using orca::fuse::MotionPort;
 using orca::fuse::Verdict;
 using orca::fuse::Voice;
 using orca::fuse::Wish;
-using MotionPort = orca::PushProxyArray<orca::idl::MotionCommand>;
 using Source = MotionPort::Source;
 using Names = orca::Param<std::vector<std::string>>;
 
@@ -33,16 +34,6 @@ constexpr orca::Duration kWatchPeriod = std::chrono::milliseconds(20);
 // [s] A shorter silence is no sign of a fault on a machine without real-time scheduling.
 constexpr double kShortestSilence = 0.1;
 constexpr double kSilentPeriods = 3.0;
-
-// A behaviour that the fuser listens to, and its last messages.
-struct Listened {
-  Source source;
-  std::string name;
-  orca::TimePoint since{};  // when the fuser began to listen to it
-  ObjectPtr<orca::idl::MotionCommand> last = {};
-  ObjectPtr<orca::idl::MotionCommand> last_wish = {};  // opinions only
-  orca::fuse::Reliance reliance = {};
-};
 
 /// The component that fuses the wishes of the behaviours in a client's list into one crisp command (thesis
 /// 11.1). A list may name the behaviours that the graph connects to `motion`. README.md explains the modes.

@@ -17,7 +17,7 @@ class FailureInjector {
  public:
   /// All are those of the component, and outlive this object.
   FailureInjector(const std::optional<PlannedFailure>& planned, const ComponentSite& site, Strand& strand,
-            const LapTrigger& laps)
+                  const LapTrigger& laps)
       : planned_(planned), site_(site), strand_(strand), laps_(laps) {}
 
   /// Starts to count the time.
