@@ -57,6 +57,7 @@ TEMPLATE_LIST_TEST_CASE("a multiple of the base period brings every n-th object,
     kit.connect(source.endpoint("out"), listener.endpoint("in"), {.depth = 10});
     listener.in.set_multiple(3);
     listener.in.subscribe();
+    CHECK(eventually(kit.executive, [&] { return source.out.subscriber_count() == 1; }));
     CHECK(is_granted(listener, {10ms, 3, 30ms}));
     source.push_numbers(1, 10);
     REQUIRE(listener.has_seen(4));
