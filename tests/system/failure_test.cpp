@@ -87,6 +87,13 @@ TEST_CASE("a rehearsed failure is told as one, and a run without it has another 
         run_deployer(graph + Words{"--fail", "avoid=silent@10s"} + virtual_clock()).trace_hash());
 }
 
+TEST_CASE("a component is to fail once only", "[system][failure]") {
+  const Run run = run_deployer({source_file("graphs/scout_goto.xml"), "--fail", "avoid=slow@1s", "--fail",
+                                "goto=hang@1s", "--fail", "avoid=hang@2s", "--check"});
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says("--fail: \"avoid\" is to fail twice"));
+}
+
 TEST_CASE("a failure that cannot be rehearsed is refused, with what was expected", "[system][failure]") {
   const auto refused = [](const std::string& fault) {
     const Run run = run_deployer({source_file("graphs/scout_goto.xml"), "--fail", fault, "--until", "1 s"});
@@ -97,5 +104,6 @@ TEST_CASE("a failure that cannot be rehearsed is refused, with what was expected
              Catch::Contains("no component \"avoi\"") && Catch::Contains("\"avoid\""));
   CHECK_THAT(refused("avoid=dead@1s"), Catch::Contains("silent, throw, hang, slow"));
   CHECK_THAT(refused("avoid"), Catch::Contains("COMPONENT=HOW@TIME"));
+  CHECK_THAT(refused("avoid=silent"), Catch::Contains("COMPONENT=HOW@TIME"));
   CHECK_THAT(refused("avoid=silent@1 parsec"), Catch::Contains("--fail: "));
 }

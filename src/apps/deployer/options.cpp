@@ -82,6 +82,10 @@ Status add_failure(Options& options, const std::string& value) {
   if (!failure) return expected("--fail", listed(host::failure_names()) + " before the @", how);
   const Result<Duration> time = xml::parse_duration(value.substr(at + 1));
   if (!time) return fail(Code::invalid_argument, "--fail: " + time.error().message);
+  for (const host::PlannedFailure& planned : options.run.planned_failures)
+    if (planned.component == value.substr(0, equals))
+      return fail(Code::invalid_argument, "--fail: " + in_quotes(planned.component) +
+                                              " is to fail twice; a component fails in one way, at one time");
   options.run.planned_failures.push_back({value.substr(0, equals), *failure, *time});
   return ok();
 }

@@ -34,7 +34,7 @@ void FailureInjector::begin() {
 
 // Tells people that the failure is no real one when it begins.
 bool FailureInjector::has_begun(Failure failure) {
-  if (!planned_ || planned_->failure != failure || site_.now() < begins_) return false;
+  if (!planned_ || planned_->failure != failure || site_.now() < begins_.load()) return false;
   if (!told_) site_.write_log(log::Level::warning, "fails from now on, because --fail asks for it");
   told_ = true;
   return true;

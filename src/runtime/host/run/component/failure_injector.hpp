@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <optional>
 
 #include "component_site.hpp"
@@ -12,7 +13,7 @@ namespace orca::host {
 
 /// Makes one component fail as the run's options ask for.
 ///
-/// Thread contract: begin() once, before the component works; the rest on the component's strand.
+/// Thread contract: begin() once, from any thread; the rest on the component's strand.
 class FailureInjector {
  public:
   /// All are those of the component, and outlive this object.
@@ -35,7 +36,7 @@ class FailureInjector {
   const ComponentSite& site_;
   Strand& strand_;
   const LapTrigger& laps_;
-  TimePoint begins_ = kForever;
+  std::atomic<TimePoint> begins_{kForever};  // handlers may look at it before the components begin to work
   bool told_ = false;
 };
 
