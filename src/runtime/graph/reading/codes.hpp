@@ -58,6 +58,9 @@ inline constexpr const char* kCandidate = "G050";
 inline constexpr const char* kNoInfluence = "G051";
 inline constexpr const char* kUnusedHardware = "G052";
 inline constexpr const char* kNeverTriggered = "G053";
+inline constexpr const char* kOnlyAsks = "G054";
+inline constexpr const char* kCircle = "G055";
+inline constexpr const char* kNothingToCollect = "G056";
 inline constexpr const char* kLoading = "G060";
 inline constexpr const char* kUnfit = "G061";
 
