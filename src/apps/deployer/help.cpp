@@ -47,6 +47,7 @@ How to check
 stdout  arrived NAME x y t | contact NAME t | trace-hash HASH (virtual clock, last line)
 exit    0 finished or stopped on request   1 failed while running, output not written, or --diff found a difference
         2 graph or arguments wrong, nothing started   3 could not start, all taken down again
+        A component that ends in WORK_FAILED is such a failure, unless the graph says may_fail="true" of it.
 )";
 }
 

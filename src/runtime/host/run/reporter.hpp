@@ -44,6 +44,9 @@ class Reporter final : public LinkObserver {
   /// Reports an alarm whose text is in the log already, whatever it is about.
   void note(idl::Alarm alarm);
   void log(log::Level level, const std::string& who, std::string_view text);
+  /// Writes a line about the run as a whole to the log.
+  void log_info(std::string_view text) { log(log::Level::info, log_name_, text); }
+  void log_warning(std::string_view text) { log(log::Level::warning, log_name_, text); }
   /// Writes an error of the run as a whole to the log.
   void log_error(std::string_view text) const { log::error(log_name_, text); }
 

@@ -27,6 +27,7 @@ class Recorder final : public RunListener {
     record_.alarms.push_back(alarm);
   }
   void logged(log::Level level, std::string_view who, std::string_view text) override {
+    if (level == log::Level::info) record_.infos.push_back(std::string(who) + ": " + std::string(text));
     if (level == log::Level::warning) record_.warnings.push_back(std::string(who) + ": " + std::string(text));
   }
   void ended(const RunResult& /*result*/) override { record_.heard.emplace_back("ended"); }

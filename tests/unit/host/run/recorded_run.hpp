@@ -13,6 +13,7 @@ struct RecordedRun {
   host::RunResult result;
   std::vector<std::string> heard;     ///< "started", "arrived home", "contact Dewey", "alarm UMASK", "ended"
   std::vector<idl::Alarm> alarms;     ///< As the listener heard them.
+  std::vector<std::string> infos;     ///< "host: all is well"
   std::vector<std::string> warnings;  ///< "host: something is odd"
 };
 

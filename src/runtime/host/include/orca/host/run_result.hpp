@@ -21,7 +21,7 @@ enum class RunOutcome {
   finished,     ///< The components that the graph names in `ends` are done.
   time_is_up,   ///< The time limit was reached.
   stopped,      ///< A stop was requested.
-  failed,       ///< Something failed during the run.
+  failed,       ///< Something failed: the run, or a component that the graph does not allow to (may_fail).
   not_started,  ///< Not everything came up; all of it was taken down again.
   bad_options   ///< The options contradict each other; nothing was started.
 };
