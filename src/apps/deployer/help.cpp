@@ -27,6 +27,8 @@ What to write
   --view WHAT           of the picture: world (default), robot (around the first robot, ahead is up) or film (key
                         moments: start, arrivals, contacts, end)
   --hide LAYERS         of the picture, e.g. sonar,track; layers: walls, track, robot, sonar, laser, motion, marks
+  --progress            one line on stderr that shows time, who is not well, distance to the goal and the last alarm, and a
+                        summary in the end; by default if stderr is a terminal. --no-progress: neither
   --stats               in the end, on stderr: what each connection carried, dropped and delivered late
   --log LEVEL           debug, info (default), warning, error or off; logs go to stderr
 

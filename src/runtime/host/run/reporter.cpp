@@ -35,6 +35,7 @@ Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listen
 void Reporter::delivered(std::string_view component, std::string_view port, const ObjectRef& object) {
   trace_.delivered(component, port, object);
   if (&object.type() == &object_type<idl::Arrived>()) hear(object);
+  if (sightings_ != nullptr) sightings_->delivered(component, object);
 }
 
 void Reporter::hear(const ObjectRef& object) {
@@ -100,6 +101,13 @@ void Reporter::draw(Scene& scene) const {
     scene.arrivals.push_back({arrived.name(), {arrived.x(), arrived.y()}, to_time_point(arrived.stamp())});
   for (const idl::Contact& contact : contacts_)
     scene.contacts.push_back({contact.robot(), {contact.x(), contact.y()}, to_time_point(contact.stamp())});
+}
+
+std::string Reporter::last_alarm() const {
+  const std::lock_guard lock(mutex_);
+  if (alarms_.empty()) return {};
+  const idl::Alarm& last = alarms_.back();
+  return (last.source().empty() ? "" : last.source() + " ") + last.kind() + ": " + last.text();
 }
 
 void Reporter::fill(RunResult& result) const {

@@ -11,6 +11,7 @@
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
+#include "sightings.hpp"
 #include "trace.hpp"
 
 namespace orca::host {
@@ -24,6 +25,10 @@ class Reporter final : public LinkObserver {
  public:
   /// @param log_name  name in the log for whatever concerns no single component.
   Reporter(const Executive& executive, Trace& trace, RunListener& listener, std::string log_name);
+
+  /// Passes what is delivered on to `sightings` as well.
+  /// @pre  nothing runs yet.
+  void look_on(Sightings& sightings) { sightings_ = &sightings; }
 
   void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
   void link_changed(std::string_view client, std::string_view server, bool connected) override {
@@ -52,6 +57,8 @@ class Reporter final : public LinkObserver {
 
   /// Adds arrivals and contacts to a picture.
   void draw(Scene& scene) const;
+  /// Returns the last alarm for people: "avoid FAILED: work() threw 7"; empty: there was none.
+  [[nodiscard]] std::string last_alarm() const;
   /// Fills in what has been reported so far, and the start of the run.
   void fill(RunResult& result) const;
 
@@ -63,6 +70,7 @@ class Reporter final : public LinkObserver {
   RunListener& listener_;
   const std::string log_name_;
   const TimePoint start_;
+  Sightings* sightings_ = nullptr;
   mutable std::mutex mutex_;
   std::map<std::string, ObjectRef>
       last_arrived_;  // by origin: an object with several readers is reported once

@@ -11,6 +11,7 @@
 #include "containment/stall_monitor.hpp"
 #include "counters.hpp"
 #include "idleness.hpp"
+#include "live_view.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/host/last_words.hpp"
@@ -59,7 +60,10 @@ class Run {
  private:
   void run() {
     if (const Status opened = open_outputs(); !opened.ok()) return refuse_output(opened.error());
+    if (options_.looks_on) reporter_.look_on(sightings_);
     if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
+    if (options_.looks_on)
+      listener_.built(view_.emplace(executive_, start_, *system_, reporter_, sightings_));
     {
       const StallMonitor monitor(
           executive_, [this](const idl::Alarm& alarm) { reporter_.raise(alarm); },
@@ -231,6 +235,7 @@ class Run {
 
   // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.
   void take_down() {
+    end_ = executive_.now();
     reporter_.ignore_trouble();
     if (!counters_) counters_ = collect_counters(graph_, *system_);
     const std::vector<std::string> stuck = system_->take_down(executive_.now() + kTakeDownLimit);
@@ -281,6 +286,8 @@ class Run {
     const bool ran = outcome_ != RunOutcome::not_started && outcome_ != RunOutcome::bad_options;
     if (ran && executive_.is_virtual()) result.trace_hash = trace_.hash();
     reporter_.fill(result);
+    result.end = end_.value_or(executive_.now());
+    result.ways = sightings_.ways();
     if (ran) result.counters = counters_ ? *counters_ : collect_counters(graph_, *system_);
     return result;
   }
@@ -292,6 +299,7 @@ class Run {
   StopSignal& stop_;
   RunListener& listener_;
   Trace trace_;
+  Sightings sightings_;
   Reporter reporter_;
   OutputFile picture_{"the picture"};
   std::atomic<bool> runs_{false};      // whether there are strands
@@ -305,6 +313,8 @@ class Run {
                       [this] { changed_->notify(); },
                       !options_.picture.file.empty()};
   std::optional<System> system_{std::in_place, graph_, context_, [this] { return stop_.requested(); }};
+  std::optional<LiveView> view_;         // of system_
+  std::optional<TimePoint> end_;         // when the taking down began
   std::optional<RunCounters> counters_;  // of the run until it was taken down
   RunOutcome outcome_ = RunOutcome::finished;
   std::string culprit_;

@@ -12,6 +12,7 @@
 #include "hardware_instance.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/host/run_view.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/patterns/endpoints/links.hpp"
 #include "run_context.hpp"
@@ -68,6 +69,9 @@ class System {
   [[nodiscard]] const std::vector<std::unique_ptr<ComponentInstance>>& components() const {
     return components_;
   }
+  /// Returns components and hardware that do not work as they should, or not yet.
+  /// @thread  any, once the system is built.
+  [[nodiscard]] std::vector<RunGlance::Unwell> unwell() const;
   void draw(Scene& scene);
 
  private:

@@ -18,6 +18,10 @@ class Recorder final : public RunListener {
   explicit Recorder(RecordedRun& record) : record_(record) {}
 
   void started(TimePoint /*now*/) override { record_.heard.emplace_back("started"); }
+  void built(const RunView& view) override {
+    record_.heard.emplace_back("built");
+    record_.first_glance = view.look();
+  }
   void arrived(const idl::Arrived& arrived) override { record_.heard.push_back("arrived " + arrived.name()); }
   void contact(const idl::Contact& contact) override {
     record_.heard.push_back("contact " + contact.robot());

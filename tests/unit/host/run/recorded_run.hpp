@@ -11,7 +11,9 @@ namespace orca::test {
 /// The result of a run in the test's own process, and the events that its listener received.
 struct RecordedRun {
   host::RunResult result;
-  std::vector<std::string> heard;     ///< "started", "arrived home", "contact Dewey", "alarm UMASK", "ended"
+  std::vector<std::string>
+      heard;  ///< "started", "built", "arrived home", "contact Dewey", "alarm UMASK", "ended"
+  host::RunGlance first_glance;       ///< When everything was built; empty unless RunOptions::looks_on.
   std::vector<idl::Alarm> alarms;     ///< As the listener heard them.
   std::vector<std::string> infos;     ///< "host: all is well"
   std::vector<std::string> warnings;  ///< "host: something is odd"

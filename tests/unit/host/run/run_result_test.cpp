@@ -232,6 +232,23 @@ TEST_CASE("a component that keeps the system from starting is the culprit, and t
   CHECK_FALSE(result.trace_hash);
 }
 
+TEST_CASE("who looks on is offered a view before anything runs, and the run's hash is the same",
+          "[host][result]") {
+  RunOptions options = virtual_run();
+  const RecordedRun unseen = record_run("ends=\"host\"", kArrivals, options);
+  options.looks_on = true;
+  const RecordedRun seen = record_run("ends=\"host\"", kArrivals, options);
+  CHECK(seen.heard == Lines{"started", "built", "arrived home", "arrived home", "ended"});
+  CHECK(seen.result.trace_hash == unseen.result.trace_hash);
+  CHECK(seen.result.end - seen.result.start == 100ms);
+  CHECK(seen.first_glance.is_virtual);
+  CHECK(seen.first_glance.time == Duration{0});
+  CHECK(seen.first_glance.working == 0);
+  REQUIRE(seen.first_glance.unwell.size() == 3);
+  CHECK(seen.first_glance.unwell[0].name == "arriver");
+  CHECK(seen.first_glance.unwell[0].state == "INIT");
+}
+
 TEST_CASE("options that contradict each other are an outcome, too", "[host][result]") {
   RunOptions options;
   options.executive = {ClockKind::virtual_time, Backend::thread};

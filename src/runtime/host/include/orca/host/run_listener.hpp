@@ -6,6 +6,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/time.hpp"
 #include "orca/host/run_result.hpp"
+#include "orca/host/run_view.hpp"
 
 namespace orca::host {
 
@@ -24,6 +25,9 @@ class RunListener {
   /// Reports the start of the run; the first call.
   /// @param now  time of the run's clock, which all stamps refer to.
   virtual void started(TimePoint /*now*/) {}
+  /// Reports that all components and hardware are constructed, if RunOptions::looks_on.
+  /// @param view  may be used until ended() or abandon() returns.
+  virtual void built(const RunView& /*view*/) {}
   /// Reports that an Arrived was delivered to a component, once for each object, however many components take
   /// it.
   virtual void arrived(const idl::Arrived& /*arrived*/) {}

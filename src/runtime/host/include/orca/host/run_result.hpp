@@ -40,14 +40,22 @@ struct RunCounters {
 
 /// The result of a run. A plain value.
 struct RunResult {
+  /// How far a robot has driven.
+  struct Way {
+    std::string robot;    ///< Component that pushes its odometry or poses.
+    double length = 0.0;  ///< [m]
+  };
+
   RunOutcome outcome = RunOutcome::finished;
   std::string culprit;         ///< Component or hardware, named as in the graph; empty: none, or several.
   std::optional<Error> error;  ///< The reason, unless the run ended well.
   std::optional<std::uint64_t> trace_hash;  ///< In virtual time only, if the run started.
   TimePoint start;                          ///< Time of the run's clock, which all stamps refer to.
+  TimePoint end;                            ///< Time of the same clock at which the taking down began.
   std::vector<idl::Arrived> arrivals;       ///< In the order of their delivery.
   std::vector<idl::Contact> contacts;       ///< In the order in which they were reported.
   std::vector<idl::Alarm> alarms;           ///< In the order in which they were raised.
+  std::vector<Way> ways;                    ///< Only if RunOptions::looks_on.
   RunCounters counters;
 };
 
