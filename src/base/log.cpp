@@ -6,6 +6,7 @@
 
 #include <mutex>
 
+#include "orca/base/live_line.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::log {
@@ -66,6 +67,7 @@ void write(Level level, std::string_view who, std::string_view words) {
   if (!s.logger->should_log(to_spdlog(level))) return;
   const std::string text = printable(words);
   const std::lock_guard lock(s.mutex);
+  const LiveLine::Pause room;
   if (s.now) {
     s.logger->log(to_spdlog(level), "[{:10.3f}] {:<7} {}: {}", to_seconds(s.now()), name(level), who, text);
   } else {

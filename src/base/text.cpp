@@ -88,6 +88,22 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string fitting(std::string_view text, std::size_t columns) {
+  constexpr std::uint32_t kFirstWide = 0x1100;
+  constexpr std::string_view kMore = "...";
+  std::size_t used = 0;
+  std::size_t at = 0;
+  std::size_t end = 0;  // of what fits together with kMore
+  while (at < text.size()) {
+    const Character next = first_character(text.substr(at));
+    used += next.code_point.value_or(0) >= kFirstWide ? 2 : 1;
+    if (used > columns) return std::string(text.substr(0, end)) + std::string(kMore.substr(0, columns));
+    at += next.size;
+    if (used + kMore.size() <= columns) end = at;
+  }
+  return std::string(text);
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMost = 300;
   return "\"" + shortened(text, kMost) + "\"";

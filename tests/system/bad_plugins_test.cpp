@@ -64,6 +64,21 @@ TEST_CASE("a component that throws in a hook or a handler fails alone, with its 
   check_fails_alone("query", "robot", virtual_clock());
 }
 
+TEST_CASE("a component that has failed makes the exit status 1, unless the graph says that it may",
+          "[system][plugins]") {
+  for (const auto& [may, code] : {std::pair{"true", 0}, {"false", 1}}) {
+    const Run run = run_deployer(Words{system_graph("misbehaving.xml"), "--set", "where=work", "--set",
+                                       "what=exception", "--set", std::string("may_fail=") + may} +
+                                 with_test_plugins() + virtual_clock());
+    CAPTURE(may);
+    INFO(run.err);
+    CHECK(run.exit_code() == code);
+    CHECK(run.says("bad: ended in WORK_FAILED, so the run has failed; if it may, say so in the graph with "
+                   "may_fail=\"true\"") == (code == 1));
+    CHECK(run.says("counter: counted 30 laps"));
+  }
+}
+
 TEST_CASE("a component that throws fails alone with a thread per component as well", "[system][plugins]") {
   check_fails_alone("work", "work()", {"--clock", "steady"});
 }
@@ -103,7 +118,7 @@ TEST_CASE("a component that throws in configure() is an error of the graph at it
     CHECK(line_with(thrown.text, run).find("bad") != std::string::npos);
     CHECK(run.says("configure()"));
     if (!kThreadSanitizer)
-      CHECK(run.says("misbehaving.xml:9:3: error G062: component \"bad\": configure() threw"));
+      CHECK(run.says("misbehaving.xml:10:3: error G062: component \"bad\": configure() threw"));
     CHECK_FALSE(run.says("counted"));
   }
 }

@@ -129,8 +129,9 @@ TEST_CASE("a run that ends in its first milliseconds ends well, with any executo
     if (executor == "fiber" && kThreadSanitizer) continue;
     for (const std::string until : {"1 ns", "1 us", "100 us", "1 ms", "3 ms", "10 ms"}) {
       CAPTURE(executor, until);
-      const Run run = run_deployer(
-          {source_file("graphs/scout_goto.xml"), "--executor", executor, "--until", until}, Seconds(10));
+      const Run run = run_deployer({source_file("graphs/scout_goto.xml"), "--executor", executor, "--until",
+                                    until, "--log", "warning"},
+                                   Seconds(10));
       INFO(run.err);
       CHECK(run.exit_code() == 0);
       CHECK(run.err.empty());

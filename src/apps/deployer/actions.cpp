@@ -16,6 +16,7 @@
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/graph/schema.hpp"
+#include "progress.hpp"
 #include "streams.hpp"
 
 namespace orca::deployer {
@@ -113,8 +114,10 @@ ExitCode run(const Options& options) {
   loaded.catalogue.give_up_if([] { return stop.requested(); });
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;
-  Console console(options.stats);
-  return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, options.run, stop, console).outcome);
+  host::RunOptions run = options.run;
+  run.looks_on = options.progress.value_or(stderr_can_live());
+  Console console(options.stats, run.looks_on);
+  return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, run, stop, console).outcome);
 }
 
 bool reads_one_graph(Action action) {

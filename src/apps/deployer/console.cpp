@@ -8,22 +8,14 @@
 #include <string>
 
 #include "exit_code.hpp"
+#include "figures.hpp"
 #include "orca/base/text.hpp"
 #include "orca/idl/time.hpp"
 #include "stats.hpp"
 #include "streams.hpp"
+#include "summary.hpp"
 
 namespace orca::deployer {
-namespace {
-
-std::string fixed(double value, int digits) {
-  char text[400];  // enough for any double
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
-
-}  // namespace
-
 double Console::seconds(const idl::TimeValue& stamp) const {
   return to_seconds(to_time_point(stamp) - start_);
 }
@@ -31,6 +23,10 @@ double Console::seconds(const idl::TimeValue& stamp) const {
 // Returns the end of a line about a robot: its name, if there are others.
 std::string Console::ending(const std::string& robot) const {
   return robots_.several() && !robot.empty() ? " " + robot + "\n" : "\n";
+}
+
+void Console::built(const host::RunView& view) {
+  if (progress_ && stderr_can_live()) progress_line_.emplace(view);
 }
 
 void Console::arrived(const idl::Arrived& arrived) {
@@ -49,12 +45,19 @@ void Console::contact(const idl::Contact& contact) {
 }
 
 void Console::ended(const host::RunResult& result) {
-  const bool ran = result.outcome != host::RunOutcome::not_started;
-  if (stats_ && ran) std::fputs(stats_text(result.counters).c_str(), stderr);
+  progress_line_.reset();
+  if (result.outcome != host::RunOutcome::not_started) std::fputs(closing_text(result).c_str(), stderr);
   if (!result.trace_hash) return;
   char line[32];
   std::snprintf(line, sizeof line, "trace-hash %016" PRIx64 "\n", *result.trace_hash);
   write_out(line);
+}
+
+std::string Console::closing_text(const host::RunResult& result) const {
+  const std::string summary =
+      progress_ ? summary_text(result, std::chrono::steady_clock::now() - wall_start_) : "";
+  if (stats_) return stats_text(result.counters) + summary;
+  return progress_ ? summary + trouble_text(result.counters) : "";
 }
 
 void Console::abandon(const host::RunResult& result) {

@@ -30,6 +30,8 @@ What to write
                         moments: start, arrivals, contacts, end)
   --hide LAYERS         of the picture, e.g. sonar,track; layers: walls, track, robot, sonar, laser, motion, marks,
                         places
+  --progress            one line on stderr that shows time, who is not well, distance to the goal and the last alarm, and a
+                        summary in the end; by default if stderr is a terminal. --no-progress: neither
   --stats               in the end, on stderr: what each connection carried, dropped and delivered late
   --log LEVEL           debug, info (default), warning, error or off; logs go to stderr
 
@@ -52,6 +54,7 @@ stdout  arrived NAME x y t | failed NAME reason | contact NAME t | trace-hash HA
         with several robots the first three end with the name of the robot
 exit    0 finished or stopped on request   1 failed while running, output not written, or --diff found a difference
         2 graph or arguments wrong, nothing started   3 could not start, all taken down again
+        A component that ends in WORK_FAILED is such a failure, unless the graph says may_fail="true" of it.
 )";
 }
 

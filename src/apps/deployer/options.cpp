@@ -51,6 +51,16 @@ Option flag(bool Options::*member) {
           }};
 }
 
+// Returns an option that asks for progress, or wants none. The two exclude each other.
+Option progress(bool wanted) {
+  return {false, [wanted](Options& options, const std::string&) {
+            if (options.progress.value_or(wanted) != wanted)
+              return Status(fail(Code::invalid_argument, "--progress and --no-progress exclude each other"));
+            options.progress = wanted;
+            return ok();
+          }};
+}
+
 Status set_clock(Options& options, const std::string& value) {
   if (value != "steady" && value != "virtual") return expected("--clock", "steady or virtual", value);
   options.run.executive.clock = value == "steady" ? ClockKind::steady : ClockKind::virtual_time;
@@ -148,6 +158,8 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--strict", flag(&Options::strict)},
       {"--json", flag(&Options::json)},
       {"--stats", flag(&Options::stats)},
+      {"--progress", progress(true)},
+      {"--no-progress", progress(false)},
       {"--profile",
        {true, [](Options& o, const std::string& v) { return o.profiles.push_back(v), ok(); }, true}},
       {"--set", {true, [](Options& o, const std::string& v) { return o.settings.push_back(v), ok(); }, true}},

@@ -2,6 +2,7 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,12 @@ namespace orca::deployer {
 struct Options {
   enum class Action { run, check, print, dot, mermaid, list_ports, diff, describe, schema, help, version };
   Action action = Action::run;
-  std::string file;        ///< The graph, or the plugin to describe.
-  std::string other_file;  ///< The graph to compare it with.
-  bool strict = false;     ///< Warnings are errors.
-  bool json = false;       ///< Output for programs.
-  bool stats = false;      ///< Write what the connections of a run carried.
+  std::string file;              ///< The graph, or the plugin to describe.
+  std::string other_file;        ///< The graph to compare it with.
+  bool strict = false;           ///< Warnings are errors.
+  bool json = false;             ///< Output for programs.
+  bool stats = false;            ///< Write what the connections of a run carried.
+  std::optional<bool> progress;  ///< Show how a run is going; nothing: if stderr is a terminal.
   std::vector<std::string> profiles;
   std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
   xml::Diagnostics problems;          ///< What is wrong with the command line itself (codes Cxxx).

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "figures.hpp"
+
 namespace orca::deployer {
 namespace {
 
@@ -52,12 +54,6 @@ std::string client_table(const host::RunCounters& counters) {
   return aligned(rows) + "\n";
 }
 
-// Returns "no drops", "1 drop", "2 drops".
-std::string count_of(std::uint64_t number, const std::string& thing) {
-  if (number == 0) return "no " + thing + "s";
-  return std::to_string(number) + " " + thing + (number == 1 ? "" : "s");
-}
-
 // Objects that an edge drops although it may are mentioned only where there are any.
 std::string drops_of(const host::RunCounters& counters) {
   std::uint64_t accepted = 0;
@@ -69,7 +65,9 @@ std::string drops_of(const host::RunCounters& counters) {
   return count_of(over, "drop") + (accepted + over > 0 ? " beyond a limit" : "");
 }
 
-std::string summary(const host::RunCounters& counters) {
+}  // namespace
+
+std::string trouble_text(const host::RunCounters& counters) {
   std::uint64_t late = 0;
   std::uint64_t refused = 0;
   for (const auto& edge : counters.edges) late += edge.counters.missed_deadlines;
@@ -78,10 +76,8 @@ std::string summary(const host::RunCounters& counters) {
          "\n";
 }
 
-}  // namespace
-
 std::string stats_text(const host::RunCounters& counters) {
-  return edge_table(counters) + client_table(counters) + summary(counters);
+  return edge_table(counters) + client_table(counters) + trouble_text(counters);
 }
 
 }  // namespace orca::deployer

@@ -12,4 +12,7 @@ namespace orca::deployer {
 /// ports that send or ask, and a line that sums up what went wrong on them.
 [[nodiscard]] std::string stats_text(const host::RunCounters& counters);
 
+/// Returns the last line of that text: drops, missed deadlines and refusals.
+[[nodiscard]] std::string trouble_text(const host::RunCounters& counters);
+
 }  // namespace orca::deployer

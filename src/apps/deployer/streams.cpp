@@ -11,6 +11,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "orca/base/live_line.hpp"
+
 namespace orca::deployer {
 namespace {
 
@@ -38,6 +40,7 @@ void prepare_streams() {
 }
 
 void write_out(std::string_view text) {
+  const LiveLine::Pause room;  // stdout may be the same terminal as stderr
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     note_failure();
 }

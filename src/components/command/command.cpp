@@ -13,6 +13,7 @@
 
 #include "goal_list.hpp"
 #include "orca/base/input_file.hpp"
+#include "orca/base/live_line.hpp"
 #include "orca/base/text.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/navigation.hpp"
@@ -175,6 +176,7 @@ class Command final : public orca::Component {
   // Asks the user for one goal; false when there will be no more.
   bool ask() {
     constexpr std::string_view kPrompt = "goal (name: x y > x y, empty line to end)? ";
+    const orca::LiveLine::Pause room;  // the user sees what he types
     if (write(STDERR_FILENO, kPrompt.data(), kPrompt.size()) < 0) return false;
     std::string line;
     if (!read_line(line) || line.empty()) return false;

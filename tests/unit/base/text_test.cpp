@@ -55,3 +55,16 @@ TEST_CASE("a printable text has nothing that a terminal obeys, and everything el
   CHECK(printable("\xff \xc3 \xe2\x82 \xed\xa0\x80 \xc0\xaf \xf5\x80\x80\x80") ==
         "\\xff \\xc3 \\xe2\\x82 \\xed\\xa0\\x80 \\xc0\\xaf \\xf5\\x80\\x80\\x80");
 }
+
+TEST_CASE("a fitting text has no more columns than the terminal, with a sign that something is left out",
+          "[base][text]") {
+  CHECK(fitting("abcdef", 6) == "abcdef");
+  CHECK(fitting("abcdefg", 6) == "abc...");
+  CHECK(fitting("", 0).empty());
+  CHECK(fitting("abc", 2) == "..");
+  CHECK(fitting("abc", 0).empty());
+  CHECK(fitting("\u00e4\u00e4\u00e4\u00e4\u00e4", 4) == "\u00e4...");
+  // Wide characters take two columns.
+  CHECK(fitting("\u4e2d\u6587", 4) == "\u4e2d\u6587");
+  CHECK(fitting("\u4e2d\u6587\u4e2d", 5) == "\u4e2d...");
+}

@@ -75,7 +75,7 @@ TEST_CASE("how a component runs is set on it", "[graph][load]") {
       "<graph name='g'>"
       "<component name='a' type='orca.Localizer' period='50 ms' priority='-3' autonomous='false' "
       "process='control'/>"
-      "<component name='b' type='orca.Localizer' on='odometry' start_after='a'/>"
+      "<component name='b' type='orca.Localizer' on='odometry' start_after='a' may_fail='true'/>"
       "<component name='c' type='orca.Localizer'/></graph>");
   const ComponentNode& a = *graph.find_component("a");
   CHECK(a.trigger->kind == Trigger::Kind::period);
@@ -83,10 +83,12 @@ TEST_CASE("how a component runs is set on it", "[graph][load]") {
   CHECK(a.priority == -3);
   CHECK(a.autonomous == false);
   CHECK(a.process == "control");
+  CHECK_FALSE(a.may_fail);
   const ComponentNode& b = *graph.find_component("b");
   CHECK(b.trigger->kind == Trigger::Kind::on_any);
   CHECK(b.trigger->ports == std::vector<std::string>{"odometry"});
   CHECK(b.start_after == std::vector<std::string>{"a"});
+  CHECK(b.may_fail);
   const ComponentNode& c = *graph.find_component("c");
   CHECK_FALSE(c.trigger.has_value());
   CHECK_FALSE(c.autonomous.has_value());

@@ -59,7 +59,9 @@ constexpr std::array kComponent{
                   "From -100 to 100; of several components that are ready, the one with the highest priority "
                   "goes first.",
                   integer(-100, 100)},
-    AttributeRule{"autonomous", false, "Whether the component works without clients.", kBoolean},
+    AttributeRule{"autonomous", false,
+                  "Whether the component works without clients; without the attribute it decides itself.",
+                  kBoolean},
     AttributeRule{"period", false, "Time from one lap to the next, for example 50 ms.",
                   seconds(kMicrosecond)},
     AttributeRule{"on", false, "PushProxies whose new objects start the laps."},
@@ -79,7 +81,10 @@ constexpr std::array kComponent{
         one_of(kStay)},
     AttributeRule{"idle_time", false,
                   "Time without use after which an on_demand component is unloaded; 10 s if not given.",
-                  seconds(0.0)}};
+                  seconds(0.0)},
+    AttributeRule{"may_fail", false,
+                  "Whether a run may count as finished well although the component ends in WORK_FAILED.",
+                  kBoolean}};
 constexpr std::array kParam{
     AttributeRule{"name", true, ""},
     AttributeRule{"value", true, "Value with a unit (0.5 m, 22.5 deg); a bare number is in SI."}};

@@ -24,6 +24,7 @@
 #include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/live_line.hpp"
 #include "orca/host/stop_signal.hpp"
 #include "orca/plugin/loaded_plugins.hpp"
 
@@ -59,6 +60,7 @@ class Line {
   }
   void write() {
     *this << "\n";
+    LiveLine::erase_for_good();
     if (::write(g_stderr, text_.data(), size_) < 0) return;  // there is nothing left to do about it
   }
 

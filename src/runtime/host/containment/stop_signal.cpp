@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/live_line.hpp"
 #include "orca/host/last_words.hpp"
 
 namespace orca::host {
@@ -189,6 +190,7 @@ void StopSignal::prepare_for_death() {
 
 void StopSignal::give_up() {
   const int status = has_run_.load() ? failed_status_ : stopped_status_;
+  LiveLine::erase_for_good();
   if (impatient_) std::_Exit(stopped_status_);
   LastWords::end_hung(
       main_thread_, "has not ended 2.5 s after the signal to stop; the process is ended without it", status);

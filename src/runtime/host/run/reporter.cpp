@@ -36,6 +36,11 @@ Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listen
   listener_.started(start_);
 }
 
+void Reporter::delivered(std::string_view component, std::string_view port, const ObjectRef& object) {
+  trace_.delivered(component, port, object);
+  if (sightings_ != nullptr) sightings_->delivered(component, object);
+}
+
 void Reporter::pushed(const ObjectRef& object) {
   if (&object.type() == &object_type<idl::Arrived>()) hear(*static_cast<const idl::Arrived*>(object.get()));
   if (&object.type() == &object_type<idl::GoalFailed>())
@@ -118,6 +123,13 @@ void Reporter::draw(Scene& scene) const {
   for (const idl::Contact& contact : contacts_)
     scene.contacts.push_back(
         {contact.robot(), {contact.x(), contact.y()}, to_time_point(contact.stamp()), contact.robot()});
+}
+
+std::string Reporter::last_alarm() const {
+  const std::lock_guard lock(mutex_);
+  if (alarms_.empty()) return {};
+  const idl::Alarm& last = alarms_.back();
+  return (last.source().empty() ? "" : last.source() + " ") + last.kind() + ": " + last.text();
 }
 
 void Reporter::fill(RunResult& result) const {

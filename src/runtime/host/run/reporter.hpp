@@ -11,6 +11,7 @@
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
+#include "sightings.hpp"
 #include "trace.hpp"
 
 namespace orca::host {
@@ -25,9 +26,11 @@ class Reporter final : public LinkObserver {
   /// @param log_name  name in the log for whatever concerns no single component.
   Reporter(const Executive& executive, Trace& trace, RunListener& listener, std::string log_name);
 
-  void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override {
-    trace_.delivered(component, port, object);
-  }
+  /// Passes what is delivered on to `sightings` as well.
+  /// @pre  nothing runs yet.
+  void look_on(Sightings& sightings) { sightings_ = &sightings; }
+
+  void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
   /// Passes on the results of missions: Arrived and GoalFailed.
   void pushed(const ObjectRef& object) override;
   void link_changed(std::string_view client, std::string_view server, bool connected) override {
@@ -52,11 +55,16 @@ class Reporter final : public LinkObserver {
   /// Writes a line to the log and reports it.
   /// @param mission  mission that the line belongs to, which the line then names; 0: none.
   void log(log::Level level, const std::string& who, std::string_view text, std::uint64_t mission = 0);
+  /// Writes a line about the run as a whole to the log.
+  void log_info(std::string_view text) { log(log::Level::info, log_name_, text); }
+  void log_warning(std::string_view text) { log(log::Level::warning, log_name_, text); }
   /// Writes an error of the run as a whole to the log.
   void log_error(std::string_view text) const { log::error(log_name_, text); }
 
   /// Adds arrivals and contacts to a picture.
   void draw(Scene& scene) const;
+  /// Returns the last alarm for people: "avoid FAILED: work() threw 7"; empty: there was none.
+  [[nodiscard]] std::string last_alarm() const;
   /// Fills in what has been reported so far, and the start of the run.
   void fill(RunResult& result) const;
 
@@ -69,6 +77,7 @@ class Reporter final : public LinkObserver {
   RunListener& listener_;
   const std::string log_name_;
   const TimePoint start_;
+  Sightings* sightings_ = nullptr;
   mutable std::mutex mutex_;
   std::vector<idl::Arrived> arrivals_;
   std::vector<idl::GoalFailed> failures_;

@@ -12,6 +12,8 @@
 #include "containment/environment.hpp"
 #include "containment/stall_monitor.hpp"
 #include "counters.hpp"
+#include "idleness.hpp"
+#include "live_view.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/host/last_words.hpp"
@@ -27,6 +29,7 @@ constexpr Duration kStartLimit = 10s;
 constexpr Duration kRestLimit = 1s;
 constexpr Duration kTakeDownLimit = 1500ms;
 constexpr Duration kMotorLimit = 150ms;
+constexpr Duration kShortRun = 1s;  // it ends before everybody has had something to do
 
 // One run, from bringing up to taking down. Its main() is the executive's main task.
 class Run {
@@ -61,8 +64,11 @@ class Run {
  private:
   void run() {
     if (const Status opened = open_outputs(); !opened.ok()) return refuse_output(opened.error());
+    if (options_.looks_on) reporter_.look_on(sightings_);
     if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
     reporter_.introduce(find_robots(graph_, system_->robots()));
+    if (options_.looks_on)
+      listener_.built(view_.emplace(executive_, start_, *system_, reporter_, sightings_));
     {
       const StallMonitor monitor(
           executive_, [this](const idl::Alarm& alarm) { reporter_.raise(alarm); },
@@ -130,9 +136,11 @@ class Run {
     } else {
       // After a request to stop, some components may not be up, and others would fail for want of them.
       LastWords::catch_exit();
-      if (up.ok() && !stop_.requested()) system_->open_gates();
+      const bool opens = up.ok() && !stop_.requested();
+      if (opens) system_->open_gates();
       supervise();
       if (has_ended() && !stop_.requested()) wait_for_rest();
+      if (opens) sum_up();
     }
     take_down();
     stop_.on_request(nullptr);
@@ -160,31 +168,75 @@ class Run {
   void supervise() {
     const TimePoint end = options_.until ? executive_.now() + *options_.until : kForever;
     while (!stop_.requested() && executive_.now() < end && !has_ended()) {
-      if (!changed_->wait_until(end) && end == kForever && executive_.is_virtual() && !stop_.requested())
+      if (!changed_->wait_until(end) && end == kForever && executive_.is_virtual() && !stop_.requested()) {
+        stands_still_ = true;
         return fail_with(
             RunOutcome::failed,
             fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
+      }
     }
     if (error_ || has_ended()) return;
     outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
+    if (outcome_ == RunOutcome::time_is_up && !graph_.ends.empty()) report_time_limit();
     if (const std::string signal = stop_.failure(); !signal.empty())
       fail_with(RunOutcome::failed,
                 fail(Code::failed_precondition, "the signal " + signal + " ended the run"));
   }
 
   // Returns whether the components that the graph names in `ends` have come to an end. Keeps the reason if
-  // one has failed.
+  // one has failed that may not.
   bool has_ended() {
     bool all_done = !graph_.ends.empty();
     for (const std::string& name : graph_.ends) {
       const ComponentInstance& component = *system_->component(name);
-      if (component.has_failed()) {
+      if (component.has_failed() && !graph_.find_component(name)->may_fail) {
         conclude(RunOutcome::failed, fail(Code::failed_precondition, component.failure(), name));
         return true;
       }
-      all_done = all_done && component.state() == ComponentState::work_done;
+      all_done = all_done && is_at_end(component);
     }
     return all_done;
+  }
+
+  // Says what the time limit has cut short.
+  void report_time_limit() {
+    std::vector<std::string> left;
+    for (const std::string& name : graph_.ends)
+      if (const ComponentInstance& component = *system_->component(name); !is_at_end(component))
+        left.push_back(name + " (" + to_string(component.state()) + ")");
+    reporter_.log_info("the time limit has ended the run before these were done: " + listed(left));
+  }
+
+  static bool is_at_end(const ComponentInstance& component) {
+    return component.has_failed() || component.state() == ComponentState::work_done;
+  }
+
+  // Says what did not happen, and decides whether the run has failed. To be called before it is taken down, which
+  // makes other components fail.
+  void sum_up() {
+    counters_ = collect_counters(graph_, *system_);
+    if (stands_still_ || (!error_ && executive_.now() - start_ >= kShortRun))
+      report_idleness(graph_, *system_, *counters_, reporter_);
+    judge();
+  }
+
+  // Makes the run a failure if a component has ended in WORK_FAILED that the graph does not allow to.
+  void judge() {
+    if (error_) return;
+    std::vector<std::string> failed;
+    for (const graph::ComponentNode& node : graph_.components) {
+      if (node.may_fail || !system_->component(node.name)->ended_badly()) continue;
+      failed.push_back(node.name);
+      reporter_.log(log::Level::error, node.name,
+                    "ended in WORK_FAILED, so the run has failed; if it may, say so in the graph with "
+                    "may_fail=\"true\"");
+    }
+    if (failed.empty()) return;
+    const bool one = failed.size() == 1;
+    conclude(
+        RunOutcome::failed,
+        one ? fail(Code::failed_precondition, system_->component(failed.front())->failure(), failed.front())
+            : fail(Code::failed_precondition, listed(failed) + " ended in WORK_FAILED"));
   }
 
   // Waits for the closing phase: the last client has gone, and connections close down to the hardware.
@@ -195,8 +247,9 @@ class Run {
 
   // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.
   void take_down() {
+    end_ = executive_.now();
     reporter_.ignore_trouble();
-    counters_ = collect_counters(graph_, *system_);
+    if (!counters_) counters_ = collect_counters(graph_, *system_);
     const std::vector<std::string> stuck = system_->take_down(executive_.now() + kTakeDownLimit);
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
@@ -245,6 +298,8 @@ class Run {
     const bool ran = outcome_ != RunOutcome::not_started && outcome_ != RunOutcome::bad_options;
     if (ran && executive_.is_virtual()) result.trace_hash = trace_.hash();
     reporter_.fill(result);
+    result.end = end_.value_or(executive_.now());
+    result.ways = sightings_.ways();
     if (ran) result.counters = counters_ ? *counters_ : collect_counters(graph_, *system_);
     return result;
   }
@@ -256,6 +311,7 @@ class Run {
   StopSignal& stop_;
   RunListener& listener_;
   Trace trace_;
+  Sightings sightings_;
   Reporter reporter_;
   OutputFile picture_{"the picture"};
   std::atomic<bool> runs_{false};      // whether there are strands
@@ -270,10 +326,13 @@ class Run {
                       !options_.picture.file.empty(),
                       options_.planned_failures};
   std::optional<System> system_{std::in_place, graph_, context_, [this] { return stop_.requested(); }};
+  std::optional<LiveView> view_;         // of system_
+  std::optional<TimePoint> end_;         // when the taking down began
   std::optional<RunCounters> counters_;  // of the run until it was taken down
   RunOutcome outcome_ = RunOutcome::finished;
   std::string culprit_;
   std::optional<Error> error_;
+  bool stands_still_ = false;  // nothing could ever happen again
 };
 
 // Returns the error of a planned failure of a component that the graph does not have.

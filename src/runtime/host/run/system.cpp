@@ -202,6 +202,25 @@ std::map<std::string, std::string> System::robots() const {
   return robots;
 }
 
+std::vector<RunGlance::Unwell> System::unwell() const {
+  std::vector<RunGlance::Unwell> unwell;
+  for (const auto& component : components_) {
+    const ComponentState state = component->state();
+    const bool comes_up = state == ComponentState::init || state == ComponentState::connect;
+    if (component->ended_badly()) {
+      unwell.push_back({component->name(), to_string(ComponentState::work_failed)});
+    } else if (comes_up || is_suspended(state)) {
+      unwell.push_back({component->name(), to_string(state)});
+    }
+  }
+  for (const auto& hardware : hardware_) {
+    const hw::HardwareState state = hardware->container().state();
+    if (state == hw::HardwareState::opening || state == hw::HardwareState::fault)
+      unwell.push_back({hardware->name(), hw::to_string(state)});
+  }
+  return unwell;
+}
+
 void System::draw(Scene& scene) {
   for (const auto& hardware : hardware_)
     if (hw::Drawable* const drawable = hardware->container().drawable()) drawable->draw(scene);

@@ -13,6 +13,7 @@
 #include "hardware_instance.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/host/run_view.hpp"
 #include "orca/hw/scene.hpp"
 #include "run_context.hpp"
 
@@ -71,6 +72,9 @@ class System {
   /// Returns the names of the robots, by their hardware.
   /// @pre  build() has succeeded.
   [[nodiscard]] std::map<std::string, std::string> robots() const;
+  /// Returns components and hardware that do not work as they should, or not yet.
+  /// @thread  any, once the system is built.
+  [[nodiscard]] std::vector<RunGlance::Unwell> unwell() const;
   void draw(Scene& scene);
 
  private:

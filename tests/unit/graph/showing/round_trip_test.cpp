@@ -52,7 +52,7 @@ class RandomGraph {
     return "<component name='" + name + "' type='orca.SonarAvoid'" +
            maybe(" priority='" + integer(-100, 100) + "'") +
            (pick(2) == 0 ? loading() : maybe(" autonomous='true'")) + maybe(" process='p/q'") +
-           maybe(" start_after='base fuser'") +
+           maybe(" start_after='base fuser'") + maybe(" may_fail='true'") +
            maybe(pick(2) == 0 ? " on='sonar'" : " period='" + integer(1, 5000) + " ms'") + ">" +
            maybe(param("stop_distance", real(0.05, 5.0))) + maybe(param("sector", integer(0, 180) + " deg")) +
            maybe(param("gain", real(0.0, 1e6))) + maybe(param("samples", integer(1, 64))) +

@@ -30,6 +30,7 @@ class Life final : public orca::Component {
 
   orca::Outcome work() override {
     say("work " + number());
+    if (*mode_ == "work fails once" && ++failures_ == 1) return orca::failed("not the first time");
     if (*mode_ == "work fails") return orca::failed("no work today");
     if (*mode_ == "work throws") throw std::runtime_error("no work today");
     if (*mode_ == "waits") goal_.get_update_wait();
@@ -71,6 +72,8 @@ class Life final : public orca::Component {
   orca::Param<double> size_{*this, "size", 1.0, {.unit = "m", .min = 0.0, .max = 5.0}};
   orca::Param<std::string> label_{*this, "label", "a", {.fixed = true}};
   orca::Param<std::string> mode_{*this, "mode", ""};
+
+  int failures_ = 0;
 };
 
 }  // namespace

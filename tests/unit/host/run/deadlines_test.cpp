@@ -58,5 +58,6 @@ TEST_CASE("deadlines do not hide that nothing can ever happen again", "[host][de
   REQUIRE(run.result.error);
   CHECK_THAT(run.result.error->message, Contains("nothing can ever happen again"));
   CHECK(run.warnings == Lines{"b: a.out to b.in: no object within the deadline of 1 s",
-                              "a: b.out to a.in: no object within the deadline of 2 s"});
+                              "a: b.out to a.in: no object within the deadline of 2 s",
+                              "orca: no connection has carried anything in this run"});
 }

@@ -18,6 +18,10 @@ class Recorder final : public RunListener {
   explicit Recorder(RecordedRun& record) : record_(record) {}
 
   void started(TimePoint /*now*/) override { record_.heard.emplace_back("started"); }
+  void built(const RunView& view) override {
+    record_.heard.emplace_back("built");
+    record_.first_glance = view.look();
+  }
   void arrived(const idl::Arrived& arrived) override { record_.heard.push_back("arrived " + arrived.name()); }
   void goal_failed(const idl::GoalFailed& failed) override {
     record_.heard.push_back("failed " + failed.name() + ": " + failed.reason());
@@ -30,6 +34,7 @@ class Recorder final : public RunListener {
     record_.alarms.push_back(alarm);
   }
   void logged(log::Level level, std::string_view who, std::string_view text) override {
+    if (level == log::Level::info) record_.infos.push_back(std::string(who) + ": " + std::string(text));
     if (level == log::Level::warning) record_.warnings.push_back(std::string(who) + ": " + std::string(text));
   }
   void ended(const RunResult& /*result*/) override { record_.heard.emplace_back("ended"); }

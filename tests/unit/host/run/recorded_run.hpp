@@ -12,8 +12,10 @@ namespace orca::test {
 struct RecordedRun {
   host::RunResult result;
   std::vector<std::string>
-      heard;  ///< "started", "arrived home", "failed home: lost", "contact Dewey", "alarm UMASK", "ended"
+      heard;  ///< "started", "built", "arrived home", "failed home: lost", "contact Dewey", "alarm UMASK", "ended"
+  host::RunGlance first_glance;       ///< When everything was built; empty unless RunOptions::looks_on.
   std::vector<idl::Alarm> alarms;     ///< As the listener heard them.
+  std::vector<std::string> infos;     ///< "host: all is well"
   std::vector<std::string> warnings;  ///< "host: something is odd"
 };
 

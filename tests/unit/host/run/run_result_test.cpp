@@ -140,6 +140,87 @@ TEST_CASE("a component that fails and that the graph waits for is the culprit, w
   CHECK(result.error->message == "work() failed: nobody is at home");
 }
 
+TEST_CASE(
+    "a component that has failed at the end makes the run a failure, unless the graph says that it may fail",
+    "[host][result]") {
+  const auto end_with = [](const std::string& attribute) {
+    return record_run("ends=\"counter\"",
+                      R"(<component name="bad" type="test.Misbehaving" autonomous="true" )" + attribute +
+                          R"(><param name="where" value="work"/></component>
+    <component name="counter" type="test.LapCounter"/>)",
+                      virtual_run())
+        .result;
+  };
+  const RunResult failed = end_with("");
+  CHECK(failed.outcome == RunOutcome::failed);
+  CHECK(failed.culprit == "bad");
+  REQUIRE(failed.error);
+  CHECK_THAT(failed.error->message, Contains("the wheels came off"));
+  CHECK(failed.alarms.size() == 1);
+
+  const RunResult excused = end_with(R"(may_fail="true")");
+  CHECK(excused.outcome == RunOutcome::finished);
+  CHECK_FALSE(excused.error);
+  CHECK(excused.alarms.size() == 1);
+  CHECK(excused.trace_hash == failed.trace_hash);
+}
+
+TEST_CASE("a component that may fail and that the graph waits for ends the run well even so",
+          "[host][result]") {
+  const RunResult result = record_run("ends=\"host\"", R"x(
+    <component name="arriver" type="test.Arriver"/>
+    <component name="host" type="test.Welcomer" may_fail="true"><param name="deed" value="fail"/></component>
+    <connect from="arriver.out" to="host.in"/>)x",
+                                      virtual_run())
+                               .result;
+  CHECK(result.outcome == RunOutcome::finished);
+  CHECK_FALSE(result.error);
+}
+
+TEST_CASE("a failure counts although the last client has gone since, but not if the component works again",
+          "[host][result]") {
+  const auto use = [](const std::string& mode) {
+    return record_run("ends=\"user late\"",
+                      R"x(
+    <component name="life" type="test.Life"><param name="mode" value=")x" +
+                          mode + R"x("/></component>
+    <component name="user" type="test.User"/>
+    <component name="late" type="test.User"><param name="from" value="5"/><param name="until" value="6"/></component>
+    <connect from="life.out" to="user.push"/>
+    <connect from="life.out" to="late.push"/>)x",
+                      virtual_run())
+        .result;
+  };
+  CHECK(use("work fails").outcome == RunOutcome::failed);
+  CHECK(use("work fails").culprit == "life");
+  CHECK(use("work fails once").outcome == RunOutcome::finished);
+}
+
+TEST_CASE("several components that have failed at the end are named together", "[host][result]") {
+  RunOptions options = virtual_run();
+  options.until = 2s;
+  const RunResult result = record_run("", R"x(
+    <component name="one" type="test.Life" autonomous="true"><param name="mode" value="work fails"/></component>
+    <component name="two" type="test.Life" autonomous="true"><param name="mode" value="work throws"/></component>)x",
+                                      options)
+                               .result;
+  CHECK(result.outcome == RunOutcome::failed);
+  CHECK(result.culprit.empty());
+  REQUIRE(result.error);
+  CHECK(result.error->message == "one, two ended in WORK_FAILED");
+}
+
+TEST_CASE("a time limit that comes before the graph's own end says what was not done", "[host][result]") {
+  RunOptions options = virtual_run();
+  options.until = 50ms;
+  const RecordedRun run = record_run("ends=\"host hostess\"", kArrivals, options);
+  CHECK(run.result.outcome == RunOutcome::time_is_up);
+  CHECK(run.infos ==
+        Lines{"orca: the time limit has ended the run before these were done: host (WORK), hostess (WORK)"});
+  options.until = 150ms;
+  CHECK(record_run("ends=\"host hostess\"", kArrivals, options).infos.empty());
+}
+
 TEST_CASE("a component that keeps the system from starting is the culprit, and there is no hash",
           "[host][result]") {
   const RunResult result =
@@ -149,6 +230,23 @@ TEST_CASE("a component that keeps the system from starting is the culprit, and t
   REQUIRE(result.error);
   CHECK_THAT(result.error->message, Contains("the moon is in the wrong phase"));
   CHECK_FALSE(result.trace_hash);
+}
+
+TEST_CASE("who looks on is offered a view before anything runs, and the run's hash is the same",
+          "[host][result]") {
+  RunOptions options = virtual_run();
+  const RecordedRun unseen = record_run("ends=\"host\"", kArrivals, options);
+  options.looks_on = true;
+  const RecordedRun seen = record_run("ends=\"host\"", kArrivals, options);
+  CHECK(seen.heard == Lines{"started", "built", "arrived home", "arrived home", "ended"});
+  CHECK(seen.result.trace_hash == unseen.result.trace_hash);
+  CHECK(seen.result.end - seen.result.start == 100ms);
+  CHECK(seen.first_glance.is_virtual);
+  CHECK(seen.first_glance.time == Duration{0});
+  CHECK(seen.first_glance.working == 0);
+  REQUIRE(seen.first_glance.unwell.size() == 3);
+  CHECK(seen.first_glance.unwell[0].name == "arriver");
+  CHECK(seen.first_glance.unwell[0].state == "INIT");
 }
 
 TEST_CASE("options that contradict each other are an outcome, too", "[host][result]") {

@@ -17,6 +17,11 @@ namespace orca {
 /// as an escape sequence: \n, \x1b, \u202e.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// Returns as much of `text` as fits into so many columns of a terminal, with "..." at the end if something is left
+/// out. Characters stay whole. Each character that may be wide counts as two columns.
+/// @param text  printable().
+[[nodiscard]] std::string fitting(std::string_view text, std::size_t columns);
+
 /// `text` between double quotes, as messages show what they found; shortened to 300 bytes. Nothing is escaped.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

@@ -113,7 +113,8 @@ class Component : public PortOwner {
   void log_warning(std::string_view text) const { host_.write_log(log::Level::warning, text); }
   void log_error(std::string_view text) const { host_.write_log(log::Level::error, text); }
 
-  /// Sets whether the component works even without subscribers, from now on.
+  /// Sets whether the component works even without subscribers, from now on. If the graph says `autonomous`, this
+  /// has no effect.
   void stay_active(bool active) { host_.stay_active(active); }
 
   /// Begins a mission, the component's task from now on. Everything that it sends and logs belongs to this

@@ -55,6 +55,9 @@ class ComponentInstance final {
   [[nodiscard]] bool at_rest() const;
   /// Returns whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
   [[nodiscard]] bool has_failed() const { return life_.has_failed(); }
+  [[nodiscard]] bool has_worked() const { return life_.has_worked(); }
+  /// Returns whether its last work ended in WORK_FAILED, whether it is IDLE again or not.
+  [[nodiscard]] bool ended_badly() const { return life_.ended_badly(); }
   /// Returns why it is in WORK_FAILED, or why it could not be configured.
   [[nodiscard]] std::string failure() const { return life_.failure(); }
   /// Returns why it could not be configured; nothing if it could.

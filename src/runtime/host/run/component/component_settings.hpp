@@ -15,7 +15,7 @@ namespace orca::host {
 struct ComponentSettings {
   std::string name;
   int priority = 0;
-  std::optional<bool> autonomous;
+  std::optional<bool> autonomous;  ///< Replaces what the component says by stay_active().
   std::optional<Trigger> trigger;  ///< Replaces the author's trigger.
   bool on_demand = false;          ///< Loaded when first asked for.
   bool stay_warm = false;          ///< Stays in memory once it is loaded.

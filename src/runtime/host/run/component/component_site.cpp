@@ -7,12 +7,7 @@ namespace orca::host {
 
 ComponentSite::ComponentSite(RunContext& run, const ComponentSettings& settings, PortHome& home,
                              const LapTrigger& laps, Device* hardware)
-    : run_(run),
-      settings_(settings),
-      home_(home),
-      laps_(laps),
-      hardware_(hardware),
-      stays_active_(settings.autonomous.value_or(false)) {}
+    : run_(run), settings_(settings), home_(home), laps_(laps), hardware_(hardware) {}
 
 void ComponentSite::forget_code() {
   declared_.ports.clear();
@@ -21,7 +16,7 @@ void ComponentSite::forget_code() {
 
 void ComponentSite::reset() {
   declared_ = {};
-  stays_active_ = settings_.autonomous.value_or(false);
+  stays_active_ = false;
 }
 
 void ComponentSite::declare_port(PortDeclaration declaration) {

@@ -34,8 +34,8 @@ class ComponentSite final : public ComponentHost {
                 Device* hardware);
 
   [[nodiscard]] const Declarations& declared() const { return declared_; }
-  /// Returns whether the component is to work without clients.
-  [[nodiscard]] bool stays_active() const { return stays_active_; }
+  /// Returns whether the component is to work without clients: the graph's word counts before its own.
+  [[nodiscard]] bool stays_active() const { return settings_.autonomous.value_or(stays_active_); }
   /// Drops everything that may lead into the plugin's code.
   void forget_code();
   /// Restores the state from before a component was constructed here.
@@ -65,7 +65,7 @@ class ComponentSite final : public ComponentHost {
   const LapTrigger& laps_;
   Device* const hardware_;
   Declarations declared_;
-  bool stays_active_;
+  bool stays_active_ = false;  // as the component wants it
 };
 
 }  // namespace orca::host

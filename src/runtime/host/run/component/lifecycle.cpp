@@ -83,6 +83,9 @@ void Lifecycle::arrange(ComponentAction action) {
 
 void Lifecycle::enter(ComponentState state) {
   if (is_failed(state)) has_failed_.store(true, std::memory_order_release);
+  if (state == ComponentState::work) has_worked_.store(true, std::memory_order_release);
+  if (is_failed(state) || state == ComponentState::work)
+    ended_badly_.store(is_failed(state), std::memory_order_release);
   entered_ = parts_.site.now();
   const ComponentState before = state_.exchange(state, std::memory_order_acq_rel);
   parts_.run.trace.state_changed(parts_.settings.name, to_string(before), to_string(state));

@@ -15,7 +15,8 @@ namespace orca::host {
 /// The state of one component. It looks up in the table of component_states.hpp what an event means, carries
 /// out the actions, and keeps the reason for a failure.
 ///
-/// Thread contract: state(), has_failed(), failure() and refusal() from anywhere, the rest on the component's strand.
+/// Thread contract: state(), has_...(), ended_badly(), failure() and refusal() from anywhere, the rest on the
+/// component's strand.
 class Lifecycle {
  public:
   Lifecycle(ComponentParts& parts, Residency& residency);
@@ -42,6 +43,11 @@ class Lifecycle {
   [[nodiscard]] TimePoint entered() const { return entered_; }
   /// Returns whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
   [[nodiscard]] bool has_failed() const { return has_failed_.load(std::memory_order_acquire); }
+  /// Returns whether the component has ever been in WORK.
+  [[nodiscard]] bool has_worked() const { return has_worked_.load(std::memory_order_acquire); }
+  /// Returns whether its last work, or the attempt to begin it, ended in WORK_FAILED, even if it has become IDLE
+  /// since because its clients have gone.
+  [[nodiscard]] bool ended_badly() const { return ended_badly_.load(std::memory_order_acquire); }
   /// Returns why the component is in WORK_FAILED.
   [[nodiscard]] std::string failure() const;
   /// Returns why the component could not be configured; nothing if it could.
@@ -70,6 +76,8 @@ class Lifecycle {
   TimePoint entered_{};
   std::atomic<ComponentState> state_;
   std::atomic<bool> has_failed_{false};
+  std::atomic<bool> has_worked_{false};
+  std::atomic<bool> ended_badly_{false};
   mutable std::mutex mutex_;
   std::string failure_;
   std::optional<Error> refusal_;

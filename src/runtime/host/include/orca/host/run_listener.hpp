@@ -6,6 +6,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/time.hpp"
 #include "orca/host/run_result.hpp"
+#include "orca/host/run_view.hpp"
 
 namespace orca::host {
 
@@ -26,6 +27,9 @@ class RunListener {
   virtual void started(TimePoint /*now*/) {}
   /// Reports which robots there are and which components serve them, before anything moves.
   virtual void robots(const RobotNames& /*robots*/) {}
+  /// Reports that all components and hardware are constructed, if RunOptions::looks_on.
+  /// @param view  may be used until ended() or abandon() returns.
+  virtual void built(const RunView& /*view*/) {}
   /// Reports that a component has pushed an Arrived, once for each object, however many components take it.
   virtual void arrived(const idl::Arrived& /*arrived*/) {}
   /// Reports that a component has pushed a GoalFailed.

@@ -22,7 +22,7 @@ enum class RunOutcome {
   finished,     ///< The components that the graph names in `ends` are done.
   time_is_up,   ///< The time limit was reached.
   stopped,      ///< A stop was requested.
-  failed,       ///< Something failed during the run.
+  failed,       ///< Something failed: the run, or a component that the graph does not allow to (may_fail).
   not_started,  ///< Not everything came up; all of it was taken down again.
   bad_options   ///< The options contradict each other; nothing was started.
 };
@@ -41,15 +41,23 @@ struct RunCounters {
 
 /// The result of a run. A plain value.
 struct RunResult {
+  /// How far a robot has driven.
+  struct Way {
+    std::string robot;    ///< Component that pushes its odometry or poses.
+    double length = 0.0;  ///< [m]
+  };
+
   RunOutcome outcome = RunOutcome::finished;
   std::string culprit;         ///< Component or hardware, named as in the graph; empty: none, or several.
   std::optional<Error> error;  ///< The reason, unless the run ended well.
   std::optional<std::uint64_t> trace_hash;  ///< In virtual time only, if the run started.
   TimePoint start;                          ///< Time of the run's clock, which all stamps refer to.
+  TimePoint end;                            ///< Time of the same clock at which the taking down began.
   std::vector<idl::Arrived> arrivals;       ///< In the order in which they were pushed.
   std::vector<idl::GoalFailed> failures;    ///< In the order in which they were pushed.
   std::vector<idl::Contact> contacts;       ///< In the order in which they were reported.
   std::vector<idl::Alarm> alarms;           ///< In the order in which they were raised.
+  std::vector<Way> ways;                    ///< Only if RunOptions::looks_on.
   RobotNames robots;                        ///< None if the system could not be built.
   RunCounters counters;
 };

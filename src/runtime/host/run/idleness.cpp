@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "idleness.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "orca/base/text.hpp"
+
+namespace orca::host {
+namespace {
+
+// Returns whether a port of the component has taken an object or a question.
+bool has_served(const std::string& component, const RunCounters& counters) {
+  return std::ranges::any_of(counters.servers, [&](const auto& server) {
+    const auto& [port, counted] = server;
+    return port.substr(0, port.rfind('.')) == component && counted.accepted > 0;
+  });
+}
+
+// Returns whether others only send to the component or ask it.
+bool only_serves(const std::string& component, const graph::Graph& graph) {
+  bool serves = false;
+  for (const graph::Edge& edge : graph.edges) {
+    const bool serves_here = edge.to.component == component && edge.pattern != Pattern::push;
+    if (!serves_here && (edge.from.component == component || edge.to.component == component)) return false;
+    serves = serves || serves_here;
+  }
+  return serves;
+}
+
+// Returns the components that could have subscribed to this one.
+std::vector<std::string> listeners_of(const std::string& component, const graph::Graph& graph) {
+  std::vector<std::string> listeners;
+  for (const graph::Edge& edge : graph.edges) {
+    const bool listens = edge.pattern == Pattern::push && edge.from.component == component;
+    if (listens && std::ranges::find(listeners, edge.to.component) == listeners.end())
+      listeners.push_back(edge.to.component);
+  }
+  return listeners;
+}
+
+std::string reason(const graph::ComponentNode& node, const graph::Graph& graph) {
+  if (node.autonomous.value_or(false)) return "it did not get beyond its start";
+  const std::vector<std::string> listeners = listeners_of(node.name, graph);
+  if (!listeners.empty()) return "none of those that it is connected to has subscribed: " + listed(listeners);
+  return "nobody listens to it, and it works by itself only with autonomous=\"true\" in the graph";
+}
+
+bool nothing_moved(const RunCounters& counters) {
+  const auto carried = [](const auto& edge) { return edge.counters.delivered > 0; };
+  const auto took = [](const auto& server) { return server.second.accepted > 0; };
+  return std::ranges::none_of(counters.edges, carried) && std::ranges::none_of(counters.servers, took);
+}
+
+}  // namespace
+
+void report_idleness(const graph::Graph& graph, const System& system, const RunCounters& counters,
+                     Reporter& reporter) {
+  for (const graph::ComponentNode& node : graph.components) {
+    const ComponentInstance& component = *system.component(node.name);
+    const bool did_something =
+        component.has_worked() || component.has_failed() || has_served(node.name, counters);
+    if (did_something || node.on_demand || only_serves(node.name, graph)) continue;
+    reporter.log(log::Level::warning, node.name, "has never worked in this run: " + reason(node, graph));
+  }
+  if (!graph.edges.empty() && nothing_moved(counters))
+    reporter.log_warning("no connection has carried anything in this run");
+}
+
+}  // namespace orca::host

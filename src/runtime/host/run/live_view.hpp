@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "orca/base/executive.hpp"
+#include "orca/host/run_view.hpp"
+#include "reporter.hpp"
+#include "sightings.hpp"
+#include "system.hpp"
+
+namespace orca::host {
+
+/// The view of a run that goes on in this process.
+///
+/// Thread contract: as RunView, from the time when the system is built until it is destroyed.
+class LiveView final : public RunView {
+ public:
+  LiveView(const Executive& executive, TimePoint start, const System& system, const Reporter& reporter,
+           const Sightings& sightings)
+      : executive_(executive), start_(start), system_(system), reporter_(reporter), sightings_(sightings) {}
+
+  [[nodiscard]] RunGlance look() const override;
+
+ private:
+  const Executive& executive_;
+  const TimePoint start_;
+  const System& system_;
+  const Reporter& reporter_;
+  const Sightings& sightings_;
+};
+
+}  // namespace orca::host
