@@ -12,14 +12,22 @@ set(ORCA_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, e.g. address,unde
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
-set(ORCA_PLUGIN_DIR ${CMAKE_BINARY_DIR}/plugins)
 set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)
 
+# What all code that uses Orca is compiled with, plugins of other projects included.
+add_library(orca_language INTERFACE)
+add_library(orca::language ALIAS orca_language)
+set_target_properties(orca_language PROPERTIES EXPORT_NAME language)
+target_compile_features(orca_language INTERFACE cxx_std_20)
+# Bit-identical runs: no fused multiply-add, no fast-math.
+target_compile_options(orca_language INTERFACE -ffp-contract=off)
+
+# What Orca's own code is compiled with.
 add_library(orca_options INTERFACE)
+set_target_properties(orca_options PROPERTIES EXPORT_NAME options)
+target_link_libraries(orca_options INTERFACE orca_language)
 target_compile_options(orca_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${ORCA_WERROR}>:-Werror>
-  # Bit-identical runs: no fused multiply-add, no fast-math.
-  -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${ORCA_WERROR}>:-Werror>)
 
 if(ORCA_SANITIZE)
   add_compile_options(-fsanitize=${ORCA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

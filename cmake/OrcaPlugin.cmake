@@ -1,36 +1,21 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# The build recipe for plugins. Without any part of it a library can be pinned in memory, or stale code can
+# The build recipe for plugins, in Orca's own build and in others (OrcaConfig.cmake.in), which set before:
+#   ORCA_BUILD_ID         what a plugin says of the Orca that it was built with
+#   ORCA_PLUGIN_DIR       where plugins are built
+#   ORCA_PLUGIN_LAYOUTS   folder of the generated header with the layouts that plugins compile in
+#   ORCA_PLUGIN_LANGUAGE  target with the options of all code
+#
+# Without any part of it a library can be pinned in memory, or stale code can
 # run after a swap: see docs/adr/0004-plugin-recipe.md.
-set(ORCA_BUILD_ID ${PROJECT_VERSION})
 set(ORCA_PLUGIN_SUPPORT_DIR ${CMAKE_CURRENT_LIST_DIR}/plugin)
 set(ORCA_PLUGIN_OPTIONS -fvisibility=hidden -fvisibility-inlines-hidden $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
-orca_add_precompiled_headers(orca_plugin_headers ${ORCA_PLUGIN_OPTIONS})
-
-# Everything that a plugin compiles in has a hash of its layout in a generated header, which plugins and loader share.
-# That of binutils, also with clang: llvm-readelf, which CMake would choose there, does not show debug information.
-find_program(ORCA_READELF readelf REQUIRED)
-function(orca_add_plugin_layouts)
-  find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  add_library(orca_layout_probe OBJECT ${ORCA_PLUGIN_SUPPORT_DIR}/layout_probe.cpp)
-  target_link_libraries(orca_layout_probe PRIVATE orca::component_api orca::hw_api orca_options)
-  target_compile_options(orca_layout_probe PRIVATE
-    -O0 -g2 -gdwarf-4 -fno-eliminate-unused-debug-types
-    $<$<CXX_COMPILER_ID:GNU>:-femit-class-debug-always> $<$<CXX_COMPILER_ID:Clang>:-fstandalone-debug>)
-  set(header ${CMAKE_BINARY_DIR}/layouts/include/orca/component/generated/plugin_layouts.hpp)
-  cmake_path(GET header PARENT_PATH folder)
-  file(MAKE_DIRECTORY ${folder})
-  add_custom_command(OUTPUT ${header}
-    COMMAND ${Python3_EXECUTABLE} -B ${ORCA_PLUGIN_SUPPORT_DIR}/list_layouts.py --readelf ${ORCA_READELF}
-            --object $<TARGET_OBJECTS:orca_layout_probe> --out ${header} --text ${CMAKE_BINARY_DIR}/layouts/layouts.txt
-    DEPENDS ${ORCA_PLUGIN_SUPPORT_DIR}/list_layouts.py orca_layout_probe $<TARGET_OBJECTS:orca_layout_probe>
-    COMMENT "Layouts of what crosses the plugin boundary" VERBATIM)
-  add_custom_target(orca_plugin_layouts DEPENDS ${header})
-endfunction()
 
 # orca_use_plugin_layouts(TARGET): lets it include orca/component/generated/plugin_layouts.hpp.
 function(orca_use_plugin_layouts target)
-  target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/layouts/include)
-  add_dependencies(${target} orca_plugin_layouts)
+  target_include_directories(${target} PRIVATE ${ORCA_PLUGIN_LAYOUTS})
+  if(TARGET orca_plugin_layouts)
+    add_dependencies(${target} orca_plugin_layouts)
+  endif()
 endfunction()
 
 # orca_add_component(NAME SOURCES... [LINK targets...])
@@ -44,17 +29,33 @@ function(orca_add_component name)
     PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${ORCA_PLUGIN_DIR}
     LINK_DEPENDS ${ORCA_PLUGIN_SUPPORT_DIR}/plugin.map)
   target_compile_options(${name} PRIVATE ${ORCA_PLUGIN_OPTIONS})
-  orca_use_precompiled_headers(${name} orca_plugin_headers)
+  if(TARGET orca_plugin_headers)
+    orca_use_precompiled_headers(${name} orca_plugin_headers)
+  endif()
   target_link_options(${name} PRIVATE -Wl,--version-script=${ORCA_PLUGIN_SUPPORT_DIR}/plugin.map)
   if(NOT (CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND ORCA_SANITIZE))
     target_link_options(${name} PRIVATE -Wl,-z,defs)
   endif()
   target_compile_definitions(${name} PRIVATE ORCA_BUILD_ID="${ORCA_BUILD_ID}")
-  target_link_libraries(${name} PRIVATE orca::component_api orca::hw_api ${arg_LINK} orca_options)
+  target_link_libraries(${name} PRIVATE orca::component_api orca::hw_api ${arg_LINK} ${ORCA_PLUGIN_LANGUAGE})
   orca_use_plugin_layouts(${name})
   list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
   add_custom_command(TARGET ${name} POST_BUILD
     COMMAND ${CMAKE_COMMAND} -DOUT=${ORCA_PLUGIN_DIR}/${name}.types "-DSOURCES=${sources}"
             -P ${ORCA_PLUGIN_SUPPORT_DIR}/write_types.cmake VERBATIM)
   set_property(GLOBAL APPEND PROPERTY ORCA_PLUGINS ${name})
+endfunction()
+
+# orca_add_component_test(NAME SOURCES...)
+#
+# Builds tests/NAME from SOURCES with Catch2, which tries components of plugins/ (orca/testing/component_trial.hpp), and
+# gives it to ctest.
+function(orca_add_component_test name)
+  find_package(Catch2 2 REQUIRED)
+  add_executable(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE orca::testing Catch2::Catch2WithMain ${ORCA_PLUGIN_LANGUAGE})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  get_property(plugins GLOBAL PROPERTY ORCA_PLUGINS)
+  add_dependencies(${name} ${plugins})
+  add_test(NAME ${name} COMMAND ${name})
 endfunction()

@@ -86,6 +86,7 @@ LAYERS = (
           ("host_containment", "host_picture", "graph", "plugin", "text", "xml", "patterns_endpoints", "patterns_local",
            "patterns_dds", *DEVICE),
           ("fmt",), module=HOST),
+    Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),
     Layer("apps", ("src/apps",), (),
           ("host_run", "host_containment", "host_picture", "graph", "plugin", "text", "xml", *DEVICE), ("fmt",)),
 )

@@ -19,6 +19,12 @@ void PluginCatalogue::forget_answers() {
   held_.clear();
 }
 
+const TypeEntry* PluginCatalogue::own_type(PluginKind kind, const std::string& type) const {
+  for (const TypeEntry* entry : own_types_)
+    if (entry->kind == kind && entry->type == type) return entry;
+  return nullptr;
+}
+
 Result<std::shared_ptr<plugin::PluginLibrary>> PluginCatalogue::library_of(const std::string& type) {
   const Result<std::string> file = index_.file_of(type);
   if (!file) return file.error();
@@ -40,6 +46,7 @@ void PluginCatalogue::raise_pinned(const std::string& file, const std::string& w
 }
 
 Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& type) {
+  if (const TypeEntry* own = own_type(kind, type)) return LoadedType{nullptr, own};
   const std::lock_guard lock(mutex_);
   const Result<std::shared_ptr<plugin::PluginLibrary>> library = library_of(type);
   if (!library) return library.error();
@@ -56,6 +63,7 @@ Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& 
 }
 
 Status PluginCatalogue::release(LoadedType type) {
+  if (!type.library) return ok();
   const std::lock_guard lock(mutex_);
   const std::string file = type.library->path();
   const std::weak_ptr<plugin::PluginLibrary> rest = type.library;
@@ -76,7 +84,7 @@ Result<LoadedType> PluginCatalogue::find(PluginKind kind, const std::string& typ
 Result<Contract> PluginCatalogue::hardware(const std::string& type) {
   const Result<LoadedType> found = find(PluginKind::hardware, type);
   if (!found) return found.error();
-  const auto described = plugin::describe_hardware(*found->entry, found->library->path(), type);
+  const auto described = plugin::describe_hardware(*found->entry, found->file(), type);
   if (!described) return described.error();
   return (*described)->contract();
 }
@@ -90,7 +98,7 @@ Result<plugin::DescribedHardware*> PluginCatalogue::described(const graph::Hardw
 Result<plugin::DescribedHardware*> PluginCatalogue::describe_anew(const graph::HardwareUse& use) {
   const Result<LoadedType> found = find(PluginKind::hardware, use.type);
   if (!found) return found.error();
-  auto made = plugin::describe_hardware(*found->entry, found->library->path(), use.name);
+  auto made = plugin::describe_hardware(*found->entry, found->file(), use.name);
   if (!made) return made.error();
   return hardware_.insert_or_assign(use.name, std::move(made).value()).first->second.get();
 }
@@ -119,7 +127,7 @@ Result<Contract> PluginCatalogue::component(const std::string& type, const graph
     if (!made) return made.error();
     container = &(*made)->container();
   }
-  return plugin::describe_component(*found->entry, found->library->path(), container);
+  return plugin::describe_component(*found->entry, found->file(), container);
 }
 
 std::vector<graph::ComponentFault> PluginCatalogue::try_components(const graph::Graph& graph,
@@ -134,8 +142,8 @@ Device* PluginCatalogue::closed_hardware(const graph::HardwareUse& use) {
 
 std::vector<std::string> PluginCatalogue::unfit(PluginKind kind, const std::string& type) {
   const Result<LoadedType> found = find(kind, type);
-  if (clock_ == ClockKind::steady || !found) return {};
-  const std::string file = std::filesystem::path(found->library->path()).filename().string();
+  if (clock_ == ClockKind::steady || !found || !found->library) return {};
+  const std::string file = std::filesystem::path(found->file()).filename().string();
   std::vector<std::string> reasons;
   for (const std::string& fault : found->library->virtual_time_faults())
     reasons.push_back("cannot run in virtual time: " + file + " " + fault);

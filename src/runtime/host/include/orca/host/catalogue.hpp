@@ -21,8 +21,11 @@ namespace orca::host {
 /// A type, and the plugin that holds its code. The plugin stays in memory at least as long as this object
 /// lives.
 struct LoadedType {
-  std::shared_ptr<plugin::PluginLibrary> library;
+  std::shared_ptr<plugin::PluginLibrary> library;  ///< Null: the code is part of this program.
   const TypeEntry* entry = nullptr;
+
+  /// Returns the file of the code.
+  [[nodiscard]] std::string file() const { return library ? library->path() : "/proc/self/exe"; }
 };
 
 /// The types of all plugins. It answers the graph checker's questions from the plugins themselves, and loads
@@ -34,6 +37,10 @@ class PluginCatalogue final : public graph::Catalogue {
   /// @param clock  clock of the run that the plugins are for.
   explicit PluginCatalogue(plugin::PluginIndex index, ClockKind clock = ClockKind::steady);
   ~PluginCatalogue() override;
+
+  /// Adds a component type whose code is part of this program. It hides one of its name in a plugin.
+  /// @param type  must outlive this object.
+  void add(const TypeEntry& type) { own_types_.push_back(&type); }
 
   void add_folders(const std::vector<std::string>& folders) override { index_.add(folders); }
   Result<Contract> hardware(const std::string& type) override;
@@ -70,6 +77,7 @@ class PluginCatalogue final : public graph::Catalogue {
   void forget_answers();
 
  private:
+  [[nodiscard]] const TypeEntry* own_type(PluginKind kind, const std::string& type) const;
   Result<std::shared_ptr<plugin::PluginLibrary>> library_of(const std::string& type);
   Result<LoadedType> find(PluginKind kind, const std::string& type);
   Result<plugin::DescribedHardware*> described(const graph::HardwareUse& use);
@@ -78,6 +86,7 @@ class PluginCatalogue final : public graph::Catalogue {
   void raise_pinned(const std::string& file, const std::string& why) const;
 
   plugin::PluginIndex index_;
+  std::vector<const TypeEntry*> own_types_;
   const ClockKind clock_;
   AlarmSink sink_;
   std::function<bool()> give_up_;

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bench on which an author tries one component.
+#include "orca/testing/component_trial.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <stdexcept>
+
+#include "orca/idl/motion.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/time.hpp"
+
+using namespace orca;
+using namespace orca::testing;
+using namespace std::chrono_literals;
+using Catch::Contains;
+
+namespace {
+
+struct AvoidPorts final : Partner {
+  using Partner::Partner;
+  PushServer<idl::SonarRangeReadings> sonar{*this, "sonar"};
+  PushProxy<idl::MotionCommand> motion{*this, "motion"};
+};
+
+struct GotoPorts final : Partner {
+  using Partner::Partner;
+  SendProxy<idl::GoalPoint> goal{*this, "GotoCoordinateSend"};
+  PushServer<idl::RobotPose> pose{*this, "localizer"};
+  PushProxy<idl::MotionCommand> motion{*this, "MotionCmdPush"};
+  PushProxy<idl::Arrived> arrived{*this, "ArrivedPush"};
+};
+
+struct WrongType final : Partner {
+  using Partner::Partner;
+  PushServer<idl::RobotPose> sonar{*this, "sonar"};
+};
+
+struct NoSuchPort final : Partner {
+  using Partner::Partner;
+  PushServer<idl::SonarRangeReadings> sonars{*this, "sonars"};
+};
+
+const std::vector<std::string> kTestPlugins{ORCA_BINARY_DIR "/tests/plugins"};
+const Trial kAvoid{.type = "orca.Avoid", .plugins = kTestPlugins};
+
+void push_pose(GotoPorts& test, double x) {
+  auto pose = test.pose.loan();
+  pose->x(x);
+  pose->stamp(to_time_value(test.now()));
+  test.pose.push(std::move(pose));
+}
+
+void send_goal(GotoPorts& test, double x) {
+  auto goal = make_object<idl::GoalPoint>();
+  goal->name() = "ahead";
+  goal->reach_radius(0.3);
+  goal->coordinate().point().x(x);
+  REQUIRE(test.goal.send(std::move(goal)).ok());
+}
+
+template <class Ports>
+void try_for_nothing(const Trial& trial) {
+  try_component<Ports>(trial, [](Ports& /*test*/) {});
+}
+
+}  // namespace
+
+TEST_CASE("a component that takes goals by Send is driven to its goal by poses that the test pushes",
+          "[testing]") {
+  bool drove = false;
+  bool arrived = false;
+  try_component<GotoPorts>({.type = "orca.Goto"}, [&](GotoPorts& test) {
+    send_goal(test, 2.0);
+    push_pose(test, 0.0);
+    drove = test.motion.get_update_wait()->speed() > 0.1;
+    for (int i = 0; i < 100 && !test.arrived.new_data_arrived(); ++i) {
+      push_pose(test, 1.9);
+      test.sleep(50ms);
+    }
+    arrived = test.arrived.new_data_arrived();
+  });
+  CHECK(drove);
+  CHECK(arrived);
+}
+
+TEST_CASE("time is virtual, and the limit of a trial counts in it", "[testing]") {
+  Duration waited{0};
+  try_component<AvoidPorts>({.type = "orca.Avoid", .plugins = kTestPlugins, .limit = 3700s},
+                            [&](AvoidPorts& test) {
+                              const TimePoint start = test.now();
+                              test.sleep(3600s);
+                              waited = test.now() - start;
+                            });
+  CHECK(waited == 3600s);
+  CHECK_THROWS_WITH(
+      try_component<AvoidPorts>({.type = "orca.Avoid", .plugins = kTestPlugins, .limit = 2s},
+                                [](AvoidPorts& test) { static_cast<void>(test.motion.get_update_wait()); }),
+      Contains("orca.Avoid: the script did not return within 2 s of virtual time"));
+}
+
+TEST_CASE("what the script throws comes out of the trial", "[testing]") {
+  CHECK_THROWS_WITH(
+      try_component<AvoidPorts>(kAvoid, [](AvoidPorts& /*test*/) { throw std::runtime_error("oh"); }), "oh");
+}
+
+TEST_CASE("what the checker of graphs refuses stops a trial before it begins", "[testing]") {
+  CHECK_THROWS_WITH(try_for_nothing<WrongType>(kAvoid), Contains("orca.Avoid cannot be tried") &&
+                                                            Contains("RobotPose") &&
+                                                            Contains("SonarRangeReadings"));
+  CHECK_THROWS_WITH(try_for_nothing<NoSuchPort>(kAvoid), Contains("sonars") && Contains("did you mean"));
+  CHECK_THROWS_WITH(
+      try_for_nothing<AvoidPorts>(
+          {.type = "orca.Avoid", .params = {{"stop_distance", "-1 m"}}, .plugins = kTestPlugins}),
+      Contains("stop_distance"));
+  CHECK_THROWS_WITH(try_for_nothing<AvoidPorts>({.type = "orca.Avoyd", .plugins = kTestPlugins}),
+                    Contains("orca.Avoyd"));
+}
+
+TEST_CASE("a component that fails fails its trial, with its reason", "[testing]") {
+  struct NoPorts final : Partner {
+    using Partner::Partner;
+  };
+  const Trial throws{.type = "test.Misbehaving", .params = {{"where", "configure"}}, .plugins = kTestPlugins};
+  CHECK_THROWS_WITH(try_for_nothing<NoPorts>(throws), Contains("configure() threw"));
+}
