@@ -4,7 +4,10 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #include "orca/base/live_line.hpp"
 #include "orca/base/text.hpp"
@@ -16,6 +19,8 @@ struct State {
   std::mutex mutex;
   std::function<TimePoint()> now;
   std::shared_ptr<spdlog::logger> logger;
+  std::vector<const Listener*> listeners;
+  std::atomic<bool> has_listeners{false};  // spares lines that nobody wants the mutex
 
   State()
       : logger(std::make_shared<spdlog::logger>("orca", std::make_shared<spdlog::sinks::stderr_sink_mt>())) {
@@ -62,14 +67,30 @@ void set_clock(std::function<TimePoint()> now) {
   state().now = std::move(now);
 }
 
+Listener::Listener(std::function<void(const Line&)> heard) : heard_(std::move(heard)) {
+  const std::lock_guard lock(state().mutex);
+  state().listeners.push_back(this);
+  state().has_listeners = true;
+}
+
+Listener::~Listener() {
+  const std::lock_guard lock(state().mutex);
+  std::erase(state().listeners, this);
+  state().has_listeners = !state().listeners.empty();
+}
+
 void write(Level level, std::string_view who, std::string_view words) {
   State& s = state();
-  if (!s.logger->should_log(to_spdlog(level))) return;
-  const std::string text = printable(words);
+  const bool shown = s.logger->should_log(to_spdlog(level));
+  if (!shown && !s.has_listeners) return;
+  const std::string text = shown ? printable(words) : std::string();
   const std::lock_guard lock(s.mutex);
+  const TimePoint now = s.now ? s.now() : TimePoint{};
+  for (const Listener* listener : s.listeners) listener->heard_({level, who, words, now});
+  if (!shown) return;
   const LiveLine::Pause room;
   if (s.now) {
-    s.logger->log(to_spdlog(level), "[{:10.3f}] {:<7} {}: {}", to_seconds(s.now()), name(level), who, text);
+    s.logger->log(to_spdlog(level), "[{:10.3f}] {:<7} {}: {}", to_seconds(now), name(level), who, text);
   } else {
     s.logger->log(to_spdlog(level), "{}: {}: {}", name(level), who, text);
   }

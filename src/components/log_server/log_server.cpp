@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "heard_lines.hpp"
 #include "log_file.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/system.hpp"
@@ -12,39 +16,81 @@ namespace {
 
 using orca::Status;
 
-const char* name_of(orca::idl::LogLevel level) {
+using orca::idl::LogRecord;
+using orca::log::Level;
+
+const std::vector<std::string> kLevels{"debug", "info", "warning", "error"};
+
+orca::idl::LogLevel level_of(Level level) {
   switch (level) {
-    case orca::idl::LEVEL_DEBUG: return "debug";
-    case orca::idl::LEVEL_INFO: return "info";
-    case orca::idl::LEVEL_WARNING: return "warning";
-    case orca::idl::LEVEL_ERROR: return "error";
+    case Level::debug: return orca::idl::LEVEL_DEBUG;
+    case Level::info: return orca::idl::LEVEL_INFO;
+    case Level::warning: return orca::idl::LEVEL_WARNING;
+    case Level::error:
+    case Level::off: break;
   }
-  return "?";
+  return orca::idl::LEVEL_ERROR;
 }
 
-/// A component that collects the log records of others in a file (thesis, list of components). A full disk
-/// stops no component: lines that cannot be written are counted, and a line gives their number when there is
-/// room again.
+/// A component that collects log records in a file and passes them on to its subscribers (thesis, list of
+/// components): every line that this process writes to its log, and what other components send. A full disk stops no
+/// component: lines that cannot be written are counted, and a line gives their number when there is room again.
 class LogServer final : public orca::Component {
  public:
-  using Component::Component;
+  explicit LogServer(orca::ComponentHost& host) : Component(host) {
+    lap_every(std::chrono::milliseconds(100));
+  }
+  // What is logged while the system is taken down is written as well.
+  ~LogServer() override {
+    listener_.reset();
+    if (file_) write_heard();
+  }
 
  private:
   Status configure() override {
     file_.emplace(*path_, static_cast<std::uint64_t>(*most_bytes_), static_cast<int>(*keep_));
     if (const Status opened = file_->open(); !opened.ok()) return path_.refuse(opened.error());
+    if (*own_lines_) {
+      heard_.emplace(*orca::log::parse_level(*lowest_level_));
+      listener_.emplace([this](const orca::log::Line& line) { heard_->hear(line); });
+      stay_active(true);
+    }
     return orca::ok();
   }
 
-  // Records are handled between laps, so a lap has nothing to do.
-  orca::Outcome work() override { return orca::done(); }
+  orca::Outcome work() override {
+    for (const auto& record : heard_records()) pass_on(record);
+    return orca::again();
+  }
 
-  Status on_record(const orca::ObjectPtr<orca::idl::LogRecord>& record) {
-    char time[32];
-    std::snprintf(time, sizeof time, "%.6f", orca::to_seconds(orca::to_time_point(record->stamp())));
-    const std::string& source = record->source().empty() ? record->origin() : record->source();
-    const bool kept = file_->append(std::string(time) + ' ' + name_of(record->level()) + ' ' + source + ": " +
-                                    record->text());
+  // Returns what this process has logged since the last call.
+  std::vector<orca::ObjectPtr<LogRecord>> heard_records() {
+    std::vector<orca::ObjectPtr<LogRecord>> records;
+    if (!heard_) return records;
+    for (const orca::logs::HeardLines::Line& line : heard_->take()) {
+      auto record = orca::make_object<LogRecord>();
+      record->level(level_of(line.level));
+      record->source() = line.who;
+      record->text() = line.text;
+      record->stamp(orca::to_time_value(line.time));
+      records.push_back(std::move(record).seal());
+    }
+    if (const std::size_t lost = heard_->take_lost(); lost > 0)
+      log_warning(std::to_string(lost) + " lines came too fast and are not in " + *path_);
+    return records;
+  }
+
+  void write_heard() {
+    for (const auto& record : heard_records()) write(*record);
+  }
+
+  Status on_record(const orca::ObjectPtr<LogRecord>& record) {
+    pass_on(record);
+    return orca::ok();
+  }
+
+  void pass_on(const orca::ObjectPtr<LogRecord>& record) {
+    const bool kept = write(*record);
     if (!kept && !failing_)
       log_warning("cannot write to " + *path_ + ": records are being lost, " + std::to_string(file_->lost()) +
                   " so far");
@@ -52,17 +98,42 @@ class LogServer final : public orca::Component {
       log_info("writes to " + *path_ + " again; " + std::to_string(file_->lost()) +
                " records were lost in total");
     failing_ = !kept;
-    return orca::ok();
+    if (passed_on_.subscriber_count() == 0) return;
+    auto copy = passed_on_.loan();
+    *copy = *record;
+    passed_on_.push(std::move(copy));
   }
 
-  orca::SendServer<orca::idl::LogRecord> records_{
+  bool write(const LogRecord& record) {
+    char time[32];
+    std::snprintf(time, sizeof time, "%.6f", orca::to_seconds(orca::to_time_point(record.stamp())));
+    const std::string& source = record.source().empty() ? record.origin() : record.source();
+    return file_->append(std::string(time) + ' ' + kLevels.at(record.level()) + ' ' + source + ": " +
+                         record.text());
+  }
+
+  orca::SendServer<LogRecord> records_{
       *this, "LogRecordSend", &LogServer::on_record, {.text = "Log records to write.", .depth = 1024}};
+  orca::PushServer<LogRecord> passed_on_{
+      *this, "LogRecordPush", {.text = "Each record that is written, one object each."}};
 
   orca::Param<std::string> path_{
       *this,
       "file",
       "orca.log",
       {.file = true, .fixed = true, .text = "File to which the lines are appended."}};
+  orca::Param<bool> own_lines_{
+      *this,
+      "own_lines",
+      true,
+      {.fixed = true, .text = "Whether every line of this process's log is a record."}};
+  orca::Param<std::string> lowest_level_{
+      *this,
+      "lowest_level",
+      "info",
+      {.choices = kLevels,
+       .fixed = true,
+       .text = "Lowest level of these lines; --log has no influence on them."}};
   orca::Param<std::int64_t> most_bytes_{
       *this,
       "most_bytes",
@@ -75,6 +146,8 @@ class LogServer final : public orca::Component {
       *this, "keep", 5, {.min = 0, .max = 1000, .fixed = true, .text = "Number of old files to keep."}};
 
   std::optional<orca::logs::LogFile> file_;
+  std::optional<orca::logs::HeardLines> heard_;
+  std::optional<orca::log::Listener> listener_;
   bool failing_ = false;
 };
 

@@ -67,3 +67,20 @@ TEST_CASE("only lines of the chosen level and above are written", "[base][log]")
   CHECK(captured(write_at_all_levels).empty());
   log::set_level(log::Level::info);
 }
+
+TEST_CASE("a listener hears every line while it lives, whatever level is written", "[base][log]") {
+  std::vector<std::string> heard;
+  log::set_level(log::Level::off);
+  log::set_clock([] { return TimePoint(2s); });
+  {
+    const log::Listener listener([&](const log::Line& line) {
+      heard.push_back(std::string(line.who) + ": " + std::string(line.text) + " " +
+                      std::to_string(static_cast<int>(line.level)) + " " + std::to_string(to_seconds(line.time)));
+    });
+    CHECK(captured([] { log::debug("avoid", "deaf"); }).empty());
+  }
+  log::debug("avoid", "too late");
+  log::set_clock(nullptr);
+  log::set_level(log::Level::info);
+  CHECK(heard == std::vector<std::string>{"avoid: deaf 0 2.000000"});
+}

@@ -26,6 +26,30 @@ void set_clock(std::function<TimePoint()> now);
 /// @thread  any; lines are not mixed.
 void write(Level level, std::string_view who, std::string_view text);
 
+/// A line of the log, valid during a call.
+struct Line {
+  Level level = Level::info;
+  std::string_view who;
+  std::string_view text;  ///< As it was written, not made printable().
+  TimePoint time;         ///< Of the clock of the log; without a clock 0.
+};
+
+/// Hears every line of this process while it lives, also those below the level that is written.
+class Listener {
+ public:
+  /// @param heard  is called with each line, for one line at a time, on the thread that writes it. It must not write
+  ///               to the log itself.
+  explicit Listener(std::function<void(const Line&)> heard);
+  /// After it no call is under way.
+  ~Listener();
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+ private:
+  friend void write(Level level, std::string_view who, std::string_view text);
+  std::function<void(const Line&)> heard_;
+};
+
 inline void debug(std::string_view who, std::string_view text) { write(Level::debug, who, text); }
 inline void info(std::string_view who, std::string_view text) { write(Level::info, who, text); }
 inline void warning(std::string_view who, std::string_view text) { write(Level::warning, who, text); }
