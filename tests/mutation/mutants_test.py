@@ -48,6 +48,14 @@ class Mutants(unittest.TestCase):
         self.assertEqual(mutant.applied_to(source), "if (a <= b) return true;\n")
         self.assertEqual(mutant.text(), "a.cpp:1: comparison: '<' -> '<='")
 
+    def test_a_changed_line_leaves_the_order_of_all_others(self):
+        def order(source):
+            return [(m.kind, m.old, m.new) for _, m in sorted(run.shuffled(5, "a.cpp", source), key=lambda pair: pair[0])]
+
+        before = order("int a = 11;\nint b = 12;\nint b = 12;\nbool c = a < b;\n")
+        after = order("int first = 1;\nint a = 11;\nint b = 12;\nint b = 12;\nbool c = a < b;\n")
+        self.assertEqual([change for change in after if change != ("constant", "1", "2")], before)
+
     def test_each_excused_mutant_exists_and_has_a_reason(self):
         for line in run.EQUAL.read_text().splitlines():
             if not line.strip() or line.startswith("#"):
