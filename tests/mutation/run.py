@@ -66,7 +66,7 @@ MODULES = (
     Module("src/runtime/host/",
            (stage("host_test"),
             stage("system_phases_test", "system_graph_features_test", "system_scout_goto_test", "system_hooligan_test",
-                  "system_signals_test", "system_bad_plugins_test", also=_DEPLOYER))),
+                  "system_signals_test", "system_bad_plugins_test", "plugin_faults_test", also=_DEPLOYER))),
 )
 
 
