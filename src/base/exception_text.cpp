@@ -13,8 +13,9 @@ namespace orca {
 namespace {
 
 std::string current_type_name() {
+  // An exception of another language has no type where that of a C++ exception lies.
+  if (std::current_exception() == nullptr) return "something unknown";
   const std::type_info* const type = abi::__cxa_current_exception_type();
-  if (type == nullptr) return "something unknown";
   int status = 0;
   char* const text = abi::__cxa_demangle(type->name(), nullptr, nullptr, &status);
   const std::string name = status == 0 ? text : type->name();

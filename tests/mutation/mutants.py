@@ -2,8 +2,10 @@
 """Finds the places of a C++ text that can be changed into a small mistake: one comparison, constant, condition or return.
 
 Works on the text, without a compiler: a place that turns out not to compile is no mutant. Comments, strings, preprocessor
-lines, assertions (they are not part of a release build) and declarations of templates are left alone.
+lines, assertions (they are not part of a release build), what is compiled only with a sanitizer (the builds of run.py have
+none) or for another processor, and declarations of templates are left alone.
 """
+import platform
 import re
 from dataclasses import dataclass
 
@@ -15,6 +17,11 @@ _SKIPPED = re.compile(r"""
   | \b(?:static_assert|assert)\([^;]*\);
   | \btemplate\ <[^{;]*?>\n | \brequires\b[^{;\n]* | \boperator\s*(?:[<>=!]=?|<=>|&&|\|\|)
 """, re.VERBOSE | re.MULTILINE | re.DOTALL)
+
+# Questions whose answer is known here: macros of sanitizers, which are not defined, and of processors.
+_CONDITIONAL = re.compile(r"[ \t]*#(?P<word>ifdef|ifndef|if|elif|else|endif)\b(?P<condition>.*)")
+_KNOWN_QUESTION = re.compile(r" (?:defined\(__(?:SANITIZE_\w+|x86_64|i386|aarch64)__\)(?: \|\| |$))+")
+_THIS_PROCESSOR = f"__{platform.machine()}__"
 
 # clang-format sets blanks around binary operators and none inside of template brackets.
 _COMPARISON = re.compile(r"(?<= )(?P<op><=|>=|==|!=|<|>)(?= (?!\{))")
@@ -44,9 +51,29 @@ class Mutant:
         return source[:self.start] + self.new + source[self.end:]
 
 
+def _without_other_builds(source):
+    """The source with the lines that another sanitizer or processor would compile replaced by blanks, offsets kept."""
+    kept, open_blocks = [], []  # of each block: [is the branch compiled, was an earlier one]; None: not known
+    for line in source.splitlines(keepends=True):
+        directive = _CONDITIONAL.match(line)
+        word = directive["word"] if directive else ""
+        if word.startswith("if") or (word == "elif" and open_blocks[-1]):
+            known = word in ("if", "elif") and _KNOWN_QUESTION.fullmatch(directive["condition"])
+            true = bool(known) and _THIS_PROCESSOR in directive["condition"]
+            earlier = any(open_blocks.pop()) if word == "elif" else False
+            open_blocks.append([true and not earlier, earlier] if known else None)
+        elif word == "else" and open_blocks[-1]:
+            open_blocks[-1] = [not any(open_blocks[-1]), True]
+        elif word == "endif":
+            open_blocks.pop()
+        compiled = all(block is None or block[0] for block in open_blocks)
+        kept.append(line if compiled or word else re.sub(r"[^\n]", " ", line))
+    return "".join(kept)
+
+
 def _blanked(source):
     """The source with what must not change replaced by blanks, offsets kept."""
-    return _SKIPPED.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), source)
+    return _SKIPPED.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), _without_other_builds(source))
 
 
 def _changed_comparison(match):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What counts as a mutant, by example."""
+import platform
 import unittest
 
 import run
@@ -42,11 +43,35 @@ class Mutants(unittest.TestCase):
     def test_comments_strings_assertions_and_directives_stay(self):
         self.assertEqual(changes('// a < b\n/* 1 == 2 */ f("x < 5");\nassert(a < b);\n#if A == 1\nint c = R"(3 < 4)";'), [])
 
+    def test_what_only_other_builds_compile_stays(self):
+        def both(condition):
+            return changes(f"#if {condition}\nint a = 7;\n#else\nint b = 5;\n#endif\nint c = 3;\n")
+
+        self.assertEqual(both("defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)"),
+                         [("constant", "5", "6"), ("constant", "3", "4")])
+        self.assertEqual(both(f"defined(__{platform.machine()}__)"), [("constant", "7", "8"), ("constant", "3", "4")])
+        self.assertEqual(len(both("defined(ORCA_SOMETHING)")), 3)
+        self.assertEqual(len(both("!defined(__SANITIZE_ADDRESS__)")), 3)
+
+    def test_of_several_processors_only_this_one_counts(self):
+        others = [name for name in ("x86_64", "i386", "aarch64") if name != platform.machine()]
+        source = f"#if defined(__{others[0]}__)\nint a = 7;\n#elif defined(__{platform.machine()}__)\nint b = 5;\n" \
+                 f"#elif defined(__{others[1]}__)\nint c = 9;\n#else\nint d = 11;\n#endif\n"
+        self.assertEqual(changes(source), [("constant", "5", "6")])
+
     def test_a_mutant_is_applied_where_it_was_found(self):
         source = "if (a < b) return true;\n"
         mutant = next(m for m in mutants_of("a.cpp", source) if m.kind == "comparison")
         self.assertEqual(mutant.applied_to(source), "if (a <= b) return true;\n")
         self.assertEqual(mutant.text(), "a.cpp:1: comparison: '<' -> '<='")
+
+    def test_a_changed_line_leaves_the_order_of_all_others(self):
+        def order(source):
+            return [(m.kind, m.old, m.new) for _, m in sorted(run.shuffled(5, "a.cpp", source), key=lambda pair: pair[0])]
+
+        before = order("int a = 11;\nint b = 12;\nint b = 12;\nbool c = a < b;\n")
+        after = order("int first = 1;\nint a = 11;\nint b = 12;\nint b = 12;\nbool c = a < b;\n")
+        self.assertEqual([change for change in after if change != ("constant", "1", "2")], before)
 
     def test_each_excused_mutant_exists_and_has_a_reason(self):
         for line in run.EQUAL.read_text().splitlines():

@@ -8,7 +8,7 @@ notices is caught; the others survive and are listed. A survivor gets a test, or
 test can tell it from the original.
 
   --count N      mutants that compile (default 150)
-  --seed N       which ones (default 1); the same seed and sources give the same mutants
+  --seed N       which ones (default 1). A change of the sources moves only the mutants of the lines it changes
   --only TEXT    only files whose path contains it
   --build DIR    where the copy and its build live (default build/mutation below the root); kept for the next run
   --jobs N       compilers and tests at a time (default: as many as processors)
@@ -19,13 +19,15 @@ Exit status: 0 enough were caught, 1 too few were, 2 the unchanged sources do no
 """
 import argparse
 import contextlib
+import hashlib
+import itertools
 import os
-import random
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -64,7 +66,7 @@ MODULES = (
     Module("src/runtime/host/",
            (stage("host_test"),
             stage("system_phases_test", "system_graph_features_test", "system_scout_goto_test", "system_hooligan_test",
-                  "system_signals_test", "system_bad_plugins_test", also=_DEPLOYER))),
+                  "system_signals_test", "system_bad_plugins_test", "plugin_faults_test", also=_DEPLOYER))),
 )
 
 
@@ -111,6 +113,19 @@ def module_of(path):
     return next((module for module in MODULES if path.startswith(module.folder)), None)
 
 
+def shuffled(seed, path, source):
+    """The mutants of a file as pairs (place in the order, mutant).
+
+    A mutant's place depends on the seed and on its own line alone, not on how many others there are: whoever writes a test or
+    changes a line meets the same mutants again, and what was measured before can be compared.
+    """
+    met = Counter()
+    for mutant in mutants_of(path, source):
+        text = without_line(mutant, source)
+        met[text] += 1
+        yield hashlib.sha256(f"{seed} {text} {met[text]}".encode()).digest(), mutant
+
+
 def shuffled_mutants(seed, only):
     """Each module's mutants in a random order, one module after the other, so that small modules count as much as large.
 
@@ -120,14 +135,10 @@ def shuffled_mutants(seed, only):
     for path in sorted(tracked_files()):
         module = module_of(path)
         if module and only in path and path.endswith((".cpp", ".hpp")):
-            of_module[module] += mutants_of(path, (ROOT / path).read_text())
-    for module, mutants in of_module.items():
-        random.Random(f"{seed} {module.folder}").shuffle(mutants)
-    queues = [mutants for mutants in of_module.values() if mutants]
-    while queues:
-        for queue in queues:
-            yield queue.pop()
-        queues = [queue for queue in queues if queue]
+            of_module[module] += shuffled(seed, path, (ROOT / path).read_text())
+    queues = [iter(sorted(mutants, key=lambda pair: pair[0])) for mutants in of_module.values()]
+    for turn in itertools.zip_longest(*queues):
+        yield from (pair[1] for pair in turn if pair)
 
 
 def known_as_equal():

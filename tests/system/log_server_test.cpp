@@ -43,9 +43,9 @@ TEST_CASE("a log that cannot be written stops no component, and the loss is repo
 
 TEST_CASE("every line of the deployer's log is a record too, the last ones included", "[system][log]") {
   const TempFolder folder;
-  const Run run = run_deployer(Words{system_graph("log_server.xml"), "--set", "file=" + folder.file("robot.log"),
-                                     "--set", "own_lines=true", "--set", "most_bytes=100000", "--fail",
-                                     "source=throw@0.5s", "--log", "off"} +
+  const Run run = run_deployer(Words{system_graph("log_server.xml"), "--set",
+                                     "file=" + folder.file("robot.log"), "--set", "own_lines=true", "--set",
+                                     "most_bytes=100000", "--fail", "source=throw@0.5s", "--log", "off"} +
                                with_test_plugins() + virtual_clock());
   CHECK(run.exit_code() == 1);
   const std::string text = read_text(folder.file("robot.log"));
@@ -57,9 +57,10 @@ TEST_CASE("every line of the deployer's log is a record too, the last ones inclu
 TEST_CASE("the shipped graph with its profile \"log\" leaves a file that says why a goal was not reached",
           "[system][log]") {
   const TempFolder folder;
-  Subprocess program(deployer(Words{source_file("graphs/scout_rounds.xml"), "--profile", "sim", "--profile", "log"} +
-                              virtual_clock()),
-                     {.folder = folder.path()});
+  Subprocess program(
+      deployer(Words{source_file("graphs/scout_rounds.xml"), "--profile", "sim", "--profile", "log"} +
+               virtual_clock()),
+      {.folder = folder.path()});
   const Run run = finish(program, Seconds(30));
   INFO(run.err);
   const std::string text = read_text(folder.file("orca.log"));

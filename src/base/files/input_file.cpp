@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <iterator>
 
 #include "orca/base/exhaustion.hpp"
 #include "used_files.hpp"
@@ -39,8 +40,8 @@ class Descriptor {
 // Waits for more of a pipe or a device; false if the deadline comes first.
 bool wait_for_more(int fd, Clock::time_point deadline) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
-  pollfd input{fd, POLLIN, 0};
-  return left > 0 && poll(&input, 1, static_cast<int>(left)) > 0;
+  pollfd inputs[] = {{fd, POLLIN, 0}};
+  return left > 0 && poll(inputs, std::size(inputs), static_cast<int>(left)) > 0;
 }
 
 Error stalled() {

@@ -190,7 +190,7 @@ PushSinkOverBytes::~PushSinkOverBytes() {
 
 std::uint64_t PushSinkOverBytes::subscription() const {
   const std::lock_guard lock(mutex_);
-  return subscription_;
+  return attached_;
 }
 
 Status PushSinkOverBytes::receive(FrameReader& frame) {
@@ -212,7 +212,7 @@ Status PushSinkOverBytes::receive_rate(FrameReader& frame) {
   }
   {
     const std::lock_guard lock(mutex_);
-    subscription_ = frame.number();
+    attached_ = frame.number();
   }
   source_.attach(*this, *rate);
   return ok();
@@ -265,7 +265,7 @@ std::optional<Duration> PushSinkOverBytes::push_and_wait(const ObjectRef& object
   }
   in_flight_ = object;
   taken_ = false;
-  FrameWriter frame(FrameKind::object, subscription_);
+  FrameWriter frame(FrameKind::object, attached_);
   frame.add(++ticket_);
   frame.add(object);
   end_.send(std::move(frame));
@@ -275,7 +275,7 @@ std::optional<Duration> PushSinkOverBytes::push_and_wait(const ObjectRef& object
 void PushSinkOverBytes::give_up(const ObjectRef& /*object*/) {
   const std::lock_guard lock(mutex_);
   in_flight_ = {};
-  FrameWriter frame(FrameKind::give_up, subscription_);
+  FrameWriter frame(FrameKind::give_up, attached_);
   frame.add(ticket_);
   end_.send(std::move(frame));
 }

@@ -86,8 +86,8 @@ class PushSinkOverBytes final : public PushSink, public LinkEnd {
 
   mutable std::mutex mutex_;
   // Below: guarded by mutex_.
-  std::uint64_t subscription_ = 0;
-  ObjectRef in_flight_;  // sent, and not yet taken
+  std::uint64_t attached_ = 0;  // the number of the present subscription
+  ObjectRef in_flight_;         // sent, and not yet taken
   std::uint64_t ticket_ = 0;
   bool taken_ = false;
 

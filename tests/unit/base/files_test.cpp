@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -34,6 +35,24 @@ std::string make_pipe(const std::string& path) {
   REQUIRE(mkfifo(path.c_str(), 0600) == 0);
   return path;
 }
+
+// Closes standard input for its lifetime, as a program is started by some supervisors: the next file that is
+// opened gets the descriptor 0.
+class WithoutStandardInput {
+ public:
+  WithoutStandardInput() : kept_(dup(STDIN_FILENO)) { close(STDIN_FILENO); }
+  ~WithoutStandardInput() {
+    dup2(kept_, STDIN_FILENO);
+    close(kept_);
+  }
+  WithoutStandardInput(const WithoutStandardInput&) = delete;
+  WithoutStandardInput& operator=(const WithoutStandardInput&) = delete;
+
+ private:
+  const int kept_;
+};
+
+bool is_open(int fd) { return fcntl(fd, F_GETFD) >= 0; }
 
 std::string refusal(const std::string& path) {
   OutputFile file("the report");
@@ -139,6 +158,35 @@ TEST_CASE("a first failure in the middle is not forgotten", "[base][files]") {
   REQUIRE(file.open("/dev/full").ok());
   for (int i = 0; i < 3; ++i) file.write(std::string(70'000, 'x'));
   CHECK_FALSE(file.close().ok());
+}
+
+TEST_CASE("where standard input is closed, a file is read through descriptor 0 as through any other",
+          "[base][files]") {
+  const TempFolder folder;
+  put(folder.file("a"), "text");
+  const WithoutStandardInput without;
+  const auto read = read_input_file(folder.file("a"), kPlenty);
+  const bool left_open = is_open(STDIN_FILENO);
+  REQUIRE(read);
+  CHECK(*read == "text");
+  CHECK_FALSE(left_open);
+}
+
+TEST_CASE("where standard input is closed, a file is written through descriptor 0 as through any other",
+          "[base][files]") {
+  const TempFolder folder;
+  const WithoutStandardInput without;
+  OutputFile file("the report");
+  REQUIRE(file.open(folder.file("a")).ok());
+  CHECK(is_open(STDIN_FILENO));
+  file.write("text");
+  CHECK(file.close().ok());
+  CHECK_FALSE(is_open(STDIN_FILENO));
+  CHECK(content(folder.file("a")) == "text");
+  OutputFile unused("the report");
+  REQUIRE(unused.open(folder.file("b")).ok());
+  CHECK(unused.close().ok());
+  CHECK_FALSE(std::filesystem::exists(folder.file("b")));
 }
 
 TEST_CASE("an output file that cannot be opened says why", "[base][files]") {

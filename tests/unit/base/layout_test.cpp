@@ -33,6 +33,13 @@ TEST_CASE("two layouts of one type differ in their first different field", "[bas
         layout_difference("A{p:sequence<P{x:double {m}}>}", "A{p:sequence<P{x:double {m},y:double {m}}>}") ==
         R"x(the field "p.y" is only at the to end)x");
   }
+  SECTION("after a field whose type has commas of its own") {
+    for (const std::string type : {"Mode(on,off)", "sequence<double,3>", "P{x:double,y:double}"}) {
+      CAPTURE(type);
+      CHECK(layout_difference("A{e:" + type + ",x:double}", "A{e:" + type + ",y:double}") ==
+            R"x(the field "x" at the from end is "y" at the to end)x");
+    }
+  }
   SECTION("a struct of another name") {
     CHECK(layout_difference("A{p:P{x:double}}", "A{p:Q{x:double}}") ==
           R"x(the field "p" is "P{x:double}" at the from end and "Q{x:double}" at the to end)x");

@@ -75,7 +75,8 @@ TEST_CASE("a listener hears every line while it lives, whatever level is written
   {
     const log::Listener listener([&](const log::Line& line) {
       heard.push_back(std::string(line.who) + ": " + std::string(line.text) + " " +
-                      std::to_string(static_cast<int>(line.level)) + " " + std::to_string(to_seconds(line.time)));
+                      std::to_string(static_cast<int>(line.level)) + " " +
+                      std::to_string(to_seconds(line.time)));
     });
     CHECK(captured([] { log::debug("avoid", "deaf"); }).empty());
   }

@@ -73,3 +73,12 @@ TEST_CASE("a watch with nothing to see does not keep virtual time going", "[base
     CHECK(executive.now() == at(50ms));
   });
 }
+
+TEST_CASE("a strand counts its acts that cannot be repeated, from none", "[base][strand]") {
+  with_strand([](Executive&, Strand& strand) {
+    CHECK(strand.activity() == 0);
+    strand.note_activity();
+    strand.note_activity();
+    CHECK(strand.activity() == 2);
+  });
+}

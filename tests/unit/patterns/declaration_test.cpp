@@ -35,6 +35,8 @@ TEST_CASE("a proxy is required and keeps the latest object, unless its author sa
   CHECK(first.contract.type == type_id(object_type<MotionCommand>()));
   CHECK(first.contract.required);
   CHECK(first.contract.queue == QueuePolicy{});
+  CHECK_FALSE(first.contract.from_device);
+  CHECK_FALSE(first.contract.many);
   CHECK_FALSE(first.manual);
   const PortDeclaration& second = owner.declarations.at(1);
   CHECK_FALSE(second.contract.required);
@@ -73,4 +75,18 @@ TEST_CASE("a port array takes many edges, and its owner subscribes them itself",
   const PushProxyArray<MotionCommand> array(owner, "motion");
   CHECK(owner.declarations.at(0).contract.many);
   CHECK(owner.declarations.at(0).manual);
+}
+
+TEST_CASE("ports lend empty objects of their own types", "[patterns][declaration]") {
+  Declared owner;
+  const PushServer<MotionCommand> push(owner, "push");
+  const SendProxy<MotionCommand> send(owner, "send");
+  const QueryProxy<idl::Ask, MotionCommand> query(owner, "query");
+  const Loan<MotionCommand> pushed = push.loan();
+  const Loan<MotionCommand> sent = send.loan();
+  const Loan<idl::Ask> asked = query.loan();
+  REQUIRE((pushed && sent && asked));
+  CHECK(*pushed == MotionCommand());
+  CHECK(*sent == MotionCommand());
+  CHECK(*asked == idl::Ask());
 }

@@ -160,6 +160,16 @@ TEST_CASE("without a policy an edge has the policy of the receiving port's autho
   });
 }
 
+TEST_CASE("an edge has a deadline as soon as it is longer than nothing", "[patterns][local]") {
+  for (const Duration deadline : {0ns, 1ns}) {
+    with_ends([&](Ends& a, Ends& b) {
+      REQUIRE(
+          LocalLinks().connect(a.endpoint("push_out"), b.endpoint("push_in"), {.deadline = deadline}).ok());
+      CHECK(static_cast<PushClientEndpoint&>(b.endpoint("push_in")).has_deadline() == (deadline > 0ns));
+    });
+  }
+}
+
 namespace {
 
 struct Notes : LinkObserver {

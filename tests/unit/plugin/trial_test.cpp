@@ -102,6 +102,21 @@ TEST_CASE("a trial may report more than fits in a pipe or a read", "[plugin][tri
   CHECK(survives_trial([&](const Step& step) { step(long_step); }, 5s).ok());
 }
 
+TEST_CASE("a report is taken in whole, however the reads divide it", "[plugin][trial]") {
+  for (std::size_t size = 505; size <= 515; ++size) {  // about as many bytes as one read brings
+    CAPTURE(size);
+    const std::string name(size, 's');
+    CHECK(survives_trial([&](const Step& step) { step(name); }, 5s).ok());
+    const auto attempt = [&](const Step& step) {
+      step(name);
+      usleep(1000);  // what comes next has a read of its own
+      _exit(3);
+    };
+    CHECK_THAT(survives_trial(attempt, 5s).error().text(),
+               Contains(name + " ended the process with exit(3)"));
+  }
+}
+
 TEST_CASE("a function has survived its trial even if it leaves a process of its own behind",
           "[plugin][trial]") {
   const auto attempt = [](const Step&) {
@@ -218,6 +233,12 @@ TEST_CASE("a trial without effects lets code read, write to its streams, and use
           if (orca::test::read_text(file) != "whole") _exit(3);
         }).ending == Ending::well);
   CHECK(without_effects([] { std::puts("hello"); }).ending == Ending::well);
+  int ends[2];
+  REQUIRE(socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0);
+  CHECK(without_effects([&] {
+          if (send(ends[0], "hello", 5, 0) != 5) _exit(3);
+        }).ending == Ending::well);
+  for (const int end : ends) close(end);
   CHECK(without_effects([] { std::thread([] {}).join(); }).ending == Ending::well);
   CHECK(without_effects([] { std::abort(); }).text == "ended the process with the signal ABRT (Aborted)");
   CHECK(without_effects([] { pause(); }).ending == Ending::too_long);

@@ -112,10 +112,7 @@ std::vector<HardwareFault> PluginCatalogue::validate_hardware(const graph::Hardw
 
 std::vector<HardwareFault> PluginCatalogue::hardware_conflicts(const graph::HardwareUse& use,
                                                                const graph::HardwareUse& earlier) {
-  const auto one = hardware_.find(use.name);
-  const auto other = hardware_.find(earlier.name);
-  if (one == hardware_.end() || other == hardware_.end()) return {};
-  return one->second->conflicts_with(*other->second);
+  return hardware_.at(use.name)->conflicts_with(*hardware_.at(earlier.name));
 }
 
 Result<Contract> PluginCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {

@@ -19,7 +19,7 @@ struct RunContext {
   Trace& trace;
   /// Takes whatever people and programs outside are to know.
   Reporter& reporter;
-  std::uint64_t seed = 1;
+  std::uint64_t seed;
   /// Called whenever an instance has changed its state, on any strand.
   std::function<void()> changed;
   /// Whether a picture is to be drawn at the end.

@@ -27,6 +27,22 @@ TEST_CASE("hardware with a wrong parameter is looked into all the same, with the
   CHECK_THAT(said, Catch::Contains("test.xml:4:28: error G042: hardware \"robot\": parameter \"world\""));
 }
 
+TEST_CASE("hardware of an unknown type, or with an error, is shown to no component", "[graph][catalogue]") {
+  for (const char* hardware :
+       {"<hardware name='robot' type='orca.hw.Sam'/>",
+        "<hardware name='robot' type='orca.hw.Sim'><param name='wrld' value='x'/></hardware>",
+        "<hardware name='robot' type='orca.hw.Deep'/>"}) {
+    INFO(hardware);
+    FakeCatalogue catalogue;
+    orca::xml::Diagnostics diagnostics;
+    (void)load_text(std::string("<graph name='g'>") + hardware +
+                        "<component name='base' type='orca.RobotBaseServer' hardware='robot'/></graph>",
+                    "g.xml", {}, catalogue, diagnostics);
+    CHECK(diagnostics.error_count() == 1);
+    CHECK(catalogue.calls.back() == "component orca.RobotBaseServer");
+  }
+}
+
 TEST_CASE("what hardware says of a default that stands for a wrong value is not reported",
           "[graph][catalogue]") {
   const auto said = [](const std::string& params) {

@@ -67,3 +67,21 @@ TEST_CASE("only the first of many descriptors are named", "[host][descriptors]")
   CHECK(names_of(many) ==
         "3 (/dev/null), 4 (/dev/null), 5 (x), 6 (x), 7 (x), 8 (x), 9 (x), 10 (x) and 89 more");
 }
+
+TEST_CASE("the lowest free descriptor may be that of a closed standard input, and stays free",
+          "[host][descriptors]") {
+  OwnDescriptors own;
+  own.remember();
+  const int kept = dup(STDIN_FILENO);
+  close(STDIN_FILENO);
+  const int lowest = own.lowest_free();
+  const bool is_free = fcntl(STDIN_FILENO, F_GETFD) < 0;
+  const bool all_open = own.all_open();
+  dup2(kept, STDIN_FILENO);
+  close(kept);
+  CHECK(lowest == STDIN_FILENO);
+  CHECK(is_free);
+  CHECK_FALSE(all_open);
+  CHECK(own.all_open());
+  own.release();
+}

@@ -149,6 +149,19 @@ TEST_CASE("a hardware container's strand is named as a component is", "[host][en
   CHECK_THAT(watched.alarms[0].text(), Contains("its strand has changed the umask"));
 }
 
+TEST_CASE("where strands overlap, a hardware container's strand is in its hook from its first turn on",
+          "[host][environment]") {
+  Watched watched(true);
+  const Activity scout("scout", Hook::strand, nullptr);
+  Environment::of_process().leaving(scout);
+  {
+    const Turn bad("bad");
+    umask(0);
+  }
+  REQUIRE(watched.alarms.size() == 1);
+  CHECK_THAT(watched.alarms[0].text(), Contains("one of bad, scout has changed the umask"));
+}
+
 TEST_CASE("only the component that opens 32 descriptors in its laps and closes none is blamed",
           "[host][environment]") {
   Watched watched(false);
@@ -182,6 +195,20 @@ TEST_CASE("a component that opens many descriptors in start() and closes them in
     const Turn stop("good", Hook::stop);
     close_all(opened);
   }
+  CHECK(watched.alarms.empty());
+}
+
+TEST_CASE("start() may open many descriptors even where many are open already", "[host][environment]") {
+  Watched watched(false);
+  std::vector<int> opened;
+  open_descriptors_for_good(40, opened);
+  work_quietly("other", 2);
+  {
+    const Turn start("good", Hook::start);
+    open_descriptors_for_good(40, opened);
+  }
+  work_quietly("good", 2);
+  close_all(opened);
   CHECK(watched.alarms.empty());
 }
 

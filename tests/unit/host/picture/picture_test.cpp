@@ -173,6 +173,29 @@ TEST_CASE("a robot is its outline with a line from the middle to the front, and 
   CHECK(view.count(kDark, middle - 40, middle - 155, middle + 40, middle - 30) == 0);
 }
 
+TEST_CASE("a robot whose outline is not known is a circle round its middle", "[host][picture]") {
+  Scene scene = sensing();
+  scene.robots[0].radius_m = 1.0;
+  const Pixels view(scene,
+                    {"",
+                     View::robot,
+                     {Layer::walls, Layer::track, Layer::motion, Layer::marks, Layer::sonar, Layer::laser}});
+  const int middle = view.width() / 2;
+  int radius = 0;  // the line to the front ends there
+  while (view.count(kDark, middle - 2, middle - radius - 1, middle + 2, middle - radius) > 0) ++radius;
+  REQUIRE(radius > 50);
+  const auto dark_at = [&](double distance, double angle) {
+    const int x = middle - static_cast<int>(distance * std::sin(angle));
+    const int y = middle - static_cast<int>(distance * std::cos(angle));
+    return view.count(kDark, x - 3, y - 3, x + 3, y + 3) > 0;
+  };
+  for (double angle = 0.25; angle < 6.2; angle += 0.25) {
+    CAPTURE(angle);
+    CHECK(dark_at(radius, angle));
+    CHECK_FALSE(dark_at(0.8 * radius, angle));
+  }
+}
+
 TEST_CASE("every view shows all robots, each in a colour of its own", "[host][picture]") {
   const Scene scene = three_in_sight();
   for (const View view : {View::world, View::robot, View::film}) {
@@ -249,6 +272,24 @@ TEST_CASE("of two names of places that would lie on each other one is written", 
   CHECK(grey({{"kitchen", {5.0, 0.0}}, {"kitchen", {5.3, 0.0}}}) < 1.6 * one);  // and two rings
 }
 
+TEST_CASE("the row below the picture explains the colours of what there is, and no others",
+          "[host][picture]") {
+  const auto in_legend = [](const Scene& scene, const IsColour& colour) {
+    const Pixels view(scene, {"", View::robot, {}});
+    return view.count(colour, 0, view.width(), view.width(), view.height());  // below the square
+  };
+  Scene turning = drive(1.0);
+  turning.robots[0].moments.back().turn_rate = 1.0;
+  Scene driving = drive(1.0);
+  driving.robots[0].moments.back().speed = 1.0;
+  for (const IsColour& colour : {kYellow, kBlue, kRed}) {
+    CHECK(in_legend(sensing(), colour) > 100);
+    CHECK(in_legend(drive(1.0), colour) == 0);
+  }
+  CHECK(in_legend(turning, kRed) > 100);
+  CHECK(in_legend(driving, kRed) > 100);
+}
+
 TEST_CASE("a bar below the picture shows a round length at its scale", "[host][picture]") {
   const Scene scene = drive(1.0);
   const Pixels view(scene, {"", View::robot, {Layer::walls, Layer::track, Layer::robot, Layer::motion}});
@@ -268,6 +309,15 @@ TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments
   CHECK(reasons(scene) == std::vector<std::string>{"start", "", "at kitchen", "", "contact of Dewey", "end"});
   scene.arrivals.push_back({"hall", {10.0, 0.0}, TimePoint(10s)});
   CHECK(reasons(scene).back() == "at hall, end");
+}
+
+TEST_CASE("a film of a robot with few moments shows each of them once", "[host][picture]") {
+  Scene scene = drive(0.2);
+  CHECK(reasons(scene) == std::vector<std::string>{"start", "", "end"});
+  scene.robots[0].moments.resize(2);
+  CHECK(reasons(scene) == std::vector<std::string>{"start", "end"});
+  scene.robots[0].moments.resize(1);
+  CHECK(reasons(scene) == std::vector<std::string>{"start"});
 }
 
 TEST_CASE("a film of a robot that does much shows twelve moments, first and last among them",

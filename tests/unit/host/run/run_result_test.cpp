@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The result that an application gets after a run, and the events that it receives meanwhile.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "executives.hpp"
 #include "orca/idl/time.hpp"
 #include "recorded_run.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca;
 using namespace orca::host;
@@ -256,4 +261,42 @@ TEST_CASE("options that contradict each other are an outcome, too", "[host][resu
   CHECK(run.result.outcome == RunOutcome::bad_options);
   CHECK(run.result.error);
   CHECK(run.heard.empty());
+}
+
+TEST_CASE("a file that cannot be written keeps the run from starting", "[host][result]") {
+  const TempFolder folder;
+  RunOptions options = virtual_run();
+  SECTION("the trace") { options.trace_file = folder.file("no/trace"); }
+  SECTION("the picture") { options.picture.file = folder.file("no/picture.png"); }
+  const RecordedRun run = record_run("ends=\"host\"", kArrivals, options);
+  CHECK(run.result.outcome == RunOutcome::not_started);
+  REQUIRE(run.result.error);
+  CHECK_THAT(run.result.error->message, Contains("No such file or directory"));
+  CHECK(run.result.arrivals.empty());
+}
+
+TEST_CASE("a picture of hardware that draws nothing is missing at the end, and the run has failed",
+          "[host][result]") {
+  const TempFolder folder;
+  RunOptions options = virtual_run();
+  options.until = 700ms;
+  options.picture.file = folder.file("picture.png");
+  const RunResult result = record_run("", kBrittle, options).result;
+  CHECK(result.outcome == RunOutcome::failed);
+  REQUIRE(result.error);
+  CHECK_THAT(result.error->message, Contains("no simulated hardware"));
+}
+
+TEST_CASE("what is logged during a run has the time since its start", "[host][result]") {
+  const TempFolder folder;
+  const int kept = dup(STDERR_FILENO);
+  const int file = open(folder.file("log").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  dup2(file, STDERR_FILENO);
+  RunOptions options = virtual_run();
+  options.until = 1500ms;  // the device breaks after 1 s
+  const RecordedRun run = record_run("", kBrittle, options);
+  std::fflush(stderr);
+  dup2(kept, STDERR_FILENO);
+  for (const int fd : {kept, file}) close(fd);
+  CHECK_THAT(read_text(folder.file("log")), Contains("[     1.000] error   scout: "));
 }

@@ -49,6 +49,20 @@ TEST_CASE("an object sent to a suspended component waits, and is handled once it
   });
 }
 
+TEST_CASE("all that waits for a component is handled before it starts to work", "[host][suspend]") {
+  LiveSystem live(kLife +
+                  R"(<component name="user" type="test.User"/><component name="other" type="test.User"/>
+    <connect from="user.send" to="life.poke"/><connect from="other.send" to="life.poke"/>)");
+  live.run(virtual_executives().front(), [](LiveSystem& run) {
+    CHECK(run.suspend("life").ok());
+    run.sleep(1500ms);
+    (void)run.news();
+    CHECK(run.resume("life").ok());
+    run.sleep(50ms);
+    CHECK(run.news() == Words{"resume", "poked hello", "poked hello", "start", "work 1-2"});
+  });
+}
+
 TEST_CASE("a lap that only waits is cancelled to suspend the component", "[host][suspend]") {
   LiveSystem live(R"(<component name="life" type="test.Life" autonomous="true">
       <param name="mode" value="waits"/></component>

@@ -135,6 +135,19 @@ TEST_CASE("a peer that reads nothing is cut off as soon as too much waits for it
   });
 }
 
+TEST_CASE("an end whose link is cut sends nothing more, and says so", "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    Wires wires(executive);
+    ByteEnd end(wires.connection());
+    end.start([](FrameReader&) { return ok(); }, [](const Error&) {});
+    CHECK(end.send(FrameWriter(FrameKind::detach, 1)));
+    wires.hang_up();
+    REQUIRE(eventually(executive, [&] { return end.is_cut(); }));
+    CHECK_FALSE(end.send(FrameWriter(FrameKind::detach, 1)));
+    CHECK_FALSE(end.send(FrameWriter(FrameKind::object, 1), ByteEnd::Loss::allowed));
+  });
+}
+
 TEST_CASE("while nothing is lost each object is one frame", "[patterns][bytes]") {
   run_on_each(steady_executives(), [](Executive& executive) {
     Wires wires(executive);
@@ -165,6 +178,34 @@ TEST_CASE("a subscriber that asks for an impossible rate is cut off before anybo
     wires.say(attach_frame(asked.interval_ns, asked.multiple));
     REQUIRE(wires.cuts_off());
     CHECK(source.out.subscriber_count() == 0);
+  });
+}
+
+TEST_CASE("a subscriber may ask for the slowest rate that can be said", "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    Wires wires(executive);
+    Source source(executive);
+    auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
+    server.adopt(std::make_unique<PushSinkOverBytes>(wires.connection(), server.connect(), QueuePolicy{}));
+    wires.say(
+        attach_frame(static_cast<std::uint64_t>(Duration::max().count()), (std::uint64_t{1} << 32) - 1));
+    CHECK(eventually(executive, [&] { return source.out.subscriber_count() == 1; }));
+  });
+}
+
+TEST_CASE("a subscriber that attaches a second time is still one subscriber", "[patterns][bytes]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    Wires wires(executive);
+    Source source(executive);
+    auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
+    server.adopt(std::make_unique<PushSinkOverBytes>(wires.connection(), server.connect(), QueuePolicy{}));
+    wires.say(attach_frame());
+    wires.say(attach_frame());
+    CHECK(wires.kinds_sent(2) == std::vector{FrameKind::granted, FrameKind::granted});
+    CHECK(source.out.subscriber_count() == 1);
+    source.out.push(full_stop());
+    source.out.start(50ms);
+    CHECK(wires.kinds_sent(2) == std::vector{FrameKind::object, FrameKind::granted});
   });
 }
 

@@ -223,6 +223,15 @@ TEST_CASE("only as many libraries have versions as the dynamic section says", "[
   CHECK(libraries(image.parsed()) == libraries(gnu().parsed()));
 }
 
+TEST_CASE(
+    "the versions of a library end with the one that names no next one, whatever their number is said to be",
+    "[plugin][elf]") {
+  const std::string expected = described(gnu().parsed());
+  ElfImage image = gnu();
+  image.at<Elf64_Verneed>(image.dynamic(DT_VERNEED).d_un.d_val).vn_cnt = 60'000;
+  CHECK(described(image.parsed()) == expected);
+}
+
 TEST_CASE("at most 10000 versions are read, of all libraries together", "[plugin][elf]") {
   ElfImage image = gnu();
   constexpr Elf64_Half kOfFirst = 9'999, kOfSecond = 2;

@@ -98,7 +98,7 @@ class PushProxyHandle {
   /// connected.
   void set_interval(Duration interval) { ask({interval, 1}); }
   void set_multiple(std::uint32_t multiple) { ask({Duration{0}, multiple}); }
-  /// Returns the rate that the server granted; all zero for a port that is not connected.
+  /// Returns the rate that the server granted; UpdateGrant{} for a port that is not connected.
   [[nodiscard]] UpdateGrant granted() const;
   /// Returns the time between two objects that the server announces [s]; 0: none.
   [[nodiscard]] Duration base_period() const;
