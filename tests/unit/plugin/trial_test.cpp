@@ -59,7 +59,7 @@ TrialResult without_effects(const std::function<void()>& deed) {
       2s, Effects::none);
 }
 
-bool is_stopped(const std::function<void()>& deed) {
+[[maybe_unused]] bool is_stopped(const std::function<void()>& deed) {
   const TrialResult tried = without_effects(deed);
   CHECK(tried.findings.front() == "before");
   return tried.ending == Ending::effect && tried.findings.size() == 1;
