@@ -42,11 +42,13 @@ struct Operations {
 };
 
 template <class T>
-constexpr ObjectType make_object_type(std::string_view layout, std::uint64_t layout_hash, Pool& pool) {
+constexpr ObjectType make_object_type(std::string_view layout, std::uint64_t layout_hash,
+                                      const ObjectType* parent, Pool& pool) {
   using Do = Operations<T>;
   return {.name = Reflection<T>::name,
           .layout = layout,
           .layout_hash = layout_hash,
+          .parent = parent,
           .size = sizeof(T),
           .align = alignof(T),
           .construct = Do::construct,

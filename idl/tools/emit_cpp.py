@@ -78,10 +78,11 @@ def types_header(file: IdlFile) -> str:
 
 def type_definition(struct: Struct) -> str:
     name, layout = struct.name, struct.layout
+    parent = f"&type_of_{struct.parent.name}" if struct.parent else "nullptr"
     return (
         f"constinit detail::Pool pool_of_{name}{{type_of_{name}}};\n"
         f"constinit const ObjectType type_of_{name} = detail::make_object_type<idl::{name}>(\n"
-        f"    {quoted(layout)}, 0x{layout_hash(layout):016x}U, pool_of_{name});\n"
+        f"    {quoted(layout)}, 0x{layout_hash(layout):016x}U, {parent}, pool_of_{name});\n"
     )
 
 

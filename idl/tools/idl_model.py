@@ -86,9 +86,15 @@ class Struct:
         return (self.base.all_fields if self.base else []) + self.fields
 
     @property
+    def parent(self) -> Optional["Struct"]:
+        """The object type that this one extends; none if that is only OrcaObject."""
+        return self.base if self.base is not None and self.base.is_object and self.base.name != "OrcaObject" else None
+
+    @property
     def layout(self) -> str:
-        """All that two programs must agree on to exchange this type: base first, nested types in full."""
-        return f"{self.name}{{{','.join(f.layout for f in self.all_fields)}}}"
+        """All that two programs must agree on to exchange this type: its parent, base's fields first, nested types in full."""
+        head = f"{self.name}:{self.parent.name}" if self.parent else self.name
+        return f"{head}{{{','.join(f.layout for f in self.all_fields)}}}"
 
     @property
     def wire_size(self) -> int:

@@ -20,16 +20,14 @@ idl::DriveType type_of(DriveKind kind) {
 idl::Actuator describe(const Turret& turret) {
   idl::Actuator object;
   object.name(turret.joint);
-  object.library(kLibrary);
-  object.driver("orca.hw.Sim");
+  label(object, turret.label);
   return object;
 }
 
 idl::Drive describe(const Drive& drive) {
   idl::Drive object;
   object.name("drive");
-  object.library(kLibrary);
-  object.driver("orca.hw.Sim");
+  label(object, drive.label);
   object.type(type_of(drive.kind));
   object.max_speed(drive.max_speed);
   object.max_steer_speed(drive.max_turn_rate);

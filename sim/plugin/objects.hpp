@@ -27,6 +27,17 @@ void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
 /// Returns the description of the robot that its clients can query.
 [[nodiscard]] idl::Robot describe(const RobotModel& model, const std::string& name);
 
+/// Fills in whose device it is, and what drives it here.
+/// @tparam Object  a Sensor or an Actuator.
+template <class Object>
+void label(Object& object, const DeviceLabel& label) {
+  object.vendor(label.vendor);
+  object.model(label.model);
+  object.port(label.port);
+  object.library("sim.so");
+  object.driver("orca.hw.Sim");
+}
+
 /// Adds the sensors to the robot's description.
 void describe_sensors(const RobotModel& model, idl::Robot& robot);
 

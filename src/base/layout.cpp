@@ -41,6 +41,12 @@ std::vector<Field> fields_of(std::string_view layout) {
   return fields;
 }
 
+// Returns the type that a layout "NAME:PARENT{...}" extends.
+std::string parent_of(std::string_view layout) {
+  const std::string_view parent = field(layout.substr(0, layout.find('{'))).type;
+  return parent.empty() ? "OrcaObject" : std::string(parent);
+}
+
 // A walk through both layouts up to the first difference.
 class Comparison {
  public:
@@ -84,6 +90,10 @@ class Comparison {
 }  // namespace
 
 std::string layout_difference(std::string_view from, std::string_view to, const LayoutEnds& ends) {
+  const std::string parents[] = {parent_of(from), parent_of(to)};
+  if (parents[0] != parents[1])
+    return "it extends " + parents[0] + " " + std::string(ends.from) + " and " + parents[1] + " " +
+           std::string(ends.to);
   return Comparison(ends).of_fields("", fields_of(from), fields_of(to));
 }
 

@@ -148,7 +148,7 @@ Names all_type_names() {
 const ObjectType* type_of(const xml::Element& root, const ObjectType* expected,
                           xml::Diagnostics& diagnostics) {
   const ObjectType* found = find_object_type(root.name());
-  if (found != nullptr && (expected == nullptr || found == expected)) return found;
+  if (found != nullptr && (expected == nullptr || is_a(*found, *expected))) return found;
   std::string message = "<" + root.name() + ">: ";
   if (expected != nullptr) {
     message += "a <" + std::string(expected->name) + "> is expected here";

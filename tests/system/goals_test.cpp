@@ -88,6 +88,22 @@ TEST_CASE("a goal that Goto refuses is reported at once with the reason, and the
   CHECK(run.arrivals()[0].t < drive("low: 1 0").arrivals().at(0).t + 0.5);
 }
 
+TEST_CASE("a Door that Command sends arrives at Goto as a Door, which is passed or refused by its width",
+          "[system][goals]") {
+  const Run run = rounds({"--set",
+                          "goals=slit: door 2 4.5 90 0.4 > 2 6.5; gate: door 2 4.5 90 1; "
+                          "lab: door 2 4.5 90 1 > 2 6.5; hall: door 2 4.5 90 1 > 2 3"});
+  INFO(run.out << run.err);
+  REQUIRE(run.failures().size() == 1);
+  CHECK(run.failures()[0] == "failed slit refused: it is a door narrower than Goto's door_room");
+  REQUIRE(run.arrivals().size() == 3);
+  CHECK(run.arrivals()[0].name == "gate");
+  CHECK(std::abs(run.arrivals()[0].y - 4.5) < 0.2);
+  CHECK(run.arrivals()[1].y > 6.0);
+  CHECK(run.arrivals()[2].y < 3.5);  // through the same door, the other way
+  CHECK(run.contacts().empty());
+}
+
 TEST_CASE("after a goal that was refused nothing is left of its route", "[system][goals]") {
   const Run run = drive("high: 0 -2 > 1 0 1.5; low: 1 0");
   REQUIRE(run.arrivals().size() == 1);

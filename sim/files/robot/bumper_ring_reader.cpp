@@ -19,6 +19,7 @@ void read_bumper_ring(const xml::Attributes& e, RobotModel& model) {
   if (std::fabs(ring.pitch) * static_cast<double>(ring.count) > 2.0 * std::numbers::pi + kRounding)
     e.error_at("pitch", robot_codes::kContradiction, "the segments are wider than a full turn together");
   if (ring.period > Duration{0}) check_period(e, ring.period);
+  ring.label = read_label(e);
   if (name_is_free(e, ring.name, model)) model.bumpers.push_back(std::move(ring));
 }
 

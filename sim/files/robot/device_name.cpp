@@ -23,6 +23,10 @@ const char* owner_of(const std::string& name, const RobotModel& model) {
 
 }  // namespace
 
+DeviceLabel read_label(const xml::Attributes& e) {
+  return {e.text("vendor").value_or(""), e.text("model").value_or(""), e.text("port").value_or("")};
+}
+
 bool name_is_free(const xml::Attributes& e, const std::string& name, const RobotModel& model) {
   if (name.empty()) return true;  // Reported already.
   const char* const owner = owner_of(name, model);

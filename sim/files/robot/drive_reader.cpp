@@ -26,6 +26,7 @@ void read_drive(const xml::Attributes& e, RobotModel& model) {
   set(drive.speed_step, e.number_or("speed_step", drive.speed_step));
   set(drive.big_turn_angle, e.number_or("big_turn_angle", drive.big_turn_angle));
   set(drive.big_turn_speed, e.number_or("big_turn_speed", drive.big_turn_speed));
+  drive.label = read_label(e);
   if (drive.dead_time > std::chrono::seconds{5})
     e.error_at("dead_time", robot_codes::kContradiction, "a dead time of more than 5 s is not simulated");
 }

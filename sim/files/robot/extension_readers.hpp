@@ -22,6 +22,9 @@ void read_odometry(const xml::Attributes& e, RobotModel& model);
 // free.
 [[nodiscard]] bool name_is_free(const xml::Attributes& e, const std::string& name, const RobotModel& model);
 
+// Reads vendor, model and port.
+[[nodiscard]] DeviceLabel read_label(const xml::Attributes& e);
+
 // Reports a period that is shorter than the simulation's tick, or longer than an hour.
 void check_period(const xml::Attributes& e, Duration period);
 

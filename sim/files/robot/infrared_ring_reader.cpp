@@ -27,6 +27,7 @@ void read_infrared_ring(const xml::Attributes& e, RobotModel& model) {
   set(ring.radius, e.number_or("radius", model.radius));
   set(ring.period, e.duration("period"));
   check(e, ring);
+  ring.label = read_label(e);
   if (name_is_free(e, ring.name, model)) model.infrareds.push_back(std::move(ring));
 }
 

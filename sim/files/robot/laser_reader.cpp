@@ -31,6 +31,7 @@ void read_laser(const xml::Attributes& e, RobotModel& model) {
   set(laser.period, e.duration("period"));
   set(laser.sweep, e.duration_or("sweep", Duration{0}));
   check(e, laser);
+  laser.label = read_label(e);
   if (name_is_free(e, laser.name, model)) model.lasers.push_back(std::move(laser));
 }
 

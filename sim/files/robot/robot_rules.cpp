@@ -31,9 +31,17 @@ constexpr std::array kDrive{required("type", one_of(kDriveKinds)),
                             optional("steer_gain", positive("")),
                             optional("speed_step", not_negative("m/s")),
                             optional("big_turn_angle", positive("rad")),
-                            optional("big_turn_speed", not_negative("m/s"))};
-constexpr std::array kTurret{required("joint", kText), required("max_speed", positive("rad/s")),
-                             required("max_acceleration", positive("rad/s2")), required("period", kPeriod)};
+                            optional("big_turn_speed", not_negative("m/s")),
+                            optional("vendor", kText),
+                            optional("model", kText),
+                            optional("port", kText)};
+constexpr std::array kTurret{required("joint", kText),
+                             required("max_speed", positive("rad/s")),
+                             required("max_acceleration", positive("rad/s2")),
+                             required("period", kPeriod),
+                             optional("vendor", kText),
+                             optional("model", kText),
+                             optional("port", kText)};
 // Directions are given by `angles`, or else by `first_angle` and `pitch`.
 constexpr std::array kSonarRing{required("name", kName),
                                 required("count", kDevices),
@@ -50,7 +58,11 @@ constexpr std::array kSonarRing{required("name", kName),
                                 required("period", kPeriod),
                                 required("link", kText),
                                 optional("order", kText),
-                                optional("parallel", kDevices)};
+                                optional("parallel", kDevices),
+                                optional("offset", kCoordinate),
+                                optional("vendor", kText),
+                                optional("model", kText),
+                                optional("port", kText)};
 constexpr std::array kLaser{required("name", kName),
                             required("link", kText),
                             required("count", kReadings),
@@ -61,7 +73,10 @@ constexpr std::array kLaser{required("name", kName),
                             optional("quantum", kLengthOrZero),
                             optional("divergence", not_negative("rad")),
                             required("period", kPeriod),
-                            optional("sweep", kTime)};
+                            optional("sweep", kTime),
+                            optional("vendor", kText),
+                            optional("model", kText),
+                            optional("port", kText)};
 constexpr std::array kInfraredRing{required("name", kName),
                                    required("link", kText),
                                    required("count", kDevices),
@@ -71,11 +86,16 @@ constexpr std::array kInfraredRing{required("name", kName),
                                    optional("min_range", kLengthOrZero),
                                    required("max_range", kLength),
                                    optional("radius", kLengthOrZero),
-                                   required("period", kPeriod)};
-constexpr std::array kBumperRing{required("name", kName),           required("count", kDevices),
-                                 optional("first_angle", kAngle),   required("pitch", kAngle),
-                                 optional("radius", kLengthOrZero), required("period", kPeriod)};
-constexpr std::array kOdometry{required("period", kPeriod)};
+                                   required("period", kPeriod),
+                                   optional("vendor", kText),
+                                   optional("model", kText),
+                                   optional("port", kText)};
+constexpr std::array kBumperRing{
+    required("name", kName),   required("count", kDevices),       optional("first_angle", kAngle),
+    required("pitch", kAngle), optional("radius", kLengthOrZero), required("period", kPeriod),
+    optional("vendor", kText), optional("model", kText),          optional("port", kText)};
+constexpr std::array kOdometry{required("period", kPeriod), optional("vendor", kText),
+                               optional("model", kText), optional("port", kText)};
 
 }  // namespace
 

@@ -72,12 +72,14 @@ void read_sonar_ring(const xml::Attributes& e, RobotModel& model) {
   set(ring.min_range, e.number("min_range"));
   set(ring.max_range, e.number("max_range"));
   set(ring.quantum, e.number_or("quantum", 0.0));
+  set(ring.offset, e.number_or("offset", 0.0));
   set(ring.period, e.duration("period"));
   set(ring.link, e.text("link"));
   read_order(e, ring);
   if (e.has("parallel") && ring.count > 0)
     set(ring.parallel, e.integer("parallel", whole(1, static_cast<double>(ring.count))));
   check_ring(e, ring);
+  ring.label = read_label(e);
   if (name_is_free(e, ring.name, model)) model.sonars.push_back(std::move(ring));
 }
 

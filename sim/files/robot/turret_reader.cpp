@@ -10,6 +10,7 @@ void read_turret(const xml::Attributes& e, RobotModel& model) {
   set(turret.max_acceleration, e.number("max_acceleration"));
   set(turret.period, e.duration("period"));
   if (turret.period > Duration{0}) check_period(e, turret.period);
+  turret.label = read_label(e);
   model.turret = turret;
 }
 

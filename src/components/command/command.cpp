@@ -141,7 +141,7 @@ class Command final : public orca::Component {
   }
 
   orca::Status send_point(const Route& route, const orca::command::Place& place, bool via) {
-    auto point = goto_.loan();
+    orca::Loan<orca::idl::GoalPoint> point = point_at(place);
     point->name() = route.name;
     point->coordinate().point().x(place.x);
     point->coordinate().point().y(place.y);
@@ -149,10 +149,20 @@ class Command final : public orca::Component {
     point->via(via);
     point->reach_radius(via ? *via_radius_ : *reach_radius_);
     point->use_orientation(!via && route.use_orientation);
-    point->orientation(route.orientation);
+    if (!place.door) point->orientation(route.orientation);
     point->reach_angle(*reach_angle_);
     point->time_limit(*goal_timeout_);
     return goto_.send_wait_max(std::move(point), kRoomLimit);
+  }
+
+  // Returns a GoalPoint, or a Door, which is one too. Who sends a robot through a door says that it is passable.
+  static orca::Loan<orca::idl::GoalPoint> point_at(const orca::command::Place& place) {
+    if (!place.door) return orca::make_object<orca::idl::GoalPoint>();
+    auto door = orca::make_object<orca::idl::Door>();
+    door->orientation(place.door->direction);
+    door->door_width().distance(place.door->width);
+    door->passable(true);
+    return door;
   }
 
   orca::Status send_clients(const std::vector<std::string>& names) {
@@ -249,11 +259,12 @@ class Command final : public orca::Component {
       "GoalFailedPush",
       {.text = "Goals that failed without a word of Goto: not taken, or not answered."}};
 
-  orca::Param<std::vector<std::string>> goals_{
-      *this,
-      "goals",
-      {},
-      {.fixed = true, .text = "Goals, each \"name: x y > x y\" in metres: any via points, then the goal."}};
+  orca::Param<std::vector<std::string>> goals_{*this,
+                                               "goals",
+                                               {},
+                                               {.fixed = true,
+                                                .text = "Goals, each \"name: x y > door x y degrees width > "
+                                                        "x y\" in metres: any via points, then the goal."}};
   orca::Param<std::string> goals_file_{
       *this,
       "goals_file",

@@ -47,8 +47,29 @@ Result<double> next_number(std::string_view& rest) {
   return parse_number(number);
 }
 
+// Reads what follows the word "door": x, y, degrees, width.
+Result<Place> parse_door(std::string_view text) {
+  std::string_view rest = text;
+  double numbers[4] = {};
+  for (double& number : numbers) {
+    const Result<double> parsed = next_number(rest);
+    if (!parsed)
+      return fail(Code::invalid_argument, parsed.error().message +
+                                              "; a door has x, y, the direction through it in degrees, and "
+                                              "its width, like \"door 5 2 90 0.9\"");
+    number = *parsed;
+  }
+  if (!rest.empty())
+    return fail(Code::invalid_argument,
+                "expected nothing after the width of a door, found \"" + std::string(rest) + "\"");
+  if (numbers[3] <= 0.0) return fail(Code::invalid_argument, "the width of a door is more than 0");
+  return Place{numbers[0], numbers[1], 0.0, Doorway{numbers[2] * std::numbers::pi / 180.0, numbers[3]}};
+}
+
 Result<Place> parse_place(std::string_view text) {
+  constexpr std::string_view kDoor = "door";
   std::string_view rest = trim(text);
+  if (rest.starts_with(kDoor)) return parse_door(rest.substr(kDoor.size()));
   if (rest.find_first_of(kBlank) == std::string_view::npos)
     return fail(Code::invalid_argument, "expected \"x y\", found \"" + std::string(rest) + "\"");
   Place place;
@@ -95,6 +116,8 @@ Result<Route> parse_route(std::string_view text) {
   }
   route.goal = route.via.back();
   route.via.pop_back();
+  if (route.goal.door && route.use_orientation)
+    return bad(text, "a door as the goal has its direction already; remove \"@\" and what follows");
   return route;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,10 +10,17 @@
 
 namespace orca::command {
 
+/// What is known of a doorway besides its middle.
+struct Doorway {
+  double direction = 0.0;  ///< [rad] that leads through it; the opposite one does too.
+  double width = 0.0;      ///< [m] of the opening.
+};
+
 struct Place {
   double x = 0.0;  ///< [m]
   double y = 0.0;  ///< [m]
   double z = 0.0;  ///< [m] above the floor.
+  std::optional<Doorway> door{};
 };
 
 /// A goal and the via points on the way to it.
@@ -24,9 +32,10 @@ struct Route {
   double orientation = 0.0;  ///< [rad] direction to face at the goal.
 };
 
-/// Reads one route: `kitchen: 3.1 2 > 5 2 > 5 4.5 @ 90`. It consists of a name, any via points, and the goal;
-/// coordinates are in metres. A third number is the height of the place above the floor. The optional number
-/// after `@` is the direction to face at the goal, in degrees.
+/// Reads one route: `kitchen: 3.1 2 > door 5 2 90 0.9 > 5 4.5 @ 90`. It consists of a name, any via points, and
+/// the goal; coordinates are in metres. A third number is the height of the place above the floor. The optional
+/// number after `@` is the direction to face at the goal, in degrees. `door` begins a place that is a doorway:
+/// x and y of its middle, the direction that leads through it in degrees, and its width in metres.
 ///
 /// @errors  invalid_argument with what was found and what was expected.
 [[nodiscard]] Result<Route> parse_route(std::string_view text);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "algorithm.hpp"
+#include "legs.hpp"
 #include "orca/component.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
@@ -24,7 +25,7 @@ using orca::go::Step;
 /// A behaviour that drives to a goal in a straight line (thesis 11.1). It circles around a goal whose
 /// reach_radius is 0 until another goal comes. A goal may lie above or below the robot: its reach is a ball.
 /// Via points that come before a goal are passed in order. A point that comes when the route already ends in
-/// a goal, or belongs to another mission, replaces the whole route. While somebody subscribes to its failures
+/// a goal, or belongs to another mission, replaces the whole route. It drives through doors in a straight line. While somebody subscribes to its failures
 /// it gives up goals that it cannot reach.
 class Goto final : public orca::Component {
  public:
@@ -48,7 +49,9 @@ class Goto final : public orca::Component {
     if (route_.is_given_up(*goal))
       return orca::fail(orca::Code::failed_precondition,
                         "the route to \"" + goal->name() + "\" has been given up");
-    if (const char* fault = fault_of(*goal); fault != nullptr) return refuse(*goal, fault);
+    const char* fault = fault_of(*goal);
+    if (const auto door = goal.as<orca::idl::Door>(); door && fault == nullptr) fault = fault_of_door(*door);
+    if (fault != nullptr) return refuse(*goal, fault);
     route_.add(goal, now());
     before_.near = false;
     patience_.begin();
@@ -76,6 +79,15 @@ class Goto final : public orca::Component {
     return nullptr;
   }
 
+  // Returns why the robot cannot go through that door; null if it can. A width of 0 is not known.
+  [[nodiscard]] const char* fault_of_door(const orca::idl::Door& door) const {
+    const double width = door.door_width().distance();
+    if (!std::isfinite(width)) return "holds a number that is not finite";
+    if (!door.passable()) return "is a door that is not passable";
+    if (width > 0.0 && width < *door_room_) return "is a door narrower than Goto's door_room";
+    return nullptr;
+  }
+
   orca::Outcome work() override {
     const Pose2 pose = take_pose();
     pass_via_points(pose);
@@ -89,17 +101,29 @@ class Goto final : public orca::Component {
   }
 
   void drive(const Pose2& pose) {
-    goal_push_.push(route_.next());
-    const Step step = step_towards(target(), pose, limits(), before_);
+    const orca::go::Target target = next_place(pose);
+    push_goal(target);
+    const Step step = step_towards(target, pose, limits(), before_);
     before_.near = step.near;
     before_.speed = step.speed;
     if (step.kind == Step::Kind::reached) return arrive(pose);
     motion_.push(orca::head(step.direction, step.speed, *weight_));
   }
 
+  // Pushes the point that it drives to, or a place on the way through a door.
+  void push_goal(const orca::go::Target& target) {
+    const auto& point = route_.next().coordinate().point();
+    if (target.place == orca::Vec2{point.x(), point.y()})
+      return goal_push_.push(orca::copy_value(route_.point()));
+    auto place = orca::make_object(route_.next());
+    place->coordinate().point().x(target.place.x);
+    place->coordinate().point().y(target.place.y);
+    goal_push_.push(std::move(place));
+  }
+
   // Returns whether it has given up the route. It does not as long as nobody wants to know.
   bool is_hopeless(const Pose2& pose) {
-    const double stuck = patience_.note(distance(target(), pose), now());
+    const double stuck = patience_.note(distance(next_place(pose), pose), now());
     const orca::idl::GoalPoint& next = route_.next();
     if (failed_.subscriber_count() == 0 || next.reach_radius() <= 0.0) return false;
     if (next.time_limit() > 0.0 && route_.age(now()) >= next.time_limit()) {
@@ -144,6 +168,7 @@ class Goto final : public orca::Component {
   void stop() override {
     before_ = {};
     patience_.begin();
+    legs_ = {};
     posed_at_.reset();
   }
 
@@ -165,8 +190,11 @@ class Goto final : public orca::Component {
   }
 
   void pass_via_points(const Pose2& pose) {
-    while (!route_.empty() && route_.next().via() && within_reach(target(), pose)) {
-      route_.pop();
+    while (!route_.empty()) {
+      const orca::go::Target place = next_place(pose);
+      if (!place.via || !within_reach(place, pose)) return;
+      if (legs_.at_last()) route_.pop();
+      legs_.pop();
       patience_.begin();
     }
   }
@@ -185,11 +213,9 @@ class Goto final : public orca::Component {
     end_mission();
   }
 
-  [[nodiscard]] orca::go::Target target() const {
-    const orca::idl::GoalPoint& goal = route_.next();
-    const auto& place = goal.coordinate().point();
-    return {{place.x(), place.y()}, place.z() - *height_, goal.reach_radius(), goal.use_orientation(),
-            goal.orientation(),     goal.reach_angle(),   goal.via()};
+  // Returns the place that the robot, at `pose`, drives to now.
+  const orca::go::Target& next_place(const Pose2& pose) {
+    return legs_.next(route_.point(), pose, {*height_, *door_run_up_});
   }
 
   [[nodiscard]] orca::go::Limits limits() const {
@@ -254,6 +280,18 @@ class Goto final : public orca::Component {
        .text = "Time without coming nearer to a point after which its goal is given up; 0: it never is."}};
   orca::Param<double> height_{
       *this, "height", 0.0, {.unit = "m", .text = "Height (z) of the robot in the frame of the goals."}};
+  orca::Param<double> door_run_up_{
+      *this,
+      "door_run_up",
+      0.7,
+      {.unit = "m",
+       .min = 0.2,
+       .text = "Distance before a door at which it lines up, and behind it at which it is through."}};
+  orca::Param<double> door_room_{
+      *this,
+      "door_room",
+      0.5,
+      {.unit = "m", .min = 0.0, .text = "Width that the robot needs; a narrower door is refused."}};
   orca::Param<double> weight_{
       *this,
       "weight",
@@ -261,6 +299,7 @@ class Goto final : public orca::Component {
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
   orca::go::Route route_;
+  orca::go::Legs legs_;
   orca::go::Patience patience_;
   orca::go::Before before_;
   std::optional<orca::TimePoint> posed_at_;

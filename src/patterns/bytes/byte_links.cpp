@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/patterns/bytes/byte_links.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "courier.hpp"
@@ -31,15 +32,16 @@ Pair make_pair(Executive& executive, Courier& courier, Traffic& traffic, std::si
 
 const ObjectType& type_of(const TypeId& id) { return *find_object_type(id.name); }
 
-RequestTypes types_of(const Endpoint& end) {
-  const PortContract& contract = end.contract();
-  return {type_of(contract.type), contract.reply ? &type_of(*contract.reply) : nullptr};
+// The types that the senders of both ways declare; the objects may be of types derived from them.
+RequestTypes types_of(const Endpoint& client, const Endpoint& server) {
+  const std::optional<TypeId>& reply = server.contract().reply;
+  return {type_of(client.contract().type), reply ? &type_of(*reply) : nullptr};
 }
 
 template <class Answer>
 void connect_requests(Pair pair, RequestClient<Answer>& client, Endpoint& server,
                       RequestTarget<Answer>& target) {
-  const RequestTypes types = types_of(client);
+  const RequestTypes types = types_of(client, server);
   auto near = std::make_unique<TargetOverBytes<Answer>>(std::move(pair.client), types, server.path(),
                                                         target.patience());
   server.adopt(std::make_unique<CallerOverBytes<Answer>>(std::move(pair.server), types, target));

@@ -3,6 +3,8 @@
 
 #include <bit>
 #include <cstring>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 namespace orca::bytes {
@@ -21,6 +23,13 @@ void append_plain(std::vector<std::byte>& to, T value) {
   to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
+std::string no_subtype(const ObjectType& wanted, std::uint64_t hash) {
+  std::ostringstream text;
+  text << "an object whose type has the hash " << std::hex << std::setw(16) << std::setfill('0') << hash
+       << ", where a " << wanted.name << " was expected; is the sender built for other types?";
+  return text.str();
+}
+
 }  // namespace
 
 FrameWriter::FrameWriter(FrameKind kind, std::uint64_t number) {
@@ -37,7 +46,10 @@ void FrameWriter::add(const std::string& text) {
   bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
 }
 
-void FrameWriter::add(const ObjectRef& object) { object.type().serialize(object.get(), bytes_); }
+void FrameWriter::add(const ObjectRef& object) {
+  add(object.type().layout_hash);
+  object.type().serialize(object.get(), bytes_);
+}
 
 std::span<const std::byte> FrameWriter::bytes() {
   const auto length = static_cast<Length>(bytes_.size() - sizeof(Length));
@@ -75,10 +87,13 @@ std::string FrameReader::read_text() {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-Result<ObjectRef> FrameReader::read_object(const ObjectType& type) {
+Result<ObjectRef> FrameReader::read_object(const ObjectType& wanted) {
+  const std::uint64_t hash = read_number();
   if (Status whole = cut_short_ ? status() : ok(); !whole.ok()) return whole.error();
-  ObjectLoan loan = make_object(type);
-  if (Status read = type.deserialize(std::exchange(rest_, {}), loan.get()); !read.ok()) return read.error();
+  const ObjectType* const type = find_subtype(wanted, hash);
+  if (type == nullptr) return fail(Code::data_loss, no_subtype(wanted, hash));
+  ObjectLoan loan = make_object(*type);
+  if (Status read = type->deserialize(std::exchange(rest_, {}), loan.get()); !read.ok()) return read.error();
   return std::move(loan).seal();
 }
 

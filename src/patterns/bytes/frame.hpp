@@ -38,7 +38,7 @@ class FrameWriter {
 
   void add(std::uint64_t value);
   void add(const std::string& text);
-  /// Adds an object as XCDR1. It must be the last field.
+  /// Adds an object: the hash of its type's layout, then XCDR1. It must be the last field.
   void add(const ObjectRef& object);
 
   /// Returns the whole frame.
@@ -62,9 +62,9 @@ class FrameReader {
 
   std::uint64_t read_number();
   std::string read_text();
-  /// Reads the object that is the rest of the frame.
-  /// @errors  data_loss if the bytes are no object of that type.
-  Result<ObjectRef> read_object(const ObjectType& type);
+  /// Reads the object that is the rest of the frame. It has the type that it was sent with.
+  /// @errors  data_loss if the bytes are no object of `wanted` or a type derived from it.
+  Result<ObjectRef> read_object(const ObjectType& wanted);
 
   /// Returns whether all fields could be read. Called after the last field.
   /// @errors  data_loss if a field was missing or if bytes are left over.

@@ -14,7 +14,7 @@
 
 namespace orca::bytes {
 
-/// The types of the objects that an edge of Query or Send carries.
+/// The types of the objects that an edge of Query or Send carries; those that travel may be derived from them.
 struct RequestTypes {
   const ObjectType& request;
   const ObjectType* reply;  ///< Null for Send.

@@ -14,10 +14,12 @@ Error mismatch(const Endpoint& from, const Endpoint& to) {
   return fail(Code::invalid_argument, "cannot connect " + describe(from) + " to " + describe(to));
 }
 
+// Objects go from `from` to `to`, replies the other way.
 bool fits(const PortContract& from, const PortContract& to) {
   const Role starts = from.pattern == Pattern::push ? Role::server : Role::proxy;
-  return from.pattern == to.pattern && from.role == starts && to.role != starts && from.type == to.type &&
-         from.reply == to.reply;
+  const bool replies_fit = from.reply && to.reply ? is_a(*to.reply, *from.reply) : from.reply == to.reply;
+  return from.pattern == to.pattern && from.role == starts && to.role != starts && is_a(from.type, to.type) &&
+         replies_fit;
 }
 
 template <class Client>

@@ -25,6 +25,12 @@ TEST_CASE("two layouts of one type differ in their first different field", "[bas
           R"x(the field "y" is only at the from end)x");
     CHECK(layout_difference("A{}", "A{x:double}") == R"x(the field "x" is only at the to end)x");
   }
+  SECTION("in the type that they extend") {
+    CHECK(layout_difference("Door:GoalPoint{x:double}", "Door{x:double,y:double}") ==
+          "it extends GoalPoint at the from end and OrcaObject at the to end");
+    CHECK(layout_difference("Door:GoalPoint{x:double}", "Door:GoalPoint{y:double}") ==
+          R"x(the field "x" at the from end is "y" at the to end)x");
+  }
   SECTION("deep inside") {
     CHECK(layout_difference(
               pose, "Odometry{stamp:TimeValue{ns:int64 {ns}},pose:Point{x:double {m},y:float {m}}}") ==

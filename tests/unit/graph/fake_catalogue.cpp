@@ -38,6 +38,12 @@ PortContract query(const char* name, Role role, const char* request, const char*
   return result;
 }
 
+// Makes the object of a port extend a type that other ports name.
+PortContract derived(PortContract result, const char* parent) {
+  result.type.ancestors = {pushes("", parent).type};
+  return result;
+}
+
 PortContract required(PortContract result) {
   result.required = true;
   return result;
@@ -117,7 +123,8 @@ Contract base_server(bool bound) {
   result.needs_hardware = true;
   if (!bound) return result;
   result.ports = {accepts("MotionCommandSend", "MotionCommand"),
-                  reads("SonarRangeReadingsPush", "SonarRangeReadings"), reads("OdometryPush", "Odometry"),
+                  derived(reads("SonarRangeReadingsPush", "SonarRangeReadings"), "RangeReadings"),
+                  reads("OdometryPush", "Odometry"),
                   query("LimitsQuery", Role::server, "LimitsRequest", "Limits")};
   return result;
 }
@@ -136,13 +143,20 @@ Contract older_logger() {
   return component("orca.OlderLogger", {sonar});
 }
 
+Contract old_range_viewer() {
+  PortContract ranges = receives("ranges", "RangeReadings");
+  ranges.type.hash = 0x777;
+  ranges.type.layout = "RangeReadings{ranges:sequence<double> {cm},half_lobe:double {rad}}";
+  return component("orca.OldRangeViewer", {ranges});
+}
+
 }  // namespace
 
 FakeCatalogue::FakeCatalogue() {
   add(sonar_avoid());
   add(::component("orca.LaserAvoid",
-                  {required(receives("laser", "LaserRangeReadings")), receives("sonar", "SonarRangeReadings"),
-                   pushes("motion", "MotionCommand")}));
+                  {required(derived(receives("laser", "LaserRangeReadings"), "RangeReadings")),
+                   receives("sonar", "SonarRangeReadings"), pushes("motion", "MotionCommand")}));
   add(::component(
       "orca.Command",
       {sends("goal", "GoalPoint"), sends("clients", "ClientList"), receives("arrived", "Arrived")},
@@ -153,6 +167,12 @@ FakeCatalogue::FakeCatalogue() {
   add(::component("orca.MotionCommandFuser",
                   {many(receives("motion", "MotionCommand")), sends("base", "MotionCommand"),
                    accepts("ClientListSend", "ClientList")}));
+  add(::component("orca.Porter", {derived(sends("door", "Door"), "GoalPoint"),
+                                  derived(accepts("DoorSend", "Door"), "GoalPoint")}));
+  add(::component("orca.Guide", {required(derived(sends("door", "Door"), "GoalPoint"))}));
+  add(::component("orca.RangeViewer", {required(receives("ranges", "RangeReadings"))}));
+  add(::component("orca.RangeCollector", {many(receives("ranges", "RangeReadings"))}));
+  add(old_range_viewer());
   add(::component("orca.Relay", {many(receives("in", "RobotPose")), pushes("out", "RobotPose")}));
   add(::component("orca.TwinGoto", {pushes("slow", "MotionCommand"), pushes("fast", "MotionCommand")}));
   add(::component("orca.Localizer", {pushes("pose", "RobotPose"), receives("odometry", "Odometry")}));

@@ -152,6 +152,27 @@ class TypeHash(unittest.TestCase):
             "Outer{x:double {m},n:int32,kind:Kind(RED,BLUE),spot:Spot{x:double {m},n:int32}}")
 
 
+class Parents(unittest.TestCase):
+    ROOT = STRUCT.replace("Spot", "OrcaObject")
+    FAMILY = ROOT + ("/// A.\nstruct Goal : OrcaObject {\n  string s;  ///< text\n};"
+                     "/// B.\nstruct Door : Goal {\n  long w;  ///< text\n};")
+
+    def test_the_parent_belongs_to_the_layout_of_an_object(self):
+        goal, door = parse(self.FAMILY).structs[1:]
+        self.assertEqual(goal.layout, "Goal{x:double {m},n:int32,s:string}")
+        self.assertEqual(door.layout, "Door:Goal{x:double {m},n:int32,s:string,w:int32}")
+
+    def test_a_part_that_is_no_object_has_no_parent(self):
+        more = parse(STRUCT + "/// M.\nstruct More : Spot {\n  long w;  ///< text\n};").structs[1]
+        self.assertIsNone(more.parent)
+        self.assertEqual(more.layout, "More{x:double {m},n:int32,w:int32}")
+
+    def test_the_table_of_types_names_the_parents(self):
+        table = type_table([parse(self.FAMILY)])
+        self.assertIn("&type_of_Goal, pool_of_Door);", table)
+        self.assertIn("nullptr, pool_of_Goal);", table)
+
+
 class Output(unittest.TestCase):
     def test_a_file_and_what_it_includes_come_once_and_in_order(self):
         files = load(top=idl("/// T.\nstruct Top {\n  Spot s;  ///< where\n  Kind k;  ///< which\n};", "top",

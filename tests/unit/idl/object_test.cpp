@@ -160,3 +160,31 @@ TEST_CASE("four threads make, share and drop objects without mixing them up", "[
   table = {};
   CHECK(pool_statistics(object_type<SonarRangeReadings>()).live == before);
 }
+
+TEST_CASE("an object of a derived type is seen as its parent, and as() gives it back", "[idl][object]") {
+  auto loan = orca::make_object<orca::idl::Door>();
+  loan->name() = "kitchen";
+  loan->passable(true);
+  const orca::ObjectPtr<orca::idl::Door> door = std::move(loan).seal();
+  const orca::ObjectPtr<orca::idl::GoalPoint> goal = door;
+  CHECK(goal->name() == "kitchen");
+  CHECK(goal.ref() == door.ref());
+  CHECK(goal.as<orca::idl::Door>() == door);
+  CHECK(object_cast<orca::idl::GoalPoint>(door.ref()) == goal);
+  const orca::ObjectPtr<orca::idl::GoalPoint> plain = orca::make_object<orca::idl::GoalPoint>();
+  CHECK(plain.as<orca::idl::Door>() == nullptr);
+  CHECK(orca::ObjectPtr<orca::idl::GoalPoint>().as<orca::idl::Door>() == nullptr);
+}
+
+TEST_CASE("copy_value of a view as the parent copies the whole object", "[idl][object]") {
+  auto loan = orca::make_object<orca::idl::Door>();
+  loan->door_width().distance(0.9);
+  const orca::ObjectPtr<orca::idl::GoalPoint> goal = orca::Loan<orca::idl::GoalPoint>(std::move(loan));
+  Loan<orca::idl::GoalPoint> copy = copy_value(goal);
+  copy->name() = "other";
+  const orca::ObjectPtr<orca::idl::GoalPoint> copied = std::move(copy);
+  REQUIRE(copied.as<orca::idl::Door>());
+  CHECK(copied.as<orca::idl::Door>()->door_width().distance() == 0.9);
+  CHECK(copied->name() == "other");
+  CHECK(goal->name().empty());
+}

@@ -7,6 +7,7 @@
 
 #include "all_objects.hpp"
 #include "orca/base/hash.hpp"
+#include "orca/idl/object.hpp"
 #include "random_object.hpp"
 
 using orca::find_object_type;
@@ -40,6 +41,46 @@ TEST_CASE("the type hash is FNV-1a of the flattened layout, and no two types sha
     CHECK(orca::type_id(*type).layout == type->layout);
   }
   CHECK(hashes.size() == object_types().size());
+}
+
+TEST_CASE("a type is one of its ancestors, and none of its descendants or siblings", "[idl][type]") {
+  const ObjectType& ranges = object_type<orca::idl::RangeReadings>();
+  const ObjectType& sonar = object_type<orca::idl::SonarRangeReadings>();
+  const ObjectType& laser = object_type<orca::idl::LaserRangeReadings>();
+  CHECK(ranges.parent == nullptr);
+  CHECK(sonar.parent == &ranges);
+  CHECK(is_a(sonar, sonar));
+  CHECK(is_a(sonar, ranges));
+  CHECK_FALSE(is_a(ranges, sonar));
+  CHECK_FALSE(is_a(laser, sonar));
+  CHECK(is_a(type_id(sonar), type_id(ranges)));
+  CHECK_FALSE(is_a(type_id(ranges), type_id(sonar)));
+  CHECK(orca::find_subtype(ranges, laser.layout_hash) == &laser);
+  CHECK(orca::find_subtype(ranges, ranges.layout_hash) == &ranges);
+  CHECK(orca::find_subtype(sonar, laser.layout_hash) == nullptr);
+  CHECK(orca::find_subtype(ranges, 7) == nullptr);
+}
+
+TEST_CASE("the identity of a type names its ancestors, the nearest first", "[idl][type]") {
+  const orca::TypeId door = type_id(object_type<orca::idl::Door>());
+  REQUIRE(door.ancestors.size() == 1);
+  CHECK(door.ancestors[0] == type_id(object_type<orca::idl::GoalPoint>()));
+  CHECK(door.layout.starts_with("Door:GoalPoint{creation_time:"));
+  CHECK(type_id(object_type<orca::idl::GoalPoint>()).ancestors.empty());
+}
+
+// Views of a derived object as its parent rely on this.
+TEMPLATE_LIST_TEST_CASE("an object begins with the part that it inherits", "[idl][type]",
+                        orca::test::AllObjects) {
+  const auto object = orca::test::random_object<TestType>(6);
+  const ObjectType& type = object_type<TestType>();
+  CHECK(static_cast<const void*>(static_cast<const orca::idl::OrcaObject*>(&object)) == &object);
+  for (const ObjectType* parent = type.parent; parent != nullptr; parent = parent->parent) {
+    const auto part = orca::make_object(*parent);
+    parent->assign(const_cast<void*>(part.get()), &object);
+    CHECK(parent->equal(part.get(), &object));
+    CHECK(type.layout.starts_with(std::string(type.name) + ":" + std::string(type.parent->name) + "{"));
+  }
 }
 
 // A failure here means that programs built before and after the change cannot exchange motion commands. If

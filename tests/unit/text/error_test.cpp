@@ -40,8 +40,17 @@ TEST_CASE("an unknown object type is reported with the nearest one", "[text][err
 }
 
 TEST_CASE("an object of another type than expected is reported", "[text][errors]") {
-  CHECK(reading("<Door/>", &orca::object_type<orca::idl::GoalPoint>()).errors ==
-        "x:1:1: error T001: <Door>: a <GoalPoint> is expected here\n");
+  CHECK(reading("<Arrived/>", &orca::object_type<orca::idl::GoalPoint>()).errors ==
+        "x:1:1: error T001: <Arrived>: a <GoalPoint> is expected here\n");
+  CHECK(reading("<GoalPoint/>", &orca::object_type<orca::idl::Door>()).errors ==
+        "x:1:1: error T001: <GoalPoint>: a <Door> is expected here\n");
+}
+
+TEST_CASE("where a type is expected, one that extends it is read as what it is", "[text][errors]") {
+  const auto door = reading("<Door name='a' passable='true'/>", &orca::object_type<orca::idl::GoalPoint>());
+  REQUIRE(door.object);
+  CHECK(&door.object->type() == &orca::object_type<orca::idl::Door>());
+  CHECK(static_cast<const orca::idl::Door*>(door.object->get())->passable());
 }
 
 TEST_CASE("an unknown field is reported with the valid ones and the nearest", "[text][errors]") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -34,6 +35,10 @@ struct LoanDeleter {
 using SlotOwner = std::unique_ptr<Slot, LoanDeleter>;
 
 }  // namespace detail
+
+/// A type that extends T, directly or not.
+template <class U, class T>
+concept StrictlyDerivedFrom = std::derived_from<U, T> && !std::same_as<U, T>;
 
 /// A shared view of an immutable object of any type; or empty.
 ///
@@ -74,7 +79,16 @@ class ObjectRef {
   detail::Slot* slot_ = nullptr;
 };
 
-/// An ObjectRef that knows its type: a shared view of an immutable T; or empty.
+template <class T>
+class ObjectPtr;
+
+/// Returns the typed view of `ref`; empty if `ref` is empty or its object is neither a T nor of a type derived
+/// from it.
+template <class T>
+[[nodiscard]] ObjectPtr<T> object_cast(ObjectRef ref);
+
+/// An ObjectRef that knows its type: a shared view of an immutable T; or empty. The object may be of a type
+/// that is derived from T, and is then whole; as() asks for it.
 ///
 /// Thread contract: as ObjectRef.
 template <class T>
@@ -82,6 +96,9 @@ class ObjectPtr {
  public:
   ObjectPtr() = default;
   ObjectPtr(std::nullptr_t) {}  // NOLINT(google-explicit-constructor)
+  template <StrictlyDerivedFrom<T> U>
+  ObjectPtr(ObjectPtr<U> other)  // NOLINT(google-explicit-constructor)
+      : ref_(std::move(other).ref()) {}
 
   explicit operator bool() const { return static_cast<bool>(ref_); }
   friend bool operator==(const ObjectPtr&, const ObjectPtr&) = default;
@@ -92,6 +109,12 @@ class ObjectPtr {
   /// @pre  *this
   const T& operator*() const { return *get(); }
   const T* operator->() const { return get(); }
+
+  /// Returns the same object as a U, which derives from T; empty if the object is none.
+  template <StrictlyDerivedFrom<T> U>
+  [[nodiscard]] ObjectPtr<U> as() const {
+    return object_cast<U>(ref_);
+  }
 
   [[nodiscard]] const ObjectRef& ref() const& { return ref_; }
   [[nodiscard]] ObjectRef ref() && { return std::move(ref_); }
@@ -105,10 +128,9 @@ class ObjectPtr {
   ObjectRef ref_;
 };
 
-/// Returns the typed view of `ref`; empty if `ref` is empty or its object is not exactly a T.
 template <class T>
-[[nodiscard]] ObjectPtr<T> object_cast(ObjectRef ref) {
-  if (!ref || &ref.type() != &object_type<T>()) return {};
+ObjectPtr<T> object_cast(ObjectRef ref) {
+  if (!ref || !is_a(ref.type(), object_type<T>())) return {};
   return ObjectPtr<T>(std::move(ref));
 }
 
@@ -133,12 +155,16 @@ class ObjectLoan {
   detail::SlotOwner slot_;
 };
 
-/// An ObjectLoan that knows its type.
+/// An ObjectLoan that knows its type. A loan of a derived type becomes one of T without losing anything.
 ///
 /// Thread contract: as ObjectLoan.
 template <class T>
 class Loan {
  public:
+  template <StrictlyDerivedFrom<T> U>
+  Loan(Loan<U> other)  // NOLINT(google-explicit-constructor)
+      : loan_(static_cast<ObjectLoan>(std::move(other))) {}
+
   [[nodiscard]] T* get() { return static_cast<T*>(loan_.get()); }
   [[nodiscard]] const T* get() const { return static_cast<const T*>(loan_.get()); }
   T& operator*() { return *get(); }
@@ -154,6 +180,8 @@ class Loan {
  private:
   template <class U>
   friend Loan<U> make_object();
+  template <class U>
+  friend Loan<U> copy_value(const ObjectPtr<U>& original);
   explicit Loan(ObjectLoan loan) : loan_(std::move(loan)) {}
 
   ObjectLoan loan_;
@@ -170,7 +198,8 @@ template <class T>
   return Loan<T>(make_object(object_type<T>()));
 }
 
-/// Returns a pooled object with the given value.
+/// Returns a pooled T with the given value. Of a value that refers to an object of a derived type it takes the
+/// fields of T only; copy_value() keeps them all.
 template <class T>
 [[nodiscard]] Loan<T> make_object(const T& value) {
   Loan<T> loan = make_object<T>();
@@ -178,13 +207,13 @@ template <class T>
   return loan;
 }
 
-/// Returns a copy that may be changed (thesis 8.3); the original stays as it is.
+/// Returns a copy that may be changed (thesis 8.3) and has the type of the original, which stays as it is.
 /// @pre  original
 [[nodiscard]] ObjectLoan copy_value(const ObjectRef& original);
 
 template <class T>
 [[nodiscard]] Loan<T> copy_value(const ObjectPtr<T>& original) {
-  return make_object<T>(*original);
+  return Loan<T>(copy_value(original.ref()));
 }
 
 /// The number of live objects of a type, and the number that its pool has places for. The capacity never

@@ -31,6 +31,7 @@ struct ObjectType {
   std::string_view name;      ///< IDL name, e.g. "SonarRangeReadings".
   std::string_view layout;    ///< Flattened layout: names, types, units and enumerators of all fields.
   std::uint64_t layout_hash;  ///< FNV-1a of `layout`.
+  const ObjectType* parent;   ///< The type that this one extends; null: none but OrcaObject.
   std::size_t size;           ///< [bytes] sizeof of the C++ type.
   std::size_t align;          ///< [bytes] alignof of the C++ type.
 
@@ -76,7 +77,17 @@ template <class T>
 /// Returns the type with that IDL name, nullptr if there is none.
 [[nodiscard]] const ObjectType* find_object_type(std::string_view name);
 
-/// Returns the identity that two programs compare before they exchange objects.
+/// Returns whether an object of `type` is also one of `wanted`: the same type, or one derived from it.
+[[nodiscard]] inline bool is_a(const ObjectType& type, const ObjectType& wanted) {
+  const ObjectType* at = &type;
+  while (at != nullptr && at != &wanted) at = at->parent;
+  return at != nullptr;
+}
+
+/// Returns the type with that hash among `wanted` and the types derived from it, nullptr if there is none.
+[[nodiscard]] const ObjectType* find_subtype(const ObjectType& wanted, std::uint64_t layout_hash);
+
+/// Returns the identity that two programs compare before they exchange objects, with all ancestors.
 [[nodiscard]] TypeId type_id(const ObjectType& type);
 
 }  // namespace orca

@@ -15,8 +15,7 @@ std::optional<std::string> fitting_port(const CheckedComponent& candidate, const
                                         Report& report) {
   std::vector<std::string> fitting;
   for (const PortContract& port : candidate.contract->ports)
-    if (port.pattern == wanted.pattern && port.role != wanted.role && port.type == wanted.type)
-      fitting.push_back(candidate.value.name + "." + port.name);
+    if (fit_together(port, wanted)) fitting.push_back(candidate.value.name + "." + port.name);
   if (fitting.size() == 1) return fitting.front();
   const std::string name = in_quotes(candidate.value.name);
   const std::string reason = fitting.empty()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "edges.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "orca/base/layout.hpp"
@@ -30,14 +31,34 @@ std::optional<Misfit> direction_misfit(const Endpoint& from, const Endpoint& to)
                 kind + "; from is a PushServer, QueryProxy or SendProxy, to the other end of it"};
 }
 
-std::optional<Misfit> type_misfit(const TypeId& from, const TypeId& to, const std::string& what) {
-  if (from.name != to.name) {
-    return Misfit{codes::kType,
-                  "the " + what + " is " + from.name + " at one end and " + to.name + " at the other"};
+// Returns the type itself or its ancestor of that name; null if it has none.
+const TypeId* in_lineage(const TypeId& type, const std::string& name) {
+  if (type.name == name) return &type;
+  const auto found = std::ranges::find(type.ancestors, name, &TypeId::name);
+  return found == type.ancestors.end() ? nullptr : &*found;
+}
+
+// Names the nearest type that both are, or derive from.
+std::string common_type(const TypeId& given, const TypeId& wanted) {
+  if (in_lineage(wanted, given.name) != nullptr)
+    return given.name + ", and a " + given.name + " need not be a " + wanted.name;
+  for (const TypeId& ancestor : given.ancestors)
+    if (in_lineage(wanted, ancestor.name) != nullptr) return ancestor.name;
+  return "OrcaObject";
+}
+
+// What travels in an object's direction: `given` goes to where `wanted` is asked for.
+std::optional<Misfit> type_misfit(const TypeId& given, const TypeId& wanted, const std::string& what,
+                                  const LayoutEnds& ends) {
+  if (is_a(given, wanted)) return std::nullopt;
+  const TypeId* const same = in_lineage(given, wanted.name);
+  if (same == nullptr) {
+    return Misfit{codes::kType, "the " + what + " that comes is " + given.name + ", but " + wanted.name +
+                                    " is expected; their nearest common type is " +
+                                    common_type(given, wanted)};
   }
-  if (from.hash == to.hash) return std::nullopt;
-  return Misfit{codes::kLayout, "both ends call the " + what + " " + from.name + ", but " +
-                                    layout_difference(from.layout, to.layout) +
+  return Misfit{codes::kLayout, "both ends call the " + what + " " + wanted.name + ", but " +
+                                    layout_difference(same->layout, wanted.layout, ends) +
                                     "; build both plugins against the same types"};
 }
 
@@ -47,9 +68,9 @@ std::optional<Misfit> misfit(const Endpoint& from, const Endpoint& to) {
   }
   if (auto direction = direction_misfit(from, to)) return direction;
   const bool query = from.port->pattern == Pattern::query;
-  if (auto type = type_misfit(from.port->type, to.port->type, query ? "request" : "object")) return type;
+  if (auto type = type_misfit(from.port->type, to.port->type, query ? "request" : "object", {})) return type;
   if (!from.port->reply || !to.port->reply) return std::nullopt;
-  return type_misfit(*from.port->reply, *to.port->reply, "reply");
+  return type_misfit(*to.port->reply, *from.port->reply, "reply", {"at the to end", "at the from end"});
 }
 
 // Returns whether the ends would fit if they were the ports that the graph could not give these names.

@@ -84,6 +84,11 @@ bool is_from_end(const PortContract& port) {
   return (port.pattern == Pattern::push) == (port.role == Role::server);
 }
 
+bool fit_together(const PortContract& a, const PortContract& b) {
+  if (a.pattern != b.pattern || a.role == b.role) return false;
+  return is_from_end(a) ? is_a(a.type, b.type) : is_a(b.type, a.type);
+}
+
 std::string described(const PortContract& port) {
   const std::string what =
       std::string(to_string(port.pattern)) + to_string(port.role) + " of " + port.type.name;

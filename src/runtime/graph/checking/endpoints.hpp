@@ -25,6 +25,10 @@ Endpoint resolve_endpoint(const Node& connection, const char* attribute, const M
 // Returns whether the port can be the `from` of a connection: a PushServer, a QueryProxy or a SendProxy.
 bool is_from_end(const PortContract& port);
 
+// Returns whether two ports can be connected, in one direction or the other: what one gives is, or derives from,
+// what the other asks for. Replies are not looked at.
+bool fit_together(const PortContract& a, const PortContract& b);
+
 // Returns a text such as "the PushServer of RangeReadings \"base.laser\"".
 std::string described(const Endpoint& end);
 // Returns a text such as "PushServer of RangeReadings".

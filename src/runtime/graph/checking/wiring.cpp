@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include "candidates.hpp"
 #include "edges.hpp"
@@ -16,8 +17,23 @@
 namespace orca::graph {
 namespace {
 
-bool fit_together(const PortContract& a, const PortContract& b) {
-  return a.pattern == b.pattern && a.role != b.role && a.type == b.type;
+// The properties that an end of a connection must share with the other end.
+using Plug = std::tuple<Pattern, Role, std::string, std::uint64_t>;
+
+// Returns all plugs that ports of a type have in `role`: an end that gives objects has those of all its type's
+// ancestors too, because objects of the type are also theirs.
+std::vector<Plug> plugs_of(const PortContract& port, Role role) {
+  std::vector<Plug> plugs{{port.pattern, role, port.type.name, port.type.hash}};
+  if (!is_from_end(port)) return plugs;
+  for (const TypeId& ancestor : port.type.ancestors)
+    plugs.emplace_back(port.pattern, role, ancestor.name, ancestor.hash);
+  return plugs;
+}
+std::vector<Plug> plugs_of(const PortContract& port) { return plugs_of(port, port.role); }
+
+// Returns the plugs of which a port must have one to fit this port.
+std::vector<Plug> counterparts(const PortContract& port) {
+  return plugs_of(port, port.role == Role::proxy ? Role::server : Role::proxy);
 }
 
 class Wiring {
@@ -70,16 +86,6 @@ class Wiring {
   }
 
  private:
-  // The properties that an end of a connection must share with the other end.
-  using Plug = std::tuple<Pattern, Role, std::string, std::uint64_t>;
-
-  static Plug plug_of(const PortContract& port, Role role) {
-    return {port.pattern, role, port.type.name, port.type.hash};
-  }
-  static Plug counterpart(const PortContract& port) {
-    return plug_of(port, port.role == Role::proxy ? Role::server : Role::proxy);
-  }
-
   // Notes which components may lack the connection between these ends, of which at least one is wrong.
   void doubt(const Endpoint& from, const Endpoint& to) {
     doubt_end(from, to);
@@ -90,7 +96,7 @@ class Wiring {
     if (const std::string named = known_component(end.ref.component); !named.empty()) {
       doubtful_.insert(named);
     } else if (other.port != nullptr) {
-      looked_for_.insert(counterpart(*other.port));
+      for (const Plug& plug : counterparts(*other.port)) looked_for_.insert(plug);
     } else {
       all_doubtful_ = true;
     }
@@ -101,7 +107,7 @@ class Wiring {
     if (!all_doubtful_ && looked_for_.empty()) return;
     for (const CheckedComponent& component : model_.components) {
       const auto fits = [&](const PortContract& port) {
-        return looked_for_.contains(plug_of(port, port.role));
+        return std::ranges::any_of(plugs_of(port), [&](const Plug& p) { return looked_for_.contains(p); });
       };
       if (all_doubtful_ || !component.contract || std::ranges::any_of(component.contract->ports, fits))
         doubtful_.insert(component.value.name);
@@ -176,15 +182,19 @@ class Wiring {
     for (const CheckedComponent& component : model_.components) {
       if (!component.contract) continue;
       for (const PortContract& port : component.contract->ports) {
-        offers_[plug_of(port, port.role)].push_back(component.value.name + "." + port.name);
+        for (const Plug& plug : plugs_of(port))
+          offers_[plug].push_back(component.value.name + "." + port.name);
       }
     }
   }
 
   std::string offers(const PortContract& wanted) {
-    const auto found = offers_.find(counterpart(wanted));
-    if (found == offers_.end()) return "no component of the graph offers it";
-    return "it is offered by: " + listed(found->second);
+    std::vector<std::string> offering;
+    for (const Plug& plug : counterparts(wanted))
+      if (const auto found = offers_.find(plug); found != offers_.end())
+        offering.insert(offering.end(), found->second.begin(), found->second.end());
+    if (offering.empty()) return "no component of the graph offers it";
+    return "it is offered by: " + listed(offering);
   }
 
   const Model& model_;

@@ -190,14 +190,14 @@ void PluginFile::check_types(const KnownType& known, std::vector<std::string>& f
   }
 }
 
-// Returns the layout "NAME{...}" that the plugin was built with; empty if it does not contain it.
+// Returns the layout "NAME{...}" or "NAME:PARENT{...}" that the plugin was built with; empty if it does not contain it.
 std::string PluginFile::layout_of(const std::string& type) const {
   const auto section = elf_.section("orca_layouts");
   if (!section) return {};
   std::string_view layouts(reinterpret_cast<const char*>(section->data()), section->size());
   while (!layouts.empty()) {
     const std::string_view one = layouts.substr(0, layouts.find('\0'));
-    if (one.starts_with(type + "{")) return std::string(one);
+    if (one.starts_with(type + "{") || one.starts_with(type + ":")) return std::string(one);
     layouts.remove_prefix(std::min(layouts.size(), one.size() + 1));
   }
   return {};

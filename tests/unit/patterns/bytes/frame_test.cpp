@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "orca/idl/motion.hpp"
+#include "orca/idl/navigation.hpp"
 
 using namespace orca;
 using namespace orca::bytes;
@@ -44,6 +45,26 @@ TEST_CASE("a frame reads as it was written, its object too", "[patterns][bytes]"
   CHECK(command->direction() == 0.5);
   CHECK(command->speed() == 2.0);
   CHECK(frame.status().ok());
+}
+
+TEST_CASE("an object in a frame keeps its type, if that is or extends the type that is wanted",
+          "[patterns][bytes]") {
+  FrameWriter written(FrameKind::object, 7);
+  auto door = make_object<idl::Door>();
+  door->door_width().distance(0.9);
+  written.add(ObjectRef(std::move(door).seal()));
+  const auto bytes = bytes_of(std::move(written));
+  for (const ObjectType* wanted : {&object_type<idl::GoalPoint>(), &object_type<idl::Door>()}) {
+    FrameReader frame(after_length(bytes));
+    const auto object = frame.read_object(*wanted);
+    REQUIRE(object.has_value());
+    CHECK(object_cast<idl::Door>(*object)->door_width().distance() == 0.9);
+  }
+  FrameReader frame(after_length(bytes));
+  const auto object = frame.read_object(object_type<idl::MotionCommand>());
+  REQUIRE_FALSE(object.has_value());
+  CHECK(object.error().code == Code::data_loss);
+  CHECK_THAT(object.error().text(), Contains("where a MotionCommand was expected"));
 }
 
 TEST_CASE("a frame that is cut short anywhere is an error and no object", "[patterns][bytes]") {

@@ -58,7 +58,7 @@ TEST_CASE("the shipped scout has the dimensions of a Nomad Scout", "[sim][robot_
   const auto scout = read_robot(ORCA_SOURCE_DIR "/sim/robots/nomad_scout.urdf", diagnostics);
   INFO(diagnostics.text());
   REQUIRE(scout);
-  CHECK(scout->vendor == "Nomadic Technologies");
+  CHECK(scout->vendor == "Nomadics");
   CHECK(scout->radius == 0.19);
   CHECK(scout->bumper_radius == 0.205);
   CHECK(std::get<Circle>(scout->footprint).radius == Approx(0.205));

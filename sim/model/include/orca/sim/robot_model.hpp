@@ -66,6 +66,7 @@ struct Drive {
   double speed_step = 0.0;                         ///< [m/s] Smallest change of speed worth a command.
   double big_turn_angle = 0.5 * std::numbers::pi;  ///< [rad] The base slows down for larger heading errors.
   double big_turn_speed = 0.0;                     ///< [m/s] Largest speed in such a turn.
+  DeviceLabel label{};
 };
 
 /// A turret on top of the base, with its own upright axis and sensors. It turns without end. Its collision
@@ -76,6 +77,7 @@ struct Turret {
   double max_acceleration = 0.0;  ///< [rad/s2]
   Duration period{0};             ///< Time from one reading of its angle to the next.
   Vec2 axis;                      ///< [m] Place of its axis in the base frame.
+  DeviceLabel label{};
 };
 
 /// A ring of sonar transducers. Number k looks along first_angle + k * pitch from the ring's centre and sits
@@ -93,6 +95,7 @@ struct SonarRing {
   double min_range = 0.0;       ///< [m] Nearer echoes read as this.
   double max_range = 0.0;       ///< [m] The reading if there is no echo.
   double quantum = 0.0;         ///< [m] Step of the device's readings; 0: none.
+  double offset = 0.0;          ///< [m] What a driver adds to the scaled raw value; readings include it.
   double radius = 0.0;          ///< [m] Distance of the transducers from the centre.
   Duration period{0};           ///< Time in which all of them fire, one after the other.
   std::string link;             ///< The URDF link at the ring's centre.
@@ -101,6 +104,7 @@ struct SonarRing {
   bool on_turret = false;       ///< Whether that link turns with the turret.
   std::vector<std::size_t> order;  ///< Firing order, a permutation of 0 .. count - 1.
   std::size_t parallel = 1;        ///< Number of successive transducers in `order` that fire at once.
+  DeviceLabel label{};
 
   /// Returns the pose of transducer `k` in the base frame; it looks along its x axis.
   [[nodiscard]] Pose2 transducer(std::size_t k) const;
@@ -113,6 +117,7 @@ struct SonarRing {
 /// The device that counts wheel travel.
 struct Odometer {
   Duration period{0};  ///< Time from one reading to the next.
+  DeviceLabel label{};
 };
 
 /// The description of a type of robot for the simulation. A plain value; see read_robot().

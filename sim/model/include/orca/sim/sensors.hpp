@@ -9,6 +9,13 @@
 
 namespace orca::sim {
 
+/// What a robot file says of a device for its description only; the simulation does not use it.
+struct DeviceLabel {
+  std::string vendor;
+  std::string model;
+  std::string port;  ///< The connection of the real device, e.g. a serial line.
+};
+
 /// A scanning laser. Reading k looks along first_angle + k * pitch in the sensor frame; the beam sweeps from
 /// the first to the last at an even pace.
 struct LaserScanner {
@@ -27,6 +34,7 @@ struct LaserScanner {
   Pose2 center;             ///< Pose of that link in the base frame.
   double height = 0.0;      ///< [m] Height of that link above the floor.
   bool on_turret = false;   ///< Whether that link turns with the turret.
+  DeviceLabel label{};
 };
 
 /// A ring of short-range infrared sensors, all of which measure at once. Number k looks along
@@ -46,6 +54,7 @@ struct InfraredRing {
   Pose2 center;            ///< Pose of that link in the base frame.
   double height = 0.0;     ///< [m] Height of that link above the floor.
   bool on_turret = false;  ///< Whether that link turns with the turret.
+  DeviceLabel label{};
 
   /// Returns the pose of sensor `k` in the base frame; it looks along its x axis.
   [[nodiscard]] Pose2 sensor(std::size_t k) const {
@@ -64,6 +73,7 @@ struct BumperRing {
   double pitch = 0.0;   ///< [rad] Angle from one segment to the next, counter-clockwise positive.
   double radius = 0.0;  ///< [m] Radius of the bumper, which gives the segments' places.
   Duration period{0};   ///< Time from one reading to the next.
+  DeviceLabel label{};
 
   /// Returns the pose of the middle of segment `k`, x axis outwards, in the base frame.
   [[nodiscard]] Pose2 segment(std::size_t k) const {

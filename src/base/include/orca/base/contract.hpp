@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,9 +27,17 @@ enum class Role { server, proxy };
 struct TypeId {
   std::string name;        ///< e.g. "SonarRangeReadings".
   std::uint64_t hash = 0;  ///< FNV-1a of the flattened layout.
-  std::string layout;      ///< The flattened layout, for people: "Name{field:type {unit},...}".
+  std::string layout;      ///< The flattened layout, for people: "Name:Parent{field:type {unit},...}".
+  /// The types that it extends, its parent first, without OrcaObject; their own ancestors are not repeated.
+  std::vector<TypeId> ancestors{};
   friend bool operator==(const TypeId& a, const TypeId& b) { return a.name == b.name && a.hash == b.hash; }
 };
+
+/// Returns whether an object of `type` is also one of `wanted`: the same type, or one derived from it.
+[[nodiscard]] inline bool is_a(const TypeId& type, const TypeId& wanted) {
+  return type == wanted ||
+         std::find(type.ancestors.begin(), type.ancestors.end(), wanted) != type.ancestors.end();
+}
 
 /// The buffering of an edge. The author of a port sets the default, the integrator decides in the graph.
 struct QueuePolicy {

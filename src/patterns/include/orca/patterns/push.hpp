@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -59,16 +60,15 @@ class PushServer : public PushServerHandle {
   /// heap.
   [[nodiscard]] Loan<T> loan() const { return make_object<T>(); }
 
-  /// Pushes a loaned object. Its header is filled in here. It waits only where the graph says
+  /// Pushes a loaned object, of T or a type derived from it; it arrives whole. Its header is filled in here. It waits only where the graph says
   /// overflow="block" for an edge that is full: at most the edge's block_limit, and after all other
   /// subscribers have the object.
   void push(Loan<T> object) { push_loan(std::move(object)); }
 
-  /// Pushes a copy of a value.
-  void push(const T& value) {
-    Loan<T> object = make_object<T>();
-    *object = value;
-    push(std::move(object));
+  /// Pushes a copy of a value, of T or a type derived from it.
+  template <std::derived_from<T> U = T>
+  void push(const U& value) {
+    push(Loan<T>(make_object(value)));
   }
 };
 

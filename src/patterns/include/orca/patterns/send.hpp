@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <string>
 #include <utility>
@@ -83,13 +84,16 @@ class SendProxy : public SendProxyHandle {
 
   [[nodiscard]] Loan<T> loan() const { return make_object<T>(); }
 
-  /// Sends an object; a full server refuses it. Waits only where the graph says overflow="block", at most the
+  /// Sends an object of T or a type derived from it; it arrives whole. A full server refuses it. Waits only where the graph says overflow="block", at most the
   /// edge's block_limit, and on links to other processes for their answer.
   /// @return ok once the server has accepted the object: from then on it is not lost.
   /// @errors  failed_precondition if not connected, unavailable with the server's reason if refused,
   /// deadline_exceeded after a wait.
   Status send(Loan<T> object) { return send_loan(std::move(object)); }
-  Status send(const T& value) { return send(make_object(value)); }
+  template <std::derived_from<T> U = T>
+  Status send(const U& value) {
+    return send(Loan<T>(make_object(value)));
+  }
 
   /// Sends an object and waits for room for as long as it takes. Other refusals come at once.
   Status send_wait(Loan<T> object) { return send_wait_loan(std::move(object), std::nullopt); }

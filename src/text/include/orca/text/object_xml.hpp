@@ -26,7 +26,7 @@ namespace orca {
 /// @param file_name    name of the source, for the positions of the errors.
 /// @param diagnostics  receives every error of the text with its position: G1xx for XML that is not
 ///                     well-formed, T0xx for its content (docs/errors.md).
-/// @param expected     the type that the object must have; null: any.
+/// @param expected     the type that the object must have or extend; null: any.
 /// @return the object, or nothing if this text has an error.
 /// @thread  any.
 [[nodiscard]] std::optional<ObjectLoan> from_xml(std::string_view text, const std::string& file_name,

@@ -25,6 +25,8 @@ class Links {
   /// @param to      the other end.
   /// @param policy  how the edge buffers, for Push and Send; without it, the policy of the receiving port's
   /// author.
+  /// What travels may be of a type that is derived from the one that its receiver asks for.
+  ///
   /// @errors  invalid_argument if the ends do not fit each other, or if the policy lets a device wait;
   /// already_exists if the proxy is taken.
   Status connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy);
