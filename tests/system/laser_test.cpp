@@ -17,9 +17,9 @@ Run pioneer_with(const std::string& line, const std::string& param, const Words&
   ShippedGraph graph("pioneer_laser_goto");
   graph.watch_motion("base");
   std::string text = graph.text();
-  const std::string component = "at_least_every=\"0.2 s\"/>";
-  for (const auto& [old, changed] : {std::pair<std::string, std::string>{kQuestion, line},
-                                     {component, "at_least_every=\"0.2 s\">" + param + "</component>"}}) {
+  const std::string component = "<param name=\"margin\"";
+  for (const auto& [old, changed] :
+       {std::pair<std::string, std::string>{kQuestion, line}, {component, param + component}}) {
     const std::size_t place = text.find(old);
     REQUIRE(place != std::string::npos);
     text.replace(place, old.size(), changed);

@@ -29,15 +29,10 @@ Avoider::Avoider(ComponentHost& host, double echo_time)
                   .optional = true}),
       motion_(*this, "motion",
               {.text = "One command per odometry object (if not connected, per sensor object)."}),
-      robot_(*this, "robot",
-             {.text = "Base that is asked how large the robot is and how often the sensor measures.",
-              .optional = true}),
-      robot_radius_(
-          *this, "robot_radius", 0.205,
-          {.unit = "m",
-           .min = 0.0,
-           .text = "Radius of the circle that holds the robot and its bumpers; if the port robot is "
-                   "connected, the base says it."}),
+      robot_radius_(*this, "robot_radius", 0.205,
+                    {.unit = "m",
+                     .min = 0.0,
+                     .text = "Radius of the circle that holds the robot, unless the base says it."}),
       margin_(*this, "margin", 0.1,
               {.unit = "m", .min = 0.0, .text = "Free space to keep on both sides of the robot."}),
       side_distance_(
@@ -77,9 +72,7 @@ Avoider::Avoider(ComponentHost& host, double echo_time)
       deaf_after_(*this, "deaf_after", 0.6,
                   {.unit = "s",
                    .min = 0.0,
-                   .text = "The robot stops after this time without sensor readings; not before the third "
-                           "that is missing, if the port "
-                           "robot is connected."}),
+                   .text = "Least time without sensor readings after which the robot stops."}),
       goal_max_age_(*this, "goal_max_age", 0.5,
                     {.unit = "s", .min = 0.0, .text = "Age beyond which a goal is disregarded."}) {}
 

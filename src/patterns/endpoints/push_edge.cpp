@@ -195,16 +195,9 @@ void PushEdge::lost(std::uint64_t objects) {
   if (drops > 0) report_drops(drops);
 }
 
-ObjectRef PushEdge::take() {
-  if (!has_new()) return {};
-  client_.home().strand.note_activity();
-  ObjectRef object = pop();
-  client_.home().strand.note_activity();
-  return object;
-}
-
+// Part of take(), which must not cost a call more.
 // @pre  has_new()
-ObjectRef PushEdge::pop() {
+[[gnu::always_inline]] inline ObjectRef PushEdge::pop() {
   ObjectRef object;
   bool waited_for = false;
   {
@@ -218,6 +211,14 @@ ObjectRef PushEdge::pop() {
     waited_for = std::exchange(publisher_waits_, false);
   }
   if (waited_for) source_.room();
+  return object;
+}
+
+ObjectRef PushEdge::take() {
+  if (!has_new()) return {};
+  client_.home().strand.note_activity();
+  ObjectRef object = pop();
+  client_.home().strand.note_activity();
   return object;
 }
 

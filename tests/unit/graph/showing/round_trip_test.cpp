@@ -53,8 +53,7 @@ class RandomGraph {
     return "<component name='" + name + "' type='orca.SonarAvoid'" +
            maybe(" priority='" + integer(-100, 100) + "'") +
            (pick(2) == 0 ? loading() : maybe(" autonomous='true'")) + maybe(" process='p/q'") +
-           maybe(" start_after='base fuser'") +
-           (by_stamps ? stamps() : maybe(trigger())) + ">" +
+           maybe(" start_after='base fuser'") + (by_stamps ? stamps() : maybe(trigger())) + ">" +
            maybe(param("stop_distance", real(0.05, 5.0))) + maybe(param("sector", integer(0, 180) + " deg")) +
            maybe(param("gain", real(0.0, 1e6))) + maybe(param("samples", integer(1, 64))) +
            maybe(param("verbose", "true")) + maybe(param("mode", "turn")) +
@@ -82,8 +81,8 @@ class RandomGraph {
   }
 
   std::string queue(int least) {
-    return " queue='" + integer(least, 100) + "' overflow='" + (pick(2) == 0 ? "drop_oldest" : "drop_newest") +
-           "'";
+    return " queue='" + integer(least, 100) + "' overflow='" +
+           (pick(2) == 0 ? "drop_oldest" : "drop_newest") + "'";
   }
   std::string room() {
     return " queue='" + integer(1, 100) + "' overflow='" + (pick(2) == 0 ? "refuse" : "block") + "'";

@@ -77,7 +77,11 @@ class Avoider : public Component {
   PushProxy<idl::GoalPoint> goal_;
   PushProxy<idl::RobotPose> localizer_;
   PushServer<idl::MotionCommand> motion_;
-  QueryProxy<idl::Ask, idl::Robot> robot_;
+  QueryProxy<idl::Ask, idl::Robot> robot_{
+      *this,
+      "robot",
+      {.text = "Base that is asked how large the robot is and how often the sensor measures.",
+       .optional = true}};
 
   Param<double> robot_radius_;
   Param<double> margin_;
