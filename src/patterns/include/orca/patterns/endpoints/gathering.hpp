@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+
+/// @file
+/// The questions about several Push ports that a Synchronizer asks within a lap, and the runtime between two laps.
+///
+/// Thread contract: the strand of the component that owns the ports.
 #pragma once
 
 #include <span>
@@ -8,10 +13,6 @@
 namespace orca {
 
 class PushClientEndpoint;
-
-/// The questions about several Push ports that a Synchronizer asks within a lap, and the runtime between two laps.
-///
-/// Thread contract: the strand of the component that owns the ports.
 
 /// Returns whether an object waits at one of the ports.
 [[nodiscard]] bool any_new(std::span<PushClientEndpoint* const> ports);
