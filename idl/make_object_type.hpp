@@ -10,6 +10,7 @@
 #include "make_value.hpp"
 #include "orca/idl/generated/object.h"
 #include "orca/idl/object_type.hpp"
+#include "orca/idl/time.hpp"
 
 namespace orca::detail {
 
@@ -25,6 +26,13 @@ struct Operations {
   static bool equal(const void* a, const void* b) { return as(a) == as(b); }
   static idl::OrcaObject& header(void* object) { return as(object); }
 
+  static TimePoint stamp(const void* object) {
+    if constexpr (requires { to_time_point(as(object).stamp()); }) {
+      return to_time_point(as(object).stamp());
+    } else {
+      return to_time_point(as(object).creation_time());
+    }
+  }
   static std::string dump(const void* object) {
     DumpWriter writer(Reflection<T>::name);
     Reflection<T>::fields(as(object), writer);
@@ -56,6 +64,7 @@ constexpr ObjectType make_object_type(std::string_view layout, std::uint64_t lay
           .assign = Do::assign,
           .equal = Do::equal,
           .header = Do::header,
+          .stamp = Do::stamp,
           .dump = Do::dump,
           .fields = visit_fields<T>,
           .serialize = Do::serialize,

@@ -35,26 +35,28 @@ ObjectRef PushServerHandle::push_reading(ObjectLoan reading) {
   return object;
 }
 
-PushProxyHandle::PushProxyHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options)
-    : name_(std::move(name)) {
-  PortDeclaration declaration = make_declaration(name_, Pattern::push, Role::proxy, std::move(type), options);
+PushSubject::PushSubject(PortOwner& owner, PortDeclaration declaration) : name_(declaration.contract.name) {
   declaration.slot = &endpoint_;
   owner.declare_port(std::move(declaration));
 }
 
-PushClientEndpoint& PushProxyHandle::endpoint() const { return static_cast<PushClientEndpoint&>(*endpoint_); }
+PushClientEndpoint& PushSubject::endpoint() const { return static_cast<PushClientEndpoint&>(*endpoint_); }
+
+Strand& PushSubject::strand() const { return endpoint_->home().strand; }
+
+bool PushSubject::connected() const { return endpoint().connected(); }
+
+bool PushSubject::new_data_arrived() const { return endpoint().has_new(); }
+
+PushProxyHandle::PushProxyHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options)
+    : PushSubject(owner,
+                  make_declaration(std::move(name), Pattern::push, Role::proxy, std::move(type), options)) {}
 
 PushEdge& PushProxyHandle::edge() const { return *endpoint().edges().front(); }
-
-Strand& PushProxyHandle::strand() const { return endpoint_->home().strand; }
 
 void PushProxyHandle::subscribe() { endpoint().subscribe_all(); }
 
 void PushProxyHandle::unsubscribe() { endpoint().unsubscribe_all(); }
-
-bool PushProxyHandle::connected() const { return endpoint().connected(); }
-
-bool PushProxyHandle::new_data_arrived() const { return endpoint().has_new(); }
 
 bool PushProxyHandle::deadline_missed() const { return connected() && edge().deadline_missed(); }
 
@@ -71,7 +73,7 @@ void PushProxyHandle::ask(const UpdateRate& rate) {
 ObjectRef PushProxyHandle::take() {
   if (!connected()) return {};
   ObjectRef object = edge().take();
-  if (object) endpoint_->home().provenance.note(object.header());
+  if (object) endpoint().home().provenance.note(object.header());
   return object;
 }
 
@@ -114,21 +116,23 @@ ObjectRef PushSourceHandle::take_latest_ref() const {
   return edge_->latest();
 }
 
-PushProxyArrayHandle::PushProxyArrayHandle(PortOwner& owner, std::string name, TypeId type,
-                                           const PortOptions& options) {
+namespace {
+
+PortDeclaration make_array(std::string name, TypeId type, const PortOptions& options) {
   PortDeclaration declaration =
       make_declaration(std::move(name), Pattern::push, Role::proxy, std::move(type), options);
   declaration.contract.many = true;
   declaration.manual = true;
-  declaration.slot = &endpoint_;
-  owner.declare_port(std::move(declaration));
+  return declaration;
 }
 
-PushClientEndpoint& PushProxyArrayHandle::endpoint() const {
-  return static_cast<PushClientEndpoint&>(*endpoint_);
-}
+}  // namespace
 
-std::string PushProxyArrayHandle::path() const { return endpoint_->path(); }
+PushProxyArrayHandle::PushProxyArrayHandle(PortOwner& owner, std::string name, TypeId type,
+                                           const PortOptions& options)
+    : PushSubject(owner, make_array(std::move(name), std::move(type), options)) {}
+
+std::string PushProxyArrayHandle::path() const { return endpoint().path(); }
 
 void PushProxyArrayHandle::unsubscribe_all() { endpoint().unsubscribe_all(); }
 

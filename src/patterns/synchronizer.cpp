@@ -5,49 +5,70 @@
 #include <cassert>
 
 #include "orca/base/strand.hpp"
+#include "orca/patterns/endpoints/gathering.hpp"
 
 namespace orca {
 
-void Synchronizer::add(PushProxyHandle& subject) {
+void Synchronizer::add(PushSubject& subject) {
   if (std::find(subjects_.begin(), subjects_.end(), &subject) == subjects_.end())
     subjects_.push_back(&subject);
+  endpoints_.clear();
 }
 
-void Synchronizer::remove(PushProxyHandle& subject) { std::erase(subjects_, &subject); }
+void Synchronizer::remove(PushSubject& subject) {
+  std::erase(subjects_, &subject);
+  endpoints_.clear();
+}
 
-void Synchronizer::wait(PushProxyHandle& subject) {
+void Synchronizer::wait(PushSubject& subject) {
   assert(std::find(subjects_.begin(), subjects_.end(), &subject) != subjects_.end());
   strand().wait_for(kForever, [&] { return subject.new_data_arrived(); });
 }
 
-bool Synchronizer::wait(PushProxyHandle& subject, Duration limit) {
+bool Synchronizer::wait(PushSubject& subject, Duration limit) {
   assert(std::find(subjects_.begin(), subjects_.end(), &subject) != subjects_.end());
   return strand().wait_for(deadline_in(limit), [&] { return subject.new_data_arrived(); });
 }
 
-PushProxyHandle& Synchronizer::wait() { return *wait_any_until(kForever); }
+PushSubject& Synchronizer::wait() { return *wait_any_until(kForever); }
 
-PushProxyHandle* Synchronizer::wait(Duration limit) { return wait_any_until(deadline_in(limit)); }
+PushSubject* Synchronizer::wait(Duration limit) { return wait_any_until(deadline_in(limit)); }
 
-PushProxyHandle* Synchronizer::wait_any_until(TimePoint deadline) {
-  PushProxyHandle* found = nullptr;
+PushSubject* Synchronizer::wait_any_until(TimePoint deadline) {
+  PushSubject* found = nullptr;
   strand().wait_for(deadline, [&] { return (found = first_new()) != nullptr; });
   return found;
 }
 
 void Synchronizer::wait_all() {
-  strand().wait_for(kForever, [this] { return all_new(); });
+  strand().wait_for(kForever, [this] { return all_new(endpoints()); });
 }
 
 bool Synchronizer::wait_all(Duration limit) {
-  return strand().wait_for(deadline_in(limit), [this] { return all_new(); });
+  return strand().wait_for(deadline_in(limit), [this] { return all_new(endpoints()); });
 }
 
-void Synchronizer::wait_to_fuse(Fusing policy, Duration period) {
+bool Synchronizer::wait_all(Duration limit, const std::function<bool()>& unless) {
+  strand().wait_for(deadline_in(limit), [&] { return all_new(endpoints()) || unless(); });
+  return all_new(endpoints());
+}
+
+void Synchronizer::wait_matching(Duration within) { wait_matching_until(within, kForever); }
+
+bool Synchronizer::wait_matching(Duration within, Duration limit) {
+  return wait_matching_until(within, deadline_in(limit));
+}
+
+bool Synchronizer::wait_matching_until(Duration within, TimePoint deadline) {
+  return strand().wait_for(deadline, [&] { return match(endpoints(), within); });
+}
+
+void Synchronizer::wait_to_fuse(Fusing policy, Duration time) {
   switch (policy) {
     case Fusing::all: wait_all(); break;
     case Fusing::any: wait(); break;
-    case Fusing::clock: wait_for_tick(period); break;
+    case Fusing::clock: wait_for_tick(time); break;
+    case Fusing::stamps: wait_matching(time); break;
   }
 }
 
@@ -69,11 +90,14 @@ TimePoint Synchronizer::deadline_in(Duration limit) const {
   return saturating_add(strand().executive().now(), limit);
 }
 
-bool Synchronizer::all_new() const {
-  return std::all_of(subjects_.begin(), subjects_.end(), [](const auto* s) { return s->new_data_arrived(); });
+// The endpoints are known only after the component's constructor, in which it adds its ports.
+const Synchronizer::Endpoints& Synchronizer::endpoints() {
+  if (endpoints_.empty())
+    for (const PushSubject* subject : subjects_) endpoints_.push_back(&subject->endpoint());
+  return endpoints_;
 }
 
-PushProxyHandle* Synchronizer::first_new() const {
+PushSubject* Synchronizer::first_new() const {
   const auto found =
       std::find_if(subjects_.begin(), subjects_.end(), [](const auto* s) { return s->new_data_arrived(); });
   return found == subjects_.end() ? nullptr : *found;

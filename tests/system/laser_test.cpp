@@ -3,10 +3,54 @@
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
+#include "shipped_graph.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 
 namespace {
+
+constexpr const char* kQuestion = "<connect from=\"avoid.robot\" to=\"base.RobotQuery\"/>";
+
+// Runs the Pioneer's graph with another line in place of avoid's question to the base, and with `param` for avoid.
+Run pioneer_with(const std::string& line, const std::string& param, const Words& more = {}) {
+  ShippedGraph graph("pioneer_laser_goto");
+  graph.watch_motion("base");
+  std::string text = graph.text();
+  const std::string component = "<param name=\"margin\"";
+  for (const auto& [old, changed] :
+       {std::pair<std::string, std::string>{kQuestion, line}, {component, param + component}}) {
+    const std::size_t place = text.find(old);
+    REQUIRE(place != std::string::npos);
+    text.replace(place, old.size(), changed);
+  }
+  const TempFolder folder;
+  return run_deployer(Words{folder.write("graph.xml", text)} + virtual_clock() + more);
+}
+
+// The same without the question: the graph says the radius.
+Run pioneer_of_radius(const std::string& radius) {
+  return pioneer_with("", "<param name=\"robot_radius\" value=\"" + radius + "\"/>");
+}
+
+std::string describer(const std::string& params) {
+  return "<component name=\"describer\" type=\"test.Describer\">" + params +
+         "</component><connect from=\"avoid.robot\" to=\"describer.RobotQuery\"/>";
+}
+
+std::vector<double> times(const Run& run) {
+  std::vector<double> all;
+  for (const Arrival& arrival : run.arrivals()) all.push_back(arrival.t);
+  return all;
+}
+
+// Returns the time of the first line of the log that holds a text [s].
+double first_time(const Run& run, const std::string& text) {
+  for (const std::string& line : split_lines(run.err))
+    if (line.starts_with("[") && line.find(text) != std::string::npos)
+      return std::strtod(line.c_str() + 1, nullptr);
+  return -1.0;
+}
 
 Run behind_the_pillar(const Words& more = {}) {
   return run_deployer(Words{system_graph("laser.xml")} + virtual_clock() + more);
@@ -26,6 +70,36 @@ TEST_CASE("without LaserAvoid the robot drives into the pillar", "[system][laser
   const Run run = behind_the_pillar({"--set", "behaviours=goto", "--until", "30 s"});
   INFO(run.err);
   CHECK_FALSE(run.contacts().empty());
+}
+
+TEST_CASE("LaserAvoid learns from the base how large the robot is, as if the graph said so",
+          "[system][laser]") {
+  const Run asked =
+      pioneer_with(kQuestion, "<param name=\"robot_radius\" value=\"1 m\"/>");  // which does not count
+  INFO(asked.err);
+  REQUIRE(asked.arrivals().size() == 3);
+  CHECK(times(asked) == times(pioneer_of_radius("0.309 m")));
+  CHECK(times(asked) != times(pioneer_of_radius("0.205 m")));
+}
+
+TEST_CASE("until the base has said how large the robot is the robot stands, and nothing waits for the answer",
+          "[system][laser]") {
+  const std::string params =
+      "<param name=\"answer_after\" value=\"3 s\"/><param name=\"radius\" value=\"0.3 m\"/>";
+  const Run late = pioneer_with(describer(params), "", {"--until", "8 s"});
+  INFO(late.err);
+  CHECK(late.says("is asked about \"LaserRangeReadings\""));
+  CHECK(first_time(late, "watch: moves") > 3.0);
+  CHECK(first_time(late, "watch: moves") < 3.5);
+  CHECK_FALSE(late.says("nothing is heard of"));  // it says all the time that the robot must stand
+}
+
+TEST_CASE("a base that cannot say how large the robot is keeps it from moving, with the reason",
+          "[system][laser]") {
+  const Run run = pioneer_with(describer(""), "", {"--until", "8 s"});
+  INFO(run.err);
+  CHECK(run.says("the base does not describe the robot: it has no shape"));
+  CHECK(first_time(run, "watch: moves") == -1.0);
 }
 
 TEST_CASE("the same run with LaserAvoid has the same trace", "[system][laser]") {

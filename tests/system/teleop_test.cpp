@@ -67,6 +67,29 @@ TEST_CASE("a key drives the robot, letting go stops it, Q ends the run and the t
   CHECK(terminal.comes_to_echo(true));
 }
 
+TEST_CASE("the base says how fast it can be, and a person drives no faster", "[system][teleop]") {
+  const Terminal terminal;
+  Subprocess program(teleop({"--set", "keyboard=" + terminal.name(), "--set", "speed=9 m/s"}));
+  REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
+  CHECK_THAT(program.err(), Catch::Contains("the base can do less") && Catch::Contains("at most 1 m/s"));
+  terminal.press("w");
+  CHECK(program.wait_for_output("FUSED by teleop speed 1.00 turn 0.00", kLimit));
+  terminal.press("q");
+  CHECK(finish(program, kLimit).exit_code() == 0);
+}
+
+TEST_CASE("P asks where the robot is, and the driving goes on meanwhile", "[system][teleop]") {
+  const Terminal terminal;
+  Subprocess program(teleop({"--set", "keyboard=" + terminal.name()}));
+  REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
+  terminal.press("p");
+  CHECK(program.wait_for_output("position 0.00 m, 0.00 m, heading 0 deg by odometry", kLimit));
+  terminal.press("wp");
+  CHECK(program.wait_for_output("FUSED by teleop speed 0.30", kLimit));
+  terminal.press("q");
+  CHECK(finish(program, kLimit).exit_code() == 0);
+}
+
 TEST_CASE("the robot stops when no more keys come", "[system][teleop]") {
   const Terminal terminal;
   Subprocess program(teleop({"--set", "keyboard=" + terminal.name(), "--set", "joystick="}));

@@ -29,9 +29,10 @@ Avoider::Avoider(ComponentHost& host, double echo_time)
                   .optional = true}),
       motion_(*this, "motion",
               {.text = "One command per odometry object (if not connected, per sensor object)."}),
-      robot_radius_(
-          *this, "robot_radius", 0.205,
-          {.unit = "m", .min = 0.0, .text = "Radius of the circle that holds the robot and its bumpers."}),
+      robot_radius_(*this, "robot_radius", 0.205,
+                    {.unit = "m",
+                     .min = 0.0,
+                     .text = "Radius of the circle that holds the robot, unless the base says it."}),
       margin_(*this, "margin", 0.1,
               {.unit = "m", .min = 0.0, .text = "Free space to keep on both sides of the robot."}),
       side_distance_(
@@ -68,9 +69,10 @@ Avoider::Avoider(ComponentHost& host, double echo_time)
           {.unit = "m",
            .min = 0.0,
            .text = "Echoes farther from the robot's centre are never confirmed: they count for echo_time."}),
-      deaf_after_(
-          *this, "deaf_after", 0.6,
-          {.unit = "s", .min = 0.0, .text = "The robot stops after this time without sensor readings."}),
+      deaf_after_(*this, "deaf_after", 0.6,
+                  {.unit = "s",
+                   .min = 0.0,
+                   .text = "Least time without sensor readings after which the robot stops."}),
       goal_max_age_(*this, "goal_max_age", 0.5,
                     {.unit = "s", .min = 0.0, .text = "Age beyond which a goal is disregarded."}) {}
 
@@ -94,10 +96,43 @@ Status Avoider::start() {
   heard_at_.reset();
   moved_at_.reset();
   last_direction_ = 0.0;
+  return ask_robot();
+}
+
+Status Avoider::ask_robot() {
+  body_.reset();
+  if (!robot_.connected()) return ok();
+  auto ask = robot_.loan();
+  ask->about() = std::string(sensed().name);
+  const Result<QueryId> sent = robot_.query_request(std::move(ask));
+  if (!sent) return fail(sent.error().code, "cannot ask the base about the robot: " + sent.error().message);
+  question_ = *sent;
   return ok();
 }
 
+Status Avoider::learn_robot() {
+  const auto answer = question_ ? robot_.query_receive(*question_) : std::nullopt;
+  if (!answer) return ok();
+  question_.reset();
+  if (!*answer)
+    return fail(answer->error().code, "the base does not describe the robot: " + answer->error().message);
+  const idl::Robot& robot = ***answer;
+  body_ = {std::max(robot.radius(), robot.bumper_radius()), 0.0};
+  const auto note = [this](const idl::Sensor& sensor) {
+    body_->sensor_interval = std::max(body_->sensor_interval, sensor.update_interval());
+  };
+  std::ranges::for_each(robot.sonar_rings(), note);
+  std::ranges::for_each(robot.laser_sensors(), note);
+  return ok();
+}
+
+void Avoider::stop() {
+  if (question_) static_cast<void>(robot_.query_receive_wait(*question_, Duration{0}));  // it is for nobody
+  question_.reset();
+}
+
 Outcome Avoider::work() {
+  if (const Status learnt = learn_robot(); !learnt.ok()) return failed(learnt.error().text());
   if (const auto goal = present_goal()) note_cause(*goal);  // it avoids on the way to that goal
   if (odometry_.connected()) follow(*odometry_.get_update());
   if (sensor().new_data_arrived()) {
@@ -121,7 +156,7 @@ void Avoider::follow(const idl::Odometry& odometry) {
 Vec2 Avoider::moved_since(Vec2 point, double age) const { return seen_from(moved(twist_, age), point); }
 
 void Avoider::advise() {
-  if (!heard_at_ || to_seconds(now() - *heard_at_) > *deaf_after_) {
+  if (question_ || !heard_at_ || to_seconds(now() - *heard_at_) > deaf_after()) {
     motion_.push(full_stop());
     return;
   }
@@ -161,10 +196,16 @@ EchoMemory::Limits Avoider::keep() const {
   return {*memory_time_, *echo_time_, *same_place_, *memory_range_};
 }
 
-double Avoider::farthest() const { return *robot_radius_ + *margin_ + *safe_distance_ + 0.5; }
+// A sensor that has missed two readings may still be well.
+double Avoider::deaf_after() const {
+  constexpr double kMissed = 3.0;
+  return std::max(*deaf_after_, body_ ? kMissed * body_->sensor_interval : 0.0);
+}
+
+double Avoider::farthest() const { return radius() + *margin_ + *safe_distance_ + 0.5; }
 
 Limits Avoider::limits() const {
-  return {*robot_radius_, *margin_, *side_distance_, *safe_distance_, *stop_distance_, *max_speed_};
+  return {radius(), *margin_, *side_distance_, *safe_distance_, *stop_distance_, *max_speed_};
 }
 
 }  // namespace orca::avoid

@@ -100,7 +100,7 @@ class Command final : public orca::Component {
   // Returns whether the goal was reached. Results of other missions are late: their goals have been given up.
   bool wait_for_result(const Route& route, std::uint64_t mission) {
     const orca::TimePoint end = now() + orca::from_seconds(*goal_timeout_) + grace();
-    while (const orca::PushProxyHandle* port = results_.wait(end - now())) {
+    while (const orca::PushSubject* port = results_.wait(end - now())) {
       if (port == &arrived_) {
         if (is_of(*arrived_.get_update(), mission)) return true;
       } else if (const auto failed = failed_.get_update(); is_of(*failed, mission)) {

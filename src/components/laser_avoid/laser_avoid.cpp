@@ -18,6 +18,9 @@ class LaserAvoid final : public orca::avoid::Avoider {
   static constexpr double kSector = std::numbers::pi / 36;
 
   orca::PushProxyHandle& sensor() override { return laser_; }
+  [[nodiscard]] const orca::ObjectType& sensed() const override {
+    return orca::object_type<orca::idl::LaserRangeReadings>();
+  }
 
   // The scan was taken a moment ago, from the robot's pose at that time.
   void listen(orca::avoid::EchoMemory& memory) override {

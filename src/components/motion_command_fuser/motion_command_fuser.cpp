@@ -39,15 +39,10 @@ constexpr double kSilentPeriods = 3.0;
 /// 11.1). A list may name the behaviours that the graph connects to `motion`. README.md explains the modes.
 class MotionCommandFuser final : public orca::Component {
  public:
-  using Component::Component;
+  explicit MotionCommandFuser(orca::ComponentHost& host) : Component(host) { behaviours_.add(motion_); }
 
  private:
   Status configure() override {
-    if (*sync_ == "period") {
-      lap_every(orca::from_seconds(*period_));
-    } else {
-      lap_on("motion", kWatchPeriod);
-    }
     if (Status sound = params_changed(); !sound.ok()) return sound;
     if (const Status chosen = choose(*first_clients_); !chosen.ok())
       return first_clients_.refuse(chosen.error());
@@ -116,8 +111,7 @@ class MotionCommandFuser final : public orca::Component {
   }
 
   orca::Outcome work() override {
-    const bool heard = *sync_ == "period" || has_news();
-    if (heard && *sync_ == "all") wait_for_all();
+    const bool heard = await_wishes();
     if (listened_.empty()) return orca::again();
     voices_.clear();
     for (Listened& behaviour : listened_) voices_.push_back(hear(behaviour));
@@ -138,19 +132,19 @@ class MotionCommandFuser final : public orca::Component {
       if (behaviour.name == decision_.decided_by && behaviour.last) note_cause(*behaviour.last);
   }
 
-  [[nodiscard]] bool has_news() const {
-    return std::any_of(listened_.begin(), listened_.end(),
-                       [](const Listened& behaviour) { return behaviour.source.new_data_arrived(); });
-  }
-
-  // Implements the first policy of thesis 7.4, with two exceptions: a full stop is not delayed, and a silent
-  // behaviour does not delay the others.
-  void wait_for_all() {
-    const auto settled = [&] {
-      return stop_is_waiting() || std::all_of(listened_.begin(), listened_.end(),
-                                              [](const Listened& b) { return b.source.new_data_arrived(); });
-    };
-    wait_until(settled, orca::from_seconds(*all_wait_));
+  // Waits by one of the three policies of thesis 7.4, for the behaviours that it is subscribed to now. With
+  // policy all there are two exceptions: a full stop is not delayed, and a silent behaviour does not delay the
+  // others for ever.
+  // @return false if nothing has come: it is time to look for silence.
+  bool await_wishes() {
+    if (*sync_ == "period") {
+      behaviours_.wait_to_fuse(orca::Fusing::clock, orca::from_seconds(*period_));
+      return true;
+    }
+    if (behaviours_.wait(kWatchPeriod) == nullptr) return false;
+    if (*sync_ == "all")
+      behaviours_.wait_all(orca::from_seconds(*all_wait_), [this] { return stop_is_waiting(); });
+    return true;
   }
 
   [[nodiscard]] bool stop_is_waiting() const {
@@ -431,6 +425,7 @@ class MotionCommandFuser final : public orca::Component {
        .min = 0.0,
        .text = "Mode subsumption: time for which a node still acts after the last wish."}};
 
+  orca::Synchronizer behaviours_;
   orca::fuse::Rules rules_;
   std::vector<Listened> listened_;
   std::vector<Voice> voices_;

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "orca/component.hpp"
+#include "orca/hw/description.hpp"
 #include "orca/hw/server.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/system.hpp"
@@ -16,15 +17,16 @@ class RobotBaseServer final : public orca::hw::HardwareServer {
   }
 
  private:
-  orca::Result<orca::Loan<orca::idl::Robot>> on_describe(const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
-    return orca::make_object<orca::idl::Robot>(container()->description());
+  orca::Result<orca::Loan<orca::idl::Robot>> on_describe(const orca::ObjectPtr<orca::idl::Ask>& ask) {
+    return orca::hw::part_of(container()->description(), ask->about());
   }
 
   orca::QueryServer<orca::idl::Ask, orca::idl::Robot> description_{
       *this,
       "RobotQuery",
       &RobotBaseServer::on_describe,
-      {.text = "Description of the robot and all devices on it."}};
+      {.text = "Description of the robot: all of it, its limits, one device, or the sensors of one object "
+               "type."}};
 };
 
 }  // namespace

@@ -15,6 +15,9 @@ class SonarAvoid final : public orca::avoid::Avoider {
 
  private:
   orca::PushProxyHandle& sensor() override { return sonar_; }
+  [[nodiscard]] const orca::ObjectType& sensed() const override {
+    return orca::object_type<orca::idl::SonarRangeReadings>();
+  }
 
   // An echo may come from anywhere on the arc of the cone; the middle of the arc is used. An obstacle below
   // the minimum range may be at the sonar itself. The sonars fire one after the other, and the robot moves

@@ -48,6 +48,8 @@ void Keys::press(char key, double time) {
     case 'd':
     case 'D': left_ = {-1.0, time}; break;
     case ' ': forward_ = left_ = {}; break;
+    case 'p':
+    case 'P': asked_ = true; break;
     case 'q':
     case 'Q': quit_ = true; break;
     default: break;

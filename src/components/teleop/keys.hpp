@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <utility>
 
 namespace orca::teleop {
 
@@ -12,7 +13,7 @@ struct Stick {
   friend bool operator==(const Stick&, const Stick&) = default;
 };
 
-/// The keys of a terminal: arrows or W A S D drive, the space bar stops, Q ends. A terminal reports a key
+/// The keys of a terminal: arrows or W A S D drive, the space bar stops, P asks for the position, Q ends. A terminal reports a key
 /// again and again while it is held, but never its release. So each press counts until the dead-man time has
 /// passed.
 ///
@@ -26,6 +27,8 @@ class Keys {
   /// @param dead_man  [s] time that a press counts.
   [[nodiscard]] Stick stick(double time, double dead_man) const;
   [[nodiscard]] bool quit() const { return quit_; }
+  /// Returns whether the position was asked for since the last call.
+  [[nodiscard]] bool take_question() { return std::exchange(asked_, false); }
 
  private:
   struct Press {
@@ -38,6 +41,7 @@ class Keys {
   enum class Escape { none, begun, bracket } escape_ = Escape::none;
   Press forward_;
   Press left_;
+  bool asked_ = false;
   bool quit_ = false;
 };
 

@@ -3,22 +3,30 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "joystick.hpp"
 #include "keys.hpp"
 #include "orca/component.hpp"
+#include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
+#include "orca/idl/system.hpp"
 #include "raw_terminal.hpp"
+#include "where.hpp"
 
 namespace {
 
 using orca::Status;
 using orca::teleop::Stick;
+
+constexpr orca::Duration kBaseLimit = std::chrono::seconds(5);  // for the base to say what it can do
 
 // A device that is read without blocking.
 class Input {
@@ -66,6 +74,12 @@ class Teleop final : public orca::Component {
   explicit Teleop(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(25)); }
 
  private:
+  // What the base can do at most.
+  struct Limits {
+    double speed = std::numeric_limits<double>::infinity();      // [m/s]
+    double turn_rate = std::numeric_limits<double>::infinity();  // [rad/s]
+  };
+
   Status configure() override {
     if (keyboard_->empty() && joystick_->empty())
       return keyboard_.refuse("it and joystick are both empty; set one of them");
@@ -81,6 +95,26 @@ class Teleop final : public orca::Component {
     if (!joystick_->empty())
       if (Status opened = joystick_input_.open(*joystick_); !opened.ok()) return opened;
     if (keyboard_input_.is_open()) terminal_.emplace(keyboard_input_.fd());
+    where_.forget();
+    return ask_limits();
+  }
+
+  // Asks the base how fast it can be. The person's controls then cover what it can do.
+  Status ask_limits() {
+    limits_ = {};
+    if (!robot_.connected()) return orca::ok();
+    auto ask = robot_.loan();
+    ask->about() = "limits";
+    const auto robot = robot_.query(std::move(ask), kBaseLimit);
+    if (!robot)
+      return orca::fail(robot.error().code,
+                        "cannot ask the base how fast it can be: " + robot.error().message);
+    if ((*robot)->drives().empty()) return orca::ok();
+    const orca::idl::Drive& drive = (*robot)->drives().front();
+    limits_ = {drive.max_speed(), drive.max_steer_speed()};
+    if (*speed_ > limits_.speed || *turn_rate_ > limits_.turn_rate)
+      log_info("the base can do less than speed and turn_rate ask for: it drives at most " +
+               shown(limits_.speed) + " m/s and turns at most " + shown(limits_.turn_rate) + " rad/s");
     return orca::ok();
   }
 
@@ -93,12 +127,15 @@ class Teleop final : public orca::Component {
       motion_.push(orca::full_stop());
       return orca::done();
     }
+    if (keys_.take_question()) where_.ask(now());
+    if (const auto answer = where_.look(now())) log_info(*answer);
     const Stick hand = stick_.stick(map());
     const Stick wanted = hand == Stick{} ? keys_.stick(time, *dead_man_) : hand;
     if (wanted == Stick{}) {
       motion_.push(orca::full_stop());  // overrules the other behaviours
     } else {
-      motion_.push(orca::turn(wanted.left * *turn_rate_, wanted.forward * *speed_, *weight_));
+      motion_.push(orca::turn(wanted.left * std::min(*turn_rate_, limits_.turn_rate),
+                              wanted.forward * std::min(*speed_, limits_.speed), *weight_));
     }
     return orca::again();
   }
@@ -119,6 +156,12 @@ class Teleop final : public orca::Component {
     return false;
   }
 
+  static std::string shown(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", number);
+    return text;
+  }
+
   [[nodiscard]] orca::teleop::JoystickMap map() const {
     return {static_cast<std::uint8_t>(*forward_axis_), static_cast<std::uint8_t>(*left_axis_),
             static_cast<std::uint8_t>(*dead_man_button_)};
@@ -126,6 +169,16 @@ class Teleop final : public orca::Component {
 
   orca::PushServer<orca::idl::MotionCommand> motion_{
       *this, "motion", {.text = "The person's command, one per lap; full stop while no control is held."}};
+
+  orca::QueryProxy<orca::idl::Ask, orca::idl::Robot> robot_{
+      *this,
+      "robot",
+      {.text = "Base that is asked at the start for its limits; speed and turn_rate stay within them.",
+       .optional = true}};
+  orca::QueryProxy<orca::idl::AskReading, orca::idl::Odometry> odometry_{
+      *this,
+      "odometry",
+      {.text = "Base that is asked for its odometry when P is pressed.", .optional = true}};
 
   orca::Param<std::string> keyboard_{
       *this,
@@ -170,6 +223,8 @@ class Teleop final : public orca::Component {
   Input keyboard_input_;
   Input joystick_input_;
   std::optional<orca::teleop::RawTerminal> terminal_;
+  Limits limits_;
+  orca::teleop::Where where_{odometry_};
   orca::teleop::Keys keys_;
   orca::teleop::Joystick stick_;
   std::string bytes_;

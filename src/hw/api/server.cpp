@@ -2,9 +2,11 @@
 #include "orca/hw/server.hpp"
 
 #include <atomic>
+#include <cstdio>
 #include <utility>
 
 #include "orca/idl/system.hpp"
+#include "orca/idl/time.hpp"
 
 namespace orca::hw {
 namespace {
@@ -13,6 +15,12 @@ constexpr Duration kWatchPeriod = 100ms;     // how often the hardware's state i
 constexpr Duration kStartLimit = 5s;         // for a device to start
 constexpr Duration kFirstReadingLimit = 2s;  // for a query to an idle device
 constexpr Duration kMotionHold = 500ms;      // a base stays active this long after the last motion command
+
+std::string in_short(Duration time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", to_seconds(time));
+  return text;
+}
 
 // A use of the hardware: keeps it active while this object lives, even if a wait is interrupted.
 class Use {
@@ -35,8 +43,12 @@ class HardwareServer::SensorPorts {
       : server_(server),
         sensor_(sensor),
         push_(server, std::string(sensor.type().name) + "Push", sensor),
-        query_(server, std::string(sensor.type().name) + "Query", type_id(object_type<idl::Ask>()),
-               type_id(sensor.type()), [this](const ObjectRef&) { return answer(); }, {}) {}
+        query_(server, std::string(sensor.type().name) + "Query", type_id(object_type<idl::AskReading>()),
+               type_id(sensor.type()),
+               [this](const ObjectRef& ask) {
+                 return answer(to_time_point(object_cast<idl::AskReading>(ask)->since()));
+               },
+               {.text = "The latest reading, if it was sensed at `since` or later."}) {}
   ~SensorPorts() { sensor_.set_sink(this, nullptr); }
   SensorPorts(const SensorPorts&) = delete;
   SensorPorts& operator=(const SensorPorts&) = delete;
@@ -63,16 +75,26 @@ class HardwareServer::SensorPorts {
     ObjectRef push(ObjectLoan reading) { return push_reading(std::move(reading)); }
   };
 
-  // Returns the latest reading; if the hardware is idle, the first one after starting it.
-  Result<ObjectLoan> answer() {
+  // Returns the latest reading; if the hardware is idle, the first one after starting it. It does not wait for a
+  // later one, because the base carries out no command meanwhile.
+  Result<ObjectLoan> answer(TimePoint since) {
     HardwareContainer& container = *server_.container();
     const Use use(container);
     const auto failed = [&] { return container.state() == HardwareState::fault; };
     server_.host().strand().wait_for(server_.now() + kFirstReadingLimit,
                                      [&] { return failed() || sensor_.latest(); });
-    if (const ObjectRef reading = sensor_.latest()) return copy_value(reading);
+    if (const ObjectRef reading = sensor_.latest()) {
+      if (reading.stamp() >= since) return copy_value(reading);
+      return fail(Code::unavailable, older_than(since, reading.stamp()));
+    }
     if (failed()) return fail(Code::unavailable, "the hardware failed: " + container.fault());
     return fail(Code::deadline_exceeded, "the hardware gave no reading within 2 s");
+  }
+
+  [[nodiscard]] std::string older_than(TimePoint since, TimePoint stamp) const {
+    return "the latest reading was sensed " + in_short(since - stamp) +
+           " s before the time that is asked for; ask " + "again: one comes every " +
+           in_short(sensor_.period()) + " s";
   }
 
   HardwareServer& server_;

@@ -195,9 +195,9 @@ void PushEdge::lost(std::uint64_t objects) {
   if (drops > 0) report_drops(drops);
 }
 
-ObjectRef PushEdge::take() {
-  if (!has_new()) return {};
-  client_.home().strand.note_activity();
+// Part of take(), which must not cost a call more.
+// @pre  has_new()
+[[gnu::always_inline]] inline ObjectRef PushEdge::pop() {
   ObjectRef object;
   bool waited_for = false;
   {
@@ -211,8 +211,32 @@ ObjectRef PushEdge::take() {
     waited_for = std::exchange(publisher_waits_, false);
   }
   if (waited_for) source_.room();
+  return object;
+}
+
+ObjectRef PushEdge::take() {
+  if (!has_new()) return {};
+  client_.home().strand.note_activity();
+  ObjectRef object = pop();
   client_.home().strand.note_activity();
   return object;
+}
+
+std::optional<TimePoint> PushEdge::oldest_stamp() const {
+  const std::lock_guard lock(mutex_);
+  if (count_.load(std::memory_order_relaxed) == 0) return std::nullopt;
+  return ring_[first_].stamp();
+}
+
+// It does not count as activity: a lap that has only dropped what matches nothing can be started again.
+bool PushEdge::drop_before(TimePoint time) {
+  bool dropped = false;
+  while (oldest_stamp().value_or(time) < time) {
+    static_cast<void>(pop());
+    ++counts_.unmatched;
+    dropped = true;
+  }
+  return dropped;
 }
 
 ObjectRef PushEdge::latest() const {
@@ -256,9 +280,10 @@ EdgeCounters PushEdge::counters() const {
   counted.dropped_newest = counts_.dropped_newest;
   counted.dropped_blocked = counts_.dropped_blocked;
   counted.dropped_by_link = counts_.dropped_by_link;
+  counted.unmatched = counts_.unmatched;
   counted.left_behind = counts_.left_behind;
   counted.dropped = counted.dropped_oldest + counted.dropped_newest + counted.dropped_blocked +
-                    counted.dropped_by_link + counted.left_behind;
+                    counted.dropped_by_link + counted.unmatched + counted.left_behind;
   const std::uint64_t drops = drops_;
   if (const auto limit = policy_.accepted_drops(); limit && drops > *limit)
     counted.over_limit = drops - *limit;

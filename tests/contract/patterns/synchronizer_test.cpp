@@ -66,7 +66,7 @@ TEMPLATE_LIST_TEST_CASE(
     "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Behaviours robot(kit);
-    std::atomic<PushProxyHandle*> found{nullptr};
+    std::atomic<PushSubject*> found{nullptr};
     Script script(robot.fuser, [&] { found = &robot.fuser.both.wait(); });
     CHECK_FALSE(script.ends_within(20ms));
     robot.wish_avoid(1);

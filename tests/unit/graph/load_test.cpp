@@ -76,7 +76,12 @@ TEST_CASE("how a component runs is set on it", "[graph][load]") {
       "<component name='a' type='orca.Localizer' period='50 ms' priority='-3' autonomous='false' "
       "process='control'/>"
       "<component name='b' type='orca.Localizer' on='odometry' start_after='a' may_fail='true'/>"
-      "<component name='c' type='orca.Localizer'/></graph>");
+      "<component name='c' type='orca.Localizer'/>"
+      "<component name='base' type='orca.RobotBaseServer' hardware='h'/>"
+      "<hardware name='h' type='orca.hw.Sim'><param name='world' value='hall'/></hardware>"
+      "<component name='d' type='orca.SonarAvoid' on='sonar odometry' fuse='stamps' within='20 ms' "
+      "at_least_every='1 s'/>"
+      "<connect from='base.SonarRangeReadingsPush' to='d.sonar' queue='2'/></graph>");
   const ComponentNode& a = *graph.find_component("a");
   CHECK(a.trigger->kind == Trigger::Kind::period);
   CHECK(a.trigger->period == 50ms);
@@ -89,6 +94,8 @@ TEST_CASE("how a component runs is set on it", "[graph][load]") {
   CHECK(b.trigger->ports == std::vector<std::string>{"odometry"});
   CHECK(b.start_after == std::vector<std::string>{"a"});
   CHECK(b.may_fail);
+  const Trigger moments{Trigger::Kind::on_stamps, 1s, {"sonar", "odometry"}, 20ms};
+  CHECK(graph.find_component("d")->trigger == moments);
   const ComponentNode& c = *graph.find_component("c");
   CHECK_FALSE(c.trigger.has_value());
   CHECK_FALSE(c.autonomous.has_value());

@@ -11,6 +11,7 @@
 #include "executives.hpp"
 #include "orca/hw/container.hpp"
 #include "orca/idl/sensing.hpp"
+#include "orca/idl/time.hpp"
 
 namespace orca::test {
 
@@ -80,6 +81,7 @@ class FakeScout : public hw::HardwareContainer {
     if (state() != hw::HardwareState::active) return ok();
     auto odometry = odometry_.loan();
     odometry->x(++x_);
+    odometry->stamp(to_time_value(host().now()));
     odometry_.publish(std::move(odometry));
     auto sonar = sonar_.loan();
     sonar->ranges().assign(16, 2.0);

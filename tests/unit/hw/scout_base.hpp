@@ -20,8 +20,8 @@ struct Client : Peer {
   explicit Client(Executive& executive, const std::string& name = "client") : Peer(executive, name) {}
   PushProxy<idl::Odometry> odometry{*this, "odometry"};
   PushProxy<idl::SonarRangeReadings> sonar{*this, "sonar"};
-  QueryProxy<idl::Ask, idl::Odometry> ask_odometry{*this, "ask_odometry"};
-  QueryProxy<idl::Ask, idl::SonarRangeReadings> ask_sonar{*this, "ask_sonar"};
+  QueryProxy<idl::AskReading, idl::Odometry> ask_odometry{*this, "ask_odometry"};
+  QueryProxy<idl::AskReading, idl::SonarRangeReadings> ask_sonar{*this, "ask_sonar"};
   SendProxy<idl::MotionCommand> motion{*this, "motion"};
   SendProxy<idl::HolonomicVelocity> velocity{*this, "velocity"};
   SendProxy<idl::TurretCommand> turret{*this, "turret"};

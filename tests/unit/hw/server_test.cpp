@@ -90,7 +90,7 @@ TEST_CASE("a query to idle hardware starts it, waits for its first reading, and 
   run_on_each(all_executives(), [](Executive& executive) {
     ScoutBase base(executive);
     base.run();
-    const auto odometry = base.client.ask_odometry.query(make_object<idl::Ask>(), 5s);
+    const auto odometry = base.client.ask_odometry.query(make_object<idl::AskReading>(), 5s);
     REQUIRE(odometry.has_value());
     CHECK((*odometry)->x() >= 1.0);
     CHECK(base.gets(HardwareState::ready));
@@ -105,13 +105,42 @@ TEST_CASE("a query to running hardware is answered with its latest reading", "[h
     base.client.sonar.subscribe();
     REQUIRE(base.client.sonar.get_update_wait_max(5s));
     REQUIRE(base.client.sonar.get_update_wait_max(5s));
-    const auto odometry = base.client.ask_odometry.query(make_object<idl::Ask>(), 5s);
-    const auto sonar = base.client.ask_sonar.query(make_object<idl::Ask>(), 5s);
+    const auto odometry = base.client.ask_odometry.query(make_object<idl::AskReading>(), 5s);
+    const auto sonar = base.client.ask_sonar.query(make_object<idl::AskReading>(), 5s);
     REQUIRE(odometry.has_value());
     REQUIRE(sonar.has_value());
     CHECK((*odometry)->x() >= 2.0);
     CHECK((*sonar)->ranges().size() == 16);
     CHECK((*sonar)->cause().origin() == "client");
+  });
+}
+
+TEST_CASE("a query for a reading since some time gets the latest one, or learns that there is none yet",
+          "[hw][server]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    ScoutBase base(executive);
+    base.run();
+    base.client.odometry.subscribe();
+    const auto first = base.client.odometry.get_update_wait_max(5s);
+    REQUIRE(first);
+    const auto ask_since = [&](TimePoint since) {
+      auto ask = make_object<idl::AskReading>();
+      ask->since(to_time_value(since));
+      return base.client.ask_odometry.query(std::move(ask), 5s);
+    };
+    const TimePoint sensed = to_time_point(first->stamp());
+    const auto same_or_later = ask_since(sensed);
+    REQUIRE(same_or_later.has_value());
+    CHECK(to_time_point((*same_or_later)->stamp()) >= sensed);
+
+    const TimePoint before = executive.now();
+    const auto too_early = ask_since(before + 10s);
+    REQUIRE_FALSE(too_early.has_value());
+    CHECK(too_early.error().code == Code::unavailable);
+    CHECK_THAT(too_early.error().text(),
+               Contains("before the time that is asked for") && Contains("every 0.05 s"));
+    if (executive.is_virtual()) CHECK(executive.now() == before);  // it holds up nothing
+    CHECK(eventually(executive, [&] { return ask_since(before).has_value(); }));
   });
 }
 
@@ -130,7 +159,7 @@ TEST_CASE("when the hardware fails, the server fails with its reason, and a quer
       return base.bench.diary().has("failed in work: the hardware failed: the cable is off");
     }));
     const TimePoint before = executive.now();
-    const auto answer = base.client.ask_odometry.query(make_object<idl::Ask>(), 10s);
+    const auto answer = base.client.ask_odometry.query(make_object<idl::AskReading>(), 10s);
     REQUIRE_FALSE(answer.has_value());
     CHECK(answer.error().code == Code::unavailable);
     CHECK_THAT(answer.error().text(), Contains("the cable is off"));

@@ -18,11 +18,11 @@ namespace orca::test {
 
 /// Every object type; object_type_test.cpp checks that none is missing.
 using AllObjects =
-    std::tuple<idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::Battery, idl::BumperReadings,
-               idl::ClientList, idl::Contact, idl::Door, idl::Drive, idl::FusionReason, idl::GoalFailed,
-               idl::GoalPoint, idl::HolonomicVelocity, idl::InfraredRangeReadings, idl::LaserRangeReadings,
-               idl::LaserSensor, idl::LogRecord, idl::MotionCommand, idl::Odometry, idl::RangeReadings,
-               idl::Robot, idl::RobotPose, idl::Sensor, idl::SonarRangeReadings, idl::SonarRing,
-               idl::TurretAngle, idl::TurretCommand>;
+    std::tuple<idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::AskReading, idl::Battery,
+               idl::BumperReadings, idl::ClientList, idl::Contact, idl::Door, idl::Drive, idl::FusionReason,
+               idl::GoalFailed, idl::GoalPoint, idl::HolonomicVelocity, idl::InfraredRangeReadings,
+               idl::LaserRangeReadings, idl::LaserSensor, idl::LogRecord, idl::MotionCommand, idl::Odometry,
+               idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor, idl::SonarRangeReadings,
+               idl::SonarRing, idl::TurretAngle, idl::TurretCommand>;
 
 }  // namespace orca::test

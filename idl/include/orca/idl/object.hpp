@@ -66,10 +66,11 @@ class ObjectRef {
   /// Returns whether both are views of one object, or both are empty.
   friend bool operator==(const ObjectRef&, const ObjectRef&) = default;
 
-  /// @pre  *this, for the next four functions.
+  /// @pre  *this, for the next five functions.
   [[nodiscard]] const ObjectType& type() const { return *slot_->type; }
   [[nodiscard]] const void* get() const { return slot_->object; }
   [[nodiscard]] const idl::OrcaObject& header() const { return *slot_->header; }
+  [[nodiscard]] TimePoint stamp() const { return slot_->type->stamp(slot_->object); }
   [[nodiscard]] std::string dump() const { return slot_->type->dump(slot_->object); }
 
  private:

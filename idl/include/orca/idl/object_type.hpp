@@ -10,6 +10,7 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
 #include "orca/idl/value.hpp"
 
 namespace orca {
@@ -40,7 +41,9 @@ struct ObjectType {
   void (*assign)(void* to, const void* from);   ///< Copies the value; `to` keeps its capacity.
   bool (*equal)(const void* a, const void* b);  ///< Compares all fields, including the header's.
   idl::OrcaObject& (*header)(void* object);     ///< Returns the inherited part.
-  std::string (*dump)(const void* object);      ///< Returns a text for people: a field per line, with units.
+  /// Returns when the object's data were sensed: its field `stamp`, or its creation_time if it has none.
+  TimePoint (*stamp)(const void* object);
+  std::string (*dump)(const void* object);  ///< Returns a text for people: a field per line, with units.
 
   void (*fields)(void* object, FieldVisitor& visitor);  ///< Visits all fields, inherited ones first.
 

@@ -2,6 +2,7 @@
 #include "components.hpp"
 
 #include <cstdint>
+#include <set>
 #include <string>
 
 #include "orca/base/text.hpp"
@@ -149,21 +150,53 @@ class ComponentReader {
     if (const auto period = attribute<double>("period"))
       checked_.value.trigger = Trigger{Trigger::Kind::period, from_seconds(*period), {}};
     if (const Text* on = node_.known("on")) return read_port_trigger(*on);
-    for (const char* name : {"fuse", "at_least_every"})
+    for (const char* name : {"fuse", "within", "at_least_every"})
       if (node_.find("on") == nullptr && node_.find(name) != nullptr)
         report_.error(codes::kTwoTriggers, node_.place(name),
                       node_.title() + ": " + name + " is for laps that start on ports; name them with on");
   }
 
   void read_port_trigger(const Text& on) {
-    const Text* const fuse = node_.known("fuse");
-    const bool all = fuse != nullptr && fuse->value == "all";
+    const std::string fuse = attribute<std::string>("fuse").value_or("any");
     const auto limit = attribute<double>("at_least_every");
-    const Trigger trigger{all ? Trigger::Kind::on_all : Trigger::Kind::on_any,
-                          from_seconds(limit.value_or(0.0)), split_names(on.value)};
+    Trigger trigger{Trigger::Kind::on_any, from_seconds(limit.value_or(0.0)), split_names(on.value)};
+    if (fuse == "all") trigger.kind = Trigger::Kind::on_all;
     if (trigger.ports.empty()) check_trigger_port(on, "");
     for (const std::string& port : trigger.ports) check_trigger_port(on, port);
+    check_named_once(on, trigger.ports);
+    read_moment(on, fuse == "stamps", trigger);
     checked_.value.trigger = trigger;
+  }
+
+  void check_named_once(const Text& on, const std::vector<std::string>& names) {
+    std::set<std::string> seen;
+    for (const std::string& name : names)
+      if (!seen.insert(name).second)
+        report_.error(codes::kTriggerPort, on.position,
+                      node_.title() + ": on names " + in_quotes(name) + " twice; name it once");
+  }
+
+  void read_moment(const Text& on, bool by_stamps, Trigger& trigger) {
+    const auto within = attribute<double>("within");
+    if (!by_stamps && node_.find("within") != nullptr)
+      return report_.error(codes::kTwoTriggers, node_.place("within"),
+                           node_.title() +
+                               ": within is for laps that start on objects of one moment; say so with "
+                               "fuse=\"stamps\", or remove it");
+    if (!by_stamps) return;
+    trigger.kind = Trigger::Kind::on_stamps;
+    trigger.within = from_seconds(within.value_or(0.0));
+    if (trigger.ports.size() == 1 && !is_array(trigger.ports.front()))
+      report_.error(codes::kTwoTriggers, node_.place("fuse"),
+                    node_.title() +
+                        ": fuse=\"stamps\" compares the objects of several servers, and on names only " +
+                        in_quotes(on.value) + ", which has one; name another port in on, or remove fuse");
+  }
+
+  // Returns whether the port may have several servers; what is wrong with its name is reported already.
+  [[nodiscard]] bool is_array(const std::string& name) const {
+    const PortContract* const port = checked_.contract ? checked_.contract->port(name) : nullptr;
+    return port == nullptr || port->many;
   }
 
   void check_trigger_port(const Text& on, const std::string& name) {

@@ -171,8 +171,7 @@ class Influence {
     for (const std::string& name : trigger.ports)
       if (const std::string port = name_in_graph(component, name); !connected.contains(port))
         silent.push_back(in_quotes(port));
-    const bool needs_all = trigger.kind == Trigger::Kind::on_all;
-    if (silent.empty() || (!needs_all && silent.size() < trigger.ports.size())) return;
+    if (silent.empty() || (!trigger.needs_all_ports() && silent.size() < trigger.ports.size())) return;
     report_.warning(codes::kNeverTriggered, component.value.position,
                     "component " + in_quotes(component.value.name) + ": its laps start on port " +
                         listed(silent) + ", to which nothing is connected, so it never does one; " +

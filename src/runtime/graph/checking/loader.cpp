@@ -15,6 +15,7 @@
 #include "reading/naming.hpp"
 #include "reading/values.hpp"
 #include "types.hpp"
+#include "waiting_room.hpp"
 #include "wiring.hpp"
 
 namespace orca::graph {
@@ -73,6 +74,7 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   graph.ends = read_ends(root, model, report);
   WiredEdges wired = check_wiring(parts.connections, model, report);
   graph.edges = std::move(wired.edges);
+  check_waiting_room(model, graph.edges, report);
   note_candidates(model, graph.edges);
   if (report.no_errors()) check_influence(model, graph, report);
   if (options.try_components)

@@ -14,7 +14,7 @@ using xml::ValueRule;
 
 constexpr std::array<std::string_view, 2> kYesNo{"true", "false"};
 constexpr std::array<std::string_view, 2> kStart{"at_once", "on_demand"};
-constexpr std::array<std::string_view, 2> kFuse{"any", "all"};
+constexpr std::array<std::string_view, 3> kFuse{"any", "all", "stamps"};
 constexpr std::array<std::string_view, 2> kStay{"cold", "warm"};
 constexpr std::array<std::string_view, 4> kOverflow{"drop_oldest", "drop_newest", "block", "refuse"};
 
@@ -64,11 +64,15 @@ constexpr std::array kComponent{
                   kBoolean},
     AttributeRule{"period", false, "Time from one lap to the next, for example 50 ms.",
                   seconds(kMicrosecond)},
-    AttributeRule{"on", false, "PushProxies whose new objects start the laps."},
+    AttributeRule{"on", false, "PushProxies and port arrays whose new objects start the laps."},
     AttributeRule{
         "fuse", false,
-        "With several ports in on: whether an object on any of them starts a lap, or new ones on all.",
+        "With several ports in on: an object on any of them starts a lap, or new ones on all, or objects "
+        "on all whose stamps say the same moment.",
         one_of(kFuse)},
+    AttributeRule{"within", false,
+                  "With fuse=\"stamps\": largest difference between stamps of one moment; 0 s if not given.",
+                  seconds(0.0)},
     AttributeRule{"at_least_every", false,
                   "Longest time between two laps that objects start, for example 0.2 s.",
                   seconds(kMicrosecond)},

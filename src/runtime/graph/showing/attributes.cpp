@@ -27,6 +27,8 @@ void add_trigger(Attributes& attributes, const Trigger& trigger) {
   if (!trigger.waits_for_ports()) return add(attributes, "period", seconds_text(trigger.period));
   add(attributes, "on", joined(trigger.ports, " "));
   if (trigger.kind == Trigger::Kind::on_all) add(attributes, "fuse", "all");
+  if (trigger.kind == Trigger::Kind::on_stamps) add(attributes, "fuse", "stamps");
+  if (trigger.within > Duration{0}) add(attributes, "within", seconds_text(trigger.within));
   if (trigger.period > Duration{0}) add(attributes, "at_least_every", seconds_text(trigger.period));
 }
 

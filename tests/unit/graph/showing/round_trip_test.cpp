@@ -49,19 +49,19 @@ class RandomGraph {
 
   std::string avoider(int i) {
     const std::string name = "avoid" + std::to_string(i);
+    const bool by_stamps = pick(3) == 0;
     return "<component name='" + name + "' type='orca.SonarAvoid'" +
            maybe(" priority='" + integer(-100, 100) + "'") +
            (pick(2) == 0 ? loading() : maybe(" autonomous='true'")) + maybe(" process='p/q'") +
            maybe(" start_after='base fuser'") + maybe(" may_fail='true'") +
-           maybe(pick(2) == 0 ? " on='sonar'" : " period='" + integer(1, 5000) + " ms'") + ">" +
-           maybe(param("stop_distance", real(0.05, 5.0))) + maybe(param("sector", integer(0, 180) + " deg")) +
-           maybe(param("gain", real(0.0, 1e6))) + maybe(param("samples", integer(1, 64))) +
-           maybe(param("verbose", "true")) + maybe(param("mode", "turn")) +
-           maybe(param("label", free_text())) + maybe(param("map", free_text())) +
-           maybe(param("zones", "a; b $$ c ;d&amp;e")) +
+           (by_stamps ? stamps() : maybe(trigger())) + ">" + maybe(param("stop_distance", real(0.05, 5.0))) +
+           maybe(param("sector", integer(0, 180) + " deg")) + maybe(param("gain", real(0.0, 1e6))) +
+           maybe(param("samples", integer(1, 64))) + maybe(param("verbose", "true")) +
+           maybe(param("mode", "turn")) + maybe(param("label", free_text())) +
+           maybe(param("map", free_text())) + maybe(param("zones", "a; b $$ c ;d&amp;e")) +
            maybe("<property name='room' value=\"" + free_text() + "\"/>") + "</component>" +
            connect("base.SonarRangeReadingsPush", name + ".sonar",
-                   maybe(queue()) + maybe(" interval='" + real(0, 10) + "'") +
+                   (by_stamps ? queue(2) : maybe(queue(1))) + maybe(" interval='" + real(0, 10) + "'") +
                        maybe(" deadline='" + real(10, 20) + "'") +
                        maybe(" drop_limit='" + integer(0, 1000) + "'")) +
            (late_bound_ ? ""
@@ -70,9 +70,19 @@ class RandomGraph {
                                                : maybe(" queue='2' overflow='block'" + block_limit())));
   }
 
-  std::string queue() {
-    return " queue='" + integer(1, 100) + "' overflow='" + (pick(2) == 0 ? "drop_oldest" : "drop_newest") +
-           "'";
+  std::string trigger() {
+    if (pick(2) == 0) return " period='" + integer(1, 5000) + " ms'";
+    return " on='sonar odometry'" + maybe(pick(2) == 0 ? " fuse='all'" : " fuse='any'") +
+           maybe(" at_least_every='" + real(0.001, 9) + "'");
+  }
+  std::string stamps() {
+    return " on='odometry sonar' fuse='stamps'" + maybe(" within='" + integer(0, 100) + " ms'") +
+           maybe(" at_least_every='" + real(0.001, 9) + "'");
+  }
+
+  std::string queue(int least) {
+    return " queue='" + integer(least, 100) + "' overflow='" +
+           (pick(2) == 0 ? "drop_oldest" : "drop_newest") + "'";
   }
   std::string room() {
     return " queue='" + integer(1, 100) + "' overflow='" + (pick(2) == 0 ? "refuse" : "block") + "'";

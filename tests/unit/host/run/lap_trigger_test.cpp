@@ -45,11 +45,15 @@ struct Listener {
     ports.add(input("many", true));
     connect(left, "left");
     connect(right, "right");
+    ports.add(input("old", false));
+    ports.add(input("new", false));
+    connect(left, "old", {.depth = 4});
+    connect(right, "new", {.depth = 4});
     connect(left, "many");
     connect(third, "many");
   }
-  void connect(Speaker& from, const std::string& to) {
-    REQUIRE(links.connect(from.endpoint("out"), *ports.find(to)).ok());
+  void connect(Speaker& from, const std::string& to, const QueuePolicy& policy = {}) {
+    REQUIRE(links.connect(from.endpoint("out"), *ports.find(to), policy).ok());
   }
   PushClientEndpoint& port(const std::string& name) {
     return dynamic_cast<PushClientEndpoint&>(*ports.find(name));
@@ -63,8 +67,8 @@ struct Listener {
   LapTrigger trigger;
 };
 
-void with_listener(const std::function<void(Listener&)>& check) {
-  run_on({}, [&](Executive& executive) {
+void with_listener(const std::function<void(Listener&)>& check, const ExecutiveOptions& options = {}) {
+  run_on(options, [&](Executive& executive) {
     Listener listener(executive);
     for (const char* name : {"left", "right", "many"}) listener.port(name).subscribe_all();
     check(listener);
@@ -96,6 +100,31 @@ TEST_CASE("on all of several ports a lap starts when each server has sent someth
     listener.third.out.push(MotionCommand{});
     CHECK(listener.trigger.is_due(kStart));
   });
+}
+
+TEST_CASE("on stamps a lap starts with objects of one moment, and older ones are dropped",
+          "[host][trigger]") {
+  with_listener(
+      [](Listener& listener) {
+        Executive& executive = listener.strand.executive();
+        listener.port("old").subscribe_all();
+        listener.port("new").subscribe_all();
+        const Trigger trigger{Trigger::Kind::on_stamps, {}, {"old", "new"}, 10ms};
+        REQUIRE(listener.trigger.choose(trigger, listener.ports).ok());
+        listener.trigger.begin(kStart);
+        listener.left.out.push(MotionCommand{});
+        sleep(executive, 20ms);
+        listener.right.out.push(MotionCommand{});
+        CHECK_FALSE(listener.trigger.is_due(kStart + 1h));
+        CHECK(listener.port("old").edges()[0]->counters().unmatched == 1);
+        sleep(executive, 10ms);
+        listener.left.out.push(MotionCommand{});
+        CHECK(listener.trigger.is_due(kStart));  // 10 ms apart
+        CHECK(listener.trigger.is_due(kStart));
+        (void)listener.port("new").edges()[0]->take();
+        CHECK_FALSE(listener.trigger.is_due(kStart));
+      },
+      virtual_executives().front());
 }
 
 TEST_CASE("a server that a port array has left does not hold up the others", "[host][trigger]") {
@@ -136,6 +165,8 @@ TEST_CASE("the time between two laps is the period, or what the servers announce
     CHECK(period_of({Trigger::Kind::on_any, {}, {"left"}}) == 100ms);
     CHECK(period_of({Trigger::Kind::on_any, {}, {"left", "right"}}) == 30ms);
     CHECK(period_of({Trigger::Kind::on_all, {}, {"left", "right"}}) == 100ms);
+    CHECK(period_of({Trigger::Kind::on_stamps, {}, {"left", "right"}, 5ms}) == 100ms);
+    CHECK(period_of({Trigger::Kind::on_stamps, 80ms, {"left", "right"}, 5ms}) == 80ms);
     CHECK(period_of({Trigger::Kind::on_any, 20ms, {"left"}}) == 20ms);
     listener.port("left").edges()[0]->ask({Duration{0}, 3});
     CHECK(period_of({Trigger::Kind::on_any, {}, {"left"}}) == 300ms);

@@ -124,14 +124,17 @@ struct Trigger {
   enum class Kind {
     free_running,  ///< The next lap follows at once; work() blocks by itself.
     period,        ///< One lap each `period`.
-    on_any,  ///< One lap per new object on one of the `ports` (thesis 7.4: with the latest of the others).
-    on_all,  ///< One lap when every server that the `ports` listen to has sent something new.
+    on_any,     ///< One lap per new object on one of the `ports` (thesis 7.4: with the latest of the others).
+    on_all,     ///< One lap when every server that the `ports` listen to has sent something new.
+    on_stamps,  ///< One lap when objects that were sensed at one moment wait from all those servers.
   };
   Kind kind = Kind::free_running;
   Duration period{0};              ///< With ports: the longest time between two laps; 0: no limit.
   std::vector<std::string> ports;  ///< PushProxies and PushProxyArrays.
+  Duration within{0};              ///< With on_stamps: largest difference of the stamps [s].
 
-  [[nodiscard]] bool waits_for_ports() const { return kind == Kind::on_any || kind == Kind::on_all; }
+  [[nodiscard]] bool waits_for_ports() const { return kind == Kind::on_any || needs_all_ports(); }
+  [[nodiscard]] bool needs_all_ports() const { return kind == Kind::on_all || kind == Kind::on_stamps; }
   friend bool operator==(const Trigger&, const Trigger&) = default;
 };
 

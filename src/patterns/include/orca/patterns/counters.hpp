@@ -14,6 +14,7 @@ struct EdgeCounters {
   std::uint64_t dropped_newest = 0;   ///< They found the queue full.
   std::uint64_t dropped_blocked = 0;  ///< Their publisher waited for room in vain, or had waited before.
   std::uint64_t dropped_by_link = 0;  ///< The link between two processes had no room for them.
+  std::uint64_t unmatched = 0;        ///< No object of the same moment came to the other ports.
   std::uint64_t left_behind = 0;      ///< They were still in the queue at unsubscribe().
   std::uint64_t over_limit = 0;       ///< Dropped while subscribed, beyond the number that the edge may drop.
   std::uint64_t waits = 0;            ///< Times that the publisher had to wait for room.

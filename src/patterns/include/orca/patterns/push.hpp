@@ -72,23 +72,45 @@ class PushServer : public PushServerHandle {
   }
 };
 
-/// The untyped part of PushProxy: everything that does not look into an object.
-class PushProxyHandle {
+/// A port at which objects of PushServers arrive: a PushProxy, or a port array (thesis 7.4: Subject).
+///
+/// Thread contract: the component's strand.
+class PushSubject {
  public:
-  PushProxyHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options);
-  PushProxyHandle(const PushProxyHandle&) = delete;
-  PushProxyHandle& operator=(const PushProxyHandle&) = delete;
-
-  /// Subscribes a `manual` port; the runtime subscribes all others while the component works.
-  void subscribe();
-  void unsubscribe();
+  PushSubject(const PushSubject&) = delete;
+  PushSubject& operator=(const PushSubject&) = delete;
 
   /// Returns the name under which the component declares this port; the graph may use another name.
   [[nodiscard]] const std::string& name() const { return name_; }
   /// Returns whether the graph connects this port at all.
   [[nodiscard]] bool connected() const;
-  /// Returns whether an object has arrived that no get_update has returned yet (thesis: newDataArrived).
+  /// Returns whether an object has arrived, from any server, that the component has not taken yet (thesis:
+  /// newDataArrived).
   [[nodiscard]] bool new_data_arrived() const;
+
+ protected:
+  PushSubject(PortOwner& owner, PortDeclaration declaration);
+  ~PushSubject() = default;
+
+  [[nodiscard]] Strand& strand() const;
+  [[nodiscard]] PushClientEndpoint& endpoint() const;
+
+ private:
+  friend class Synchronizer;
+
+  std::string name_;
+  Endpoint* endpoint_ = nullptr;
+};
+
+/// The untyped part of PushProxy: everything that does not look into an object.
+class PushProxyHandle : public PushSubject {
+ public:
+  PushProxyHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options);
+
+  /// Subscribes a `manual` port; the runtime subscribes all others while the component works.
+  void subscribe();
+  void unsubscribe();
+
   /// Returns whether the deadline that the graph sets for the edge has passed without a new object. It stays
   /// true until one comes.
   [[nodiscard]] bool deadline_missed() const;
@@ -114,15 +136,8 @@ class PushProxyHandle {
   [[nodiscard]] TimePoint deadline_in(Duration limit) const;
 
  private:
-  friend class Synchronizer;
-
-  [[nodiscard]] Strand& strand() const;
-  [[nodiscard]] PushClientEndpoint& endpoint() const;
   [[nodiscard]] PushEdge& edge() const;
   void ask(const UpdateRate& rate);
-
-  std::string name_;
-  Endpoint* endpoint_ = nullptr;
 };
 
 /// The client of a Push port. It receives the objects that one PushServer pushes (thesis 7.3, Fig. 7.3).
@@ -191,11 +206,9 @@ class PushSourceOf : public PushSourceHandle {
 };
 
 /// The untyped part of PushProxyArray.
-class PushProxyArrayHandle {
+class PushProxyArrayHandle : public PushSubject {
  public:
   PushProxyArrayHandle(PortOwner& owner, std::string name, TypeId type, const PortOptions& options);
-  PushProxyArrayHandle(const PushProxyArrayHandle&) = delete;
-  PushProxyArrayHandle& operator=(const PushProxyArrayHandle&) = delete;
 
   /// Returns "component.port" of this port.
   [[nodiscard]] std::string path() const;
@@ -204,11 +217,6 @@ class PushProxyArrayHandle {
  protected:
   [[nodiscard]] std::size_t edge_count() const;
   [[nodiscard]] PushEdge& edge(std::size_t index) const;
-
- private:
-  [[nodiscard]] PushClientEndpoint& endpoint() const;
-
-  Endpoint* endpoint_ = nullptr;
 };
 
 /// A port array: it receives objects of one type from any number of PushServers, distinguished by the

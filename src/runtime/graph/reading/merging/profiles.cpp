@@ -42,7 +42,7 @@ void override_node(Node& base, const Node& over) {
     std::erase_if(base.children, [](const Node& child) { return child.is("param"); });
   }
   if (over.find("period") != nullptr)
-    for (const char* name : {"on", "fuse", "at_least_every"}) base.attributes.erase(name);
+    for (const char* name : {"on", "fuse", "within", "at_least_every"}) base.attributes.erase(name);
   if (over.find("on") != nullptr) base.attributes.erase("period");
   for (const auto& [name, text] : over.attributes) base.attributes.insert_or_assign(name, text);
   for (const Node& child : over.children) override_child(base, child);

@@ -3,13 +3,15 @@
 
 #include <algorithm>
 
+#include "orca/patterns/endpoints/gathering.hpp"
+
 namespace orca::host {
 
 Status LapTrigger::choose(const Trigger& trigger, const PortSet& ports) {
   trigger_ = trigger;
   ports_.clear();
   for (const std::string& name : trigger.ports) {
-    const auto* port = dynamic_cast<const PushClientEndpoint*>(ports.find(name));
+    auto* port = dynamic_cast<PushClientEndpoint*>(ports.find(name));
     if (port == nullptr)
       return fail(Code::invalid_argument,
                   "its laps start on port \"" + name + "\", which is no PushProxy of it");
@@ -22,16 +24,14 @@ void LapTrigger::begin(TimePoint now) {
   next_ = trigger_.waits_for_ports() ? saturating_add(now, trigger_.period) : now;
 }
 
-bool LapTrigger::is_due(TimePoint now) const {
+bool LapTrigger::is_due(TimePoint now) {
   if (trigger_.kind == Trigger::Kind::free_running) return true;
   return (trigger_.waits_for_ports() && has_objects()) || now >= next();
 }
 
 bool LapTrigger::has_objects() const {
-  const auto any = [](const auto* port) { return port->has_new(); };
-  const auto all = [](const auto* port) { return port->has_new_from_all(); };
-  return trigger_.kind == Trigger::Kind::on_all ? std::all_of(ports_.begin(), ports_.end(), all)
-                                                : std::any_of(ports_.begin(), ports_.end(), any);
+  if (trigger_.kind == Trigger::Kind::on_stamps) return match(ports_, trigger_.within);
+  return trigger_.kind == Trigger::Kind::on_all ? all_new(ports_) : any_new(ports_);
 }
 
 void LapTrigger::lap_begins(TimePoint now) {
@@ -54,9 +54,8 @@ std::vector<Duration> LapTrigger::announced() const {
 Duration LapTrigger::period() const {
   const std::vector<Duration> periods = announced();
   if (!trigger_.waits_for_ports() || periods.empty()) return trigger_.period;
-  const bool all = trigger_.kind == Trigger::Kind::on_all;
-  const Duration found = all ? *std::max_element(periods.begin(), periods.end())
-                             : *std::min_element(periods.begin(), periods.end());
+  const Duration found = trigger_.needs_all_ports() ? *std::max_element(periods.begin(), periods.end())
+                                                    : *std::min_element(periods.begin(), periods.end());
   return trigger_.period > Duration{0} ? std::min(found, trigger_.period) : found;
 }
 

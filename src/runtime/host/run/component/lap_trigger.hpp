@@ -20,7 +20,9 @@ class LapTrigger {
 
   /// Notes that the laps begin now, with the first one at once if a period starts them.
   void begin(TimePoint now);
-  [[nodiscard]] bool is_due(TimePoint now) const;
+  /// Returns whether a lap is due. Of objects on several ports that are to be of one moment, those that are
+  /// too old to match any other are dropped.
+  [[nodiscard]] bool is_due(TimePoint now);
   /// Notes that a lap begins now. Missed laps are not made up for.
   void lap_begins(TimePoint now);
   /// Returns when the next lap is due; kForever if no time starts it.
@@ -33,7 +35,7 @@ class LapTrigger {
   [[nodiscard]] std::vector<Duration> announced() const;
 
   Trigger trigger_;
-  std::vector<const PushClientEndpoint*> ports_;  // of a trigger that waits for ports
+  std::vector<PushClientEndpoint*> ports_;  // of a trigger that waits for ports
   TimePoint next_{};
 };
 

@@ -7,9 +7,11 @@
 #include "orca/avoidance/advice.hpp"
 #include "orca/component.hpp"
 #include "orca/geometry/twist2.hpp"
+#include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
+#include "orca/idl/system.hpp"
 
 namespace orca::avoid {
 
@@ -21,6 +23,9 @@ namespace orca::avoid {
 /// direction nearest to the direction of the goal. The pose comes from the localizer or, without one, from
 /// the odometry.
 ///
+/// A base at its port `robot` is asked how large the robot is and how often its sensor measures. The answer is not
+/// waited for, but until it comes the robot stands.
+///
 /// Thread contract: as every component.
 class Avoider : public Component {
  protected:
@@ -29,6 +34,8 @@ class Avoider : public Component {
 
   /// Returns the port of the sensor.
   [[nodiscard]] virtual PushProxyHandle& sensor() = 0;
+  /// Returns the object type that the sensor delivers.
+  [[nodiscard]] virtual const ObjectType& sensed() const = 0;
   /// Puts the newest readings of the sensor into the memory.
   /// @pre  sensor() has new data.
   virtual void listen(EchoMemory& memory) = 0;
@@ -42,14 +49,25 @@ class Avoider : public Component {
   [[nodiscard]] double farthest() const;
 
  private:
+  // What the base says about the robot.
+  struct Body {
+    double radius;           // [m] of the circle that holds the body and the bumpers.
+    double sensor_interval;  // [s] between two readings of the sensor; 0: not known.
+  };
+
   Status configure() override;
   Status params_changed() override;
   Status start() override;
   Outcome work() override;
+  void stop() override;
 
+  Status ask_robot();
+  Status learn_robot();
   void follow(const idl::Odometry& odometry);
   void advise();
   [[nodiscard]] Limits limits() const;
+  [[nodiscard]] double radius() const { return body_ ? body_->radius : *robot_radius_; }
+  [[nodiscard]] double deaf_after() const;
   /// Returns the goal that the robot drives to now; null if there is none, or if nobody has said so lately.
   [[nodiscard]] ObjectPtr<idl::GoalPoint> present_goal() const;
   [[nodiscard]] std::optional<double> goal_direction() const;
@@ -59,6 +77,11 @@ class Avoider : public Component {
   PushProxy<idl::GoalPoint> goal_;
   PushProxy<idl::RobotPose> localizer_;
   PushServer<idl::MotionCommand> motion_;
+  QueryProxy<idl::Ask, idl::Robot> robot_{
+      *this,
+      "robot",
+      {.text = "Base that is asked how large the robot is and how often the sensor measures.",
+       .optional = true}};
 
   Param<double> robot_radius_;
   Param<double> margin_;
@@ -75,6 +98,8 @@ class Avoider : public Component {
   Param<double> deaf_after_;
   Param<double> goal_max_age_;
 
+  std::optional<QueryId> question_;  // To the base, as long as it has not answered.
+  std::optional<Body> body_;
   EchoMemory memory_;
   Pose2 pose_;    // In the frame of the odometry.
   Twist2 twist_;  // Without the sideways part.

@@ -43,6 +43,11 @@ class PushEdge final : public PushSink {
   [[nodiscard]] ObjectRef take();
   /// Returns the newest object, taken or not; null before the first.
   [[nodiscard]] ObjectRef latest() const;
+  /// Returns the stamp of the object that take() would return; nothing if there is none.
+  [[nodiscard]] std::optional<TimePoint> oldest_stamp() const;
+  /// Drops the waiting objects whose stamp is before `time`, up to the first that is not.
+  /// @return whether there were any.
+  bool drop_before(TimePoint time);
   [[nodiscard]] bool has_new() const { return count_.load(std::memory_order_acquire) > 0; }
 
   /// Returns whether the edge's deadline has passed since the last object, or since the subscription. It
@@ -66,12 +71,14 @@ class PushEdge final : public PushSink {
     Published<std::uint64_t> dropped_newest;
     Published<std::uint64_t> dropped_blocked;
     Published<std::uint64_t> dropped_by_link;
+    Published<std::uint64_t> unmatched;
     Published<std::uint64_t> left_behind;
     Published<std::uint64_t> waits;
     Published<std::uint64_t> missed_deadlines;
     Published<std::uint32_t> high_water;
   };
 
+  [[nodiscard]] ObjectRef pop();
   bool make_room();
   void drop(Published<std::uint64_t>& reason, std::uint64_t objects);
   [[nodiscard]] std::uint64_t drops_to_report();

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "orca/base/result.hpp"
+#include "orca/idl/hardware.hpp"
+#include "orca/idl/object.hpp"
+
+namespace orca::hw {
+
+/// Returns the part of a robot's description that a client asks for by Query: the body, and of the devices
+///
+/// * all, if `about` is empty;
+/// * those that move it, with their limits, if it is "limits";
+/// * the one of that name: a drive, another actuator or a sensor;
+/// * the sensors that deliver that object type, for example "LaserRangeReadings".
+///
+/// @errors  not_found, naming what the robot has, if nothing is called so.
+/// @thread  pure function; any thread.
+[[nodiscard]] Result<Loan<idl::Robot>> part_of(const idl::Robot& robot, const std::string& about);
+
+}  // namespace orca::hw
