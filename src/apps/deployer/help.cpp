@@ -13,7 +13,8 @@ const char* help_text() {
 
 What to run
   --profile NAME        select a profile of the graph; may be repeated (default: the graph's default_profile)
-  --set ARG=VALUE       set an <arg> of the graph; may be repeated
+  --set ARG=VALUE       set an <arg> of the graph; or, with NAME.PARAM=VALUE, a parameter of the component or hardware
+                        NAME, whatever the graph says; may be repeated
   --until DURATION      end after this time of the run's clock, e.g. 60s
   --seed N              seed of all random streams (default 1)
   --fail NAME=HOW@TIME  rehearse a failure of the component NAME, e.g. avoid=silent@20s; HOW: silent, throw, hang, or

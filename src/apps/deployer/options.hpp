@@ -24,7 +24,7 @@ struct Options {
   bool stats = false;            ///< Write what the connections of a run carried.
   std::optional<bool> progress;  ///< Show how a run is going; nothing: if stderr is a terminal.
   std::vector<std::string> profiles;
-  std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
+  std::vector<std::string> settings;  ///< From --set: ARG=VALUE or COMPONENT.PARAM=VALUE.
   xml::Diagnostics problems;          ///< What is wrong with the command line itself (codes Cxxx).
   host::RunOptions run;
   log::Level log_level = log::Level::info;

@@ -11,6 +11,7 @@
 #include "orca/xml/document.hpp"
 #include "order.hpp"
 #include "reading/assembly.hpp"
+#include "reading/merging/parameter_settings.hpp"
 #include "reading/merging/profiles.hpp"
 #include "reading/naming.hpp"
 #include "reading/values.hpp"
@@ -61,7 +62,8 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   Graph graph = read_root(root, report);
   graph.plugin_dirs = assembly.plugin_folders;
   catalogue.add_folders(graph.plugin_dirs);
-  const Parts parts = merge_profiles(assembly, options.profiles, report);
+  Parts parts = merge_profiles(assembly, options.profiles, report);
+  set_parameters(assembly, parts, report);
   Types types(catalogue, report);
   Model model;
   model.excused = assembly.excused;
