@@ -10,9 +10,10 @@
 namespace orca::command {
 
 struct Place {
-  double x = 0.0;  ///< [m]
-  double y = 0.0;  ///< [m]
-  double z = 0.0;  ///< [m] above the floor.
+  std::string name;  ///< of a place that a map knows; empty: the coordinates are given
+  double x = 0.0;    ///< [m]
+  double y = 0.0;    ///< [m]
+  double z = 0.0;    ///< [m] above the floor.
 };
 
 /// A goal and the via points on the way to it.
@@ -26,7 +27,8 @@ struct Route {
 
 /// Reads one route: `kitchen: 3.1 2 > 5 2 > 5 4.5 @ 90`. It consists of a name, any via points, and the goal;
 /// coordinates are in metres. A third number is the height of the place above the floor. The optional number
-/// after `@` is the direction to face at the goal, in degrees.
+/// after `@` is the direction to face at the goal, in degrees. A point may also be the name of a place, whose
+/// coordinates stay 0. If the goal is such a name, that of the route may be left out: `hall > kitchen`.
 ///
 /// @errors  invalid_argument with what was found and what was expected.
 [[nodiscard]] Result<Route> parse_route(std::string_view text);

@@ -41,6 +41,25 @@ TEST_CASE("a third number is the height of the place above the floor", "[compone
   CHECK(route.via.at(0).z == 0.0);
 }
 
+TEST_CASE("a place by its name is a goal, and names it", "[components][goals]") {
+  const Route route = parse_route("kitchen").value();
+  CHECK(route.name == "kitchen");
+  CHECK(route.goal.name == "kitchen");
+  CHECK(route.via.empty());
+  CHECK(parse_route(" hall > kitchen @ 90\r").value().name == "kitchen");
+}
+
+TEST_CASE("places by name and coordinates mix, and the goal may have a name of its own",
+          "[components][goals]") {
+  const Route route = parse_route("lunch: hall > 3 7.6 > kitchen").value();
+  CHECK(route.name == "lunch");
+  REQUIRE(route.via.size() == 2);
+  CHECK(route.via[0].name == "hall");
+  CHECK(route.via[1].name.empty());
+  CHECK(route.via[1].y == 7.6);
+  CHECK(route.goal.name == "kitchen");
+}
+
 TEST_CASE("spaces and tabs do not matter, nor the end of a DOS line", "[components][goals]") {
   const Route tight = parse_route("a:1 2>3 4@5").value();
   const Route loose = parse_route("  a :\t1   2 >  3\t4  @  5 \r").value();
@@ -56,7 +75,8 @@ TEST_CASE("a wrong route is refused with what was found and an example", "[compo
     const char* why;
   };
   const Wrong wrong =
-      GENERATE(Wrong{"", "no \":\""}, Wrong{"kitchen 1 2", "no \":\""}, Wrong{": 1 2", "\"\" is no name"},
+      GENERATE(Wrong{"", "no \":\""}, Wrong{"kitchen 1 2", "no \":\""}, Wrong{"hall > 1 2", "no \":\""},
+               Wrong{"kitchen >", "no \":\""}, Wrong{": 1 2", "\"\" is no name"},
                Wrong{"2nd: 1 2", "\"2nd\" is no name"}, Wrong{"my goal: 1 2", "\"my goal\" is no name"},
                Wrong{"a:", "expected \"x y\", found \"\""}, Wrong{"a: 1", "found \"1\""},
                Wrong{"a: 1 2 3 4", "expected nothing after x, y and z, found \"4\""},
