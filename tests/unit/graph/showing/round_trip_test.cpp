@@ -51,15 +51,14 @@ class RandomGraph {
     const std::string name = "avoid" + std::to_string(i);
     return "<component name='" + name + "' type='orca.SonarAvoid'" +
            maybe(" priority='" + integer(-100, 100) + "'") +
-           (pick(2) == 0 ? loading() : maybe(" autonomous='true'")) + maybe(" process='p/q'") +
-           maybe(" start_after='base fuser'") + maybe(" may_fail='true'") +
+           (pick(2) == 0 ? loading() : maybe(" autonomous='true'")) + maybe(" start_after='base fuser'") +
+           maybe(" may_fail='true'") +
            maybe(pick(2) == 0 ? " on='sonar'" : " period='" + integer(1, 5000) + " ms'") + ">" +
            maybe(param("stop_distance", real(0.05, 5.0))) + maybe(param("sector", integer(0, 180) + " deg")) +
            maybe(param("gain", real(0.0, 1e6))) + maybe(param("samples", integer(1, 64))) +
            maybe(param("verbose", "true")) + maybe(param("mode", "turn")) +
            maybe(param("label", free_text())) + maybe(param("map", free_text())) +
-           maybe(param("zones", "a; b $$ c ;d&amp;e")) +
-           maybe("<property name='room' value=\"" + free_text() + "\"/>") + "</component>" +
+           maybe(param("zones", "a; b $$ c ;d&amp;e")) + "</component>" +
            connect("base.SonarRangeReadingsPush", name + ".sonar",
                    maybe(queue()) + maybe(" interval='" + real(0, 10) + "'") +
                        maybe(" deadline='" + real(10, 20) + "'") +
