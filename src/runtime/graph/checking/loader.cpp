@@ -11,6 +11,7 @@
 #include "orca/xml/document.hpp"
 #include "order.hpp"
 #include "reading/assembly.hpp"
+#include "reading/command_line.hpp"
 #include "reading/merging/parameter_settings.hpp"
 #include "reading/merging/profiles.hpp"
 #include "reading/naming.hpp"
@@ -73,6 +74,8 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   check_components(parts.components, types, model, report);
   check_start_order(model, report);
   graph.ends = read_ends(root, model, report);
+  for (const std::string& name : options.failing)
+    check_component_exists(name, command_line(), shown_option("--fail", name), model, report);
   WiredEdges wired = check_wiring(parts.connections, model, report);
   graph.edges = std::move(wired.edges);
   note_candidates(model, graph.edges);

@@ -59,9 +59,9 @@ CommandLine read_command_line(const std::vector<std::string>& settings, Report& 
   return Reader(report).read(settings);
 }
 
-std::string shown_setting(std::string_view name) {
+std::string shown_option(std::string_view option, std::string_view name) {
   constexpr std::size_t kMost = 300;
-  return "--set " + shortened(name, kMost);
+  return std::string(option) + " " + shortened(name, kMost);
 }
 
 }  // namespace orca::graph

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "node.hpp"
@@ -24,7 +25,8 @@ struct CommandLine {
 // Reads the settings, each "ARG=VALUE" or "COMPONENT.PARAM=VALUE", and reports those that are neither, or given twice.
 [[nodiscard]] CommandLine read_command_line(const std::vector<std::string>& settings, Report& report);
 
-// Returns a setting's name as messages show it: "--set avoid.gain", of bounded length.
-[[nodiscard]] std::string shown_setting(std::string_view name);
+// Returns an option and the name that it is about as messages show them: "--set avoid.gain", of bounded length.
+[[nodiscard]] std::string shown_option(std::string_view option, std::string_view name);
+[[nodiscard]] inline std::string shown_setting(std::string_view name) { return shown_option("--set", name); }
 
 }  // namespace orca::graph

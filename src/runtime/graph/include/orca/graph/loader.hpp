@@ -24,6 +24,8 @@ struct LoadOptions {
   std::vector<std::string> settings{};
   bool strict = false;          ///< Warnings are errors.
   bool try_components = false;  ///< Also call configure() of the components, as a trial.
+  /// Components that --fail on the command line names; each must be there.
+  std::vector<std::string> failing{};
 };
 
 /// A function that returns the text of an included file. The path starts at the current folder.
