@@ -59,8 +59,8 @@ struct ComponentNode {
   std::optional<Trigger> trigger;  ///< Starts a lap; nothing: the author's choice.
   std::vector<std::string> start_after;  ///< Components that must be up before this one.
   Params params;
-  std::map<std::string, PortSetting> ports;       ///< By the author's name; only ports with settings.
-  xml::Position position;                         ///< Place of its element; not compared.
+  std::map<std::string, PortSetting> ports;  ///< By the author's name; only ports with settings.
+  xml::Position position;                    ///< Place of its element; not compared.
 
   friend bool operator==(const ComponentNode& a, const ComponentNode& b);
 };
