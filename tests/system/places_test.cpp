@@ -75,6 +75,17 @@ TEST_CASE("an unknown place is refused before anything starts, with the nearest 
             .says("places: start, east, north, west; did you mean \"north\"?"));
 }
 
+TEST_CASE("a place can be named at the prompt, and a wrong one is asked for again", "[system][places]") {
+  Subprocess program(deployer(Words{kGraph, "--set", "goals="} + virtual_clock()),
+                     {.input = "nroth\nnorth\n\n"});
+  const Run run = finish(program, Seconds(30));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("\"nroth\" is no place of "));
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(is_near(run.arrivals()[0], 7.0, 8.0));
+}
+
 TEST_CASE("a place by name where nobody knows places is refused with what to do", "[system][places]") {
   const std::string graph = source_file("graphs/scout_goto.xml");
   const Run run = run_deployer(Words{graph, "--set", "goals=kitchen"} + virtual_clock());
