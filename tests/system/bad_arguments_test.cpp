@@ -58,6 +58,12 @@ TEST_CASE("an argument that the graph does not have, or that has no value, is re
           "[system][bad]") {
   check_refused({kGraph, "--set", "gaols=a: 1 1"}, {"gaols", "\"goals\""});
   check_refused({kGraph, "--set", "goals"}, {"ARG=VALUE", "goals"});
+  check_refused({kGraph, "--set", "avoid.stop_distence=1 m", "--set", "scuot.realism=harsh"},
+                {"command line: error G029: component \"avoid\"", "\"stop_distance\"",
+                 "command line: error G014: --set scuot.realism", "\"scout\""});
+  if (kRefusedByComponent == 2)
+    check_refused({kGraph, "--set", "command.goals=kitchen 3 4"},
+                  {"command line: error G062: component \"command\""});
   check_refused({kGraph, "--profile", "simm"}, {"simm", "\"sim\""});
 }
 

@@ -87,6 +87,31 @@ TEST_CASE("a rehearsed failure is told as one, and a run without it has another 
         run_deployer(graph + Words{"--fail", "avoid=silent@10s"} + virtual_clock()).trace_hash());
 }
 
+TEST_CASE("unknown components that are to fail are reported with what else is wrong, by --check too",
+          "[system][failure]") {
+  const Words graph{source_file("graphs/scout_goto.xml"),
+                    "--fail",
+                    "avoi=silent@1s",
+                    "--fail",
+                    "nobody=hang@1s",
+                    "--set",
+                    "base.max_age=1",
+                    "--until",
+                    "1 s"};
+  for (const Words& words : {graph, graph + Words{"--check"}}) {
+    const Run run = run_deployer(words + virtual_clock());
+    INFO(run.err);
+    CHECK(run.exit_code() == 2);
+    CHECK(run.out.empty());
+    CHECK(run.says(
+        "command line: error G016: --fail avoi: there is no component \"avoi\"; did you mean \"avoid\"?"));
+    CHECK(run.says(
+        "command line: error G016: --fail nobody: there is no component \"nobody\"; the graph has: "));
+    CHECK(run.says("command line: error G029: component \"base\""));
+    CHECK(split_lines(run.err).size() == 3);
+  }
+}
+
 TEST_CASE("a component is to fail once only", "[system][failure]") {
   const Run run = run_deployer({source_file("graphs/scout_goto.xml"), "--fail", "avoid=slow@1s", "--fail",
                                 "goto=hang@1s", "--fail", "avoid=hang@2s", "--check"});

@@ -108,7 +108,7 @@ TEST_CASE("without goals the command asks for them one after the other, until an
           "[system][scout]") {
   Subprocess program(
       deployer(Words{source_file("graphs/scout_goto.xml"), "--set", "goals="} + virtual_clock()),
-      {.input = "ahead: 2 6\nnonsense\nfurther: 2.5 6 > 3 6\n\n"});
+      {.input = "ahead: 2 6\nnonsense 1\nnowhere\nfurther: 2.5 6 > 3 6\n\n"});
   const Run run = finish(program, Seconds(30));
   INFO(run.err);
   CHECK(run.exit_code() == 0);
@@ -116,7 +116,8 @@ TEST_CASE("without goals the command asks for them one after the other, until an
   REQUIRE(arrivals.size() == 2);
   CHECK(arrivals[0].name == "ahead");
   CHECK(arrivals[1].name == "further");
-  CHECK(run.says("cannot read the goal \"nonsense\""));
+  CHECK(run.says("cannot read the goal \"nonsense 1\""));
+  CHECK(run.says("\"nowhere\" is the name of a place, and nobody says where it is"));
 }
 
 TEST_CASE("--picture draws what happened, as SVG and as PNG", "[system][scout]") {

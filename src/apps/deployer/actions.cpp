@@ -18,6 +18,7 @@
 #include "orca/graph/schema.hpp"
 #include "progress.hpp"
 #include "streams.hpp"
+#include "types.hpp"
 
 namespace orca::deployer {
 namespace {
@@ -36,10 +37,15 @@ std::string plugin_folder() {
   return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "plugins").string();
 }
 
+plugin::PluginIndex index_of(const Options& options) {
+  plugin::PluginIndex index({plugin_folder()});
+  index.add(options.plugin_folders);
+  return index;
+}
+
 // A graph, and the catalogue that has checked it.
 struct Loaded {
-  explicit Loaded(const Options& options)
-      : catalogue(plugin::PluginIndex({plugin_folder()}), options.run.executive.clock) {}
+  explicit Loaded(const Options& options) : catalogue(index_of(options), options.run.executive.clock) {}
 
   xml::Diagnostics diagnostics;
   host::PluginCatalogue catalogue;
@@ -48,14 +54,25 @@ struct Loaded {
 
 void load(const std::string& file, const Options& options, Loaded& loaded) {
   const bool judges = options.action == Action::check || options.action == Action::run;
-  loaded.graph = graph::load_file(file, {options.profiles, options.settings, options.strict, judges},
-                                  loaded.catalogue, loaded.diagnostics);
+  graph::LoadOptions wanted{options.profiles, options.settings, options.strict, judges};
+  if (judges)
+    for (const host::PlannedFailure& planned : options.run.planned_failures)
+      wanted.failing.push_back(planned.component);
+  loaded.graph = graph::load_file(file, wanted, loaded.catalogue, loaded.diagnostics);
   const bool as_json = options.json && options.action == Action::check;
   if (!as_json) std::fputs(loaded.diagnostics.text().c_str(), stderr);
 }
 
+Result<PluginDescription> description_of(const Options& options) {
+  if (names_plugin_file(options.file)) return describe_plugin(options.file);
+  const plugin::PluginIndex index = index_of(options);
+  const Result<std::string> file = index.file_of(options.file);
+  if (file) return describe_plugin(*file, options.file);
+  return fail(file.error().code, file.error().message + hint_at_type(options.file, index));
+}
+
 ExitCode describe(const Options& options) {
-  const Result<PluginDescription> plugin = describe_plugin(options.file);
+  const Result<PluginDescription> plugin = description_of(options);
   if (plugin) return show(options.json ? json(*plugin) : text(*plugin));
   std::fprintf(stderr, "error: %s\n", plugin.error().text().c_str());
   return ExitCode::bad_input;
@@ -147,6 +164,8 @@ ExitCode act(const Options& options) {
     case Action::version: return show("orca deployer " ORCA_VERSION "\n");
     case Action::schema: return show(graph::schema());
     case Action::describe: return describe(options);
+    case Action::types:
+      return show(options.json ? types_json(index_of(options)) : types_text(index_of(options)));
     case Action::check: return check(options);
     case Action::diff: return compare(options);
     case Action::run: return run(options);

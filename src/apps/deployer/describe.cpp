@@ -94,19 +94,27 @@ Result<Contract> contract_of(const TypeEntry& type, const std::string& path) {
 
 }  // namespace
 
-Result<PluginDescription> describe_plugin(const std::string& path) {
+Result<PluginDescription> describe_plugin(const std::string& path, const std::string& type) {
   // The path has a folder, so that the system's loader takes this file and does not search.
   const Result<std::unique_ptr<plugin::PluginLibrary>> library =
       plugin::PluginLibrary::load(std::filesystem::absolute(path).string());
   if (!library) return library.error();
   const Manifest& manifest = (*library)->manifest();
   PluginDescription plugin{path, manifest.abi_version, manifest.build_id, {}};
-  for (const TypeEntry* type : (*library)->types()) {
-    Result<Contract> contract = contract_of(*type, path);
+  for (const TypeEntry* entry : (*library)->types()) {
+    if (!type.empty() && entry->type != type) continue;
+    Result<Contract> contract = contract_of(*entry, path);
     if (!contract) return contract.error();
     plugin.types.push_back(*std::move(contract));
   }
+  if (plugin.types.empty() && !type.empty())
+    return fail(Code::not_found, "the plugin " + path + " does not hold the type " + in_quotes(type) +
+                                     ", which is listed beside it; build the plugin again");
   return plugin;
+}
+
+bool names_plugin_file(const std::string& word) {
+  return word.find('/') != std::string::npos || word.ends_with(".so") || std::filesystem::exists(word);
 }
 
 std::string text(const PluginDescription& plugin) {

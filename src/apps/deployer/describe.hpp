@@ -20,7 +20,12 @@ struct PluginDescription {
 };
 
 /// Loads a plugin and describes it. Its types are constructed only for that.
-[[nodiscard]] Result<PluginDescription> describe_plugin(const std::string& path);
+/// @param type  the only type to describe; empty: all.
+[[nodiscard]] Result<PluginDescription> describe_plugin(const std::string& path,
+                                                        const std::string& type = "");
+
+/// Returns whether a word names a plugin file rather than a type: it has a '/', ends with ".so", or is a file here.
+[[nodiscard]] bool names_plugin_file(const std::string& word);
 
 /// Returns the text that `--describe` prints: the types with their ports and parameters.
 [[nodiscard]] std::string text(const PluginDescription& plugin);

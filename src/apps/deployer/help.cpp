@@ -13,7 +13,9 @@ const char* help_text() {
 
 What to run
   --profile NAME        select a profile of the graph; may be repeated (default: the graph's default_profile)
-  --set ARG=VALUE       set an <arg> of the graph; may be repeated
+  --set ARG=VALUE       set an <arg> of the graph; or, with NAME.PARAM=VALUE, a parameter of the component or hardware
+                        NAME, whatever the graph says; may be repeated
+  --plugins FOLDER      look for plugins here too, after Orca's own; may be repeated
   --until DURATION      end after this time of the run's clock, e.g. 60s
   --seed N              seed of all random streams (default 1)
   --fail NAME=HOW@TIME  rehearse a failure of the component NAME, e.g. avoid=silent@20s; HOW: silent, throw, hang, or
@@ -42,13 +44,15 @@ Instead of running
   --list-ports          every port of every component: pattern, role, type, and what it is connected to
   --dot, --mermaid      the graph as a picture, for Graphviz (| dot -Tsvg > graph.svg) or for a web page
   --diff OLD NEW        what differs between two graphs, by meaning: exit 0 the same, 1 different
-  --describe PLUGIN.so  types of a plugin with their ports, parameters, units, ranges and defaults
+  --types               all types of components and hardware, each with its plugin file
+  --describe TYPE       ports and parameters, with units, ranges and defaults, of a type such as orca.Goto, or of all
+                        types of a plugin file: --describe PLUGIN.so
   --schema              the graph's language as an XML schema, for editors
   --version, --help
 
 How to check
   --strict              warnings are errors: nothing starts with one
-  --json                for programs; with --check, --print, --list-ports, --diff and --describe
+  --json                for programs; with --check, --print, --list-ports, --diff, --describe and --types
 
 stdout  arrived NAME x y t | failed NAME reason | contact NAME t | trace-hash HASH (virtual clock, last line);
         with several robots the first three end with the name of the robot

@@ -2,6 +2,7 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "options.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -59,6 +60,14 @@ Option progress(bool wanted) {
             options.progress = wanted;
             return ok();
           }};
+}
+
+Status add_plugin_folder(Options& options, const std::string& folder) {
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(folder, unknown))
+    return expected("--plugins", "a folder with plugins", folder);
+  options.plugin_folders.push_back(std::filesystem::absolute(folder).string());
+  return ok();
 }
 
 Status set_clock(Options& options, const std::string& value) {
@@ -151,6 +160,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--list-ports", action(Action::list_ports)},
       {"--diff", action(Action::diff)},
       {"--describe", action(Action::describe)},
+      {"--types", action(Action::types)},
       {"--schema", action(Action::schema)},
       {"--help", action(Action::help)},
       {"-h", action(Action::help)},
@@ -163,6 +173,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--profile",
        {true, [](Options& o, const std::string& v) { return o.profiles.push_back(v), ok(); }, true}},
       {"--set", {true, [](Options& o, const std::string& v) { return o.settings.push_back(v), ok(); }, true}},
+      {"--plugins", {true, add_plugin_folder, true}},
       {"--clock", {true, set_clock}},
       {"--executor",
        {true, [&executor](Options&, const std::string& v) { return set_executor(executor, v); }}},
@@ -193,12 +204,13 @@ Status choose_executor(Options& options, const Words& executor) {
 }
 
 bool takes_no_file(Action action) {
-  return action == Action::help || action == Action::version || action == Action::schema;
+  return action == Action::help || action == Action::version || action == Action::types ||
+         action == Action::schema;
 }
 
 bool speaks_json(Action action) {
   return action == Action::check || action == Action::print || action == Action::list_ports ||
-         action == Action::diff || action == Action::describe;
+         action == Action::diff || action == Action::describe || action == Action::types;
 }
 
 // Takes the files, once all options are read: the options decide how many are expected.
@@ -223,7 +235,7 @@ Status take_files(Options& options, const std::vector<std::string>& files, bool 
 Status check_json(const Options& options) {
   if (!options.json || speaks_json(options.action) || options.action == Action::help) return ok();
   return fail(Code::invalid_argument,
-              "--json goes with --check, --print, --list-ports, --diff or --describe");
+              "--json goes with --check, --print, --list-ports, --diff, --describe or --types");
 }
 
 // A reader of one command line. It reports everything that is wrong with it.

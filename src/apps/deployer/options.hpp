@@ -15,16 +15,30 @@ namespace orca::deployer {
 
 /// The requests of a command line.
 struct Options {
-  enum class Action { run, check, print, dot, mermaid, list_ports, diff, describe, schema, help, version };
+  enum class Action {
+    run,
+    check,
+    print,
+    dot,
+    mermaid,
+    list_ports,
+    diff,
+    describe,
+    types,
+    schema,
+    help,
+    version
+  };
   Action action = Action::run;
-  std::string file;              ///< The graph, or the plugin to describe.
-  std::string other_file;        ///< The graph to compare it with.
-  bool strict = false;           ///< Warnings are errors.
-  bool json = false;             ///< Output for programs.
-  bool stats = false;            ///< Write what the connections of a run carried.
-  std::optional<bool> progress;  ///< Show how a run is going; nothing: if stderr is a terminal.
+  std::string file;                         ///< The graph, or the plugin or type to describe.
+  std::string other_file;                   ///< The graph to compare it with.
+  bool strict = false;                      ///< Warnings are errors.
+  bool json = false;                        ///< Output for programs.
+  bool stats = false;                       ///< Write what the connections of a run carried.
+  std::optional<bool> progress;             ///< Show how a run is going; nothing: if stderr is a terminal.
+  std::vector<std::string> plugin_folders;  ///< Searched after Orca's own.
   std::vector<std::string> profiles;
-  std::vector<std::string> settings;  ///< From --set: ARG=VALUE.
+  std::vector<std::string> settings;  ///< From --set: ARG=VALUE or COMPONENT.PARAM=VALUE.
   xml::Diagnostics problems;          ///< What is wrong with the command line itself (codes Cxxx).
   host::RunOptions run;
   log::Level log_level = log::Level::info;

@@ -234,7 +234,32 @@ class Command final : public orca::Component {
   orca::Status add(const std::string& text) {
     orca::Result<Route> route = orca::command::parse_route(text);
     if (!route) return route.error();
+    for (orca::command::Place& via : route->via)
+      if (orca::Status found = find_place(via); !found.ok()) return found;
+    if (orca::Status found = find_place(route->goal); !found.ok()) return found;
     waiting_.push_back(std::move(route).value());
+    return orca::ok();
+  }
+
+  // Completes a place that is given by its name.
+  orca::Status find_place(orca::command::Place& place) {
+    if (place.name.empty()) return orca::ok();
+    if (!places_.connected())
+      return orca::fail(orca::Code::invalid_argument,
+                        orca::in_quotes(place.name) +
+                            " is the name of a place, and nobody says where it is: connect the port "
+                            "\"places\" to a PlaceServer, or give coordinates, as in \"kitchen: 5 4.5\"");
+    auto question = places_.loan();
+    question->about() = place.name;
+    const auto answer = places_.query(std::move(question));
+    if (!answer && answer.error().code == orca::Code::not_found)
+      return orca::fail(orca::Code::invalid_argument, answer.error().message);
+    if (!answer)
+      return orca::fail(answer.error().code, "cannot ask where " + orca::in_quotes(place.name) +
+                                                 " is: " + answer.error().message +
+                                                 "; let it come up after the PlaceServer, with start_after");
+    const auto& point = (*answer)->coordinate().point();
+    place = {place.name, point.x(), point.y(), point.z()};
     return orca::ok();
   }
 
@@ -247,6 +272,10 @@ class Command final : public orca::Component {
       "check",
       {.text = "Asked once, before the start, whether the list of behaviours is right: a fuser.",
        .optional = true}};
+  orca::QueryProxy<orca::idl::Ask, orca::idl::GoalPoint> places_{
+      *this,
+      "places",
+      {.text = "Asked where the places are that goals name: a PlaceServer.", .optional = true}};
   orca::PushProxy<orca::idl::Arrived> arrived_{
       *this, "arrived", {.text = "Reports that a goal is reached.", .manual = true, .depth = 16}};
 
@@ -259,12 +288,13 @@ class Command final : public orca::Component {
       "GoalFailedPush",
       {.text = "Goals that failed without a word of Goto: not taken, or not answered."}};
 
-  orca::Param<std::vector<std::string>> goals_{*this,
-                                               "goals",
-                                               {},
-                                               {.fixed = true,
-                                                .text = "Goals, each \"name: x y > door x y degrees width > "
-                                                        "x y\" in metres: any via points, then the goal."}};
+  orca::Param<std::vector<std::string>> goals_{
+      *this,
+      "goals",
+      {},
+      {.fixed = true,
+       .text = "Goals, each \"name: x y > door x y degrees width > x y\" in metres: any via points, then the "
+               "goal; or \"hall > kitchen\": places by name."}};
   orca::Param<std::string> goals_file_{
       *this,
       "goals_file",

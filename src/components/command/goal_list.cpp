@@ -19,9 +19,11 @@ std::string_view trim(std::string_view text) {
 }
 
 Error bad(std::string_view text, const std::string& why) {
-  return fail(Code::invalid_argument,
-              "cannot read the goal \"" + std::string(text) + "\": " + why +
-                  "; a goal looks like \"kitchen: 3.1 2 > 5 4.5\" (name: via points > goal, in metres)");
+  return fail(
+      Code::invalid_argument,
+      "cannot read the goal \"" + std::string(text) + "\": " + why +
+          "; a goal looks like \"kitchen: 3.1 2 > 5 4.5\" (name: via points > goal, in metres), or \"hall > "
+          "kitchen\" (places by name)");
 }
 
 bool is_name(std::string_view text) {
@@ -69,6 +71,7 @@ Result<Place> parse_door(std::string_view text) {
 Result<Place> parse_place(std::string_view text) {
   constexpr std::string_view kDoor = "door";
   std::string_view rest = trim(text);
+  if (is_name(rest)) return Place{.name = std::string(rest)};
   if (rest.starts_with(kDoor)) return parse_door(rest.substr(kDoor.size()));
   if (rest.find_first_of(kBlank) == std::string_view::npos)
     return fail(Code::invalid_argument, "expected \"x y\", found \"" + std::string(rest) + "\"");
@@ -92,15 +95,26 @@ std::string_view cut(std::string_view& text, char mark) {
   return before;
 }
 
+// Returns the name of a route: what stands before the ":", or its last place.
+std::string name_of(std::string_view route) {
+  const std::size_t colon = route.find(':');
+  if (colon != std::string_view::npos) return std::string(trim(route.substr(0, colon)));
+  std::string_view places = cut(route, '@');
+  return std::string(trim(places.substr(places.rfind('>') + 1)));  // npos + 1 is the beginning
+}
+
 }  // namespace
 
 Result<Route> parse_route(std::string_view text) {
   std::string_view rest = text;
-  if (rest.find(':') == std::string_view::npos) return bad(text, "there is no \":\" after a name");
   Route route;
-  route.name = std::string(trim(cut(rest, ':')));
+  route.name = name_of(rest);
+  const std::size_t colon = rest.find(':');
+  if (colon == std::string_view::npos && !is_name(route.name))
+    return bad(text, "there is no \":\" after a name");
   if (!is_name(route.name))
     return bad(text, "\"" + route.name + "\" is no name: a letter, then letters, digits and _");
+  rest.remove_prefix(colon + 1);  // npos + 1 is the beginning
   route.use_orientation = rest.find('@') != std::string_view::npos;
   std::string_view places = cut(rest, '@');
   if (route.use_orientation) {

@@ -21,6 +21,7 @@ struct Place {
   double y = 0.0;  ///< [m]
   double z = 0.0;  ///< [m] above the floor.
   std::optional<Doorway> door{};
+  std::string name{};  ///< Of a place that a map knows; empty: the coordinates are given.
 };
 
 /// A goal and the via points on the way to it.
@@ -35,7 +36,9 @@ struct Route {
 /// Reads one route: `kitchen: 3.1 2 > door 5 2 90 0.9 > 5 4.5 @ 90`. It consists of a name, any via points, and
 /// the goal; coordinates are in metres. A third number is the height of the place above the floor. The optional
 /// number after `@` is the direction to face at the goal, in degrees. `door` begins a place that is a doorway:
-/// x and y of its middle, the direction that leads through it in degrees, and its width in metres.
+/// x and y of its middle, the direction that leads through it in degrees, and its width in metres. A point may
+/// also be the name of a place, whose coordinates stay 0. If the goal is such a name, that of the route may be
+/// left out: `hall > kitchen`.
 ///
 /// @errors  invalid_argument with what was found and what was expected.
 [[nodiscard]] Result<Route> parse_route(std::string_view text);

@@ -22,7 +22,8 @@ const ElementRule* ElementRule::child(std::string_view wanted) const { return fi
 
 std::vector<std::string> ElementRule::attribute_names() const {
   std::vector<std::string> names;
-  for (const AttributeRule& rule : attributes) names.emplace_back(rule.name);
+  for (const AttributeRule& rule : attributes)
+    if (!rule.planned) names.emplace_back(rule.name);
   return names;
 }
 

@@ -56,6 +56,25 @@ TEST_CASE("a place may be a doorway: its middle, the direction through it, and i
         Approx(-std::numbers::pi / 2));
 }
 
+TEST_CASE("a place by its name is a goal, and names it", "[components][goals]") {
+  const Route route = parse_route("kitchen").value();
+  CHECK(route.name == "kitchen");
+  CHECK(route.goal.name == "kitchen");
+  CHECK(route.via.empty());
+  CHECK(parse_route(" hall > kitchen @ 90\r").value().name == "kitchen");
+}
+
+TEST_CASE("places by name and coordinates mix, and the goal may have a name of its own",
+          "[components][goals]") {
+  const Route route = parse_route("lunch: hall > 3 7.6 > kitchen").value();
+  CHECK(route.name == "lunch");
+  REQUIRE(route.via.size() == 2);
+  CHECK(route.via[0].name == "hall");
+  CHECK(route.via[1].name.empty());
+  CHECK(route.via[1].y == 7.6);
+  CHECK(route.goal.name == "kitchen");
+}
+
 TEST_CASE("spaces and tabs do not matter, nor the end of a DOS line", "[components][goals]") {
   const Route tight = parse_route("a:1 2>3 4@5").value();
   const Route loose = parse_route("  a :\t1   2 >  3\t4  @  5 \r").value();
@@ -70,21 +89,18 @@ TEST_CASE("a wrong route is refused with what was found and an example", "[compo
     const char* text;
     const char* why;
   };
-  const Wrong wrong = GENERATE(
-      Wrong{"", "no \":\""}, Wrong{"kitchen 1 2", "no \":\""}, Wrong{": 1 2", "\"\" is no name"},
-      Wrong{"2nd: 1 2", "\"2nd\" is no name"}, Wrong{"my goal: 1 2", "\"my goal\" is no name"},
-      Wrong{"a:", "expected \"x y\", found \"\""}, Wrong{"a: 1", "found \"1\""},
-      Wrong{"a: 1 2 3 4", "expected nothing after x, y and z, found \"4\""},
-      Wrong{"a: 1,5 2", "\"1,5\" is not a number"}, Wrong{"a: 10abc 2", "\"10abc\" is not a number"},
-      Wrong{"a: nan 2", "\"nan\" is not a number"}, Wrong{"a: 1 inf", "\"inf\" is not a number"},
-      Wrong{"a: 1e999 2", "\"1e999\" is not a number"}, Wrong{"a: > 1 2", "found \"\""},
-      Wrong{"a: 1 2 > > 3 4", "found \"\""}, Wrong{"a: 1 2 >", "found \"\""},
-      Wrong{"a: 1 2 @ north", "\"north\" is not a number"},
-      Wrong{"a: door 1 2 90", "\"\" is not a number; a door has x, y, the direction"},
-      Wrong{"a: door 1 2 90 0", "the width of a door is more than 0"},
-      Wrong{"a: door 1 2 90 1 5", "after the width of a door, found \"5\""},
-      Wrong{"a: door 1 2 90 1 @ 0", "has its direction already"}, Wrong{"a: dor 1 2 90 1", "\"dor\" is not"},
-      Wrong{"a: 1 2 @", "\"\" is not a number"}, Wrong{"a: 1 2 @ 3 @ 4", "is not a number"});
+  const Wrong wrong =
+      GENERATE(Wrong{"", "no \":\""}, Wrong{"kitchen 1 2", "no \":\""}, Wrong{"hall > 1 2", "no \":\""},
+               Wrong{"kitchen >", "no \":\""}, Wrong{": 1 2", "\"\" is no name"},
+               Wrong{"2nd: 1 2", "\"2nd\" is no name"}, Wrong{"my goal: 1 2", "\"my goal\" is no name"},
+               Wrong{"a:", "expected \"x y\", found \"\""}, Wrong{"a: 1", "found \"1\""},
+               Wrong{"a: 1 2 3 4", "expected nothing after x, y and z, found \"4\""},
+               Wrong{"a: 1,5 2", "\"1,5\" is not a number"}, Wrong{"a: 10abc 2", "\"10abc\" is not a number"},
+               Wrong{"a: nan 2", "\"nan\" is not a number"}, Wrong{"a: 1 inf", "\"inf\" is not a number"},
+               Wrong{"a: 1e999 2", "\"1e999\" is not a number"}, Wrong{"a: > 1 2", "found \"\""},
+               Wrong{"a: 1 2 > > 3 4", "found \"\""}, Wrong{"a: 1 2 >", "found \"\""},
+               Wrong{"a: 1 2 @ north", "\"north\" is not a number"},
+               Wrong{"a: 1 2 @", "\"\" is not a number"}, Wrong{"a: 1 2 @ 3 @ 4", "is not a number"});
   CAPTURE(wrong.text);
   const auto route = parse_route(wrong.text);
   REQUIRE_FALSE(route.has_value());

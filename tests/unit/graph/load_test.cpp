@@ -73,8 +73,7 @@ TEST_CASE("a file parameter that nobody sets stays empty", "[graph][load]") {
 TEST_CASE("how a component runs is set on it", "[graph][load]") {
   const Graph graph = must_load(
       "<graph name='g'>"
-      "<component name='a' type='orca.Localizer' period='50 ms' priority='-3' autonomous='false' "
-      "process='control'/>"
+      "<component name='a' type='orca.Localizer' period='50 ms' priority='-3' autonomous='false'/>"
       "<component name='b' type='orca.Localizer' on='odometry' start_after='a' may_fail='true'/>"
       "<component name='c' type='orca.Localizer'/>"
       "<component name='base' type='orca.RobotBaseServer' hardware='h'/>"
@@ -87,7 +86,6 @@ TEST_CASE("how a component runs is set on it", "[graph][load]") {
   CHECK(a.trigger->period == 50ms);
   CHECK(a.priority == -3);
   CHECK(a.autonomous == false);
-  CHECK(a.process == "control");
   CHECK_FALSE(a.may_fail);
   const ComponentNode& b = *graph.find_component("b");
   CHECK(b.trigger->kind == Trigger::Kind::on_any);
@@ -100,14 +98,6 @@ TEST_CASE("how a component runs is set on it", "[graph][load]") {
   CHECK_FALSE(c.trigger.has_value());
   CHECK_FALSE(c.autonomous.has_value());
   CHECK(c.priority == 0);
-}
-
-TEST_CASE("properties are texts for trading", "[graph][load]") {
-  const Graph graph = must_load(
-      "<graph name='g'><component name='a' type='orca.Localizer'>"
-      "<property name='platform' value='Dewey'/><property name='room' value=''/></component></graph>");
-  CHECK(graph.components[0].properties ==
-        std::map<std::string, std::string>{{"platform", "Dewey"}, {"room", ""}});
 }
 
 TEST_CASE("an edge takes the receiver's policy where the graph says nothing", "[graph][load]") {

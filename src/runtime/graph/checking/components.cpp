@@ -30,9 +30,7 @@ class ComponentReader {
     checked_.value.name = node_.value("name");
     checked_.value.type = node_.value("type");
     checked_.value.hardware = node_.value("hardware");
-    checked_.value.process = node_.value("process");
     check_name(node_, "name", report_);
-    check_name(node_, "process", report_);
     read_contract();
     read_ports(node_, checked_, report_);
     read_scheduling();
@@ -222,11 +220,6 @@ class ComponentReader {
       ReadParams params = read_params(node_, *checked_.contract, report_);
       checked_.sound = params.sound();
       if (params.sound()) checked_.value.params = std::move(params.values);
-    }
-    for (const Node& child : node_.children) {
-      if (!child.is("property") || child.known("name") == nullptr) continue;
-      check_name(child, "name", report_);
-      checked_.value.properties[child.value("name")] = child.value("value");
     }
   }
 

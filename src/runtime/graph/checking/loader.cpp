@@ -11,6 +11,8 @@
 #include "orca/xml/document.hpp"
 #include "order.hpp"
 #include "reading/assembly.hpp"
+#include "reading/command_line.hpp"
+#include "reading/merging/parameter_settings.hpp"
 #include "reading/merging/profiles.hpp"
 #include "reading/naming.hpp"
 #include "reading/values.hpp"
@@ -62,7 +64,8 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   Graph graph = read_root(root, report);
   graph.plugin_dirs = assembly.plugin_folders;
   catalogue.add_folders(graph.plugin_dirs);
-  const Parts parts = merge_profiles(assembly, options.profiles, report);
+  Parts parts = merge_profiles(assembly, options.profiles, report);
+  set_parameters(assembly, parts, report);
   Types types(catalogue, report);
   Model model;
   model.excused = assembly.excused;
@@ -72,6 +75,8 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   check_components(parts.components, types, model, report);
   check_start_order(model, report);
   graph.ends = read_ends(root, model, report);
+  for (const std::string& name : options.failing)
+    check_component_exists(name, command_line(), shown_option("--fail", name), model, report);
   WiredEdges wired = check_wiring(parts.connections, model, report);
   graph.edges = std::move(wired.edges);
   check_waiting_room(model, graph.edges, report);

@@ -9,40 +9,9 @@
 #include "orca/xml/names.hpp"
 
 namespace orca::graph {
-namespace {
-
-const xml::Position kCommandLine{"command line", 0, 0};
-
-std::string shown(std::string_view setting) {
-  constexpr std::size_t kMost = 300;
-  return shortened(setting, kMost);
-}
-
-}  // namespace
-
-Arguments::Arguments(const std::vector<std::string>& settings, Budget& budget, Report& report)
-    : budget_(budget), report_(report) {
-  for (const std::string& setting : settings) set(setting);
-}
-
-void Arguments::set(const std::string& setting) {
-  const std::size_t equals = setting.find('=');
-  if (equals == 0)
-    return report_.error(codes::kBadSetting, kCommandLine,
-                         "--set " + shown(setting) + " names no argument: write --set ARG=VALUE");
-  const std::string name = setting.substr(0, equals);
-  if (equals == std::string::npos) {
-    valueless_.insert(name);
-    return report_.error(codes::kBadSetting, kCommandLine,
-                         "--set " + shown(setting) + " has no value: write --set ARG=VALUE");
-  }
-  const std::string value = setting.substr(equals + 1);
-  const auto [first, fresh] =
-      settings_.try_emplace(name, Setting{{value, kCommandLine, true, ""}, kCommandLine});
-  if (fresh) return;
-  report_.error(codes::kBadSetting, kCommandLine,
-                "--set " + shown(name) + " is given twice, as " + in_quotes(first->second.value.value) +
-                    " and " + in_quotes(value) + "; give it once");
+Arguments::Arguments(const CommandLine& line, Budget& budget, Report& report)
+    : budget_(budget), report_(report), valueless_(line.valueless) {
+  for (const auto& [name, value] : line.arguments) settings_[name] = {value, value.position};
 }
 
 Arguments::Arguments(const Node& bringer, Budget& budget, Report& report)
@@ -149,7 +118,7 @@ void Arguments::report_undefined(const std::string& name, const Text& text) {
 std::optional<std::string> Arguments::report_no_such_argument(const std::string& name,
                                                               const Setting& setting) {
   const bool from_line = bringer_ == nullptr;
-  const std::string what = from_line ? "--set " + shown(name) : "arg " + in_quotes(name);
+  const std::string what = from_line ? shown_setting(name) : "arg " + in_quotes(name);
   const std::string whose =
       from_line ? "the graph" : "the file that this <" + std::string(bringer_->rule->name) + "> names";
   const auto near = report_.nearest(name, names_);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "budget.hpp"
+#include "command_line.hpp"
 #include "node.hpp"
 #include "orca/xml/document.hpp"
 #include "report.hpp"
@@ -19,8 +20,8 @@ namespace orca::graph {
 // file. They replace ${...} in attribute values.
 class Arguments {
  public:
-  // @param settings  each "ARG=VALUE", from the command line.
-  Arguments(const std::vector<std::string>& settings, Budget& budget, Report& report);
+  // @param line  its arguments are those of the file that it names.
+  Arguments(const CommandLine& line, Budget& budget, Report& report);
   // @param bringer  the <include> or <use>; its <arg>s are the settings.
   Arguments(const Node& bringer, Budget& budget, Report& report);
 
@@ -46,8 +47,6 @@ class Arguments {
     bool used = false;
   };
 
-  // Takes "ARG=VALUE" from the command line.
-  void set(const std::string& setting);
   void report_duplicate(const std::string& name, const Node& arg);
   void report_without_value(const std::string& name, const Argument& argument);
   // Reports the error and returns the argument that the setting was probably meant for.

@@ -28,9 +28,11 @@ class Assembler {
 
   std::optional<Assembly> run(const xml::Document& document, const std::vector<std::string>& settings) {
     chain_.push_back(std::filesystem::path(document.root.position().file).lexically_normal().string());
-    Arguments arguments(settings, budget_, report_);
+    CommandLine line = read_command_line(settings, report_);
+    Arguments arguments(line, budget_, report_);
     auto structure = read_structure(document, arguments, report_);
     if (!structure) return std::nullopt;
+    result_.parameters = std::move(line.parameters);
     result_.graph = take(std::move(*structure), "");
     return std::move(result_);
   }

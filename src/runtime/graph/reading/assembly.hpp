@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,6 +17,7 @@ namespace orca::graph {
 // A graph with all the files that it includes and uses, as if everything were written in one file.
 struct Assembly {
   Node graph;
+  std::map<std::string, Text> parameters;   // see CommandLine
   std::vector<std::string> plugin_folders;  // of all its files, absolute
   std::set<std::string> excused;            // see Structure
   bool names_incomplete = false;            // see Structure

@@ -54,7 +54,9 @@ constexpr std::array kComponent{
                   "Name of the component: letters, digits and '_'; contexts are joined by '/'."},
     AttributeRule{"type", false, "Type of the component, for example orca.SonarAvoid."},
     AttributeRule{"hardware", false, "Hardware that the component wraps."},
-    AttributeRule{"process", false, "Process in which the component lives."},
+    AttributeRule{.name = "process",
+                  .text = "all components live in one process until Orca can start several; remove it",
+                  .planned = true},
     AttributeRule{"priority", false,
                   "From -100 to 100; of several components that are ready, the one with the highest priority "
                   "goes first.",
@@ -139,9 +141,11 @@ constexpr ElementRule kGivenArgRule{
 constexpr ElementRule kParamRule{.name = "param",
                                  .attributes = kParam,
                                  .text = "A parameter's value; deployer --describe PLUGIN.so lists them."};
-constexpr ElementRule kPropertyRule{.name = "property",
-                                    .attributes = kParam,
-                                    .text = "A property of the component, by which others can find it."};
+constexpr ElementRule kPropertyRule{
+    .name = "property",
+    .attributes = kParam,
+    .text = "no component is found by its properties until there is a directory; remove it",
+    .planned = true};
 constexpr ElementRule kPortRule{
     .name = "port", .attributes = kPort, .text = "A change to a port of the component, in this system only."};
 constexpr ElementRule kConnectRule{
@@ -175,8 +179,11 @@ constexpr ElementRule kProfileRule{
     .attributes = kProfile,
     .children = kInProfile,
     .text = "Parts that are added, or override others, when the profile is chosen."};
-constexpr ElementRule kMachineRule{.name = "machine", .children = kInProfile, .planned = true};
-constexpr ElementRule kProcessRule{.name = "process", .children = kInProfile, .planned = true};
+constexpr std::string_view kTakeOut = "put what it contains directly into the graph";
+constexpr ElementRule kMachineRule{
+    .name = "machine", .children = kInProfile, .text = kTakeOut, .planned = true};
+constexpr ElementRule kProcessRule{
+    .name = "process", .children = kInProfile, .text = kTakeOut, .planned = true};
 
 constexpr std::array kInGraph{&kArgRule,     &kProfileRule, &kHardwareRule, &kComponentRule, &kConnectRule,
                               &kIncludeRule, &kUseRule,     &kMachineRule,  &kProcessRule};

@@ -51,7 +51,18 @@ class Reader {
 
   void read_attributes(const xml::Element& element, Node& node) {
     for (const auto& [name, attribute] : xml::match_attributes(element, *node.rule, graph_rules(), report_))
-      node.attributes.emplace(name, arguments_.replaced(*attribute));
+      take(*node.rule->attribute(name), *attribute, node);
+  }
+
+  void take(const xml::AttributeRule& rule, const xml::Attribute& attribute, Node& node) {
+    Text text = arguments_.replaced(attribute);
+    if (!rule.planned) {
+      node.attributes.emplace(rule.name, std::move(text));
+    } else {
+      report_.error(codes::kUnsupported, attribute.position,
+                    "the attribute " + in_quotes(rule.name) + " of " + tag(node.rule->name) +
+                        " is not supported yet: " + std::string(rule.text));
+    }
   }
 
   void read_children(const xml::Element& element, Node& parent) {
@@ -71,7 +82,7 @@ class Reader {
 
   void read_planned(const xml::Element& element, const xml::ElementRule& rule, Node& parent) {
     report_.error(codes::kUnsupported, element.position(),
-                  tag(rule.name) + " is not supported yet; put what it contains directly into the graph");
+                  tag(rule.name) + " is not supported yet: " + std::string(rule.text));
     Node inside{&rule, element.position(), {}, {}};
     read_children(element, inside);
     for (Node& child : inside.children) parent.children.push_back(std::move(child));
@@ -83,9 +94,7 @@ class Reader {
   }
 
   // Returns whether the node is a setting: it may stand once inside an element, under its name.
-  static bool is_setting(const Node& node) {
-    return node.is("param") || node.is("property") || node.is("port") || node.is("arg");
-  }
+  static bool is_setting(const Node& node) { return node.is("param") || node.is("port") || node.is("arg"); }
 
   void drop_duplicates(Node& node) {
     std::map<std::pair<std::string_view, std::string>, xml::Position> seen;

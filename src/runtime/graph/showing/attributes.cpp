@@ -50,7 +50,6 @@ Attributes attributes_of(const HardwareNode& node) { return {{"type", node.type}
 Attributes attributes_of(const ComponentNode& node) {
   Attributes result{{"type", node.type}};
   add(result, "hardware", node.hardware);
-  add(result, "process", node.process);
   if (node.priority != 0) add(result, "priority", std::to_string(node.priority));
   if (node.autonomous) add(result, "autonomous", value_text(*node.autonomous));
   if (node.trigger) add_trigger(result, *node.trigger);

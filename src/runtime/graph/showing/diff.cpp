@@ -37,7 +37,6 @@ Fields fields_of(const ComponentNode& node) {
   std::ranges::sort(sorted.start_after);
   Fields fields = fields_of(attributes_of(sorted));
   add_params(node.params, fields);
-  for (const auto& [name, value] : node.properties) fields["property " + name] = value;
   for (auto [name, setting] : node.ports) {
     std::ranges::sort(setting.candidates);
     fields["port " + name] = port_text(setting);

@@ -25,9 +25,6 @@ void write(const ComponentNode& node, JsonWriter& json) {
   json.member("name", node.name);
   write(attributes_of(node), json);
   write(node.params, json);
-  json.key("properties").begin_object();
-  for (const auto& [name, value] : node.properties) json.member(name, value);
-  json.end();
   json.key("ports").begin_object();
   for (const auto& [name, setting] : node.ports) {
     json.key(name).begin_object();

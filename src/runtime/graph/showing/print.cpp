@@ -36,7 +36,6 @@ std::string element(const std::string& name, const std::string& attributes, cons
 
 std::string component_text(const ComponentNode& node) {
   std::string content = params_text(node.params);
-  for (const auto& [name, value] : node.properties) content += named_value("property", name, value);
   for (const auto& [name, setting] : node.ports)
     content += "    <port" + attribute("name", name) + text_of(attributes_of(setting)) + "/>\n";
   return element("component", attribute("name", node.name) + text_of(attributes_of(node)), content);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/run_system.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <memory>
@@ -17,7 +16,6 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/host/last_words.hpp"
-#include "orca/xml/names.hpp"
 #include "reporter.hpp"
 #include "robot_finder.hpp"
 #include "system.hpp"
@@ -335,18 +333,6 @@ class Run {
   bool stands_still_ = false;  // nothing could ever happen again
 };
 
-// Returns the error of a planned failure of a component that the graph does not have.
-std::optional<Error> unknown_failure(const graph::Graph& graph, const std::vector<PlannedFailure>& failures) {
-  std::vector<std::string> names;
-  for (const graph::ComponentNode& node : graph.components) names.push_back(node.name);
-  for (const PlannedFailure& planned : failures)
-    if (std::ranges::find(names, planned.component) == names.end())
-      return fail(Code::not_found, "the graph has no component " + in_quotes(planned.component) +
-                                       " that could fail" +
-                                       xml::did_you_mean(xml::nearest_name(planned.component, names)));
-  return std::nullopt;
-}
-
 RunResult refuse_options(const Error& error, const RunOptions& options) {
   log::error(options.log_name, error.text());
   RunResult result;
@@ -361,8 +347,6 @@ RunResult run_system(const graph::Graph& graph, PluginCatalogue& catalogue, cons
                      StopSignal& stop, RunListener& listener) {
   Result<std::unique_ptr<Executive>> executive = make_executive(options.executive);
   if (!executive) return refuse_options(executive.error(), options);
-  if (const auto unknown = unknown_failure(graph, options.planned_failures))
-    return refuse_options(*unknown, options);
   const TimePoint start = (*executive)->now();
   log::set_clock([clock = executive->get(), start] { return TimePoint(clock->now() - start); });
   RunResult result = Run(graph, catalogue, options, **executive, stop, listener).execute();

@@ -102,16 +102,17 @@ TEST_CASE("only the plugin folders of an included file's root element count", "[
 }
 
 TEST_CASE("profiles of one name in several files add up, the later overrides", "[graph][include]") {
-  const Files files{{"main.xml",
-                     "<graph name='g' default_profile='sim'><include file='p.xml'/><profile name='sim'>"
-                     "<component name='a' priority='2'/></profile></graph>"},
-                    {"p.xml",
-                     "<graph name='p'><component name='a' type='orca.Localizer'/><profile name='sim'>"
-                     "<component name='a' priority='1' process='x'/><component name='b' type='orca.Label'/>"
-                     "</profile><profile name='real'/></graph>"}};
+  const Files files{
+      {"main.xml",
+       "<graph name='g' default_profile='sim'><include file='p.xml'/><profile name='sim'>"
+       "<component name='a' priority='2'/></profile></graph>"},
+      {"p.xml",
+       "<graph name='p'><component name='a' type='orca.Localizer'/><profile name='sim'>"
+       "<component name='a' priority='1' may_fail='true'/><component name='b' type='orca.Label'/>"
+       "</profile><profile name='real'/></graph>"}};
   const Graph graph = must_load(files);
   CHECK(graph.find_component("a")->priority == 2);
-  CHECK(graph.find_component("a")->process == "x");
+  CHECK(graph.find_component("a")->may_fail);
   CHECK(graph.find_component("b") != nullptr);
   CHECK(must_load(files, {{"real"}, {}}).find_component("b") == nullptr);
 }

@@ -57,11 +57,11 @@ TEST_CASE("a profile that repeats a connection sets its policy", "[graph][profil
 TEST_CASE("several profiles are merged in the order of the command line", "[graph][profile]") {
   const std::string text =
       "<graph name='g'><component name='a' type='orca.Localizer' priority='1'/>"
-      "<profile name='x'><component name='a' priority='2' process='p'/></profile>"
+      "<profile name='x'><component name='a' priority='2' may_fail='true'/></profile>"
       "<profile name='y'><component name='a' priority='3'/></profile></graph>";
   CHECK(must_load(text, {{"x", "y"}, {}}).components.at(0).priority == 3);
   CHECK(must_load(text, {{"y", "x"}, {}}).components.at(0).priority == 2);
-  CHECK(must_load(text, {{"x", "y"}, {}}).components.at(0).process == "p");
+  CHECK(must_load(text, {{"x", "y"}, {}}).components.at(0).may_fail);
 }
 
 TEST_CASE("another type starts with no parameters of the old one", "[graph][profile]") {

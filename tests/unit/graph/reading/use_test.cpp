@@ -10,7 +10,7 @@ namespace {
 const std::string kArm =
     "<graph name='arm' ends='avoid'><arg name='distance' default='1 m'/>"
     "<hardware name='robot' type='orca.hw.Sim'/>"
-    "<component name='base' type='orca.RobotBaseServer' hardware='robot' process='p'/>"
+    "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>"
     "<component name='avoid' type='orca.SonarAvoid' start_after='base'>"
     "<param name='stop_distance' value='${distance}'/></component>"
     "<component name='fuser' type='orca.MotionCommandFuser'><port name='motion' "
@@ -43,10 +43,6 @@ TEST_CASE("a used graph has its names under the prefix, and its references follo
   CHECK(graph.edges.at(2).from.text() == "left/avoid.motion");
   CHECK(graph.edges.at(2).to.text() == "left/fuser.motion");
   CHECK(graph.ends.empty());
-}
-
-TEST_CASE("a process is named for the whole system, so sub-graphs can share one", "[graph][use]") {
-  CHECK(with_arms("<use graph='arm.xml' prefix='left'/>").find_component("left/base")->process == "p");
 }
 
 TEST_CASE("a graph can be used several times, with other arguments", "[graph][use]") {

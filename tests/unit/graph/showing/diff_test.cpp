@@ -59,7 +59,6 @@ TEST_CASE("changes within a part are listed field by field, with both values", "
   after.hardware[0].params["realism"] = std::string("harsh");
   after.components.back().params["stop_distance"] = 0.25;
   after.components.back().priority = 7;
-  after.components.back().properties["room"] = "hall";
   after.components.back().ports["odometry"].disabled = true;
   after.edges[0].queue.depth = 9;
   CHECK(diff_text(diff(before, after)) ==
@@ -67,7 +66,7 @@ TEST_CASE("changes within a part are listed field by field, with both values", "
         "~ hardware robot\n    param realism: ideal -> harsh\n"
         "~ component avoid\n    param stop_distance: 0.5 -> 0.25\n    port odometry: nothing -> "
         "disabled=\"true\"\n"
-        "    priority: nothing -> 7\n    property room: nothing -> hall\n"
+        "    priority: nothing -> 7\n"
         "~ connection base.SonarRangeReadingsPush to avoid.sonar\n    queue: 3 -> 9\n");
 }
 

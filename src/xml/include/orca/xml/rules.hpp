@@ -34,6 +34,7 @@ struct AttributeRule {
   bool required = false;
   std::string_view text = {};  ///< For people: what it says.
   ValueRule value = {};
+  bool planned = false;  ///< The attribute is not supported yet; `text` says why, and what to do.
 };
 
 /// The content that an element may hold.
@@ -42,7 +43,7 @@ struct ElementRule {
   std::span<const AttributeRule> attributes = {};
   std::span<const ElementRule* const> children = {};
   std::string_view text = {};  ///< For people: what the element is.
-  /// The element is not supported yet; its content can be looked at as if it stood outside.
+  /// The element is not supported yet, and `text` says what to do; its content can be looked at as if it stood outside.
   bool planned = false;
   /// Attributes that identify the element: an unknown element with all of them is taken for this one. Empty:
   /// only the name identifies it.
@@ -53,6 +54,7 @@ struct ElementRule {
   /// Returns the rule of an attribute or child, or null.
   [[nodiscard]] const AttributeRule* attribute(std::string_view wanted) const;
   [[nodiscard]] const ElementRule* child(std::string_view wanted) const;
+  /// Returns the names of the attributes that can be used.
   [[nodiscard]] std::vector<std::string> attribute_names() const;
   [[nodiscard]] std::vector<std::string> child_names() const;
 };

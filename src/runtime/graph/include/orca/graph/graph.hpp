@@ -50,7 +50,6 @@ struct ComponentNode {
   std::string name;
   std::string type;      ///< E.g. "orca.SonarAvoid".
   std::string hardware;  ///< Name of a HardwareNode; empty: none.
-  std::string process;   ///< Name of the process it lives in; empty: the graph does not say.
   int priority = 0;      ///< -100 to 100; of components that are ready together, the highest goes first.
   std::optional<bool> autonomous;  ///< Works without clients; nothing: the author's choice.
   bool on_demand = false;          ///< Loaded when first asked for, and unloaded when long unused.
@@ -60,9 +59,8 @@ struct ComponentNode {
   std::optional<Trigger> trigger;  ///< Starts a lap; nothing: the author's choice.
   std::vector<std::string> start_after;  ///< Components that must be up before this one.
   Params params;
-  std::map<std::string, std::string> properties;  ///< Exported for trading.
-  std::map<std::string, PortSetting> ports;       ///< By the author's name; only ports with settings.
-  xml::Position position;                         ///< Place of its element; not compared.
+  std::map<std::string, PortSetting> ports;  ///< By the author's name; only ports with settings.
+  xml::Position position;                    ///< Place of its element; not compared.
 
   friend bool operator==(const ComponentNode& a, const ComponentNode& b);
 };

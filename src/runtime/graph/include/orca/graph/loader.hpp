@@ -19,10 +19,13 @@ namespace orca::graph {
 struct LoadOptions {
   /// Merged in this order; none: the graph's default_profile.
   std::vector<std::string> profiles{};
-  /// "ARG=VALUE"; a relative path in VALUE starts at the current folder.
+  /// "ARG=VALUE" for an argument of the file, "COMPONENT.PARAM=VALUE" for a parameter of a component or hardware, which has
+  /// precedence over the graph and its profiles. A relative path in VALUE starts at the current folder.
   std::vector<std::string> settings{};
   bool strict = false;          ///< Warnings are errors.
   bool try_components = false;  ///< Also call configure() of the components, as a trial.
+  /// Components that --fail on the command line names; each must be there.
+  std::vector<std::string> failing{};
 };
 
 /// A function that returns the text of an included file. The path starts at the current folder.

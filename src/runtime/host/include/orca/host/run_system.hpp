@@ -25,7 +25,7 @@ struct RunOptions {
   std::string trace_file;             ///< Empty: no trace is written.
   PictureOptions picture;
   bool looks_on = false;  ///< The listener is offered a RunView, and the result has the ways of the robots.
-  std::vector<PlannedFailure> planned_failures;  ///< What is to fail on purpose.
+  std::vector<PlannedFailure> planned_failures;  ///< What is to fail on purpose, in components of the graph.
   std::string log_name = "orca";                 ///< Name in the log for what concerns the run as a whole.
 };
 

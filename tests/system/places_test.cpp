@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Goals by the names of places of the world.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "deployer.hpp"
+#include "shipped_graph.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+const std::string kGraph = source_file("graphs/scout_gallery.xml");
+
+Run drive(const Words& more) { return run_deployer(Words{kGraph} + virtual_clock() + more); }
+
+bool is_near(const Arrival& arrival, double x, double y) {
+  return std::hypot(arrival.x - x, arrival.y - y) < 0.3;
+}
+
+// Returns the place of the goals in a graph.
+std::string goals_line(const std::string& graph) { return line_of(graph, "<param name=\"goals\"") + ":32"; }
+
+// Under ThreadSanitizer there is no trial of configure(), so the place is not known.
+void check_refused(const Run& run, const std::string& place, const std::string& why) {
+  INFO(run.err);
+  CHECK(run.exit_code() == kRefusedByComponent);
+  CHECK(run.out.empty());
+  if (kRefusedByComponent == 2)
+    CHECK(run.says(place + ": error G062: component \"command\": parameter \"goals\": "));
+  CHECK(run.says(why));
+}
+
+}  // namespace
+
+TEST_CASE("the robot of the shipped gallery drives to the places of its world", "[system][places]") {
+  const std::vector<Arrival> arrivals = drive({}).arrivals();
+  REQUIRE(arrivals.size() == 3);
+  CHECK(arrivals[0].name == "east");
+  CHECK(is_near(arrivals[0], 13.0, 4.5));
+  CHECK(arrivals[1].name == "north");
+  CHECK(is_near(arrivals[1], 7.0, 8.0));
+  CHECK(arrivals[2].name == "west");
+  CHECK(is_near(arrivals[2], 1.0, 4.5));
+}
+
+TEST_CASE("a route by places passes them, in a world of rooms", "[system][places]") {
+  const Run run = drive(
+      {"--set", "world=" + source_file("sim/worlds/office.xml"), "--set",
+       "goals=lunch: kitchen_hall > kitchen_door > 4.2 9.8; kitchen_door > kitchen_hall > corridor_east"});
+  INFO(run.out << run.err);
+  CHECK(run.exit_code() == 0);
+  REQUIRE(run.arrivals().size() == 2);
+  CHECK(run.arrivals()[0].name == "lunch");
+  CHECK(run.arrivals()[1].name == "corridor_east");
+  CHECK(is_near(run.arrivals()[1], 17.0, 6.0));
+}
+
+TEST_CASE("the robot drives to the place of a drawn world", "[system][places]") {
+  for (const char* seed : {"1", "3"}) {
+    const Run run =
+        drive({"--set", "world=" + source_file("sim/worlds/barn_like.xml#") + seed, "--set", "goals=goal"});
+    INFO(run.err);
+    REQUIRE(run.arrivals().size() == 1);
+    CHECK(run.arrivals()[0].name == "goal");
+    CHECK(is_near(run.arrivals()[0], -2.25, 13.0));
+  }
+}
+
+TEST_CASE("an unknown place is refused before anything starts, with the nearest one", "[system][places]") {
+  check_refused(drive({"--set", "goals=east; nroth"}), "scout_gallery.xml:" + goals_line(kGraph),
+                "\"nroth\" is no place of ");
+  CHECK(drive({"--set", "goals=east; nroth"})
+            .says("places: start, east, north, west; did you mean \"north\"?"));
+}
+
+TEST_CASE("a place can be named at the prompt, and a wrong one is asked for again", "[system][places]") {
+  Subprocess program(deployer(Words{kGraph, "--set", "goals="} + virtual_clock()),
+                     {.input = "nroth\nnorth\n\n"});
+  const Run run = finish(program, Seconds(30));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("\"nroth\" is no place of "));
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(is_near(run.arrivals()[0], 7.0, 8.0));
+}
+
+TEST_CASE("a place by name where nobody knows places is refused with what to do", "[system][places]") {
+  const std::string graph = source_file("graphs/scout_goto.xml");
+  const Run run = run_deployer(Words{graph, "--set", "goals=kitchen"} + virtual_clock());
+  check_refused(run, "scout_goto.xml:" + goals_line(graph),
+                "connect the port \"places\" to a PlaceServer, or give coordinates");
+}
+
+TEST_CASE("a Command that must be up before the one who knows the places says so", "[system][places]") {
+  std::string text = ShippedGraph("scout_gallery").text();
+  const auto replace = [&](const std::string& old, const std::string& by) {
+    text.replace(text.find(old), old.size(), by);
+  };
+  replace("start_after=\"fuser places\"", "start_after=\"fuser\"");
+  replace("type=\"orca.PlaceServer\"", "type=\"orca.PlaceServer\" start_after=\"command\"");
+  const TempFolder folder;
+  const Run run = run_deployer(Words{folder.write("graph.xml", text)} + virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == kRefusedByComponent);
+  CHECK(run.says("let it come up after the PlaceServer, with start_after"));
+}
+
+TEST_CASE("a PlaceServer without a world that can be read is refused", "[system][places]") {
+  const std::string graph = kGraph;
+  for (const char* world : {"", "no_such.xml"}) {
+    const Run run = run_deployer(Words{graph, "--check", "--set", std::string("places.world=") + world});
+    CAPTURE(world);
+    INFO(run.err);
+    if (kRefusedByComponent == 2)
+      CHECK(run.says("command line: error G062: component \"places\": parameter \"world\": "));
+  }
+}
