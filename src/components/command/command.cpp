@@ -259,7 +259,9 @@ class Command final : public orca::Component {
                                                  " is: " + answer.error().message +
                                                  "; let it come up after the PlaceServer, with start_after");
     const auto& point = (*answer)->coordinate().point();
-    place = {place.name, point.x(), point.y(), point.z()};
+    place.x = point.x();
+    place.y = point.y();
+    place.z = point.z();
     return orca::ok();
   }
 
