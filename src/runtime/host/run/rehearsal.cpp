@@ -168,8 +168,8 @@ class Trials {
     if (tried.ending == TrialResult::Ending::too_long) ++hangs_;
     if (tried.ending != TrialResult::Ending::effect && !all_.doubtful.contains(culprit.component))
       add({culprit.component, "", culprit.text + " " + tried.text});
-    const bool was_left = std::erase(left_.names, culprit.component) > 0;
-    return was_left && ++ends_ < kMostEnds && hangs_ < kMostHangs;
+    std::erase(left_.names, culprit.component);
+    return ++ends_ < kMostEnds && hangs_ < kMostHangs;
   }
 
   [[nodiscard]] std::vector<ComponentFault> faults() const {

@@ -3,6 +3,7 @@
 
 using namespace orca;
 using namespace orca::graph;
+using Catch::Contains;
 
 namespace {
 
@@ -99,4 +100,16 @@ TEST_CASE("a profile that is not chosen is checked for spelling, but not for con
   const std::string said = said_about(text);
   CHECK(said.find("G003") != std::string::npos);
   CHECK(said.find("G027") == std::string::npos);
+}
+
+TEST_CASE("a profile that is like no other is an error too, unless the file that may have it is missing",
+          "[graph][profile]") {
+  CHECK_THAT(said_about(kTwoRobots, {{"underwater"}, {}}),
+             Contains("there is no profile \"underwater\"; the graph has: real, sim, slow"));
+  const std::string with_missing =
+      "<graph name='g'><include file='parts.xml'/><component name='a' type='orca.Localizer' "
+      "autonomous='true'/>"
+      "<profile name='sim'/></graph>";
+  CHECK_THAT(said_about(with_missing, {{"underwater"}, {}}), !Contains("underwater"));
+  CHECK_THAT(said_about(with_missing, {{"simm"}, {}}), Contains("there is no profile \"simm\""));
 }

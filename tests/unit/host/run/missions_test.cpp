@@ -113,6 +113,7 @@ TEST_CASE(
 
 TEST_CASE("a goal's mission goes down to the wheels and comes back in its result", "[host][missions]") {
   const RecordedRun run = record_run("ends=\"command\"", into_the_pillar(), virtual_run());
+  CHECK(run.result.robots.robots == Lines{"Dewey"});  // its name in the file of the robot
   REQUIRE(run.result.arrivals.size() == 2);
   CHECK(run.result.arrivals[0].name() == "near");
   CHECK(run.result.arrivals[0].mission() == 1);

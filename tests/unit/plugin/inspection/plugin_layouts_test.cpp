@@ -39,6 +39,13 @@ TEST_CASE("a plugin that was built for another layout is refused with the type a
       "the plugin, 000000000000000a in this Orca); build it again with this Orca");
 }
 
+TEST_CASE("of many other layouts four are named and the rest is counted", "[plugin][layouts]") {
+  const auto fault = fault_of("A 1\0B 2\0C 3\0D 4\0E 5\0F 6\0"sv);
+  REQUIRE(fault.has_value());
+  CHECK_THAT(*fault,
+             Contains("D (4 in the plugin, none in this Orca)") && !Contains("E (5") && Contains("2 more"));
+}
+
 TEST_CASE("a plugin that was built with a type that has gone is refused", "[plugin][layouts]") {
   const auto fault = fault_of("orca::Gone 000000000000000c\0"sv);
   REQUIRE(fault.has_value());
