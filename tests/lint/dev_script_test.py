@@ -1,14 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests the parts of ./dev that need no build: its help, its exit codes, its speed when all packages are there."""
+"""Tests the parts of ./dev that need no build of Orca: its help, its exit codes, its speed when all packages are there, and what
+it does with a project of one target that stands for Orca."""
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMANDS = ("setup", "build", "run", "test", "bench", "lint", "docs")
+# Leaves a file in the folder of the project whenever it is built.
+SMALL_PROJECT = """cmake_minimum_required(VERSION 3.25)
+project(small NONE)
+add_custom_target(mark ALL COMMAND ${CMAKE_COMMAND} -E touch ${CMAKE_SOURCE_DIR}/made)
+"""
 
 
 def dev(*arguments):
@@ -35,6 +43,38 @@ class DevScript(unittest.TestCase):
             answer = dev(*arguments)
             self.assertEqual((answer.returncode, answer.stdout), (2, ""), arguments)
             self.assertIn(word, answer.stderr)
+
+    def test_a_clone_that_was_moved_or_copied_builds(self):
+        folder = Path(tempfile.mkdtemp(prefix="orca_dev_"))
+        self.addCleanup(shutil.rmtree, folder)
+        here, there, copy = folder / "here", folder / "there", folder / "copy"
+        here.mkdir()
+        for file in ("dev", "CMakePresets.json"):
+            shutil.copy(ROOT / file, here)
+        (here / "CMakeLists.txt").write_text(SMALL_PROJECT)
+        self.build_in(here)
+        here.rename(there)
+        self.assertIn(f"made when this folder was {here}", self.build_in(there))
+        self.assertFalse(here.exists())
+        shutil.copytree(there, copy)
+        (there / "made").unlink()
+        self.assertIn(f"made when this folder was {there}", self.build_in(copy))
+        self.assertFalse((there / "made").exists())
+        self.assertNotIn("made when", self.build_in(copy))
+
+    def build_in(self, folder):
+        (folder / "made").unlink(missing_ok=True)
+        answer = subprocess.run([folder / "dev", "build"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        self.assertTrue((folder / "made").exists(), answer.stderr)
+        return answer.stderr
+
+    def test_the_time_left_is_guessed_from_what_is_done(self):
+        for elapsed, line, left in ((60, "[30/60] Building", "about 60 s left"), (60, "[30/120]", "about 3 min left"), (5, "[0/9]", ""),
+                                    (5, "-- Configuring done", "")):
+            answer = subprocess.run(["bash", "-c", 'source <(sed -n "/^time_left()/,/^}/p" "$0"); time_left "$1" "$2"', ROOT / "dev",
+                                     str(elapsed), line], capture_output=True, text=True, check=True)
+            self.assertEqual(answer.stdout.strip().removeprefix(", "), left)
 
     def test_setup_is_quick_and_silent_when_all_packages_are_there(self):
         dev("setup")
