@@ -18,6 +18,32 @@ function(orca_use_plugin_layouts target)
   endif()
 endfunction()
 
+# orca_keep_plugin(FOLDER NAME): when everything is configured, plugins that were built into FOLDER by targets which are gone
+# are removed, so that no graph finds them.
+function(orca_keep_plugin folder name)
+  get_property(folders GLOBAL PROPERTY ORCA_PLUGIN_FOLDERS)
+  if(NOT folders)
+    cmake_language(DEFER DIRECTORY ${CMAKE_SOURCE_DIR} CALL orca_remove_stale_plugins)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY ORCA_PLUGIN_FOLDERS ${folder})
+  set_property(GLOBAL APPEND PROPERTY ORCA_PLUGIN_LISTS ${folder}/${name}.types)
+endfunction()
+
+function(orca_remove_stale_plugins)
+  get_property(folders GLOBAL PROPERTY ORCA_PLUGIN_FOLDERS)
+  get_property(known GLOBAL PROPERTY ORCA_PLUGIN_LISTS)
+  list(REMOVE_DUPLICATES folders)
+  foreach(folder ${folders})
+    file(GLOB lists ${folder}/*.types)
+    list(REMOVE_ITEM lists ${known})
+    foreach(list ${lists})
+      cmake_path(REPLACE_EXTENSION list LAST_ONLY so OUTPUT_VARIABLE plugin)
+      message(STATUS "Removing ${plugin}, whose target is gone")
+      file(REMOVE ${list} ${plugin})
+    endforeach()
+  endforeach()
+endfunction()
+
 # orca_add_component(NAME SOURCES... [LINK targets...])
 #
 # Builds plugins/NAME.so from SOURCES, and plugins/NAME.types, which lists its types for the loader. A plugin
@@ -40,10 +66,11 @@ function(orca_add_component name)
   target_link_libraries(${name} PRIVATE orca::component_api orca::hw_api ${arg_LINK} ${ORCA_PLUGIN_LANGUAGE})
   orca_use_plugin_layouts(${name})
   list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
-  add_custom_command(TARGET ${name} POST_BUILD
+  add_custom_command(TARGET ${name} PRE_LINK
     COMMAND ${CMAKE_COMMAND} -DOUT=${ORCA_PLUGIN_DIR}/${name}.types "-DSOURCES=${sources}"
             -P ${ORCA_PLUGIN_SUPPORT_DIR}/write_types.cmake VERBATIM)
   set_property(GLOBAL APPEND PROPERTY ORCA_PLUGINS ${name})
+  orca_keep_plugin(${ORCA_PLUGIN_DIR} ${name})
 endfunction()
 
 # orca_add_component_test(NAME SOURCES...)

@@ -76,5 +76,70 @@ class Pages(unittest.TestCase):
         self.assertNotIn("contact", reader.out)
 
 
+COMPONENT = """#include "orca/component.hpp"
+#include "orca/idl/motion.hpp"
+namespace {
+class C final : public orca::Component {
+ public:
+  using Component::Component;
+  orca::Outcome work() override { return orca::again(); }
+  %s
+};
+}
+%s
+"""
+SOUND = COMPONENT % ('orca::PushServer<orca::idl::MotionCommand> motion_{*this, "motion"};', 'ORCA_COMPONENT(C, "my.Sound")')
+
+
+class Faults(unittest.TestCase):
+    """What a new author does wrong, and what says so."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="orca_faulty_component_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def build(self, **sources):
+        """Builds a plugin for each source. Returns what the build says, in one line."""
+        for name, text in sources.items():
+            (self.folder / f"{name}.cpp").write_text(text)
+        targets = "".join(f"orca_add_component({name} {name}.cpp)\n" for name in sources)
+        (self.folder / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\nfind_package(Orca REQUIRED)\n" + targets)
+        said = ""
+        for command in (["cmake", "-S", ".", "-B", "build", "-G", "Ninja", f"-DOrca_DIR={BUILD}"], ["cmake", "--build", "build"]):
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=300)
+            said += done.stdout + done.stderr
+        return " ".join(said.split())
+
+    def deployer(self, *words):
+        done = subprocess.run([BUILD / "bin/deployer", *words], cwd=self.folder, capture_output=True, text=True, timeout=60)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_a_parameter_of_a_type_that_is_none(self):
+        said = self.build(mine=COMPONENT % ('orca::Param<int> x_{*this, "x", 1};', 'ORCA_COMPONENT(C, "my.C")'))
+        self.assertIn("for a whole number write Param<std::int64_t>", said)
+
+    def test_a_source_without_a_type(self):
+        said = self.build(mine=COMPONENT % ("", "[[maybe_unused]] C* unused = nullptr;"))
+        self.assertIn('the plugin has no type: write ORCA_COMPONENT(Class, "my.Type") at the end of a source', said)
+
+    def test_two_ports_of_one_name(self):
+        port = 'orca::PushServer<orca::idl::MotionCommand> %s{*this, "motion"};'
+        self.build(mine=COMPONENT % (port % "a_" + port % "b_", 'ORCA_COMPONENT(C, "my.C")'))
+        status, said = self.deployer("--describe", "build/plugins/mine.so")
+        self.assertNotEqual(status, 0)
+        self.assertIn('it has two ports of the name "motion"; give one of them another name', said)
+
+    def test_a_type_in_two_plugins_and_a_plugin_whose_target_is_gone(self):
+        self.build(one=SOUND, two=SOUND)
+        (self.folder / "g.xml").write_text(
+            '<graph name="g" version="1" plugins="build/plugins"><component name="a" type="my.Sound" autonomous="true"/></graph>')
+        status, said = self.deployer("g.xml", "--check")
+        self.assertEqual(status, 2)
+        self.assertIn('two plugins hold the type "my.Sound"', said)
+        self.assertIn("two.so, whose target is gone", self.build(one=SOUND))
+        self.assertEqual(self.deployer("g.xml", "--check")[0], 0)
+
+
 if __name__ == "__main__":
     unittest.main()

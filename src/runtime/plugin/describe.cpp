@@ -6,8 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contract_faults.hpp"
 #include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
+#include "orca/base/text.hpp"
 #include "orca/component/component.hpp"
 #include "orca/hw/container.hpp"
 
@@ -27,6 +29,12 @@ auto guarded(const std::string& type, Hook hook, Run&& run) -> decltype(run()) {
   } catch (...) {
     return cannot_describe(type, std::string(to_string(hook)) + " " + describe_current_exception());
   }
+}
+
+// Returns an error if the type declares something that no graph could use.
+Status check_declared(const Contract& contract) {
+  const std::vector<std::string> faults = plugin::faults_of(contract);
+  return faults.empty() ? ok() : Status(cannot_describe(contract.type, joined(faults, "; ")));
 }
 
 // A host that takes declarations and refuses every service, because a constructor must not use any.
@@ -136,7 +144,9 @@ Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& ty
                                                              const std::string& library,
                                                              const std::string& name) {
   return guarded(type.type, Hook::constructor, [&]() -> Result<std::unique_ptr<DescribedHardware>> {
-    return std::unique_ptr<DescribedHardware>(std::make_unique<HardwareDescriber>(type, library, name));
+    std::unique_ptr<DescribedHardware> described = std::make_unique<HardwareDescriber>(type, library, name);
+    if (const Status sound = check_declared(described->contract()); !sound.ok()) return sound.error();
+    return described;
   });
 }
 
@@ -145,6 +155,7 @@ Result<Contract> describe_component(const TypeEntry& type, const std::string& li
   return guarded(type.type, Hook::constructor, [&]() -> Result<Contract> {
     ComponentDescriber describer(type, library, hardware);
     type.destroy(type.create(describer));
+    if (const Status sound = check_declared(describer.contract_); !sound.ok()) return sound.error();
     return describer.contract_;
   });
 }

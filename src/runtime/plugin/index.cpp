@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "orca/base/input_file.hpp"
+#include "orca/base/text.hpp"
 
 namespace orca::plugin {
 
@@ -32,13 +33,22 @@ void PluginIndex::read_folder(const std::string& folder) {
     std::istringstream lines(read_input_file(list.string(), kMaxBytes).value_or(""));
     const std::string file = list.replace_extension(".so").string();
     for (std::string kind, type; lines >> kind >> type;)
-      place_by_type_.emplace(type,
-                             Place{kind == "hardware" ? PluginKind::hardware : PluginKind::component, file});
+      add_type(type, {kind == "hardware" ? PluginKind::hardware : PluginKind::component, file, {}});
   }
+}
+
+void PluginIndex::add_type(const std::string& type, const Place& place) {
+  const auto [known, is_new] = place_by_type_.emplace(type, place);
+  const bool same_folder = fs::path(known->second.file).parent_path() == fs::path(place.file).parent_path();
+  if (!is_new && same_folder && known->second.file != place.file) known->second.rival = place.file;
 }
 
 Result<std::string> PluginIndex::file_of(const std::string& type) const {
   const auto found = place_by_type_.find(type);
+  if (found != place_by_type_.end() && !found->second.rival.empty())
+    return fail(Code::already_exists, "two plugins hold the type " + in_quotes(type) + ": " +
+                                          found->second.file + " and " + found->second.rival +
+                                          "; give one of them another type name, or remove it");
   if (found != place_by_type_.end()) return found->second.file;
   std::string places;
   for (const std::string& place : searched_) places += (places.empty() ? "" : ", ") + place;

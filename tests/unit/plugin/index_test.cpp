@@ -5,6 +5,7 @@
 
 #include "orca/plugin/describe.hpp"
 #include "places.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca;
 using namespace orca::plugin;
@@ -38,6 +39,20 @@ TEST_CASE("the first of two folders that hold a type wins", "[plugin][index]") {
   CHECK(PluginIndex({copy, kForTests}).file_of("test.First").value() == copy + "/test_two.so");
   CHECK(PluginIndex({kForTests, copy}).file_of("test.First").value() == test_plugin("test_two"));
   std::filesystem::remove_all(copy);
+}
+
+TEST_CASE("a type that two plugins of one folder hold is refused with both, and the others are found",
+          "[plugin][index]") {
+  const orca::test::TempFolder folder;
+  static_cast<void>(folder.write("one.types", "component my.Both\ncomponent my.One\n"));
+  static_cast<void>(folder.write("two.types", "component my.Both\n"));
+  const PluginIndex index({folder.path().string()});
+  const auto both = index.file_of("my.Both");
+  REQUIRE_FALSE(both.has_value());
+  CHECK(both.error().code == Code::already_exists);
+  CHECK_THAT(both.error().text(), Contains("two plugins hold the type \"my.Both\"") &&
+                                      Contains(folder.file("one.so")) && Contains(folder.file("two.so")));
+  CHECK(index.file_of("my.One").value() == folder.file("one.so"));
 }
 
 TEST_CASE("the index agrees with the plugin's manifest", "[plugin][index]") {

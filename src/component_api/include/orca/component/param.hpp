@@ -31,6 +31,12 @@ struct ParamOptions {
 /// Thread contract: the component's strand.
 template <class T>
 class Param {
+  static_assert(
+      std::is_same_v<T, bool> || std::is_same_v<T, std::int64_t> || std::is_same_v<T, double> ||
+          std::is_same_v<T, std::string> || std::is_same_v<T, std::vector<std::string>>,
+      "a Param is a bool, std::int64_t, double, std::string or std::vector<std::string>: for a whole number "
+      "write Param<std::int64_t>");
+
  public:
   template <class Owner>
   Param(Owner& owner, std::string name, T default_value, ParamOptions options = {})
@@ -73,7 +79,7 @@ class Param {
     if constexpr (std::is_same_v<T, std::int64_t>) return ParamType::integer;
     if constexpr (std::is_same_v<T, double>) return ParamType::real;
     if constexpr (std::is_same_v<T, std::string>) return ParamType::text;
-    if constexpr (std::is_same_v<T, std::vector<std::string>>) return ParamType::text_list;
+    return ParamType::text_list;
   }
 
   const std::string name_;

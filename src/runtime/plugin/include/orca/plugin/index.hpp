@@ -24,7 +24,7 @@ class PluginIndex {
   void add(const std::vector<std::string>& folders);
 
   /// Returns the plugin file that holds a type.
-  /// @errors  not_found, naming the places searched.
+  /// @errors  not_found, naming the places searched; already_exists if two plugins of one folder hold it.
   [[nodiscard]] Result<std::string> file_of(const std::string& type) const;
 
   /// Returns the names of all types of one kind, sorted.
@@ -34,8 +34,10 @@ class PluginIndex {
   struct Place {
     PluginKind kind;
     std::string file;
+    std::string rival;  // another plugin of the same folder with the same type; empty: none
   };
   void read_folder(const std::string& folder);
+  void add_type(const std::string& type, const Place& place);
 
   std::vector<std::string> searched_;
   std::map<std::string, Place> place_by_type_;
