@@ -163,7 +163,8 @@ TEST_CASE("the last words of a process that crashes stand in a line of their own
   Screen terminal;
   const Run run = run_on_terminal(
       terminal, Words{system_graph("crash_on_the_way.xml"), "--set", "deed=segfault"} + with_test_plugins());
-  CHECK(run.ending.signal == SIGSEGV);
+  CHECK(run.exit_code() != 0);
+  if (!kSanitized) CHECK(run.ending.signal == SIGSEGV);
   REQUIRE_FALSE(drawn(terminal.all_bytes()).empty());
   const Lines screen = screen_after(terminal.all_bytes());
   CHECK(std::ranges::any_of(screen, [](const auto& line) { return line.starts_with("error: bad: "); }));

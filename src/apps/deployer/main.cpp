@@ -7,6 +7,11 @@
 
 using orca::deployer::ExitCode;
 
+#if defined(__SANITIZE_ADDRESS__)
+// Fontconfig, which pictures use, keeps its configuration in memory until the process ends.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+#endif
+
 int main(int argc, char** argv) {
   orca::deployer::prepare_streams();
   const orca::host::LastWords last_words(static_cast<int>(ExitCode::failed_running),
