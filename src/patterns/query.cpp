@@ -53,4 +53,6 @@ Result<ObjectRef> QueryProxyHandle::receive_wait_ref(QueryId id, Duration timeou
   return endpoint().receive_until(id, deadline_of(endpoint(), timeout));
 }
 
+void QueryProxyHandle::withdraw(QueryId id) { endpoint().withdraw(id); }
+
 }  // namespace orca

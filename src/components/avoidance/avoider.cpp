@@ -127,7 +127,7 @@ Status Avoider::learn_robot() {
 }
 
 void Avoider::stop() {
-  if (question_) static_cast<void>(robot_.query_receive_wait(*question_, Duration{0}));  // it is for nobody
+  if (question_) robot_.query_forget(*question_);
   question_.reset();
 }
 

@@ -25,8 +25,8 @@ using orca::go::Step;
 /// A behaviour that drives to a goal in a straight line (thesis 11.1). It circles around a goal whose
 /// reach_radius is 0 until another goal comes. A goal may lie above or below the robot: its reach is a ball.
 /// Via points that come before a goal are passed in order. A point that comes when the route already ends in
-/// a goal, or belongs to another mission, replaces the whole route. It drives through doors in a straight line. While somebody subscribes to its failures
-/// it gives up goals that it cannot reach.
+/// a goal, or belongs to another mission, replaces the whole route. It drives through doors in a straight line.
+/// While somebody subscribes to its failures it gives up goals that it cannot reach.
 class Goto final : public orca::Component {
  public:
   using Component::Component;

@@ -56,8 +56,7 @@ std::string Where::answered(std::string text) {
 
 void Where::forget() {
   since_.reset();
-  // An answer that still comes is for nobody.
-  if (question_) static_cast<void>(port_.query_receive_wait(*question_, Duration{0}));
+  if (question_) port_.query_forget(*question_);
   question_.reset();
 }
 

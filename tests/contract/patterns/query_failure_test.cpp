@@ -41,6 +41,28 @@ TEMPLATE_LIST_TEST_CASE("a late answer is discarded and does not answer the next
   });
 }
 
+TEMPLATE_LIST_TEST_CASE(
+    "the answer to a forgotten question is discarded, before and after it comes, and is no trouble",
+    "[contract][query]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Counter counter(kit);
+    counter.answerer.open();
+    auto& question = counter.asker.question;
+    const auto early = question.query_request(counter.asker.about("early"));
+    REQUIRE(early.has_value());
+    question.query_forget(*early);
+    const Service service(counter.answerer);
+    const auto late = question.query_request(counter.asker.about("late"));
+    REQUIRE(late.has_value());
+    CHECK(question.query(counter.asker.about("behind it"), 5s).has_value());  // so the one before is answered
+    question.query_forget(*late);
+    for (const QueryId id : {*early, *late})
+      CHECK(question.query_receive(id)->error().code == Code::not_found);
+    CHECK(question.counters().failed == 0);
+    CHECK(question.counters().timed_out == 0);
+  });
+}
+
 TEMPLATE_LIST_TEST_CASE("a query that its component had to leave forgets its answer", "[contract][query]",
                         LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {

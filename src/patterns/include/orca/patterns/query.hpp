@@ -60,6 +60,7 @@ class QueryProxyHandle {
   Result<QueryId> request_loan(ObjectLoan loan);
   std::optional<Result<ObjectRef>> receive_ref(QueryId id);
   Result<ObjectRef> receive_wait_ref(QueryId id, Duration timeout);
+  void withdraw(QueryId id);
 
  private:
   [[nodiscard]] QueryClientEndpoint& endpoint() const;
@@ -68,7 +69,7 @@ class QueryProxyHandle {
 };
 
 /// The client of a Query port. It asks one QueryServer (thesis 7.3, Fig. 7.5): blocking with query(), or in
-/// two steps with query_request() and query_receive() or query_receive_wait().
+/// two steps with query_request() and query_receive(), query_receive_wait() or query_forget().
 ///
 /// Thread contract: the component's strand.
 template <class Q, class A>
@@ -103,6 +104,10 @@ class QueryProxy : public QueryProxyHandle {
   Result<ObjectPtr<A>> query_receive_wait(QueryId id, Duration timeout = 1s) {
     return typed(receive_wait_ref(id, timeout));
   }
+
+  /// Gives up the question: its answer is discarded, now or when it comes. Nothing is reported, because nobody has
+  /// waited for it. Has no effect for an id whose answer has been taken.
+  void query_forget(QueryId id) { withdraw(id); }
 
  private:
   static Result<ObjectPtr<A>> typed(Result<ObjectRef> answer) {

@@ -12,8 +12,8 @@
 namespace orca::testing {
 
 /// The base class of a test's own ports. Its object is a component too, the only one beside the component under test:
-/// each of its ports is connected to the port of the same name there, a PushServer to a PushProxy and so on. The name
-/// of an element of a port array is that of the array.
+/// each of its ports is connected to the port of the same name there, a PushServer to a PushProxy or a port array and so
+/// on. There is no hardware, so a component that wraps some cannot be tried.
 ///
 /// Thread contract: as Component. The script of the test runs on its strand, so it may use blocking calls.
 class Partner : public Component {
