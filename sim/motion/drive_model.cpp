@@ -26,25 +26,32 @@ void DriveModel::command(const Twist2& wanted) {
   const Vec2 way = shortened({wanted.forward, wanted.left}, drive_.max_speed);
   pending_.back().velocity = {way.x, way.y,
                               std::clamp(wanted.turn_rate, -drive_.max_turn_rate, drive_.max_turn_rate)};
+  pending_.back().emergency_stop = false;
 }
 
-double DriveModel::approach(double now, double target, double max_change) const {
-  return now + std::clamp(share_ * (target - now), -max_change, max_change);
+void DriveModel::emergency_stop() {
+  pending_.back().velocity = {};
+  pending_.back().emergency_stop = drive_.stop_deceleration > 0.0;
 }
 
-Vec2 DriveModel::approach(Vec2 now, Vec2 target, double max_change) const {
-  return now + shortened(share_ * (target - now), max_change);
+// Covers in this tick a share of the difference to the target, within the acceleration limits times their scale.
+void DriveModel::follow(const Twist2& target, double share, double acceleration_scale) {
+  const double longest = acceleration_scale * drive_.max_acceleration * tick_s_;
+  const double widest = acceleration_scale * drive_.max_turn_acceleration * tick_s_;
+  const Vec2 now{velocity_.forward, velocity_.left};
+  const Vec2 way = now + shortened(share * (Vec2{target.forward, target.left} - now), longest);
+  const double turn = std::clamp(share * (target.turn_rate - velocity_.turn_rate), -widest, widest);
+  velocity_ = {way.x, way.y, velocity_.turn_rate + turn};
 }
 
 Twist2 DriveModel::step() {
   target_ = pending_.front();
   pending_.push_back(pending_.back());
   pending_.pop_front();
-  const Twist2& target = target_.velocity;
-  const Vec2 way = approach({velocity_.forward, velocity_.left}, {target.forward, target.left},
-                            drive_.max_acceleration * tick_s_);
-  velocity_ = {way.x, way.y,
-               approach(velocity_.turn_rate, target.turn_rate, drive_.max_turn_acceleration * tick_s_)};
+  if (target_.emergency_stop)
+    follow({}, 1.0, drive_.stop_deceleration / drive_.max_acceleration);
+  else
+    follow(target_.velocity, share_, 1.0);
   return velocity_;
 }
 

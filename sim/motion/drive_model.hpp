@@ -13,16 +13,19 @@ namespace orca::sim::detail {
 // A command to a base and its turret.
 struct BaseCommand {
   Twist2 velocity;
+  bool emergency_stop = false;
   double turret_angle = 0.0;  // [rad] Angle in the robot's frame.
 };
 
 // The dynamics from commanded to driven velocity, tick by tick: dead time, speed limits, first-order lag and
-// acceleration limits. The model is the same for all kinds of base.
+// acceleration limits. The model is the same for all kinds of base. An emergency stop bypasses the velocity control and
+// so its lag; the base slows down evenly.
 class DriveModel {
  public:
   DriveModel(const Drive& drive, const ErrorLevels& errors, Duration tick);
 
   void command(const Twist2& wanted);
+  void emergency_stop();
   void point_turret(double angle) { pending_.back().turret_angle = angle; }
 
   // Returns the velocity to drive in the tick that begins now.
@@ -34,8 +37,7 @@ class DriveModel {
   void held_to(const Twist2& real) { velocity_ = real; }
 
  private:
-  [[nodiscard]] double approach(double now, double target, double max_change) const;
-  [[nodiscard]] Vec2 approach(Vec2 now, Vec2 target, double max_change) const;
+  void follow(const Twist2& target, double share, double acceleration_scale);
 
   Drive drive_;
   double tick_s_;

@@ -63,12 +63,17 @@ SharedWorld::Member& SharedWorld::member(RobotId robot) {
   return members_.at(static_cast<std::size_t>(robot));
 }
 
-Status SharedWorld::command(RobotId robot, const Twist2& wanted, double turret_angle, TimePoint now) {
+Status SharedWorld::command(RobotId robot, const hw::DriveSetpoint& setpoint, TimePoint now) {
   const std::lock_guard lock(mutex_);
   catch_up(now);
   if (world_.robot_model(robot).turret)
-    if (Status pointed = world_.set_turret_command(robot, turret_angle); !pointed.ok()) return pointed;
-  return world_.set_velocity_command(robot, wanted);
+    if (Status pointed = world_.set_turret_command(robot, setpoint.turret_angle); !pointed.ok())
+      return pointed;
+  if (setpoint.at_once) {
+    world_.emergency_stop(robot);
+    return ok();
+  }
+  return world_.set_velocity_command(robot, setpoint.velocity);
 }
 
 SharedWorld::Inbox SharedWorld::advance(RobotId robot, TimePoint now) {

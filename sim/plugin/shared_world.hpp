@@ -10,6 +10,7 @@
 
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
+#include "orca/hw/endpoints.hpp"
 #include "orca/sim/world.hpp"
 
 namespace orca::sim {
@@ -66,7 +67,7 @@ class SharedWorld {
   /// Sets the command that the robot follows from `now` [run's clock] on: the ticks until then come first.
   ///
   /// @errors  as World::set_velocity_command() and, for a robot with a turret, set_turret_command().
-  Status command(RobotId robot, const Twist2& wanted, double turret_angle, TimePoint now);
+  Status command(RobotId robot, const hw::DriveSetpoint& setpoint, TimePoint now);
 
   /// Simulates up to `now` [run's clock] and returns what the robot has sensed since its last call, stamped by
   /// the run's clock.

@@ -208,7 +208,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
 
   Status drive(const orca::hw::DriveSetpoint& setpoint) override {
     if (guard_) guard_->driven(setpoint.velocity, host().now());
-    return shared_->command(id_, setpoint.velocity, setpoint.turret_angle, host().now());
+    return shared_->command(id_, setpoint, host().now());
   }
 
   [[nodiscard]] TimePoint next_poll() const override { return shared_->next_tick(id_); }

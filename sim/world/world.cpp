@@ -226,6 +226,8 @@ Status World::set_velocity_command(RobotId robot, const Twist2& wanted) {
   return ok();
 }
 
+void World::emergency_stop(RobotId robot) { impl_->robot(robot).drive.emergency_stop(); }
+
 Status World::set_turret_command(RobotId robot, double angle) {
   detail::Robot& r = impl_->robot(robot);
   if (!r.model.turret) return fail(Code::failed_precondition, "this robot has no turret", r.name);

@@ -18,6 +18,7 @@ void read_drive(const xml::Attributes& e, RobotModel& model) {
   set(drive.max_turn_rate, e.number("max_steer_speed"));
   set(drive.max_acceleration, e.number("max_acceleration"));
   set(drive.max_turn_acceleration, e.number("max_steer_acceleration"));
+  set(drive.stop_deceleration, e.number_or("stop_deceleration", drive.stop_deceleration));
   set(drive.track, e.number("track"));
   set(drive.wheel_diameter, e.number("wheel_diameter"));
   set(drive.lag, e.duration_or("lag", drive.lag));
@@ -29,6 +30,9 @@ void read_drive(const xml::Attributes& e, RobotModel& model) {
   drive.label = read_label(e);
   if (drive.dead_time > std::chrono::seconds{5})
     e.error_at("dead_time", robot_codes::kContradiction, "a dead time of more than 5 s is not simulated");
+  if (drive.stop_deceleration > 0.0 && drive.stop_deceleration < drive.max_acceleration)
+    e.error_at("stop_deceleration", robot_codes::kContradiction,
+               "an emergency stop must not be gentler than max_acceleration");
 }
 
 }  // namespace orca::sim::detail

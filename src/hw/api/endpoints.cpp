@@ -40,7 +40,9 @@ Status MotionHW::check(const idl::MotionCommand& command) {
 
 Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
   if (Status checked = check(command); !checked.ok()) return checked;
-  return move(command.kind() == idl::FULLSTOP ? Twist2{} : within_limits(command), command.mission(), now);
+  const bool stop = command.kind() == idl::FULLSTOP;
+  return move({.velocity = stop ? Twist2{} : within_limits(command), .at_once = stop}, command.mission(),
+              now);
 }
 
 Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) {
@@ -48,7 +50,7 @@ Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) 
     return fail(Code::failed_precondition,
                 "this base cannot move sideways; send it a MotionCommand, not a HolonomicVelocity");
   if (Status checked = check_command(velocity); !checked.ok()) return checked;
-  return move(within_limits(velocity), velocity.mission(), now);
+  return move({.velocity = within_limits(velocity)}, velocity.mission(), now);
 }
 
 Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
@@ -59,14 +61,15 @@ Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
   return ok();
 }
 
-Status MotionHW::move(const Twist2& wanted, std::uint64_t mission, TimePoint now) {
+Status MotionHW::move(const DriveSetpoint& wanted, std::uint64_t mission, TimePoint now) {
   const std::lock_guard lock(mutex_);
   mission_ = mission;
-  if (const auto reason = obstruction_.against(wanted)) {
+  if (const auto reason = obstruction_.against(wanted.velocity)) {
     stand();
     return fail(Code::unavailable, "the base stands: " + *reason + "; ask for another direction");
   }
-  setpoint_.velocity = wanted;
+  setpoint_.velocity = wanted.velocity;
+  setpoint_.at_once = wanted.at_once;
   received_ = now;
   return ok();
 }
@@ -87,7 +90,7 @@ void MotionHW::press(const std::vector<Obstruction::Pressed>& bumpers) {
 }
 
 // @pre  mutex_ is held.
-void MotionHW::stand() { setpoint_.velocity = {}; }
+void MotionHW::stand() { setpoint_ = setpoint_.stopped(); }
 
 double MotionHW::within_limits(double turn_rate) const {
   return std::clamp(turn_rate, -limits_.max_turn_rate, limits_.max_turn_rate);

@@ -41,7 +41,7 @@ HardwareLifecycle::FollowUp HardwareLifecycle::carry_out(HardwareAction action, 
     case HardwareAction::open: return checked(container_.open());
     case HardwareAction::start: return checked(container_.start());
     case HardwareAction::halt: halt(to); return std::nullopt;
-    case HardwareAction::stand: return checked(drive_to(standing()));
+    case HardwareAction::stand: return checked(drive_to(applied_.stopped()));
     case HardwareAction::stop: container_.stop(); return std::nullopt;
     case HardwareAction::try_stop: try_stop(); return std::nullopt;
     case HardwareAction::forget: forget(); return std::nullopt;
@@ -72,7 +72,7 @@ void HardwareLifecycle::forget() {
 // listen.
 void HardwareLifecycle::try_stop() {
   try {
-    applied_ = standing();
+    applied_ = applied_.stopped();
     if (container_.motion() != nullptr && !container_.drive(applied_).ok())
       host_.write_log(log::Level::error, "the motors did not take the stop command either");
     container_.stop();
@@ -86,8 +86,6 @@ Status HardwareLifecycle::drive_to(const DriveSetpoint& setpoint) {
   applied_ = setpoint;
   return container_.drive(setpoint);
 }
-
-DriveSetpoint HardwareLifecycle::standing() const { return {.turret_angle = applied_.turret_angle}; }
 
 HardwareLifecycle::FollowUp HardwareLifecycle::checked(const Status& outcome) {
   if (outcome.ok()) return std::nullopt;

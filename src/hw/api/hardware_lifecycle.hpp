@@ -48,7 +48,6 @@ class HardwareLifecycle {
   void forget();
   void try_stop();
   Status drive_to(const DriveSetpoint& setpoint);
-  [[nodiscard]] DriveSetpoint standing() const;
   FollowUp checked(const Status& outcome);
   void report(const std::string& reason);
 

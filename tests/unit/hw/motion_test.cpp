@@ -19,6 +19,7 @@ constexpr DriveLimits kLimits{
 constexpr Duration kAge = 200ms;
 constexpr TimePoint kStart{1000s};
 constexpr DriveSetpoint kStand{};
+constexpr DriveSetpoint kStop{.at_once = true};
 
 DriveSetpoint driving(double speed, double turn_rate) {
   return {.velocity = {.forward = speed, .turn_rate = turn_rate}};
@@ -92,10 +93,10 @@ TEST_CASE("a command that grows older than max_command_age expires to zero, and 
   CHECK(motion.expiry() == kStart + kAge);
   CHECK(motion.due(kStart + kAge - 1ns) == driving(0.5, 0.1));
   CHECK(motion.expired_count() == 0);
-  CHECK(motion.due(kStart + kAge) == kStand);
+  CHECK(motion.due(kStart + kAge) == kStop);
   CHECK(motion.expired_count() == 1);
   CHECK(motion.expiry() == kForever);
-  CHECK(motion.due(kStart + 2 * kAge) == kStand);
+  CHECK(motion.due(kStart + 2 * kAge) == kStop);
   CHECK(motion.expired_count() == 1);
 }
 
@@ -111,11 +112,11 @@ TEST_CASE("a full stop and halt stop the base at once, and a standing base has n
   MotionHW motion(kLimits, kAge);
   REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
   REQUIRE(motion.command(*full_stop(), kStart + 1ms).ok());
-  CHECK(motion.due(kStart + 1ms) == kStand);
+  CHECK(motion.due(kStart + 1ms) == kStop);
   REQUIRE(motion.command(*turn(0.1, 0.5), kStart + 2ms).ok());
   motion.halt();
-  CHECK(motion.due(kStart + 2ms) == kStand);
-  CHECK(motion.due(kStart + 1s) == kStand);
+  CHECK(motion.due(kStart + 2ms) == kStop);
+  CHECK(motion.due(kStart + 1s) == kStop);
   CHECK(motion.expired_count() == 0);
 }
 
@@ -126,6 +127,18 @@ TEST_CASE("a full stop is obeyed whatever its other fields hold", "[hw][motion]"
   stop->speed(std::numeric_limits<double>::quiet_NaN());
   stop->direction(std::numeric_limits<double>::infinity());
   CHECK(motion.command(*stop, kStart).ok());
+  CHECK(motion.due(kStart) == kStop);
+}
+
+TEST_CASE("a speed of 0 is a command like others: the base comes to rest as gently as it slows down",
+          "[hw][motion]") {
+  MotionHW motion(kLimits, kAge);
+  REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
+  REQUIRE(motion.command(*turn(0.0, 0.0), kStart).ok());
+  CHECK(motion.due(kStart) == kStand);
+  REQUIRE(motion.command(*full_stop(), kStart).ok());
+  CHECK(motion.due(kStart) == kStop);
+  REQUIRE(motion.command(*turn(0.0, 0.0), kStart).ok());
   CHECK(motion.due(kStart) == kStand);
 }
 
@@ -166,7 +179,7 @@ TEST_CASE("a holonomic base carries out a velocity with a sideways part", "[hw][
   MotionHW motion(omni(), kAge);
   REQUIRE(motion.command(*velocity(0.3, -0.4, 0.5), kStart).ok());
   CHECK(motion.due(kStart) == DriveSetpoint{.velocity = {.forward = 0.3, .left = -0.4, .turn_rate = 0.5}});
-  CHECK(motion.due(kStart + kAge) == kStand);
+  CHECK(motion.due(kStart + kAge) == kStop);
   CHECK(motion.expired_count() == 1);
 }
 
@@ -227,9 +240,9 @@ TEST_CASE("a turret stays where it was pointed when the base is commanded, halte
   REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
   CHECK(motion.due(kStart) ==
         DriveSetpoint{.velocity = {.forward = 0.5, .turn_rate = 0.1}, .turret_angle = 1.5});
-  CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5});
+  CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5, .at_once = true});
   motion.halt();
-  CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5});
+  CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5, .at_once = true});
   point->angle(std::numeric_limits<double>::infinity());
   CHECK_FALSE(motion.command(*point, kStart).ok());
   CHECK(motion.due(kStart + kAge).turret_angle == 1.5);

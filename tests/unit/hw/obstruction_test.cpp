@@ -11,7 +11,7 @@ using Catch::Contains;
 namespace {
 
 constexpr TimePoint kNow{1000s};
-constexpr DriveSetpoint kStand{};
+constexpr DriveSetpoint kStop{.at_once = true};
 
 struct Base {
   MotionHW motion{{.max_speed = 1.0, .max_turn_rate = 2.0, .type = idl::HOLONOMIC}, 200ms};
@@ -23,7 +23,7 @@ struct Base {
     velocity->turn_rate(turn_rate);
     return motion.command(*velocity, kNow);
   }
-  [[nodiscard]] bool stands() { return motion.due(kNow) == kStand; }
+  [[nodiscard]] bool stands() { return motion.due(kNow) == kStop; }
 };
 
 const std::vector<Obstruction::Pressed> kFrontPressed{{{1.0, 0.0}, "front"}};

@@ -66,6 +66,45 @@ TEST_CASE("each kind of base keeps to its acceleration and speed limits", "[sim]
   CHECK(bench.velocity().turn_rate == Approx(2.0));
 }
 
+TEST_CASE(
+    "an emergency stop brakes each kind of base evenly, without lag, harder than its acceleration limit",
+    "[sim][drive]") {
+  const DriveKind kind = GENERATE(from_range(std::begin(kAll), std::end(kAll)));
+  RobotModel model = base_of(kind);
+  model.drive.stop_deceleration = 3.0;
+  Bench bench(model, Realism::nominal);
+  bench.drive({.forward = 0.6, .turn_rate = 0.3});
+  bench.run(3.0);
+  bench.stop();
+  bench.run(0.05);  // dead time
+  CHECK(bench.velocity().forward == Approx(0.6));
+  bench.run(0.1);
+  CHECK(bench.velocity().forward == Approx(0.3));
+  CHECK(bench.velocity().turn_rate == 0.0);  // 4 rad/s2, in the same proportion
+  bench.run(0.11);
+  CHECK(bench.velocity() == Twist2{});
+  bench.drive({.forward = 0.02});
+  bench.run(0.05 + 0.1);
+  CHECK(bench.velocity().forward == Approx(0.02 * (1.0 - std::exp(-1.0))));
+}
+
+TEST_CASE("an emergency stop of a base that has none is a velocity of 0", "[sim][drive]") {
+  const DriveKind kind = GENERATE(from_range(std::begin(kAll), std::end(kAll)));
+  Bench one(base_of(kind), Realism::nominal);
+  Bench other(base_of(kind), Realism::nominal);
+  for (Bench* bench : {&one, &other}) {
+    bench->drive({.forward = 0.6, .turn_rate = 0.3});
+    bench->run(3.0);
+  }
+  one.stop();
+  other.drive({});
+  for (int n = 0; n < 100; ++n) {
+    one.run(0.01);
+    other.run(0.01);
+    CHECK(one.velocity() == other.velocity());
+  }
+}
+
 TEST_CASE("a holonomic base's limits hold for its speed in whatever direction", "[sim][drive]") {
   Bench bench(base_of(DriveKind::holonomic), Realism::ideal);
   bench.drive({.forward = 3.0, .left = -3.0});

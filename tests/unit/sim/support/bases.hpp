@@ -25,6 +25,7 @@ struct Bench {
   }
 
   void drive(const Twist2& velocity) { REQUIRE(world.set_velocity_command(id, velocity)); }
+  void stop() { world.emergency_stop(id); }
   void run(double seconds) {
     for (int i = 0; i < static_cast<int>(seconds * 100.0 + 0.5); ++i) {
       world.step();

@@ -57,6 +57,7 @@ struct Drive {
   double max_turn_rate = 0.0;          ///< [rad/s]
   double max_acceleration = 0.0;       ///< [m/s2]
   double max_turn_acceleration = 0.0;  ///< [rad/s2]
+  double stop_deceleration = 0.0;      ///< [m/s2] Of an emergency stop; 0: it stops like on any command.
   double track = 0.0;                  ///< [m] Diameter of the circle through the wheels' contact points.
   double wheel_diameter = 0.0;         ///< [m]
   Duration lag{0};                     ///< Time constant of the first-order answer to a command.

@@ -90,6 +90,10 @@ class World {
   ///          stays.
   Status set_velocity_command(RobotId robot, const Twist2& wanted);
 
+  /// Stops the base as hard as it can, in the place of a velocity: with the robot's stop_deceleration, without lag,
+  /// after the dead time. A robot that has none stops as on a velocity of 0.
+  void emergency_stop(RobotId robot);
+
   /// Sets the direction in which the turret points from now on. Within its limits it turns there by the
   /// shorter way and keeps the angle in the robot's frame while the robot turns. At first it points ahead.
   ///

@@ -113,7 +113,8 @@ class HardwareContainer : public Device {
   /// Reads the device and publishes readings. Called at next_poll() while ready or active.
   virtual Status poll() = 0;
   [[nodiscard]] virtual TimePoint next_poll() const = 0;
-  /// Carries out a set-point.
+  /// Carries out a set-point. Where it is to stop at once, with the emergency stop of the device if it has one that does
+  /// not switch the motors off.
   virtual Status drive(const DriveSetpoint& setpoint) = 0;
 
   [[nodiscard]] HardwareHost& host() const { return host_; }

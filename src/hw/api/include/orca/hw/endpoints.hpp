@@ -91,14 +91,21 @@ struct DriveLimits {
 struct DriveSetpoint {
   Twist2 velocity{};          ///< Of the robot frame; to the left only if the base is holonomic.
   double turret_angle = 0.0;  ///< [rad] where a turret points, counter-clockwise from ahead.
+  /// Whether the base is to stop as hard as it can, with its emergency stop if it has one. Only with a velocity of 0.
+  bool at_once = false;
   /// Returns whether the base is to stand; a turret may turn meanwhile.
   [[nodiscard]] bool stands() const { return velocity == Twist2{}; }
+  /// Returns what stops the base at once and leaves the turret where it points. A base that stands is told nothing new.
+  [[nodiscard]] DriveSetpoint stopped() const {
+    return {.turret_angle = turret_angle, .at_once = at_once || !stands()};
+  }
   friend bool operator==(const DriveSetpoint&, const DriveSetpoint&) = default;
 };
 
 /// The motion endpoint of a container (thesis 10.2, Fig. 10.6). It takes crisp commands, keeps them within
 /// the limits, and lets no command live longer than `max_command_age`. When the driver reports that the base has met
-/// something, the base stands until a command asks for another direction.
+/// something, the base stands until a command asks for another direction. A FULLSTOP, a command that has become too old,
+/// halt() and an obstruction stop the base as hard as it can; a speed of 0 is a command like others.
 ///
 /// Thread contract: command() from any strand; the rest from the container's.
 class MotionHW {
@@ -156,7 +163,7 @@ class MotionHW {
   [[nodiscard]] Twist2 within_limits(const idl::MotionCommand& command) const;
   [[nodiscard]] Twist2 within_limits(const idl::HolonomicVelocity& velocity) const;
   [[nodiscard]] double within_limits(double turn_rate) const;
-  Status move(const Twist2& wanted, std::uint64_t mission, TimePoint now);
+  Status move(const DriveSetpoint& wanted, std::uint64_t mission, TimePoint now);
   void stand();
 
   const DriveLimits limits_;
