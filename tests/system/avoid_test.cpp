@@ -55,7 +55,7 @@ TEST_CASE("--describe lists the ports and the parameter of the example component
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   for (const char* said :
-       {"orca.Avoid", "sonar", "SonarRangeReadings", "motion", "MotionCommand", "stop_distance = 0.5 m"}) {
+       {"orca.Avoid", "ranges", "RangeReadings", "motion", "MotionCommand", "stop_distance = 0.5 m"}) {
     CAPTURE(said);
     CHECK(run.out.find(said) != std::string::npos);
   }
@@ -67,6 +67,13 @@ TEST_CASE("the example component keeps the Scout from driving into a wall", "[sy
   CHECK(run.exit_code() == 0);
   CHECK(run.contacts().empty());
   CHECK(run.arrivals().empty());
+}
+
+TEST_CASE("the example component keeps a Pioneer from driving into a wall by its laser",
+          "[system][avoid][subtype]") {
+  const Words laser{"--set", "robot=pioneer_2dx", "--profile", "laser"};
+  CHECK(towards_the_wall(laser).contacts().empty());
+  CHECK_FALSE(towards_the_wall(laser + Words{"--set", "behaviours=goto"}).contacts().empty());
 }
 
 TEST_CASE("when nobody listens to the example component, the Scout drives into the wall and says so",

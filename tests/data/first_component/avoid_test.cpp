@@ -11,7 +11,7 @@ namespace {
 // What the test pushes goes to the component's port of the same name, and what the component pushes comes back.
 struct Ports final : orca::testing::Partner {
   using Partner::Partner;
-  orca::PushServer<orca::idl::SonarRangeReadings> sonar{*this, "sonar"};
+  orca::PushServer<orca::idl::RangeReadings> ranges{*this, "ranges"};
   orca::PushProxy<orca::idl::MotionCommand> motion{*this, "motion"};
 };
 
@@ -19,12 +19,12 @@ const orca::testing::Trial kAvoid{.type = "orca.Avoid", .params = {{"stop_distan
 
 }  // namespace
 
-TEST_CASE("it commands a full stop while an echo is nearer than stop_distance") {
+TEST_CASE("it commands a full stop while something is nearer than stop_distance") {
   orca::testing::try_component<Ports>(kAvoid, [](Ports& test) {
     for (const double range : {2.0, 0.61, 0.59, 2.0}) {
-      auto echoes = test.sonar.loan();
-      echoes->ranges({3.0, range, 3.0});
-      test.sonar.push(std::move(echoes));
+      auto readings = test.ranges.loan();
+      readings->ranges({3.0, range, 3.0});
+      test.ranges.push(std::move(readings));
       CAPTURE(range);
       const bool stops = test.motion.get_update_wait()->kind() == orca::idl::FULLSTOP;
       CHECK(stops == (range < 0.6));

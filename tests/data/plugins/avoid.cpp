@@ -8,20 +8,20 @@
 
 namespace {
 
-/// Commands a full stop while any echo is nearer than `stop_distance`.
+/// Commands a full stop while anything is nearer than `stop_distance`.
 class Avoid final : public orca::Component {
  public:
   using Component::Component;
 
  private:
-  orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{*this, "sonar"};
+  orca::PushProxy<orca::idl::RangeReadings> ranges_{*this, "ranges"};
   orca::PushServer<orca::idl::MotionCommand> motion_{*this, "motion"};
   orca::Param<double> stop_distance_{*this, "stop_distance", 0.5, {.unit = "m", .min = 0.0}};
 
   orca::Outcome work() override {
-    const auto echoes = sonar_.get_update_wait();
+    const auto readings = ranges_.get_update_wait();
     const auto near = [&](double range) { return range < *stop_distance_; };
-    motion_.push(std::ranges::any_of(echoes->ranges(), near) ? orca::full_stop() : orca::dont_care());
+    motion_.push(std::ranges::any_of(readings->ranges(), near) ? orca::full_stop() : orca::dont_care());
     return orca::again();
   }
 };

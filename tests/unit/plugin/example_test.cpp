@@ -27,8 +27,8 @@ TEST_CASE("the example component declares its two ports and its parameter", "[pl
   const auto contract = describe_component(*type, library->path(), nullptr);
   REQUIRE(contract.has_value());
   REQUIRE(contract->ports.size() == 2);
-  CHECK(contract->port("sonar")->type.name == "SonarRangeReadings");
-  CHECK(contract->port("sonar")->role == Role::proxy);
+  CHECK(contract->port("ranges")->type.name == "RangeReadings");
+  CHECK(contract->port("ranges")->role == Role::proxy);
   CHECK(contract->port("motion")->type.name == "MotionCommand");
   CHECK(contract->port("motion")->role == Role::server);
   REQUIRE(contract->param("stop_distance") != nullptr);

@@ -20,7 +20,7 @@ namespace {
 
 struct AvoidPorts final : Partner {
   using Partner::Partner;
-  PushServer<idl::SonarRangeReadings> sonar{*this, "sonar"};
+  PushServer<idl::SonarRangeReadings> ranges{*this, "ranges"};
   PushProxy<idl::MotionCommand> motion{*this, "motion"};
 };
 
@@ -34,12 +34,12 @@ struct GotoPorts final : Partner {
 
 struct WrongType final : Partner {
   using Partner::Partner;
-  PushServer<idl::RobotPose> sonar{*this, "sonar"};
+  PushServer<idl::RobotPose> ranges{*this, "ranges"};
 };
 
 struct NoSuchPort final : Partner {
   using Partner::Partner;
-  PushServer<idl::SonarRangeReadings> sonars{*this, "sonars"};
+  PushServer<idl::SonarRangeReadings> range{*this, "range"};
 };
 
 const std::vector<std::string> kTestPlugins{ORCA_BINARY_DIR "/tests/plugins"};
@@ -108,8 +108,8 @@ TEST_CASE("what the script throws comes out of the trial", "[testing]") {
 TEST_CASE("what the checker of graphs refuses stops a trial before it begins", "[testing]") {
   CHECK_THROWS_WITH(try_for_nothing<WrongType>(kAvoid), Contains("orca.Avoid cannot be tried") &&
                                                             Contains("RobotPose") &&
-                                                            Contains("SonarRangeReadings"));
-  CHECK_THROWS_WITH(try_for_nothing<NoSuchPort>(kAvoid), Contains("sonars") && Contains("did you mean"));
+                                                            Contains("RangeReadings"));
+  CHECK_THROWS_WITH(try_for_nothing<NoSuchPort>(kAvoid), Contains("ranges") && Contains("did you mean"));
   CHECK_THROWS_WITH(
       try_for_nothing<AvoidPorts>(
           {.type = "orca.Avoid", .params = {{"stop_distance", "-1 m"}}, .plugins = kTestPlugins}),
