@@ -80,6 +80,8 @@ class Struct:
     base: Optional["Struct"]
     text: str
     fields: list[Field] = field(default_factory=list)
+    #: OrcaObject, for a plain struct that is marked @travels: it may be a part of others and an object of its own.
+    header: Optional["Struct"] = None
 
     @property
     def all_fields(self) -> list[Field]:
@@ -88,13 +90,21 @@ class Struct:
     @property
     def parent(self) -> Optional["Struct"]:
         """The object type that this one extends; none if that is only OrcaObject."""
-        return self.base if self.base is not None and self.base.is_object and self.base.name != "OrcaObject" else None
+        return self.base if self.base is not None and self.base.travels else None
 
     @property
     def layout(self) -> str:
-        """All that two programs must agree on to exchange this type: its parent, base's fields first, nested types in full."""
-        head = f"{self.name}:{self.parent.name}" if self.parent else self.name
-        return f"{head}{{{','.join(f.layout for f in self.all_fields)}}}"
+        """The layout as a part of others: base's fields first, nested types in full."""
+        return self._layout(self.parent if self.is_object else None, self.all_fields)
+
+    @property
+    def object_layout(self) -> str:
+        """All that two programs must agree on to exchange objects of this type: its parent, and all fields with the header's."""
+        return self._layout(self.parent, (self.header.all_fields if self.header else []) + self.all_fields)
+
+    def _layout(self, parent: Optional["Struct"], fields: list[Field]) -> str:
+        head = f"{self.name}:{parent.name}" if parent else self.name
+        return f"{head}{{{','.join(f.layout for f in fields)}}}"
 
     @property
     def wire_size(self) -> int:
@@ -102,8 +112,13 @@ class Struct:
 
     @property
     def is_object(self) -> bool:
-        """Whether it can be sent on its own: OrcaObject and the structs derived from it."""
+        """Whether it holds a header itself: OrcaObject and the structs derived from it."""
         return self.name == "OrcaObject" or (self.base is not None and self.base.is_object)
+
+    @property
+    def travels(self) -> bool:
+        """Whether it can be sent on its own."""
+        return self.header is not None or (self.is_object and self.name != "OrcaObject")
 
 
 @dataclass

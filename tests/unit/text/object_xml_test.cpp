@@ -60,6 +60,21 @@ TEST_CASE("the first struct in a struct has no element of its own, at any depth"
                              R"x(<rotation roll="0" pitch="0" yaw="0.5"/></mount></LaserSensor>)x"));
 }
 
+TEST_CASE("a struct that travels is written as it is within others, with the header's attributes first",
+          "[text][xml]") {
+  Travelling<idl::WorldCoordinate3D> place;
+  place.seq(4);
+  place.cause().seq(2);
+  place.point().x(3.6);
+  place.uncertainty().y(0.1);
+  CHECK(written(place) ==
+        R"x(<WorldCoordinate3D creation_time="0" origin="" seq="4" mission="0" x="3.6" y="0" z="0">)x"
+        R"x(<cause origin="" seq="2"/><uncertainty x="0" y="0.1" z="0"/></WorldCoordinate3D>)x");
+  CHECK(read<Travelling<idl::WorldCoordinate3D>>(R"x(<WorldCoordinate3D x="3.6"/>)x").point().x() == 3.6);
+  CHECK(read<Travelling<idl::Pose2D>>(R"x(<Pose2D x="1" orientation="90 deg"/>)x").orientation() ==
+        std::numbers::pi / 2);
+}
+
 TEST_CASE("a list of numbers is one attribute, and a list of structs has one element for each",
           "[text][xml]") {
   idl::SonarRangeReadings sonar;
