@@ -40,7 +40,7 @@ class PlaceServer final : public orca::Component {
     answer->name() = place->name;
     answer->coordinate().point().x(place->pose.x);
     answer->coordinate().point().y(place->pose.y);
-    answer->orientation(place->pose.yaw);
+    answer->orientation().orientation().yaw(place->pose.yaw);
     return answer;
   }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
 
 #include "algorithm.hpp"
+#include "fault.hpp"
 #include "legs.hpp"
 #include "orca/component.hpp"
 #include "orca/geometry/objects/plane.hpp"
@@ -49,8 +49,9 @@ class Goto final : public orca::Component {
     if (route_.is_given_up(*goal))
       return orca::fail(orca::Code::failed_precondition,
                         "the route to \"" + goal->name() + "\" has been given up");
-    const char* fault = fault_of(*goal);
-    if (const auto door = goal.as<orca::idl::Door>(); door && fault == nullptr) fault = fault_of_door(*door);
+    const char* fault = orca::go::fault_of(*goal, *height_);
+    if (const auto door = goal.as<orca::idl::Door>(); door && fault == nullptr)
+      fault = orca::go::fault_of_door(*door, *door_room_);
     if (fault != nullptr) return refuse(*goal, fault);
     route_.add(goal, now());
     before_.near = false;
@@ -63,29 +64,6 @@ class Goto final : public orca::Component {
     if (failed_.subscriber_count() > 0)
       announce(goal, orca::idl::GOAL_REFUSED, std::string("refused: it ") + fault);
     return orca::fail(orca::Code::invalid_argument, "the goal \"" + goal.name() + "\" " + fault);
-  }
-
-  // Returns why the robot cannot go there; null if it can.
-  [[nodiscard]] const char* fault_of(const orca::idl::GoalPoint& goal) const {
-    const auto& place = goal.coordinate().point();
-    for (const double number :
-         {place.x(), place.y(), place.z(), goal.orientation(), goal.reach_radius(), goal.reach_angle()})
-      if (!std::isfinite(number)) return "holds a number that is not finite";
-    if (goal.reach_radius() < 0.0) return "has a negative reach_radius";
-    if (goal.use_orientation() && goal.reach_angle() <= 0.0)
-      return "has an orientation to take with a reach_angle that is not positive";
-    if (goal.reach_radius() > 0.0 && std::abs(place.z() - *height_) >= goal.reach_radius())
-      return "lies so far above or below the robot that no place on the floor is within its reach_radius";
-    return nullptr;
-  }
-
-  // Returns why the robot cannot go through that door; null if it can. A width of 0 is not known.
-  [[nodiscard]] const char* fault_of_door(const orca::idl::Door& door) const {
-    const double width = door.door_width().distance();
-    if (!std::isfinite(width)) return "holds a number that is not finite";
-    if (!door.passable()) return "is a door that is not passable";
-    if (width > 0.0 && width < *door_room_) return "is a door narrower than Goto's door_room";
-    return nullptr;
   }
 
   orca::Outcome work() override {
@@ -125,7 +103,7 @@ class Goto final : public orca::Component {
   bool is_hopeless(const Pose2& pose) {
     const double stuck = patience_.note(distance(next_place(pose), pose), now());
     const orca::idl::GoalPoint& next = route_.next();
-    if (failed_.subscriber_count() == 0 || next.reach_radius() <= 0.0) return false;
+    if (failed_.subscriber_count() == 0 || next.reach_radius().distance() <= 0.0) return false;
     if (next.time_limit() > 0.0 && route_.age(now()) >= next.time_limit()) {
       end_route(orca::idl::GOAL_TIMED_OUT,
                 "timed out: not reached within " + in_short(next.time_limit()) + " s");

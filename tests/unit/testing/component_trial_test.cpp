@@ -55,7 +55,7 @@ void push_pose(GotoPorts& test, double x) {
 void send_goal(GotoPorts& test, double x) {
   auto goal = make_object<idl::GoalPoint>();
   goal->name() = "ahead";
-  goal->reach_radius(0.3);
+  goal->reach_radius().distance(0.3);
   goal->coordinate().point().x(x);
   REQUIRE(test.goal.send(std::move(goal)).ok());
 }

@@ -14,10 +14,10 @@ using orca::test::written;
 
 TEST_CASE("a person can type a goal", "[text][xml]") {
   const auto goal = read<idl::GoalPoint>(
-      R"x(<GoalPoint name="kitchen" reach_radius="0.3 m"><coordinate x="3.6" y="6"/></GoalPoint>)x");
+      R"x(<GoalPoint name="kitchen"><coordinate x="3.6" y="6"/><reach_radius distance="0.3 m"/></GoalPoint>)x");
   idl::GoalPoint expected;
   expected.name("kitchen");
-  expected.reach_radius(0.3);
+  expected.reach_radius().distance(0.3);
   expected.coordinate().point().x(3.6);
   expected.coordinate().point().y(6.0);
   CHECK(goal == expected);
@@ -127,9 +127,9 @@ TEST_CASE("a field that is not mentioned keeps its default, and the header may b
 
 TEST_CASE("values may have units, a list one for all its numbers", "[text][xml]") {
   const auto goal = read<idl::GoalPoint>(
-      R"x(<GoalPoint reach_radius="30 cm" orientation="180 deg"><coordinate x="3600mm"/></GoalPoint>)x");
-  CHECK(goal.reach_radius() == 0.3);
-  CHECK(goal.orientation() == std::numbers::pi);
+      R"x(<GoalPoint reach_angle="180 deg"><coordinate x="3600mm"/><reach_radius distance="30 cm"/></GoalPoint>)x");
+  CHECK(goal.reach_radius().distance() == 0.3);
+  CHECK(goal.reach_angle() == std::numbers::pi);
   CHECK(goal.coordinate().point().x() == 3.6);
   const auto readings = read<idl::LaserRangeReadings>(
       R"x(<LaserRangeReadings ranges="150 200 1500 mm" ranges_uncertainty="0.1 1cm" stamp="50 ms"/>)x");
