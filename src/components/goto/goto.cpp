@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "algorithm.hpp"
 #include "fault.hpp"
@@ -12,6 +13,7 @@
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
+#include "path.hpp"
 #include "patience.hpp"
 #include "route.hpp"
 
@@ -75,7 +77,19 @@ class Goto final : public orca::Component {
     } else if (!is_hopeless(pose)) {
       drive(pose);
     }
+    push_path(pose);
     return orca::again();
+  }
+
+  // Shows the way that is left, if it has changed or somebody has come who has not seen it.
+  void push_path(const Pose2& pose) {
+    const PathShown now_shown{route_.changes(), path_.subscriber_count()};
+    const PathShown before = std::exchange(path_shown_, now_shown);
+    if (now_shown.change == before.change && now_shown.to <= before.to) return;
+    if (now_shown.to == 0) return;
+    auto path = path_.loan();
+    orca::go::fill_path(route_, pose, *height_, *path);
+    path_.push(std::move(path));
   }
 
   void drive(const Pose2& pose) {
@@ -212,6 +226,10 @@ class Goto final : public orca::Component {
       *this, "GoalFailedPush", {.text = "One object per goal given up: refused, blocked or timed out."}};
   orca::PushServer<orca::idl::GoalPoint> goal_push_{
       *this, "GoalPush", {.text = "The via point or goal that it drives to now, once per lap."}};
+  orca::PushServer<orca::idl::Path> path_{
+      *this,
+      "PathPush",
+      {.text = "The way that is left: one object whenever its points change, and for a new subscriber."}};
   orca::PushProxy<orca::idl::Odometry> odometry_{
       *this, "odometry", {.text = "Pose of the robot, used if no localizer is connected.", .optional = true}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
@@ -276,7 +294,14 @@ class Goto final : public orca::Component {
       1.0,
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
+  // What the subscribers to the path have seen.
+  struct PathShown {
+    std::uint64_t change = 0;  // of the route
+    std::size_t to = 0;        // subscribers
+  };
+
   orca::go::Route route_;
+  PathShown path_shown_;
   orca::go::Legs legs_;
   orca::go::Patience patience_;
   orca::go::Before before_;
