@@ -107,6 +107,23 @@ class Struct:
         return f"{head}{{{','.join(f.layout for f in fields)}}}"
 
     @property
+    def text_names(self) -> list[str]:
+        """The names on its XML element, where a struct that comes first has no element of its own (docs/objects.md)."""
+        own = self.all_fields
+        head = []
+        if self.is_object:
+            head = [f.name for f in own if f in self.root.fields]
+            own = own[len(head):]
+        first = own[0] if own else None
+        if first and isinstance(first.type, Struct) and first.type.name != "TimeValue" and not first.sequence and first.array is None:
+            return head + first.type.text_names + [f.name for f in own[1:]]
+        return head + [f.name for f in own]
+
+    @property
+    def root(self) -> "Struct":
+        return self.base.root if self.base else self
+
+    @property
     def wire_size(self) -> int:
         return sum(f.wire_size for f in self.all_fields)
 

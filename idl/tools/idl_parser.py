@@ -200,6 +200,10 @@ class Parser:
         self.expect(";")
         if not struct.fields:
             raise self.error(f"struct {name.text} needs a field of its own; fastddsgen cannot do without", name)
+        names = struct.text_names
+        for twice in {n for n in names if names.count(n) > 1}:
+            raise self.error(f"'{twice}' would be twice on an element of {name.text}: its first field is a struct, whose fields are "
+                             "written there too; put another field first", name)
         self.known[name.text] = struct
         self.file.structs.append(struct)
 

@@ -207,6 +207,15 @@ class Travelling(unittest.TestCase):
                      "'n' is a field of OrcaObject, which P gets where it travels")
 
 
+class TextForm(unittest.TestCase):
+    def test_a_name_that_would_be_twice_on_an_element_is_refused(self):
+        clash = STRUCT + "/// T.\nstruct Top {\n  Spot spot;  ///< where\n  long n;  ///< text\n};"
+        with self.assertRaises(IdlError) as caught:
+            parse(clash)
+        self.assertIn("'n' would be twice on an element of Top", str(caught.exception))
+        parse(clash.replace("  Spot spot;  ///< where\n  long n;  ///< text\n", "  long n;  ///< text\n  Spot spot;  ///< where\n"))
+
+
 class Output(unittest.TestCase):
     def test_a_file_and_what_it_includes_come_once_and_in_order(self):
         files = load(top=idl("/// T.\nstruct Top {\n  Spot s;  ///< where\n  Kind k;  ///< which\n};", "top",
