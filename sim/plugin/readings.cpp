@@ -52,7 +52,7 @@ void fill(idl::BumperReadings& object, const BumperReading& reading, const Bumpe
   object.stamp(to_time_value(reading.stamp));
 }
 
-void fill(idl::Odometry& object, const OdometryReading& reading) {
+void fill(idl::Odometry& object, const OdometryReading& reading, const std::array<double, 9>& covariance) {
   object.x(reading.pose.x);
   object.y(reading.pose.y);
   object.steer_angle(reading.pose.yaw);
@@ -60,6 +60,7 @@ void fill(idl::Odometry& object, const OdometryReading& reading) {
   object.sideways_velocity(reading.velocity.left);
   object.steering_velocity(reading.velocity.turn_rate);
   object.stamp(to_time_value(reading.stamp));
+  object.covariance(covariance);
 }
 
 void fill(idl::TurretAngle& object, const TurretReading& reading) {

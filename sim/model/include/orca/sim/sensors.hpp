@@ -6,6 +6,7 @@
 
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
+#include "orca/sim/guesses.hpp"
 
 namespace orca::sim {
 
@@ -35,6 +36,7 @@ struct LaserScanner {
   double height = 0.0;      ///< [m] Height of that link above the floor.
   bool on_turret = false;   ///< Whether that link turns with the turret.
   DeviceLabel label{};
+  Guesses<RangeErrorGuess> errors{};
 };
 
 /// A ring of short-range infrared sensors, all of which measure at once. Number k looks along
@@ -55,6 +57,7 @@ struct InfraredRing {
   double height = 0.0;     ///< [m] Height of that link above the floor.
   bool on_turret = false;  ///< Whether that link turns with the turret.
   DeviceLabel label{};
+  Guesses<RangeErrorGuess> errors{};
 
   /// Returns the pose of sensor `k` in the base frame; it looks along its x axis.
   [[nodiscard]] Pose2 sensor(std::size_t k) const {
