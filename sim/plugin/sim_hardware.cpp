@@ -289,9 +289,9 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
       "stop_on_touch",
       true,
       {.fixed = true,
-       .text = "Whether the base stands after it has touched something, while a "
-                                            "bumper is pressed, or when its motors "
-                                            "are stalled, until a command asks for another direction."}};
+       .text = "Whether the base stands while a bumper is pressed (without bumpers: "
+               "after it has touched something), or when its motors "
+               "are stalled, until a command asks for another direction."}};
   orca::Param<std::int64_t> threads_{*this,
                                      "threads",
                                      1,

@@ -23,7 +23,7 @@ TEST_CASE("a robot that drives into a pillar stands there, says why once, and do
   INFO(run.err);
   CHECK(run.contacts().size() == 1);
   CHECK(run.arrivals().empty());
-  const std::string reason = "the base stands: it touched pillar; ask for another direction";
+  const std::string reason = "the base stands: its bumper \"front\" is pressed; ask for another direction";
   const auto first = run.err.find(reason);
   REQUIRE(first != std::string::npos);
   CHECK(run.err.find(reason, first + 1) == std::string::npos);

@@ -91,10 +91,11 @@ constexpr std::array kInfraredRing{required("name", kName),
                                    optional("vendor", kText),
                                    optional("model", kText),
                                    optional("port", kText)};
-constexpr std::array kBumperRing{
-    required("name", kName),   required("count", kDevices),       optional("first_angle", kAngle),
-    required("pitch", kAngle), optional("radius", kLengthOrZero), required("period", kPeriod),
-    optional("vendor", kText), optional("model", kText),          optional("port", kText)};
+constexpr std::array kBumperRing{required("name", kName),         required("count", kDevices),
+                                 optional("first_angle", kAngle), required("pitch", kAngle),
+                                 optional("angles", kAngle),      optional("radius", kLengthOrZero),
+                                 required("period", kPeriod),     optional("vendor", kText),
+                                 optional("model", kText),        optional("port", kText)};
 constexpr std::array kOdometry{required("period", kPeriod), optional("vendor", kText),
                                optional("model", kText), optional("port", kText)};
 constexpr ValueRule kShare = not_negative("", 1.0);

@@ -74,6 +74,14 @@ TEST_CASE("laser, infrared ring and bumper ring come from the robot's file", "[s
   CHECK(model->sonars.at(0).parallel == 2);
 }
 
+TEST_CASE("a bumper ring may list the directions of its segments", "[sim][robot_file]") {
+  std::string errors;
+  const auto model = read(replaced(kBumper, "count=\"8\"", "count=\"3\" angles=\"30 0 -120 deg\""), errors);
+  INFO(errors);
+  REQUIRE(model);
+  CHECK(model->bumpers.at(0).segment(2).yaw == Approx(-120.0 * kDegree));
+}
+
 TEST_CASE("wrong lasers are reported at their place", "[sim][robot_file]") {
   const auto laser = [](const std::string& from, const std::string& to) {
     return errors_in(replaced(kLaser, from, to));
@@ -100,6 +108,10 @@ TEST_CASE("wrong infrared and bumper rings are reported at their place", "[sim][
   CHECK_THAT(errors_in(replaced(kBumper, "45 deg", "46 deg")),
              Catch::Contains("error R022: the segments are wider than a full turn together"));
   CHECK_THAT(errors_in(replaced(kBumper, "20 ms", "-1 s")), Catch::Contains("error R005: period"));
+  CHECK_THAT(errors_in(replaced(kBumper, "pitch", "first_angle=\"1 deg\" angles=\"1 2 3 4 5 6 7 8\" pitch")),
+             Catch::Contains("error R022: the directions are given by angles already"));
+  CHECK_THAT(errors_in(replaced(kBumper, "pitch", "angles=\"1 2\" pitch")),
+             Catch::Contains("error R005: angles"));
   CHECK_THAT(errors_in(replaced(kSonar, "parallel=\"2\"", "parallel=\"5\"")),
              Catch::Contains("error R005: parallel: \"5\" is out of range: 1 to 4 is allowed"));
 }

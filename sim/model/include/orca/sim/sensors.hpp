@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
@@ -67,20 +68,22 @@ struct InfraredRing {
 };
 
 /// A bumper divided into segments. Segment k is centred at the direction first_angle + k * pitch from the
-/// base frame's origin and extends half a pitch to either side.
+/// base frame's origin and extends half a pitch to either side. A bumper that does not go all around may list the
+/// directions of its segments.
 struct BumperRing {
   std::string name;
   std::size_t count = 0;
   /// [rad] Direction of segment 0 in the base frame, counter-clockwise from ahead.
   double first_angle = 0.0;
-  double pitch = 0.0;   ///< [rad] Angle from one segment to the next, counter-clockwise positive.
-  double radius = 0.0;  ///< [m] Radius of the bumper, which gives the segments' places.
-  Duration period{0};   ///< Time from one reading to the next.
+  double pitch = 0.0;  ///< [rad] Width of a segment, and angle to the next one, counter-clockwise positive.
+  std::vector<double> angles;  ///< [rad] Direction of each segment; empty: one after the other, as above.
+  double radius = 0.0;         ///< [m] Radius of the bumper, which gives the segments' places.
+  Duration period{0};          ///< Time from one reading to the next.
   DeviceLabel label{};
 
   /// Returns the pose of the middle of segment `k`, x axis outwards, in the base frame.
   [[nodiscard]] Pose2 segment(std::size_t k) const {
-    const double angle = first_angle + static_cast<double>(k) * pitch;
+    const double angle = angles.empty() ? first_angle + static_cast<double>(k) * pitch : angles[k];
     return {radius * std::cos(angle), radius * std::sin(angle), wrapped(angle)};
   }
 };
