@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "algorithm.hpp"
 #include "legs.hpp"
 #include "orca/component.hpp"
+#include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
@@ -26,7 +28,8 @@ using orca::go::Step;
 /// reach_radius is 0 until another goal comes. A goal may lie above or below the robot: its reach is a ball.
 /// Via points that come before a goal are passed in order. A point that comes when the route already ends in
 /// a goal, or belongs to another mission, replaces the whole route. It drives through doors in a straight line.
-/// While somebody subscribes to its failures it gives up goals that it cannot reach.
+/// While somebody subscribes to its failures it gives up goals that it cannot reach. It has not arrived as long as it
+/// does not know well enough where it is.
 class Goto final : public orca::Component {
  public:
   using Component::Component;
@@ -53,6 +56,7 @@ class Goto final : public orca::Component {
     if (const auto door = goal.as<orca::idl::Door>(); door && fault == nullptr) fault = fault_of_door(*door);
     if (fault != nullptr) return refuse(*goal, fault);
     route_.add(goal, now());
+    doubts_ = false;
     before_.near = false;
     patience_.begin();
     return orca::ok();
@@ -106,8 +110,26 @@ class Goto final : public orca::Component {
     const Step step = step_towards(target, pose, limits(), before_);
     before_.near = step.near;
     before_.speed = step.speed;
-    if (step.kind == Step::Kind::reached) return arrive(pose);
-    motion_.push(orca::head(step.direction, step.speed, *weight_));
+    if (step.kind != Step::Kind::reached) {
+      motion_.push(orca::head(step.direction, step.speed, *weight_));
+    } else if (deviation_ <= target.reach_radius) {
+      arrive(pose);
+    } else {
+      wait_to_be_sure();
+    }
+  }
+
+  // Stands where it believes the goal is: its pose may become surer.
+  void wait_to_be_sure() {
+    motion_.push(orca::full_stop());
+    if (!std::exchange(doubts_, true))
+      log_warning("perhaps at \"" + route_.next().name() + "\", but not arrived: " + doubt());
+  }
+
+  // Says how unsure the position is, for people.
+  [[nodiscard]] std::string doubt() const {
+    return "its position is known only to " + in_short(deviation_) + " m, the goal's reach is " +
+           in_short(route_.next().reach_radius()) + " m";
   }
 
   // Pushes the point that it drives to, or a place on the way through a door.
@@ -131,7 +153,8 @@ class Goto final : public orca::Component {
                 "timed out: not reached within " + in_short(next.time_limit()) + " s");
     } else if (*blocked_after_ > 0.0 && stuck >= *blocked_after_) {
       end_route(orca::idl::GOAL_BLOCKED, "blocked: no nearer than " + in_short(patience_.nearest()) +
-                                             " m to " + place() + " for " + in_short(*blocked_after_) + " s");
+                                             " m to " + place() + " for " + in_short(*blocked_after_) + " s" +
+                                             (doubts_ ? ", and " + doubt() : ""));
     } else {
       return false;
     }
@@ -176,10 +199,12 @@ class Goto final : public orca::Component {
     if (!localizer_.connected()) {
       const auto odometry = odometry_.get_update();
       note_time(odometry->stamp());
+      deviation_ = orca::position_deviation(odometry->covariance());
       return orca::plane_pose(*odometry);
     }
     const auto pose = localizer_.get_update();
     note_time(pose->stamp());
+    deviation_ = orca::position_deviation(pose->covariance());
     return orca::plane_pose(*pose);
   }
 
@@ -303,6 +328,8 @@ class Goto final : public orca::Component {
   orca::go::Patience patience_;
   orca::go::Before before_;
   std::optional<orca::TimePoint> posed_at_;
+  double deviation_ = 0.0;  // [m] standard deviation of its position, in the worst direction; 0: not known
+  bool doubts_ = false;     // Whether it has said that it may be at the goal.
 };
 
 }  // namespace
