@@ -40,8 +40,9 @@ TEST_CASE(
     "the Scout exports the five hardware interfaces of thesis Fig. 11.3 and its description, nothing else",
     "[system][scout]") {
   CHECK(exported("graphs/scout_goto.xml", "base") ==
-        std::set<std::string>{"MotionCommandSend", "OdometryPush", "OdometryQuery", "RobotQuery",
-                              "SonarRangeReadingsPush", "SonarRangeReadingsQuery"});
+        std::set<std::string>{"BumperReadingsPush", "BumperReadingsQuery", "MotionCommandSend",
+                              "OdometryPush", "OdometryQuery", "RobotQuery", "SonarRangeReadingsPush",
+                              "SonarRangeReadingsQuery"});
 }
 
 TEST_CASE("a LaserServer exports Push and Query of the laser's readings and its description, nothing else",
