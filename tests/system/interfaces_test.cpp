@@ -37,7 +37,8 @@ std::set<std::string> exported(const std::string& graph_file, const std::string&
 }  // namespace
 
 TEST_CASE(
-    "the Scout exports the five hardware interfaces of thesis Fig. 11.3 and its description, nothing else",
+    "the Scout exports the five hardware interfaces of thesis Fig. 11.3, its bumpers and its description, no "
+    "more",
     "[system][scout]") {
   CHECK(exported("graphs/scout_goto.xml", "base") ==
         std::set<std::string>{"BumperReadingsPush", "BumperReadingsQuery", "MotionCommandSend",
