@@ -10,13 +10,10 @@
 #include <utility>
 
 #include "steady_time.hpp"
+#include "task_thread.hpp"
 #include "thread_state.hpp"
 
 namespace orca::detail {
-
-// The executive whose tasks run on this thread, or null. It distinguishes notifications from inside from
-// those of other threads.
-[[gnu::tls_model("initial-exec")]] static thread_local const CooperativeExecutive* t_inside = nullptr;
 
 struct CooperativeExecutive::Fiber {
   std::string name;
@@ -39,7 +36,7 @@ class CooperativeEvent final : public Event {
   ~CooperativeEvent() override { executive_.forget_notifications(*this); }
 
   void notify() override {
-    if (executive_.called_from_inside()) {
+    if (executive_.runs_here()) {
       notify_inside();
     } else {
       executive_.post_notification(*this);
@@ -143,7 +140,7 @@ std::unique_ptr<CooperativeExecutive::Fiber> CooperativeExecutive::make_fiber(Ta
   fiber->priority = options.priority;
   fiber->ended_event = make_event();
   fiber->context = contexts_->make([this, self = fiber.get(), run = std::move(body)] {
-    t_inside = this;
+    const TaskThread here(*this);
     self->thread_id = gettid();
     self->thread = pthread_self();
     run();
@@ -166,7 +163,7 @@ void CooperativeExecutive::destroy(std::unique_ptr<Fiber> fiber) {
 }
 
 void CooperativeExecutive::run(std::function<void()> main) {
-  const CooperativeExecutive* const outer = std::exchange(t_inside, this);
+  const TaskThread here(*this);
   auto fiber = make_fiber({"main", 0}, std::move(main));
   main_ = fiber.get();
   make_ready(*fiber);
@@ -179,7 +176,6 @@ void CooperativeExecutive::run(std::function<void()> main) {
   current_ = nullptr;
   main_ = nullptr;
   destroy(std::move(fiber));
-  t_inside = outer;
 }
 
 // Waits, or lets virtual time pass, until a task is ready.
@@ -254,8 +250,6 @@ void CooperativeExecutive::wait_for_work() {
   running_.store(nullptr, std::memory_order_release);  // a task that waits here is not stuck
   inbox_changed_.wait_until(timers_.empty() ? kForever : std::get<TimePoint>(*timers_.begin()));
 }
-
-bool CooperativeExecutive::called_from_inside() const { return t_inside == this; }
 
 void CooperativeExecutive::post_notification(CooperativeEvent& event) {
   {

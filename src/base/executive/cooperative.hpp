@@ -38,7 +38,6 @@ class CooperativeExecutive final : public Executive {
   void block_until(TimePoint deadline);
   void make_ready(Fiber& fiber);
   [[nodiscard]] Fiber* current() { return current_; }
-  [[nodiscard]] bool called_from_inside() const;
   void post_notification(CooperativeEvent& event);
   void forget_notifications(CooperativeEvent& event);
 

@@ -113,8 +113,10 @@ class Goto final : public orca::Component {
   // Pushes the point that it drives to, or a place on the way through a door.
   void push_goal(const orca::go::Target& target) {
     const auto& point = route_.next().coordinate().point();
-    if (target.place == orca::Vec2{point.x(), point.y()})
-      return goal_push_.push(orca::copy_value(route_.point()));
+    if (target.place == orca::Vec2{point.x(), point.y()}) {
+      goal_push_.push(orca::copy_value(route_.point()));
+      return;
+    }
     auto place = orca::make_object(route_.next());
     place->coordinate().point().x(target.place.x);
     place->coordinate().point().y(target.place.y);

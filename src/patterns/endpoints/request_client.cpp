@@ -21,6 +21,7 @@ template <class Answer>
 Result<typename RequestClient<Answer>::Offered> RequestClient<Answer>::offer(ObjectLoan loan,
                                                                              const Provenance* provenance,
                                                                              bool may_wait) {
+  if (!admits_caller()) return foreign_call();
   if (target_ == nullptr)
     return fail(Code::failed_precondition, "port " + path() + " is not connected; add <connect from=\"" +
                                                path() + "\" to=\"...\"/> to the graph");

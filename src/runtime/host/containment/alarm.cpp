@@ -11,6 +11,7 @@ idl::AlarmSeverity severity_of(AlarmKind kind) {
     case AlarmKind::hardware_fault: return idl::ALARM_CRITICAL;
     case AlarmKind::failed:
     case AlarmKind::stalled:
+    case AlarmKind::foreign_thread:
     case AlarmKind::descriptors: return idl::ALARM_WARNING;
     default: return idl::ALARM_NOTICE;  // it was restored, or harms nobody yet
   }
@@ -25,6 +26,7 @@ const char* to_string(AlarmKind kind) {
     case AlarmKind::stalled: return "STALLED";
     case AlarmKind::plugin_pinned: return "PLUGIN_PINNED";
     case AlarmKind::fork: return "FORK";
+    case AlarmKind::foreign_thread: return "FOREIGN_THREAD";
     case AlarmKind::floating_point: return "FLOATING_POINT";
     case AlarmKind::locale: return "LOCALE";
     case AlarmKind::signal_mask: return "SIGNAL_MASK";

@@ -5,6 +5,7 @@
 
 #include "orca/host/alarm.hpp"
 #include "orca/idl/time.hpp"
+#include "orca/plugin/loaded_plugins.hpp"
 
 namespace orca::host {
 namespace {
@@ -70,6 +71,20 @@ void Reporter::trouble(LinkTrouble kind, std::string_view from, std::string_view
   if (!left_out) return;
   log(log::Level::warning, component_of(kind == LinkTrouble::refused ? from : to),
       ends + ": " + std::string(text) + mention_left_out(*left_out));
+}
+
+void Reporter::foreign_call(std::string_view component, std::string_view port, const void* code) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!with_foreign_threads_.emplace(component).second) return;
+  }
+  const char* const plugin = plugin::plugin_at(code);
+  raise(make_alarm(
+      AlarmKind::foreign_thread, std::string(component), "",
+      std::string(component) + "." + std::string(port) +
+          " was called by a thread that runs no component, and refuses; only the component's own hooks, "
+          "laps and handlers may call its ports" +
+          (plugin != nullptr ? std::string("; the plugin is ") + plugin : "")));
 }
 
 void Reporter::ignore_trouble() {

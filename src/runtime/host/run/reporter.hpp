@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +41,9 @@ class Reporter final : public LinkObserver {
   /// Writes a warning to the log, under the name of the component that sends, asks or receives. Of one kind
   /// of trouble of one connection there is at most one line in 10 s of the run's clock.
   void trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) override;
+
+  /// Raises the alarm FOREIGN_THREAD, once for each component.
+  void foreign_call(std::string_view component, std::string_view port, const void* code) override;
 
   /// Reports no more trouble of connections: the system is being taken down.
   void ignore_trouble();
@@ -85,6 +90,7 @@ class Reporter final : public LinkObserver {
   std::vector<idl::Alarm> alarms_;
   RobotNames robots_;
   LineLimit trouble_lines_;
+  std::set<std::string, std::less<>> with_foreign_threads_;  // components
   bool ignores_trouble_ = false;
 };
 

@@ -72,7 +72,8 @@ struct StuckTask {
 /// time advances only when no task is ready. The same program therefore gives the same order, whatever the
 /// load of the machine.
 ///
-/// Thread contract: now() and Event::notify() from anywhere; the rest from tasks of this executive.
+/// Thread contract: now(), runs_here() and Event::notify() from anywhere; the rest from tasks of this
+/// executive.
 class Executive {
  public:
   virtual ~Executive() = default;
@@ -85,6 +86,10 @@ class Executive {
   /// Returns whether two tasks can run at the same time. With fibers and batons they cannot: between two
   /// waits, a task alone accesses the data that only tasks touch.
   [[nodiscard]] virtual bool tasks_overlap() const = 0;
+  /// Returns whether the calling thread runs a task of this executive. A thread that a component or a library
+  /// has started does not.
+  /// @thread  any; costs one look at a variable of the thread.
+  [[nodiscard]] bool runs_here() const noexcept;
   [[nodiscard]] virtual std::unique_ptr<Event> make_event() = 0;
 
   /// Starts a task. `body` must not throw.

@@ -16,7 +16,8 @@ enum class LinkTrouble {
 
 /// An observer of everything that happens on the links of a run, for traces and taps.
 ///
-/// Thread contract: called from the strands of both ends; implementations synchronise themselves.
+/// Thread contract: called from the strands of both ends, foreign_call() from any thread; implementations
+/// synchronise themselves.
 class LinkObserver {
  public:
   virtual ~LinkObserver() = default;
@@ -35,6 +36,12 @@ class LinkObserver {
   /// @param text      what has happened, without the ends.
   virtual void trouble(LinkTrouble /*kind*/, std::string_view /*from*/, std::string_view /*to*/,
                        std::string_view /*text*/) {}
+
+  /// Reports that a port has refused a call, because the calling thread runs no component.
+  /// @param code  any address in the component's plugin; null: not known.
+  /// @thread  the one that called.
+  virtual void foreign_call(std::string_view /*component*/, std::string_view /*port*/, const void* /*code*/) {
+  }
 };
 
 }  // namespace orca

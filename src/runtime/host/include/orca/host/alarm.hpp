@@ -16,6 +16,7 @@ enum class AlarmKind {
   stalled,         ///< A component computes or sleeps without waiting for anything of Orca.
   plugin_pinned,   ///< A plugin stays in memory although nothing uses it.
   fork,            ///< A component called fork(); the copy was ended.
+  foreign_thread,  ///< A thread that runs no component called a port; the call was refused.
   floating_point,  ///< The following are changes of state that all components share.
   locale,
   signal_mask,
