@@ -43,6 +43,17 @@ std::vector<ExecutiveOptions> virtual_kinds() {
 
 std::unique_ptr<Executive> make(const ExecutiveOptions& options) { return make_executive(options).value(); }
 
+// Writes to each page of a stack that grows by that many bytes.
+int use_stack(std::size_t bytes) {
+  volatile char* const room = static_cast<char*>(__builtin_alloca(bytes));
+  int sum = 0;
+  for (std::size_t i = 0; i < bytes; i += 4096) {
+    room[i] = 1;
+    sum += room[i];
+  }
+  return sum;
+}
+
 }  // namespace
 
 TEST_CASE("free-running threads in virtual time are refused with a hint", "[base][executive]") {
@@ -115,6 +126,42 @@ TEST_CASE("tasks hand over to each other through events and are joined", "[base]
       CHECK(task->join_until(kForever));
     });
     CHECK(laps == 100);
+  }
+}
+
+TEST_CASE("a task may use 1.5 MB of stack, also after it has waited", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      int sum = 0;
+      const auto task = executive->spawn({"deep", 0}, [&] {
+        executive->sleep_until(executive->now() + 1ms);
+        sum = use_stack(1'500'000);
+      });
+      CHECK(task->join_until(kForever));
+      CHECK(sum > 0);
+    });
+  }
+}
+
+TEST_CASE("only the threads of its tasks run an executive", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    CHECK_FALSE(executive->runs_here());
+    executive->run([&] {
+      CHECK(executive->runs_here());
+      bool in_task = false;
+      bool in_stranger = true;
+      const auto task = executive->spawn({"task", 0}, [&] {
+        in_task = executive->runs_here();
+        std::thread([&] { in_stranger = executive->runs_here(); }).join();
+      });
+      CHECK(task->join_until(kForever));
+      CHECK(in_task);
+      CHECK_FALSE(in_stranger);
+      CHECK_FALSE(make(kind)->runs_here());
+    });
+    CHECK_FALSE(executive->runs_here());
   }
 }
 

@@ -293,6 +293,10 @@ LastWords::~LastWords() {
   g_stderr = STDERR_FILENO;
 }
 
+std::terminate_handler LastWords::terminate_handler() noexcept {
+  return g_armed.load() ? on_terminate : std::get_terminate();
+}
+
 // exit() calls first what was registered last, and in between it destroys static variables, which the other threads
 // still use.
 void LastWords::catch_exit() { on_exit(on_exit_called, nullptr); }

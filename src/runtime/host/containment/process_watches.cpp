@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "orca/host/last_words.hpp"
+
 namespace orca::host {
 namespace {
 
@@ -76,6 +78,15 @@ std::optional<Finding> SignalHandlerWatch::look() {
   }
   if (changed.empty()) return std::nullopt;
   return Finding{AlarmKind::signal_handler, "changed what happens at " + changed};
+}
+
+void TerminateWatch::keep() { reference_ = LastWords::terminate_handler(); }
+
+std::optional<Finding> TerminateWatch::look() {
+  if (std::get_terminate() == reference_) return std::nullopt;
+  std::set_terminate(reference_);
+  return Finding{AlarmKind::terminate_handler,
+                 "changed what std::terminate() does, with std::set_terminate()"};
 }
 
 void FolderWatch::keep() { reference_ = current_folder(); }

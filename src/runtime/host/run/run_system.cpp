@@ -135,6 +135,7 @@ class Run {
       // After a request to stop, some components may not be up, and others would fail for want of them.
       LastWords::catch_exit();
       const bool opens = up.ok() && !stop_.requested();
+      if (opens) came_up_.store(true);
       if (opens) system_->open_gates();
       supervise();
       if (has_ended() && !stop_.requested()) wait_for_rest();
@@ -252,17 +253,25 @@ class Run {
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
       reporter_.log_error(name + " does not end; the process is ended without it");
-    conclude(RunOutcome::failed, fail(Code::deadline_exceeded,
-                                      listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
+    conclude(failed_outcome(), fail(Code::deadline_exceeded,
+                                    listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
     close_outputs();
     listener_.abandon(result());  // a thread cannot be ended in any other way
   }
 
+  // Returns the outcome of a run that must be given up.
+  [[nodiscard]] RunOutcome failed_outcome() const {
+    return came_up_.load() ? RunOutcome::failed : RunOutcome::not_started;
+  }
+
   // Reports a standstill. It runs on the monitor's own thread, because no strand can run.
-  void stand_still(const std::string& component, const std::string& text) {
+  void stand_still(const std::string& component, const std::string& what) {
+    const ComponentInstance* const culprit = system_->component(component);
+    const std::string hook = culprit != nullptr ? culprit->current_hook() : "";
+    const std::string text = hook + (hook.empty() ? "" : " ") + what;
     reporter_.log(log::Level::error, component, text);
     RunResult ended = result();
-    ended.outcome = RunOutcome::failed;
+    ended.outcome = failed_outcome();
     ended.culprit = component;
     ended.error = fail(Code::deadline_exceeded, text, component);
     ended.trace_hash.reset();  // it would depend on the moment at which the standstill was noticed
@@ -313,6 +322,7 @@ class Run {
   Reporter reporter_;
   OutputFile picture_{"the picture"};
   std::atomic<bool> runs_{false};      // whether there are strands
+  std::atomic<bool> came_up_{false};   // whether the whole system has been up
   const KeptEnvironment environment_;  // lives longer than all that runs a plugin's code
   const TimePoint start_ = executive_.now();
   std::unique_ptr<Event> changed_ = executive_.make_event();
