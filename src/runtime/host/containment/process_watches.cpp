@@ -72,7 +72,7 @@ std::optional<Finding> SignalHandlerWatch::look() {
   for (const Handler& kept : reference_) {
     struct sigaction present {};
     sigaction(kept.signal, nullptr, &present);
-    if (same_handler(present, kept.action)) continue;
+    if (same_handler(present, kept.action) || LastWords::is_dying()) continue;
     sigaction(kept.signal, &kept.action, nullptr);
     changed += std::string(changed.empty() ? "SIG" : ", SIG") + sigabbrev_np(kept.signal);
   }
