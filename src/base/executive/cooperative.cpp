@@ -25,6 +25,8 @@ struct CooperativeExecutive::Fiber {
   std::unique_ptr<Event> ended_event;
   bool ended = false;
   bool ready = false;
+  std::uint32_t turns = 0;  // at `instant`
+  TimePoint instant{};
   Fiber* before = nullptr;  // in the ready queue
   Fiber* after = nullptr;
   std::optional<Timers::iterator> timer;
@@ -113,10 +115,14 @@ void CooperativeExecutive::ReadyQueue::add(Fiber& fiber) {
 
 CooperativeExecutive::Fiber& CooperativeExecutive::ReadyQueue::pop() {
   Fiber& fiber = *first_;
-  first_ = fiber.after;
-  (first_ == nullptr ? last_ : first_->before) = nullptr;
-  fiber.ready = false;
+  remove(fiber);
   return fiber;
+}
+
+void CooperativeExecutive::ReadyQueue::remove(Fiber& fiber) {
+  (fiber.before == nullptr ? first_ : fiber.before->after) = fiber.after;
+  (fiber.after == nullptr ? last_ : fiber.after->before) = fiber.before;
+  fiber.ready = false;
 }
 
 CooperativeExecutive::CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts,
@@ -187,6 +193,7 @@ CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
   for (;;) {
     take_notifications();
     if (!is_virtual()) fire_timers();
+    if (main_is_next_) return main_at_once();
     if (!ready_.empty()) return ready_.pop();
     if (is_virtual()) {
       advance_virtual_time();
@@ -196,10 +203,34 @@ CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
   }
 }
 
+// Returns the main task, whatever else is ready.
+CooperativeExecutive::Fiber& CooperativeExecutive::main_at_once() {
+  main_is_next_ = false;
+  make_ready(*main_);
+  ready_.remove(*main_);
+  return *main_;
+}
+
 void CooperativeExecutive::begin(Fiber& fiber) {
+  if (is_virtual()) count_turn(fiber);
   current_ = &fiber;
   running_.store(&fiber, std::memory_order_release);
   switches_.store(switches_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+}
+
+void CooperativeExecutive::count_turn(Fiber& fiber) {
+  if (&fiber == main_ || restless_) return;
+  if (const TimePoint time = now(); fiber.instant != time) {
+    fiber.instant = time;
+    fiber.turns = 0;
+  }
+  ++fiber.turns;
+  if (fiber.turns == kMostTurns / 2) busy_.push_back(fiber.name);
+  if (fiber.turns == kMostTurns) restless_ = main_is_next_ = true;
+}
+
+std::vector<std::string> CooperativeExecutive::restless_tasks() const {
+  return restless_ ? busy_ : std::vector<std::string>{};
 }
 
 void CooperativeExecutive::set_timer(Fiber& fiber, TimePoint deadline) {
@@ -241,6 +272,7 @@ void CooperativeExecutive::fire_timers() {
 }
 
 void CooperativeExecutive::advance_virtual_time() {
+  if (!restless_) busy_.clear();
   if (timers_.empty()) {
     make_ready(*main_);  // no task can ever run again, so main's wait ends
     return;

@@ -2,6 +2,7 @@
 #include "orca/host/run_system.hpp"
 
 #include <atomic>
+#include <cstdio>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -30,6 +31,15 @@ constexpr Duration kMotorLimit = 150ms;
 constexpr Duration kShortRun = 1s;  // it ends before everybody has had something to do
 
 // One run, from bringing up to taking down. Its main() is the executive's main task.
+std::string restless_text(const std::vector<std::string>& names, Duration instant) {
+  char time[32];
+  std::snprintf(time, sizeof time, "%.6g s", to_seconds(instant));
+  return "virtual time stands still at " + std::string(time) + ": " + listed(names) +
+         (names.size() == 1 ? " goes" : " go") + " on at this instant without end (" +
+         std::to_string(Executive::kMostTurns) +
+         " turns so far); one of them must let time pass, for example work by period";
+}
+
 class Run {
  public:
   Run(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options, Executive& executive,
@@ -165,14 +175,9 @@ class Run {
 
   void supervise() {
     const TimePoint end = options_.until ? executive_.now() + *options_.until : kForever;
-    while (!stop_.requested() && executive_.now() < end && !has_ended()) {
-      if (!changed_->wait_until(end) && end == kForever && executive_.is_virtual() && !stop_.requested()) {
-        stands_still_ = true;
-        return fail_with(
-            RunOutcome::failed,
-            fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
-      }
-    }
+    bool all_wait = false;
+    while (!stop_.requested() && executive_.now() < end && !has_ended() && !report_standstill(all_wait))
+      all_wait = !changed_->wait_until(end) && end == kForever && executive_.is_virtual();
     if (error_ || has_ended()) return;
     outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
     if (outcome_ == RunOutcome::time_is_up && !graph_.ends.empty()) report_time_limit();
@@ -194,6 +199,21 @@ class Run {
       all_done = all_done && is_at_end(component);
     }
     return all_done;
+  }
+
+  // Reports that virtual time cannot pass any more, and returns whether that is so.
+  // @param all_wait  no component can ever run again.
+  bool report_standstill(bool all_wait) {
+    const std::vector<std::string> restless = executive_.restless_tasks();
+    stands_still_ = all_wait;
+    if (!restless.empty()) {
+      fail_with(RunOutcome::failed,
+                fail(Code::deadline_exceeded, restless_text(restless, executive_.now() - start_)));
+    } else if (all_wait) {
+      fail_with(RunOutcome::failed,
+                fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
+    }
+    return all_wait || !restless.empty();
   }
 
   // Says what the time limit has cut short.
@@ -240,7 +260,9 @@ class Run {
   // Waits for the closing phase: the last client has gone, and connections close down to the hardware.
   void wait_for_rest() {
     const TimePoint limit = executive_.now() + kRestLimit;
-    while (!system_->at_rest() && executive_.now() < limit && !stop_.requested()) changed_->wait_until(limit);
+    while (!system_->at_rest() && executive_.now() < limit && !stop_.requested() &&
+           executive_.restless_tasks().empty())
+      changed_->wait_until(limit);
   }
 
   // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
@@ -92,8 +94,17 @@ class Executive {
 
   /// Runs `main` as a task and returns when it has ended. All other tasks must have ended by then.
   ///
-  /// In virtual time, when no task can ever run again, a wait of `main` ends as if its deadline had come.
+  /// In virtual time, when no task can ever run again, a wait of `main` ends as if its deadline had come. It also
+  /// does once when a task has had kMostTurns turns at one instant: time may then never pass again.
   virtual void run(std::function<void()> main) = 0;
+
+  /// The number of turns that a task may have at one instant of virtual time. A turn ends when the task waits.
+  /// What happens at one instant in a system of the greatest size, 10,000 components, takes a task far fewer.
+  static constexpr std::uint32_t kMostTurns = 100'000;
+
+  /// Returns the tasks that keep virtual time from passing: those that had at least half of kMostTurns turns at the
+  /// instant at which a task had all of them; empty: time passes.
+  [[nodiscard]] virtual std::vector<std::string> restless_tasks() const { return {}; }
 
   /// Returns a task that has not waited on the executive for too long.
   ///
