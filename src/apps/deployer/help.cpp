@@ -27,6 +27,9 @@ How to run it
 
 What to write
   --trace FILE          one line per delivery, connection and change of state
+  --record FILE.csv=PORT,...
+                        a table of all objects that a PushServer pushes, a SendProxy sends, or that arrive at another
+                        port, for a spreadsheet or pandas; --list-ports lists the ports; may be repeated with other files
   --picture FILE        draws the run, in the end, if it was simulated: .svg or .png
   --view WHAT           of the picture: world (default), robot (around the first robot, ahead is up) or film (key
                         moments: start, arrivals, contacts, end)

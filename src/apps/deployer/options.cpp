@@ -116,6 +116,25 @@ Status set_picture(Options& options, const std::string& value) {
   return ok();
 }
 
+// Reads FILE.csv=PORT,...
+Status add_recording(Options& options, const std::string& value) {
+  const auto equals = value.rfind('=');
+  const std::string file = value.substr(0, equals);
+  if (equals == std::string::npos || !file.ends_with(".csv"))
+    return expected("--record", "FILE.csv=PORT,..., such as poses.csv=localizer.RobotPosePush", value);
+  for (const host::RecordingOptions& other : options.run.recordings)
+    if (other.file == file)
+      return fail(Code::invalid_argument, "--record: " + in_quotes(file) +
+                                              " is given twice; name all its ports at once, with commas "
+                                              "between");
+  std::vector<std::string> ports;
+  std::istringstream words(value.substr(equals + 1));
+  for (std::string word; std::getline(words, word, ',');) ports.push_back(word);
+  if (ports.empty()) return expected("--record", "a port after the =", value);
+  options.run.recordings.push_back({file, std::move(ports)});
+  return ok();
+}
+
 Status set_view(Options& options, const std::string& value) {
   const std::optional<host::View> view = host::view_from(value);
   if (!view) return expected("--view", listed(host::view_names()), value);
@@ -181,6 +200,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--until", {true, set_until}},
       {"--fail", {true, add_failure, true}},
       {"--trace", {true, [](Options& o, const std::string& v) { return o.run.trace_file = v, ok(); }}},
+      {"--record", {true, add_recording, true}},
       {"--picture", {true, set_picture}},
       {"--view", {true, set_view}},
       {"--hide", {true, hide, true}},

@@ -38,10 +38,12 @@ Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listen
 
 void Reporter::delivered(std::string_view component, std::string_view port, const ObjectRef& object) {
   trace_.delivered(component, port, object);
+  if (recorder_ != nullptr) recorder_->delivered(component, port, object);
   if (sightings_ != nullptr) sightings_->delivered(component, object);
 }
 
-void Reporter::pushed(const ObjectRef& object) {
+void Reporter::pushed(std::string_view component, std::string_view port, const ObjectRef& object) {
+  if (recorder_ != nullptr) recorder_->pushed(component, port, object);
   if (&object.type() == &object_type<idl::Arrived>()) hear(*static_cast<const idl::Arrived*>(object.get()));
   if (&object.type() == &object_type<idl::GoalFailed>())
     hear(*static_cast<const idl::GoalFailed*>(object.get()));

@@ -11,6 +11,7 @@
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
+#include "recording/recorder.hpp"
 #include "sightings.hpp"
 #include "trace.hpp"
 
@@ -29,10 +30,16 @@ class Reporter final : public LinkObserver {
   /// Passes what is delivered on to `sightings` as well.
   /// @pre  nothing runs yet.
   void look_on(Sightings& sightings) { sightings_ = &sightings; }
+  /// Passes what travels on to `recorder` as well.
+  /// @pre  nothing runs yet.
+  void record(Recorder& recorder) { recorder_ = &recorder; }
 
   void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
   /// Passes on the results of missions: Arrived and GoalFailed.
-  void pushed(const ObjectRef& object) override;
+  void pushed(std::string_view component, std::string_view port, const ObjectRef& object) override;
+  void requested(std::string_view component, std::string_view port, const ObjectRef& object) override {
+    if (recorder_ != nullptr) recorder_->requested(component, port, object);
+  }
   void link_changed(std::string_view client, std::string_view server, bool connected) override {
     trace_.link_changed(client, server, connected);
   }
@@ -78,6 +85,7 @@ class Reporter final : public LinkObserver {
   const std::string log_name_;
   const TimePoint start_;
   Sightings* sightings_ = nullptr;
+  Recorder* recorder_ = nullptr;
   mutable std::mutex mutex_;
   std::vector<idl::Arrived> arrivals_;
   std::vector<idl::GoalFailed> failures_;

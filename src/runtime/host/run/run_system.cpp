@@ -16,6 +16,7 @@
 #include "live_view.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
+#include "orca/graph/port_list.hpp"
 #include "orca/host/last_words.hpp"
 #include "reporter.hpp"
 #include "robot_finder.hpp"
@@ -30,7 +31,6 @@ constexpr Duration kTakeDownLimit = 1500ms;
 constexpr Duration kMotorLimit = 150ms;
 constexpr Duration kShortRun = 1s;  // it ends before everybody has had something to do
 
-// One run, from bringing up to taking down. Its main() is the executive's main task.
 std::string restless_text(const std::vector<std::string>& names, Duration instant) {
   char time[32];
   std::snprintf(time, sizeof time, "%.6g s", to_seconds(instant));
@@ -40,6 +40,7 @@ std::string restless_text(const std::vector<std::string>& names, Duration instan
          " turns so far); one of them must let time pass, for example work by period";
 }
 
+// One run, from bringing up to taking down. Its main() is the executive's main task.
 class Run {
  public:
   Run(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options, Executive& executive,
@@ -73,6 +74,7 @@ class Run {
   void run() {
     if (const Status opened = open_outputs(); !opened.ok()) return refuse_output(opened.error());
     if (options_.looks_on) reporter_.look_on(sightings_);
+    if (!options_.recordings.empty()) reporter_.record(recorder_);
     if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
     reporter_.introduce(find_robots(graph_, system_->robots()));
     if (options_.looks_on)
@@ -90,7 +92,10 @@ class Run {
   Status open_outputs() {
     if (!options_.trace_file.empty())
       if (Status opened = trace_.open(options_.trace_file); !opened.ok()) return opened;
-    return options_.picture.file.empty() ? ok() : picture_.open(options_.picture.file);
+    if (!options_.picture.file.empty())
+      if (Status opened = picture_.open(options_.picture.file); !opened.ok()) return opened;
+    if (options_.recordings.empty()) return ok();
+    return recorder_.open(options_.recordings, graph::list_ports(graph_, catalogue_));
   }
 
   void refuse_output(const Error& error) {
@@ -101,6 +106,7 @@ class Run {
   void close_outputs() {
     for (const Status& closed : {trace_.close(), picture_.close()})
       if (!closed.ok()) fail_output(closed.error());
+    for (const Error& error : recorder_.close()) fail_output(error);
   }
 
   // What people asked for is not there, so the run has failed, however well it went.
@@ -170,7 +176,13 @@ class Run {
   // watchdogs of the devices can.
   void stop_motors() {
     if (executive_.tasks_overlap()) system_->stop_hardware(kMotorLimit);
+    close_records();
+  }
+
+  // Writes what a run leaves behind that ends in the middle, in whatever state it is.
+  void close_records() {
     (void)trace_.close();
+    (void)recorder_.close();
   }
 
   void supervise() {
@@ -186,21 +198,6 @@ class Run {
                 fail(Code::failed_precondition, "the signal " + signal + " ended the run"));
   }
 
-  // Returns whether the components that the graph names in `ends` have come to an end. Keeps the reason if
-  // one has failed that may not.
-  bool has_ended() {
-    bool all_done = !graph_.ends.empty();
-    for (const std::string& name : graph_.ends) {
-      const ComponentInstance& component = *system_->component(name);
-      if (component.has_failed() && !graph_.find_component(name)->may_fail) {
-        conclude(RunOutcome::failed, fail(Code::failed_precondition, component.failure(), name));
-        return true;
-      }
-      all_done = all_done && is_at_end(component);
-    }
-    return all_done;
-  }
-
   // Reports that virtual time cannot pass any more, and returns whether that is so.
   // @param all_wait  no component can ever run again.
   bool report_standstill(bool all_wait) {
@@ -214,6 +211,21 @@ class Run {
                 fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
     }
     return all_wait || !restless.empty();
+  }
+
+  // Returns whether the components that the graph names in `ends` have come to an end. Keeps the reason if
+  // one has failed that may not.
+  bool has_ended() {
+    bool all_done = !graph_.ends.empty();
+    for (const std::string& name : graph_.ends) {
+      const ComponentInstance& component = *system_->component(name);
+      if (component.has_failed() && !graph_.find_component(name)->may_fail) {
+        conclude(RunOutcome::failed, fail(Code::failed_precondition, component.failure(), name));
+        return true;
+      }
+      all_done = all_done && is_at_end(component);
+    }
+    return all_done;
   }
 
   // Says what the time limit has cut short.
@@ -288,7 +300,7 @@ class Run {
     ended.culprit = component;
     ended.error = fail(Code::deadline_exceeded, text, component);
     ended.trace_hash.reset();  // it would depend on the moment at which the standstill was noticed
-    (void)trace_.close();
+    close_records();
     listener_.abandon(ended);
   }
 
@@ -331,6 +343,7 @@ class Run {
   StopSignal& stop_;
   RunListener& listener_;
   Trace trace_;
+  Recorder recorder_{executive_};
   Sightings sightings_;
   Reporter reporter_;
   OutputFile picture_{"the picture"};

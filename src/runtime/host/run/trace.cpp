@@ -4,23 +4,13 @@
 #include <chrono>
 #include <cstdio>
 #include <string>
-#include <thread>
+
+#include "lock_before.hpp"
 
 namespace orca::host {
 namespace {
 
-constexpr std::chrono::milliseconds kCloseLimit{200}, kCloseRetry{1};
-
-// Takes the mutex unless somebody holds it until the limit is over. A std::timed_mutex would do it too, but the
-// thread sanitizer of GCC 12 does not see that it is taken (no interceptor for pthread_mutex_clocklock).
-std::unique_lock<std::mutex> lock_before(std::chrono::steady_clock::time_point limit, std::mutex& mutex) {
-  std::unique_lock lock(mutex, std::try_to_lock);
-  while (!lock.owns_lock() && std::chrono::steady_clock::now() < limit) {
-    std::this_thread::sleep_for(kCloseRetry);
-    lock.try_lock();
-  }
-  return lock;
-}
+constexpr std::chrono::milliseconds kCloseLimit{200};
 
 }  // namespace
 

@@ -25,7 +25,12 @@ class LinkObserver {
   virtual void delivered(std::string_view component, std::string_view port, const ObjectRef& object) = 0;
 
   /// Reports that a component has pushed an object, before anybody receives it, and even if nobody does.
-  virtual void pushed(const ObjectRef& /*object*/) {}
+  virtual void pushed(std::string_view /*component*/, std::string_view /*port*/,
+                      const ObjectRef& /*object*/) {}
+
+  /// Reports that a component sends an object, or asks a question, whatever the server says to it.
+  virtual void requested(std::string_view /*component*/, std::string_view /*port*/,
+                         const ObjectRef& /*object*/) {}
 
   /// Reports that a client's port was connected to, or disconnected from, a server's port.
   virtual void link_changed(std::string_view client, std::string_view server, bool connected) = 0;
