@@ -200,6 +200,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--until", {true, set_until}},
       {"--fail", {true, add_failure, true}},
       {"--trace", {true, [](Options& o, const std::string& v) { return o.run.trace_file = v, ok(); }}},
+      {"--values", {false, [](Options& o, const std::string&) { return o.run.trace_values = true, ok(); }}},
       {"--record", {true, add_recording, true}},
       {"--picture", {true, set_picture}},
       {"--view", {true, set_view}},
@@ -258,6 +259,12 @@ Status check_json(const Options& options) {
               "--json goes with --check, --print, --list-ports, --diff, --describe or --types");
 }
 
+Status check_values(const Options& options) {
+  if (!options.run.trace_values || !options.run.trace_file.empty() || options.action == Action::help)
+    return ok();
+  return fail(Code::invalid_argument, "--values goes with --trace FILE");
+}
+
 // A reader of one command line. It reports everything that is wrong with it.
 class Reader {
  public:
@@ -272,6 +279,7 @@ class Reader {
     }
     report(codes::kFiles, take_files(options_, files_, guessing_));
     report(codes::kExcluding, check_json(options_));
+    report(codes::kExcluding, check_values(options_));
     // A wrong clock says nothing about which executors fit.
     if (!wrong_.contains("--clock")) report(codes::kExcluding, choose_executor(options_, executor_));
     return std::move(options_);

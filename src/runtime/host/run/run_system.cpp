@@ -91,7 +91,10 @@ class Run {
   // Opens all files that the run writes, so that a wrong name is known before anything moves.
   Status open_outputs() {
     if (!options_.trace_file.empty())
-      if (Status opened = trace_.open(options_.trace_file); !opened.ok()) return opened;
+      if (Status opened = trace_.open(options_.trace_file,
+                                      options_.trace_values ? Trace::Detail::values : Trace::Detail::events);
+          !opened.ok())
+        return opened;
     if (!options_.picture.file.empty())
       if (Status opened = picture_.open(options_.picture.file); !opened.ok()) return opened;
     if (options_.recordings.empty()) return ok();

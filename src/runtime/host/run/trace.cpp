@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lock_before.hpp"
+#include "orca/text/object_xml.hpp"
 
 namespace orca::host {
 namespace {
@@ -16,7 +17,8 @@ constexpr std::chrono::milliseconds kCloseLimit{200};
 
 Trace::Trace(const Executive& executive) : executive_(executive), start_(executive.now()) {}
 
-Status Trace::open(const std::string& path) {
+Status Trace::open(const std::string& path, Detail detail) {
+  detail_ = detail;
   const Status opened = file_.open(path);
   if (opened.ok()) file_.flush();  // so that nobody takes an older trace for that of a run that crashed
   writes_.store(opened.ok());
@@ -62,8 +64,9 @@ void Trace::delivered(std::string_view component, std::string_view port, const O
     hash_.add(payload_);
   }
   if (!writes_) return;
+  const std::string value = detail_ == Detail::values ? " " + to_xml(object) : "";
   write_line({"deliver", component, port, std::to_string(header.seq()), object.type().name, "from",
-              header.origin()});
+              header.origin() + value});
 }
 
 void Trace::link_changed(std::string_view client, std::string_view server, bool connected) {
