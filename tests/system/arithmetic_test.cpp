@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 #include "deployer.hpp"
@@ -54,9 +55,9 @@ std::string process_with(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the trace hash is that of a processor without fused multiply-add", "[system][arithmetic]") {
+TEST_CASE("the trace hash is that of a processor without fused multiply-add", "[system][arithmetic][tool]") {
   if (!fuses()) {
-    WARN("skipped: this processor cannot fuse, so there is nothing to compare");
+    std::cout << "SKIPPED: this processor cannot fuse, so there is nothing to compare\n";
     return;
   }
   const std::string usual = hash_with("");
@@ -66,9 +67,23 @@ TEST_CASE("the trace hash is that of a processor without fused multiply-add", "[
   }
 }
 
-TEST_CASE("the new start keeps the user's arguments, tunables and process", "[system][arithmetic]") {
+TEST_CASE("a run in virtual time is the same by any path of the program", "[system][arithmetic]") {
+  const Words walk = Words{source_file("graphs/random_walk.xml"), "--until", "10 s"} + virtual_clock();
+  const Run usual = run_deployer(walk);
+  Words command = deployer(walk);
+  const std::string folder = std::filesystem::path(command.front()).parent_path().string();
+  command.front() = "./deployer";
+  Subprocess program(command, {.folder = folder});
+  const Run other = finish(program, Seconds(30));
+  INFO(other.err);
+  CHECK(other.exit_code() == 0);
+  REQUIRE(usual.trace_hash());
+  CHECK(other.trace_hash() == usual.trace_hash());
+}
+
+TEST_CASE("the new start keeps the user's arguments, tunables and process", "[system][arithmetic][tool]") {
   if (!fuses()) {
-    WARN("skipped: this processor cannot fuse, so there is no new start");
+    std::cout << "SKIPPED: this processor cannot fuse, so there is no new start\n";
     return;
   }
   const std::string seed = "900" + std::to_string(getpid());
