@@ -27,11 +27,11 @@ struct Operations {
   static idl::OrcaObject& header(void* object) { return as(object); }
 
   static TimePoint stamp(const void* object) {
-    if constexpr (requires { to_time_point(as(object).stamp()); }) {
-      return to_time_point(as(object).stamp());
-    } else {
-      return to_time_point(as(object).creation_time());
-    }
+    const T& known = as(object);
+    if constexpr (requires { to_time_point(known.stamp()); }) return to_time_point(known.stamp());
+    if constexpr (requires { to_time_point(known.pose().stamp()); })
+      if (known.pose().stamp().ns() != 0) return to_time_point(known.pose().stamp());
+    return to_time_point(known.creation_time());
   }
   static std::string dump(const void* object) {
     DumpWriter writer(Reflection<T>::name);

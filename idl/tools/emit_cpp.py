@@ -52,36 +52,37 @@ def reflection_header(file: IdlFile) -> str:
 
 
 def objects_of(file: IdlFile) -> list[Struct]:
-    return [s for s in file.structs if s.is_object and s.name != "OrcaObject"]
+    return [s for s in file.structs if s.travels]
 
 
 def type_key(struct: Struct) -> str:
-    return f"detail::object_type_of<idl::{struct.name}, 0x{layout_hash(struct.layout):016x}U>()"
+    return f"detail::object_type_of<idl::{struct.name}, 0x{layout_hash(struct.object_layout):016x}U>()"
 
 
 def type_declaration(struct: Struct) -> str:
     """Declares a type. Its symbol contains the hash of its layout: users built for another layout do not load."""
-    return (
-        f"template <>\nconst ObjectType& {type_key(struct)};\n"
-        f"template <>\ninline const ObjectType& object_type<idl::{struct.name}>() {{ return {type_key(struct)}; }}\n"
+    names = [f"idl::{struct.name}"] + ([f"Travelling<idl::{struct.name}>"] if struct.header else [])
+    return f"template <>\nconst ObjectType& {type_key(struct)};\n" + "".join(
+        f"template <>\ninline const ObjectType& object_type<{name}>() {{ return {type_key(struct)}; }}\n" for name in names
     )
 
 
 def types_header(file: IdlFile) -> str:
     stem = Path(file.name).stem
-    parts = [HEAD, "#pragma once\n\n", '#include "orca/idl/object_type.hpp"\n', f'#include "{PLACE}/{stem}.h"\n\n']
-    parts.append("namespace orca {\n\n")
+    headers = ["orca/idl/object_type.hpp", "orca/idl/travelling.hpp", f"{PLACE}/{stem}.h"]
+    parts = [HEAD, "#pragma once\n\n", *(f'#include "{header}"\n' for header in headers)]
+    parts.append("\nnamespace orca {\n\n")
     parts += map(type_declaration, objects_of(file))
     parts.append("\n}  // namespace orca\n")
     return "".join(parts)
 
 
 def type_definition(struct: Struct) -> str:
-    name, layout = struct.name, struct.layout
+    name, layout = struct.name, struct.object_layout
     parent = f"&type_of_{struct.parent.name}" if struct.parent else "nullptr"
     return (
         f"constinit detail::Pool pool_of_{name}{{type_of_{name}}};\n"
-        f"constinit const ObjectType type_of_{name} = detail::make_object_type<idl::{name}>(\n"
+        f"constinit const ObjectType type_of_{name} = detail::make_object_type<ObjectOf<idl::{name}>>(\n"
         f"    {quoted(layout)}, 0x{layout_hash(layout):016x}U, {parent}, pool_of_{name});\n"
     )
 
@@ -107,7 +108,7 @@ def type_table(files: list[IdlFile]) -> str:
 def layouts_header(files: list[IdlFile]) -> str:
     """Returns the layouts that a plugin carries, so that an error can say what changed in a type since it was built."""
     structs = sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name)
-    texts = "\n".join(f"    {quoted(s.layout)} \"\\0\"" for s in structs)
+    texts = "\n".join(f"    {quoted(s.object_layout)} \"\\0\"" for s in structs)
     return (
         f"{HEAD}#pragma once\n\n#include <array>\n\nnamespace orca::detail {{\n\n"
         f"inline constexpr auto object_layouts = std::to_array(\n{texts});\n\n}}  // namespace orca::detail\n"

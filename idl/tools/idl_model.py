@@ -80,6 +80,8 @@ class Struct:
     base: Optional["Struct"]
     text: str
     fields: list[Field] = field(default_factory=list)
+    #: OrcaObject, for a plain struct that is marked @travels: it may be a part of others and an object of its own.
+    header: Optional["Struct"] = None
 
     @property
     def all_fields(self) -> list[Field]:
@@ -88,13 +90,38 @@ class Struct:
     @property
     def parent(self) -> Optional["Struct"]:
         """The object type that this one extends; none if that is only OrcaObject."""
-        return self.base if self.base is not None and self.base.is_object and self.base.name != "OrcaObject" else None
+        return self.base if self.base is not None and self.base.travels else None
 
     @property
     def layout(self) -> str:
-        """All that two programs must agree on to exchange this type: its parent, base's fields first, nested types in full."""
-        head = f"{self.name}:{self.parent.name}" if self.parent else self.name
-        return f"{head}{{{','.join(f.layout for f in self.all_fields)}}}"
+        """The layout as a part of others: base's fields first, nested types in full."""
+        return self._layout(self.parent if self.is_object else None, self.all_fields)
+
+    @property
+    def object_layout(self) -> str:
+        """All that two programs must agree on to exchange objects of this type: its parent, and all fields with the header's."""
+        return self._layout(self.parent, (self.header.all_fields if self.header else []) + self.all_fields)
+
+    def _layout(self, parent: Optional["Struct"], fields: list[Field]) -> str:
+        head = f"{self.name}:{parent.name}" if parent else self.name
+        return f"{head}{{{','.join(f.layout for f in fields)}}}"
+
+    @property
+    def text_names(self) -> list[str]:
+        """The names on its XML element, where a struct that comes first has no element of its own (docs/objects.md)."""
+        own = self.all_fields
+        head = []
+        if self.is_object:
+            head = [f.name for f in own if f in self.root.fields]
+            own = own[len(head):]
+        first = own[0] if own else None
+        if first and isinstance(first.type, Struct) and first.type.name != "TimeValue" and not first.sequence and first.array is None:
+            return head + first.type.text_names + [f.name for f in own[1:]]
+        return head + [f.name for f in own]
+
+    @property
+    def root(self) -> "Struct":
+        return self.base.root if self.base else self
 
     @property
     def wire_size(self) -> int:
@@ -102,8 +129,13 @@ class Struct:
 
     @property
     def is_object(self) -> bool:
-        """Whether it can be sent on its own: OrcaObject and the structs derived from it."""
+        """Whether it holds a header itself: OrcaObject and the structs derived from it."""
         return self.name == "OrcaObject" or (self.base is not None and self.base.is_object)
+
+    @property
+    def travels(self) -> bool:
+        """Whether it can be sent on its own."""
+        return self.header is not None or (self.is_object and self.name != "OrcaObject")
 
 
 @dataclass

@@ -5,6 +5,9 @@ Allowed: include guards, #include "x.idl", module orca { module idl { ... }; };,
 and fields of the types in idl_model.PRIMITIVES, of enums and structs declared before, as sequence<T> or T name[N].
 Every type needs a `///` comment before it, every field a `///<` comment after it. The comment of a double starts with
 its unit in brackets: `double speed;  ///< [m/s] forward positive`.
+
+A line `/// @travels` in the comment before a plain struct says that it can also be sent on its own, with OrcaObject's header in
+front (ADR 0031). Its base, if it has one, must be marked too.
 """
 
 import difflib
@@ -17,6 +20,7 @@ TOKEN = re.compile(
     r"(?P<space>[ \t\r]+)|(?P<newline>\n)|(?P<after>///<[^\n]*)|(?P<before>///[^\n]*)|(?P<comment>//[^\n]*)"
     r"|(?P<directive>\#[^\n]*)|(?P<word>[A-Za-z_]\w*)|(?P<number>\d+)|(?P<sign>[{}<>;:,\[\]=()@/*.\"'-])"
 )
+TRAVELS = "@travels"  # in the comment before a plain struct
 HINTS = {
     "float": "use double",
     "short": "use long",
@@ -187,15 +191,31 @@ class Parser:
             base = self.resolve(token.text, token)
             if not isinstance(base, Struct):
                 raise self.error(f"'{token.text}' is no struct; only a struct can be inherited", token)
-        struct = Struct(name.text, base, text)
+        struct = Struct(name.text, base, text.replace(TRAVELS, "").strip())
+        if TRAVELS in text:
+            struct.header = self.header_for(struct, name)
         self.expect("{")
         while not self.accept("}"):
             self.field(struct)
         self.expect(";")
         if not struct.fields:
             raise self.error(f"struct {name.text} needs a field of its own; fastddsgen cannot do without", name)
+        names = struct.text_names
+        for twice in {n for n in names if names.count(n) > 1}:
+            raise self.error(f"'{twice}' would be twice on an element of {name.text}: its first field is a struct, whose fields are "
+                             "written there too; put another field first", name)
         self.known[name.text] = struct
         self.file.structs.append(struct)
+
+    def header_for(self, struct: Struct, name: Token) -> Struct:
+        header = self.known.get("OrcaObject")
+        if header is None:
+            raise self.error(f"{TRAVELS} needs OrcaObject: #include the file that declares it", name)
+        if struct.is_object:
+            raise self.error(f"{struct.name} derives from OrcaObject and travels without {TRAVELS}", name)
+        if struct.base and not struct.base.travels:
+            raise self.error(f"{struct.name} can travel only if {struct.base.name} does: mark that with {TRAVELS} too", name)
+        return header
 
     def field(self, struct: Struct):
         start = self.peek()
@@ -212,6 +232,8 @@ class Parser:
         name = self.identifier("a field", r"[a-z][a-z0-9_]*", "in snake_case")
         if any(f.name == name.text for f in struct.all_fields):
             raise self.error(f"{struct.name} has a field '{name.text}' already, of its own or inherited", name)
+        if struct.header and any(f.name == name.text for f in struct.header.all_fields):
+            raise self.error(f"'{name.text}' is a field of OrcaObject, which {struct.name} gets where it travels", name)
         array = self.array_size(sequence)
         self.expect(";")
         unit, text = self.field_comment(kind, name)

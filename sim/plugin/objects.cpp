@@ -8,15 +8,6 @@ namespace {
 
 constexpr const char* kLibrary = "sim.so";
 
-idl::DriveType type_of(DriveKind kind) {
-  switch (kind) {
-    case DriveKind::differential: return idl::DIFFERENTIAL;
-    case DriveKind::synchro: return idl::SYNCHRO;
-    case DriveKind::holonomic: return idl::HOLONOMIC;
-  }
-  return idl::DIFFERENTIAL;
-}
-
 idl::Actuator describe(const Turret& turret) {
   idl::Actuator object;
   object.name(turret.joint);
@@ -49,6 +40,15 @@ void draw_circle(const Circle& circle, Scene& to) {
 }
 
 }  // namespace
+
+idl::DriveType type_of(DriveKind kind) {
+  switch (kind) {
+    case DriveKind::differential: return idl::DIFFERENTIAL;
+    case DriveKind::synchro: return idl::SYNCHRO;
+    case DriveKind::holonomic: return idl::HOLONOMIC;
+  }
+  return idl::DIFFERENTIAL;
+}
 
 hw::DriveLimits limits_of(const RobotModel& robot) {
   const Drive& drive = robot.drive;

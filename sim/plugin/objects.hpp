@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "orca/hw/endpoints.hpp"
@@ -17,9 +18,13 @@ void fill(idl::SonarRangeReadings& object, const SonarScan& scan, const SonarRin
 void fill(idl::LaserRangeReadings& object, const LaserScan& scan, const LaserScanner& laser);
 void fill(idl::InfraredRangeReadings& object, const InfraredScan& scan, const InfraredRing& ring);
 void fill(idl::BumperReadings& object, const BumperReading& reading, const BumperRing& ring);
-void fill(idl::Odometry& object, const OdometryReading& reading);
+/// @param covariance [m2, m rad, rad2]  of x, y and orientation, row by row; all zero: not known.
+void fill(idl::Odometry& object, const OdometryReading& reading, const std::array<double, 9>& covariance);
 void fill(idl::TurretAngle& object, const TurretReading& reading);
 void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
+
+/// Returns the framework's word for a kind of drive.
+[[nodiscard]] idl::DriveType type_of(DriveKind kind);
 
 /// Returns the limits of the commands that the robot's base accepts.
 [[nodiscard]] hw::DriveLimits limits_of(const RobotModel& robot);

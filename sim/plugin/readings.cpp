@@ -17,14 +17,14 @@ void fill(idl::SonarRangeReadings& object, const SonarScan& scan, const SonarRin
   object.min_range(ring.min_range);
   object.max_range(ring.max_range);
   object.half_lobe(ring.half_lobe);
-  object.pose(level_frame(ring.center, ring.height));
+  object.pose(level_pose(scan.X_RB * ring.center, ring.height, scan.stamp));
 }
 
 void fill(idl::LaserRangeReadings& object, const LaserScan& scan, const LaserScanner& laser) {
   object.ranges().assign(scan.ranges.begin(), scan.ranges.end());
   object.min_range(laser.min_range);
   object.max_range(laser.max_range);
-  object.pose(level_frame(scan.X_RB * laser.center, laser.height));
+  object.pose(level_pose(scan.X_RB * laser.center, laser.height, scan.stamp));
   object.stamp(to_time_value(scan.stamp));
   object.angle_start(laser.first_angle);
   object.angle_increment(laser.pitch);
@@ -41,7 +41,7 @@ void fill(idl::InfraredRangeReadings& object, const InfraredScan& scan, const In
   object.min_range(ring.min_range);
   object.max_range(ring.max_range);
   object.half_beam(ring.half_beam);
-  object.pose(level_frame(scan.X_RB * ring.center, ring.height));
+  object.pose(level_pose(scan.X_RB * ring.center, ring.height, scan.stamp));
 }
 
 void fill(idl::BumperReadings& object, const BumperReading& reading, const BumperRing& ring) {
@@ -52,7 +52,7 @@ void fill(idl::BumperReadings& object, const BumperReading& reading, const Bumpe
   object.stamp(to_time_value(reading.stamp));
 }
 
-void fill(idl::Odometry& object, const OdometryReading& reading) {
+void fill(idl::Odometry& object, const OdometryReading& reading, const std::array<double, 9>& covariance) {
   object.x(reading.pose.x);
   object.y(reading.pose.y);
   object.steer_angle(reading.pose.yaw);
@@ -60,6 +60,7 @@ void fill(idl::Odometry& object, const OdometryReading& reading) {
   object.sideways_velocity(reading.velocity.left);
   object.steering_velocity(reading.velocity.turn_rate);
   object.stamp(to_time_value(reading.stamp));
+  object.covariance(covariance);
 }
 
 void fill(idl::TurretAngle& object, const TurretReading& reading) {

@@ -135,7 +135,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   }
 
   void declare_endpoints() {
-    sensors_ = std::make_unique<SimSensors>(*robot_);
+    sensors_ = std::make_unique<SimSensors>(*robot_, realism());
     for (orca::hw::SensorEndpoint* endpoint : sensors_->endpoints()) add_sensor(*endpoint);
     motion_ = std::make_unique<orca::hw::MotionHW>(limits_of(*robot_), kMaxCommandAge);
     set_motion(*motion_);
@@ -185,9 +185,9 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     const std::string key =
         std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
     auto joined = SharedWorld::join(key, settings(), host().now(), [this] {
-      return World(*world_, {.seed = host().run_seed(),
-                             .realism = realism_from(*realism_).value_or(Realism::nominal),
-                             .threads = static_cast<unsigned>(*threads_)});
+      return World(
+          *world_,
+          {.seed = host().run_seed(), .realism = realism(), .threads = static_cast<unsigned>(*threads_)});
     });
     if (!joined) return joined.error();
     shared_ = std::move(*joined);
@@ -197,6 +197,8 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     moments_.emplace(*robot_);
     return orca::ok();
   }
+
+  [[nodiscard]] Realism realism() const { return realism_from(*realism_).value_or(Realism::nominal); }
 
   [[nodiscard]] std::string settings() const {
     std::string text = "realism " + *realism_;
@@ -219,7 +221,11 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     for (const auto& contact : inbox.contacts) report(contact);
     if (guard_) guard_->look(inbox);
     if (keeps_moments_) moments_->add(inbox);
-    if (state() == orca::hw::HardwareState::active) sensors_->publish(inbox);
+    if (state() == orca::hw::HardwareState::active) {
+      sensors_->publish(inbox);
+    } else {
+      sensors_->skip(inbox);
+    }
     return orca::ok();
   }
 
@@ -278,13 +284,14 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
                                     "nominal",
                                     {.choices = {"ideal", "nominal", "harsh"},
                                      .text = "Level of the errors of sensors, motors and odometry."}};
-  orca::Param<bool> stop_on_touch_{*this,
-                                   "stop_on_touch",
-                                   true,
-                                   {.fixed = true,
-                                    .text = "Whether the base stands after it has touched something, while a "
-                                            "bumper is pressed, or when its motors "
-                                            "are stalled, until a command asks for another direction."}};
+  orca::Param<bool> stop_on_touch_{
+      *this,
+      "stop_on_touch",
+      true,
+      {.fixed = true,
+       .text = "Whether the base stands while a bumper is pressed (without bumpers: "
+               "after it has touched something), or when its motors "
+               "are stalled, until a command asks for another direction."}};
   orca::Param<std::int64_t> threads_{*this,
                                      "threads",
                                      1,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "objects.hpp"
+#include "orca/geometry/objects/ranges.hpp"
 
 namespace orca::sim {
 namespace {
@@ -32,15 +33,29 @@ void publish_all(const Devices& devices, const Readings& readings) {
     publish_one(devices[number]->endpoint, reading, devices[number]->model);
 }
 
+// Publishes ranges with what the robot's file guesses of their errors.
+template <class Devices, class Readings>
+void publish_ranges(const Devices& devices, const Readings& readings, Realism realism) {
+  for (const auto& [number, reading] : readings) {
+    auto& device = *devices[number];
+    auto object = device.endpoint.loan();
+    fill(*object, reading, device.model);
+    set_uncertainty(*object, device.model.errors.at(realism));
+    device.endpoint.publish(std::move(object));
+  }
+}
+
 }  // namespace
 
-SimSensors::SimSensors(const RobotModel& robot) {
+SimSensors::SimSensors(const RobotModel& robot, Realism realism) : realism_(realism) {
   make(sonars_, robot.sonars);
   make(lasers_, robot.lasers);
   make(infrareds_, robot.infrareds);
   make(bumpers_, robot.bumpers);
   if (robot.turret) turret_ = std::make_unique<hw::SensorHW<idl::TurretAngle>>(robot.turret->period);
-  if (robot.odometer) odometry_ = std::make_unique<hw::SensorHW<idl::Odometry>>(robot.odometer->period);
+  if (!robot.odometer) return;
+  odometry_ = std::make_unique<hw::SensorHW<idl::Odometry>>(robot.odometer->period);
+  uncertainty_.emplace(type_of(robot.drive.kind), robot.drive.track, robot.odometer->errors.at(realism));
 }
 
 std::vector<hw::SensorEndpoint*> SimSensors::endpoints() {
@@ -56,13 +71,20 @@ std::vector<hw::SensorEndpoint*> SimSensors::endpoints() {
 }
 
 void SimSensors::publish(const SharedWorld::Inbox& inbox) {
-  publish_all(sonars_, inbox.sonar);
-  publish_all(lasers_, inbox.laser);
-  publish_all(infrareds_, inbox.infrared);
+  publish_ranges(sonars_, inbox.sonar, realism_);
+  publish_ranges(lasers_, inbox.laser, realism_);
+  publish_ranges(infrareds_, inbox.infrared, realism_);
   publish_all(bumpers_, inbox.bumper);
-  for (const OdometryReading& reading : inbox.odometry) publish_one(*odometry_, reading);
+  for (const OdometryReading& reading : inbox.odometry) {
+    uncertainty_->move_to(reading.pose);
+    publish_one(*odometry_, reading, uncertainty_->covariance());
+  }
   for (const TurretReading& reading : inbox.turret) publish_one(*turret_, reading);
   for (const auto& truth : inbox.truth) publish_one(truth_, truth);
+}
+
+void SimSensors::skip(const SharedWorld::Inbox& inbox) {
+  for (const OdometryReading& reading : inbox.odometry) uncertainty_->move_to(reading.pose);
 }
 
 std::string unserved(const RobotModel& robot) {

@@ -22,7 +22,9 @@ std::string side_name(double angle) {
 }  // namespace
 
 void TouchGuard::look(const SharedWorld::Inbox& inbox) {
-  for (const auto& contact : inbox.contacts) motion_.obstruct("it touched " + contact.event.other);
+  // A base with bumpers feels what they feel; of one without any, every touch counts.
+  if (robot_.bumpers.empty())
+    for (const auto& contact : inbox.contacts) motion_.obstruct("it touched " + contact.event.other);
   for (const auto& [ring, reading] : inbox.bumper) motion_.press(pressed(ring, reading));
   for (const OdometryReading& reading : inbox.odometry) {
     if (!turned_at_ || !is_stalled(reading)) turned_at_ = reading.stamp;

@@ -10,8 +10,8 @@
 
 namespace orca::sim {
 
-/// The reflex of a simulated base: it stands when it touches something, when a bumper is pressed, or when its wheels do
-/// not turn although they should, until a command asks for another direction.
+/// The reflex of a simulated base: it stands when a bumper is pressed, or when its wheels do not turn although they
+/// should, until a command asks for another direction. A base without bumpers stands when it touches anything.
 ///
 /// Thread contract: one strand.
 class TouchGuard {

@@ -33,7 +33,8 @@ void SonarModel::fire(const Caster& caster, std::size_t own_body, const TickSpan
     shot.time = due;
     shot.beam.emplace(span.at(due) * transducers_[k], lobe_, ring_.min_range, ring_.max_range,
                       ring_.height_of(k), own_body);
-    shot.X_RS = span.in_robot(due) * transducers_[k];
+    shot.X_RB = span.in_robot(due);
+    shot.X_RS = shot.X_RB * transducers_[k];
     listen_for(caster, *shot.beam, critical_tangent_, shot.echo);
     if (fired_ < ring_.count) continue;
     fired_ = 0;
@@ -60,6 +61,10 @@ void SonarModel::listen(const Caster& caster, const SonarAir& air) {
     reading.stamp = shot.time;
     reading.sensor = shot.X_RS;
     scan_.readings[shot.transducer] = reading;
+    if (listened_ == 0) {
+      scan_.stamp = shot.time;
+      scan_.X_RB = shot.X_RB;
+    }
     if (++listened_ < ring_.count) continue;
     completed_ = scan_;
     listened_ = 0;

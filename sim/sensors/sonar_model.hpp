@@ -37,6 +37,7 @@ class SonarModel {
     std::size_t transducer = 0;
     TimePoint time;
     std::optional<Beam> beam;
+    Pose2 X_RB;               // Pose of frame B in the robot's frame.
     Pose2 X_RS;               // Pose of the transducer in the robot's frame.
     Echo echo;                // The transducer's own echo.
     std::uint64_t chirp = 0;  // Number of the chirp, valid once it is sent.

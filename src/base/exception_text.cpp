@@ -32,7 +32,8 @@ std::string describe_current_exception() {
   try {
     throw;
   } catch (const std::exception& error) {
-    return "threw " + type + ": " + error.what();
+    const char* const text = error.what();  // null from an author's own class
+    return "threw " + type + (text != nullptr ? std::string(": ") + text : "");
   } catch (int value) {
     return "threw the int " + std::to_string(value);
   } catch (const char* text) {  // a thrown nullptr lands here too

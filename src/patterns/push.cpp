@@ -24,12 +24,15 @@ Duration PushServerHandle::base_period() const { return endpoint().base_period()
 
 std::size_t PushServerHandle::subscriber_count() const { return endpoint().subscriber_count(); }
 
-void PushServerHandle::push_loan(ObjectLoan loan) {
+bool PushServerHandle::push_loan(ObjectLoan loan) {
   PushServerEndpoint& server = endpoint();
+  if (!server.admits_caller()) return false;
   server.publish(server.seal(std::move(loan), &server.home().provenance));
+  return true;
 }
 
 ObjectRef PushServerHandle::push_reading(ObjectLoan reading) {
+  if (!endpoint().admits_caller()) return {};
   ObjectRef object = endpoint().seal(std::move(reading), nullptr);
   endpoint().publish(object);
   return object;

@@ -39,7 +39,7 @@ class ElementReader final : public FieldVisitor {
   }
 
   void field(const FieldInfo& info, const Value& value) override {
-    const bool first = std::exchange(first_, false);
+    const bool first = !info.header && std::exchange(first_, false);
     const auto* part = std::get_if<StructValue>(&value.of);
     if (first && part != nullptr) {
       first_ = true;

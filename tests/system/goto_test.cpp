@@ -2,8 +2,10 @@
 // Goto takes its pose from any source that it is connected to, and its goals may lie above the floor.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <regex>
 
 #include "deployer.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 
@@ -45,4 +47,26 @@ TEST_CASE("Goto turns to the direction asked for before it says that it has arri
   REQUIRE(there.arrivals().size() == 1);
   REQUIRE(facing.arrivals().size() == 1);
   CHECK(facing.arrivals()[0].t > there.arrivals()[0].t + 1.0);
+}
+
+// A way of 12 m around a hall whose end the odometry does not know well any more.
+TEST_CASE("Goto does not say that it has arrived where its position is less sure than the reach",
+          "[system][goto]") {
+  const std::string round = "near: 1.5 0; side: 1.5 2; back: -1 2; across: -1 -2; end: 1.5 -2";
+  const Words harsh{"--set", "realism=harsh", "--set", "blocked_after=5 s", "--profile", "tells"};
+  const Run knows = by_odometry(round, harsh);
+  INFO(knows.err << knows.out);
+  CHECK(knows.arrivals().size() >= 2);
+  CHECK(knows.arrivals().size() < 5);
+  CHECK(knows.exit_code() == 1);
+  CHECK(knows.says("its position is known only to"));
+  // The same robot, with a file that guesses nothing, claims all five.
+  const TempFolder folder;
+  const std::string without = std::regex_replace(read_text(ORCA_SOURCE_DIR "/sim/robots/nomad_scout.urdf"),
+                                                 std::regex("<(wheel|range)_errors[^>]*/>"), "");
+  const Run claims =
+      by_odometry(round, harsh + Words{"--set", "robot=" + folder.write("scout.urdf", without)});
+  INFO(claims.err);
+  CHECK(claims.arrivals().size() == 5);
+  CHECK(claims.exit_code() == 0);
 }

@@ -93,6 +93,58 @@ TEST_CASE("an exception where nothing may be thrown ends the process, with its t
   if (!kSanitized) CHECK(run.ending.signal == SIGABRT);
 }
 
+TEST_CASE("a component that changes what std::terminate() does cannot turn a crash into success",
+          "[system][plugins]") {
+  const Run run = run_deployer(Words{system_graph("hooligan.xml"), "--set", "where=start", "--set",
+                                     "deed=terminate", "--set", "then=noexcept"} +
+                               with_test_plugins() + virtual_clock());
+  INFO(run.err);
+  REQUIRE(run.ended);
+  CHECK_THAT(line_with("alarm TERMINATE_HANDLER", run), Contains("bad: ") && Contains("start() has "));
+  check_names_culprit(line_with("the brakes are gone", run));
+  CHECK(run.exit_code() != 0);
+}
+
+TEST_CASE("a component that redirects stdout loses nobody's output", "[system][plugins]") {
+  const Run run = act("work", "redirect");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.out, Contains("trace-hash "));
+}
+
+TEST_CASE("an exception without a text is reported by its type", "[system][plugins]") {
+  for (const Words& clock : {virtual_clock(), kSteady}) {
+    const Run run = act("work", "mute", clock);
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK_THAT(line_with("bad: ", run), Contains("work() threw (anonymous namespace)::Mute"));
+  }
+}
+
+TEST_CASE("a component may use 1.2 MB of stack, with every executor", "[system][plugins]") {
+  for (const Words& clock : {virtual_clock(), kSteady, Words{"--clock", "virtual", "--executor", "baton"},
+                             Words{"--clock", "steady", "--executor", "fiber"}}) {
+    const Run run = act("work", "stack", clock);
+    CAPTURE(clock);
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(alarms(run) == 0);
+  }
+}
+
+TEST_CASE("a configure() that hangs ends the start with 3, and component and hook are named",
+          "[system][plugins]") {
+  for (const Words& clock : {virtual_clock(), kSteady}) {
+    const Run run = act("configure", "hang", clock);
+    CAPTURE(clock);
+    INFO(run.err);
+    REQUIRE(run.ended);
+    CHECK(run.exit_code() == 3);
+    CHECK_FALSE(run.says("counted"));
+    CHECK_THAT(line_with("configure()", run), Contains("bad"));
+  }
+}
+
 TEST_CASE("exit() in a component ends the process with status 1 and the culprit's name",
           "[system][plugins]") {
   for (const std::string deed : {"exit", "quick_exit"}) {
@@ -143,6 +195,8 @@ TEST_CASE("what belongs to the whole process is restored, and one alarm names co
           Case{"folder", "alarm WORKING_FOLDER: @ has changed the working folder to /"},
           Case{"mask", "alarm SIGNAL_MASK: @ has blocked SIGUSR1"},
           Case{"handler", "alarm SIGNAL_HANDLER: @ has changed what happens at SIGTERM"},
+          Case{"redirect", "alarm REDIRECTION: @ has redirected stdout to /dev/null"},
+          Case{"terminate", "alarm TERMINATE_HANDLER: @ has changed what std::terminate() does"},
           Case{"umask", "alarm UMASK: @ has changed the umask"},
           Case{"limit", "alarm RESOURCE_LIMIT: @ has changed the limit of the number of descriptors"}}) {
       const Run run = act(where, c.deed);

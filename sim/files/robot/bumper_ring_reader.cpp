@@ -6,13 +6,22 @@ namespace {
 
 constexpr double kRounding = 1e-6;  // [rad] "22.5 deg" times 16 may miss a full turn by this.
 
+void read_directions(const xml::Attributes& e, BumperRing& ring) {
+  set(ring.first_angle, e.number_or("first_angle", 0.0));
+  if (!e.has("angles")) return;
+  if (e.has("first_angle"))
+    e.error_at("first_angle", robot_codes::kContradiction,
+               "the directions are given by angles already; write one of the two");
+  if (ring.count > 0) set(ring.angles, e.numbers("angles", ring.count));
+}
+
 }  // namespace
 
 void read_bumper_ring(const xml::Attributes& e, RobotModel& model) {
   BumperRing ring;
   set(ring.name, e.name("name"));
   set(ring.count, e.integer("count"));
-  set(ring.first_angle, e.number_or("first_angle", 0.0));
+  read_directions(e, ring);
   set(ring.pitch, e.number("pitch"));
   set(ring.radius, e.number_or("radius", model.bumper_radius));
   set(ring.period, e.duration("period"));

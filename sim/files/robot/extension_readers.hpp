@@ -22,6 +22,10 @@ void read_odometry(const xml::Attributes& e, RobotModel& model);
 // free.
 [[nodiscard]] bool name_is_free(const xml::Attributes& e, const std::string& name, const RobotModel& model);
 
+// Read the children <wheel_errors> of an odometer, and <range_errors> of a sensor that measures up to `max_range` [m].
+[[nodiscard]] Guesses<WheelErrorGuess> read_wheel_errors(const xml::Attributes& odometry);
+[[nodiscard]] Guesses<RangeErrorGuess> read_range_errors(const xml::Attributes& sensor, double max_range);
+
 // Reads vendor, model and port.
 [[nodiscard]] DeviceLabel read_label(const xml::Attributes& e);
 

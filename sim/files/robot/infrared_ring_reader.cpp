@@ -28,6 +28,7 @@ void read_infrared_ring(const xml::Attributes& e, RobotModel& model) {
   set(ring.period, e.duration("period"));
   check(e, ring);
   ring.label = read_label(e);
+  ring.errors = read_range_errors(e, ring.max_range);
   if (name_is_free(e, ring.name, model)) model.infrareds.push_back(std::move(ring));
 }
 

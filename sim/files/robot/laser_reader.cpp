@@ -32,6 +32,7 @@ void read_laser(const xml::Attributes& e, RobotModel& model) {
   set(laser.sweep, e.duration_or("sweep", Duration{0}));
   check(e, laser);
   laser.label = read_label(e);
+  laser.errors = read_range_errors(e, laser.max_range);
   if (name_is_free(e, laser.name, model)) model.lasers.push_back(std::move(laser));
 }
 

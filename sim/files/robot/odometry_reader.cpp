@@ -4,10 +4,11 @@
 namespace orca::sim::detail {
 
 void read_odometry(const xml::Attributes& e, RobotModel& model) {
+  const Guesses<WheelErrorGuess> errors = read_wheel_errors(e);
   const auto period = e.duration("period");
   if (!period) return;
   check_period(e, *period);
-  model.odometer = Odometer{*period, read_label(e)};
+  model.odometer = Odometer{*period, read_label(e), errors};
 }
 
 }  // namespace orca::sim::detail

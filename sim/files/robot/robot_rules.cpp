@@ -14,6 +14,7 @@ using xml::ElementRule;
 constexpr ValueRule kDevices = whole(1, 256);
 constexpr ValueRule kReadings = whole(1, 10'000);
 constexpr std::array<std::string_view, 3> kDriveKinds{"differential", "synchro", "holonomic"};
+constexpr std::array<std::string_view, 3> kLevels{"ideal", "nominal", "harsh"};
 constexpr std::array<std::string_view, 6> kJointTypes{"fixed",     "continuous", "revolute",
                                                       "prismatic", "planar",     "floating"};
 
@@ -91,22 +92,40 @@ constexpr std::array kInfraredRing{required("name", kName),
                                    optional("vendor", kText),
                                    optional("model", kText),
                                    optional("port", kText)};
-constexpr std::array kBumperRing{
-    required("name", kName),   required("count", kDevices),       optional("first_angle", kAngle),
-    required("pitch", kAngle), optional("radius", kLengthOrZero), required("period", kPeriod),
-    optional("vendor", kText), optional("model", kText),          optional("port", kText)};
+constexpr std::array kBumperRing{required("name", kName),         required("count", kDevices),
+                                 optional("first_angle", kAngle), required("pitch", kAngle),
+                                 optional("angles", kAngle),      optional("radius", kLengthOrZero),
+                                 required("period", kPeriod),     optional("vendor", kText),
+                                 optional("model", kText),        optional("port", kText)};
 constexpr std::array kOdometry{required("period", kPeriod), optional("vendor", kText),
                                optional("model", kText), optional("port", kText)};
+constexpr ValueRule kShare = not_negative("", 1.0);
+constexpr std::array kWheelErrors{optional("realism", one_of(kLevels)), required("wheel_diameter", kShare),
+                                  required("track", kShare), required("slip", kLengthOrZero)};
+constexpr std::array kRangeErrors{optional("realism", one_of(kLevels)), required("fixed", kLengthOrZero),
+                                  required("share", kShare)};
+
+}  // namespace
+
+constexpr ElementRule kWheelErrorsRule{.name = "wheel_errors", .attributes = kWheelErrors};
+constexpr ElementRule kRangeErrorsRule{.name = "range_errors", .attributes = kRangeErrors};
+
+namespace {
+
+constexpr std::array kInOdometry{&kWheelErrorsRule};
+constexpr std::array kInRangeSensor{&kRangeErrorsRule};
 
 }  // namespace
 
 constexpr ElementRule kDriveRule{.name = "drive", .attributes = kDrive};
 constexpr ElementRule kTurretRule{.name = "turret", .attributes = kTurret};
-constexpr ElementRule kSonarRingRule{.name = "sonar_ring", .attributes = kSonarRing};
-constexpr ElementRule kLaserRule{.name = "laser", .attributes = kLaser};
-constexpr ElementRule kInfraredRingRule{.name = "infrared_ring", .attributes = kInfraredRing};
+constexpr ElementRule kSonarRingRule{
+    .name = "sonar_ring", .attributes = kSonarRing, .children = kInRangeSensor};
+constexpr ElementRule kLaserRule{.name = "laser", .attributes = kLaser, .children = kInRangeSensor};
+constexpr ElementRule kInfraredRingRule{
+    .name = "infrared_ring", .attributes = kInfraredRing, .children = kInRangeSensor};
 constexpr ElementRule kBumperRingRule{.name = "bumper_ring", .attributes = kBumperRing};
-constexpr ElementRule kOdometryRule{.name = "odometry", .attributes = kOdometry};
+constexpr ElementRule kOdometryRule{.name = "odometry", .attributes = kOdometry, .children = kInOdometry};
 
 namespace {
 
@@ -124,9 +143,9 @@ namespace {
 constexpr std::array kInRobot{&kOrcaRule};
 constexpr ElementRule kRobotRule{.name = "robot", .children = kInRobot};
 
-constexpr std::array kElements{&kRobotRule,        &kOrcaRule,       &kDriveRule,
-                               &kTurretRule,       &kSonarRingRule,  &kLaserRule,
-                               &kInfraredRingRule, &kBumperRingRule, &kOdometryRule};
+constexpr std::array kElements{&kRobotRule,     &kOrcaRule,        &kDriveRule,        &kTurretRule,
+                               &kSonarRingRule, &kLaserRule,       &kInfraredRingRule, &kBumperRingRule,
+                               &kOdometryRule,  &kWheelErrorsRule, &kRangeErrorsRule};
 
 }  // namespace
 

@@ -16,6 +16,8 @@ extern const xml::ElementRule kLaserRule;
 extern const xml::ElementRule kInfraredRingRule;
 extern const xml::ElementRule kBumperRingRule;
 extern const xml::ElementRule kOdometryRule;
+extern const xml::ElementRule kWheelErrorsRule;
+extern const xml::ElementRule kRangeErrorsRule;
 
 // The types that a URDF joint may have.
 extern const xml::ValueRule kJointType;

@@ -80,6 +80,7 @@ void read_sonar_ring(const xml::Attributes& e, RobotModel& model) {
     set(ring.parallel, e.integer("parallel", whole(1, static_cast<double>(ring.count))));
   check_ring(e, ring);
   ring.label = read_label(e);
+  ring.errors = read_range_errors(e, ring.max_range);
   if (name_is_free(e, ring.name, model)) model.sonars.push_back(std::move(ring));
 }
 

@@ -55,9 +55,12 @@ struct Loaded {
 void load(const std::string& file, const Options& options, Loaded& loaded) {
   const bool judges = options.action == Action::check || options.action == Action::run;
   graph::LoadOptions wanted{options.profiles, options.settings, options.strict, judges};
-  if (judges)
+  if (judges) {
     for (const host::PlannedFailure& planned : options.run.planned_failures)
       wanted.failing.push_back(planned.component);
+    for (const host::RecordingOptions& recording : options.run.recordings)
+      wanted.recorded.insert(wanted.recorded.end(), recording.ports.begin(), recording.ports.end());
+  }
   loaded.graph = graph::load_file(file, wanted, loaded.catalogue, loaded.diagnostics);
   const bool as_json = options.json && options.action == Action::check;
   if (!as_json) std::fputs(loaded.diagnostics.text().c_str(), stderr);

@@ -27,6 +27,11 @@ How to run it
 
 What to write
   --trace FILE          one line per delivery, connection and change of state
+  --values              in the trace, each object that is delivered, so that two runs can be compared to the first
+                        differing number
+  --record FILE.csv=PORT,...
+                        a table of all objects that a PushServer pushes, a SendProxy sends, or that arrive at another
+                        port, for a spreadsheet or pandas; --list-ports lists the ports; may be repeated with other files
   --picture FILE        draws the run, in the end, if it was simulated: .svg or .png
   --view WHAT           of the picture: world (default), robot (around the first robot, ahead is up) or film (key
                         moments: start, arrivals, contacts, end)

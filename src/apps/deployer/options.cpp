@@ -116,6 +116,25 @@ Status set_picture(Options& options, const std::string& value) {
   return ok();
 }
 
+// Reads FILE.csv=PORT,...
+Status add_recording(Options& options, const std::string& value) {
+  const auto equals = value.rfind('=');
+  const std::string file = value.substr(0, equals);
+  if (equals == std::string::npos || !file.ends_with(".csv"))
+    return expected("--record", "FILE.csv=PORT,..., such as poses.csv=localizer.RobotPosePush", value);
+  for (const host::RecordingOptions& other : options.run.recordings)
+    if (other.file == file)
+      return fail(Code::invalid_argument, "--record: " + in_quotes(file) +
+                                              " is given twice; name all its ports at once, with commas "
+                                              "between");
+  std::vector<std::string> ports;
+  std::istringstream words(value.substr(equals + 1));
+  for (std::string word; std::getline(words, word, ',');) ports.push_back(word);
+  if (ports.empty()) return expected("--record", "a port after the =", value);
+  options.run.recordings.push_back({file, std::move(ports)});
+  return ok();
+}
+
 Status set_view(Options& options, const std::string& value) {
   const std::optional<host::View> view = host::view_from(value);
   if (!view) return expected("--view", listed(host::view_names()), value);
@@ -181,6 +200,8 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--until", {true, set_until}},
       {"--fail", {true, add_failure, true}},
       {"--trace", {true, [](Options& o, const std::string& v) { return o.run.trace_file = v, ok(); }}},
+      {"--values", {false, [](Options& o, const std::string&) { return o.run.trace_values = true, ok(); }}},
+      {"--record", {true, add_recording, true}},
       {"--picture", {true, set_picture}},
       {"--view", {true, set_view}},
       {"--hide", {true, hide, true}},
@@ -238,6 +259,12 @@ Status check_json(const Options& options) {
               "--json goes with --check, --print, --list-ports, --diff, --describe or --types");
 }
 
+Status check_values(const Options& options) {
+  if (!options.run.trace_values || !options.run.trace_file.empty() || options.action == Action::help)
+    return ok();
+  return fail(Code::invalid_argument, "--values goes with --trace FILE");
+}
+
 // A reader of one command line. It reports everything that is wrong with it.
 class Reader {
  public:
@@ -252,6 +279,7 @@ class Reader {
     }
     report(codes::kFiles, take_files(options_, files_, guessing_));
     report(codes::kExcluding, check_json(options_));
+    report(codes::kExcluding, check_values(options_));
     // A wrong clock says nothing about which executors fit.
     if (!wrong_.contains("--clock")) report(codes::kExcluding, choose_executor(options_, executor_));
     return std::move(options_);

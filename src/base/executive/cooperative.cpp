@@ -10,13 +10,10 @@
 #include <utility>
 
 #include "steady_time.hpp"
+#include "task_thread.hpp"
 #include "thread_state.hpp"
 
 namespace orca::detail {
-
-// The executive whose tasks run on this thread, or null. It distinguishes notifications from inside from
-// those of other threads.
-[[gnu::tls_model("initial-exec")]] static thread_local const CooperativeExecutive* t_inside = nullptr;
 
 struct CooperativeExecutive::Fiber {
   std::string name;
@@ -25,6 +22,8 @@ struct CooperativeExecutive::Fiber {
   std::unique_ptr<Event> ended_event;
   bool ended = false;
   bool ready = false;
+  std::uint32_t turns = 0;  // at `instant`
+  TimePoint instant{};
   Fiber* before = nullptr;  // in the ready queue
   Fiber* after = nullptr;
   std::optional<Timers::iterator> timer;
@@ -39,7 +38,7 @@ class CooperativeEvent final : public Event {
   ~CooperativeEvent() override { executive_.forget_notifications(*this); }
 
   void notify() override {
-    if (executive_.called_from_inside()) {
+    if (executive_.runs_here()) {
       notify_inside();
     } else {
       executive_.post_notification(*this);
@@ -113,10 +112,14 @@ void CooperativeExecutive::ReadyQueue::add(Fiber& fiber) {
 
 CooperativeExecutive::Fiber& CooperativeExecutive::ReadyQueue::pop() {
   Fiber& fiber = *first_;
-  first_ = fiber.after;
-  (first_ == nullptr ? last_ : first_->before) = nullptr;
-  fiber.ready = false;
+  remove(fiber);
   return fiber;
+}
+
+void CooperativeExecutive::ReadyQueue::remove(Fiber& fiber) {
+  (fiber.before == nullptr ? first_ : fiber.before->after) = fiber.after;
+  (fiber.after == nullptr ? last_ : fiber.after->before) = fiber.before;
+  fiber.ready = false;
 }
 
 CooperativeExecutive::CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts,
@@ -143,7 +146,7 @@ std::unique_ptr<CooperativeExecutive::Fiber> CooperativeExecutive::make_fiber(Ta
   fiber->priority = options.priority;
   fiber->ended_event = make_event();
   fiber->context = contexts_->make([this, self = fiber.get(), run = std::move(body)] {
-    t_inside = this;
+    const TaskThread here(*this);
     self->thread_id = gettid();
     self->thread = pthread_self();
     run();
@@ -166,7 +169,7 @@ void CooperativeExecutive::destroy(std::unique_ptr<Fiber> fiber) {
 }
 
 void CooperativeExecutive::run(std::function<void()> main) {
-  const CooperativeExecutive* const outer = std::exchange(t_inside, this);
+  const TaskThread here(*this);
   auto fiber = make_fiber({"main", 0}, std::move(main));
   main_ = fiber.get();
   make_ready(*fiber);
@@ -179,7 +182,6 @@ void CooperativeExecutive::run(std::function<void()> main) {
   current_ = nullptr;
   main_ = nullptr;
   destroy(std::move(fiber));
-  t_inside = outer;
 }
 
 // Waits, or lets virtual time pass, until a task is ready.
@@ -187,6 +189,7 @@ CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
   for (;;) {
     take_notifications();
     if (!is_virtual()) fire_timers();
+    if (main_is_next_) return main_at_once();
     if (!ready_.empty()) return ready_.pop();
     if (is_virtual()) {
       advance_virtual_time();
@@ -196,10 +199,34 @@ CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
   }
 }
 
+// Returns the main task, whatever else is ready.
+CooperativeExecutive::Fiber& CooperativeExecutive::main_at_once() {
+  main_is_next_ = false;
+  make_ready(*main_);
+  ready_.remove(*main_);
+  return *main_;
+}
+
 void CooperativeExecutive::begin(Fiber& fiber) {
+  if (is_virtual()) count_turn(fiber);
   current_ = &fiber;
   running_.store(&fiber, std::memory_order_release);
   switches_.store(switches_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+}
+
+void CooperativeExecutive::count_turn(Fiber& fiber) {
+  if (&fiber == main_ || restless_) return;
+  if (const TimePoint time = now(); fiber.instant != time) {
+    fiber.instant = time;
+    fiber.turns = 0;
+  }
+  ++fiber.turns;
+  if (fiber.turns == kMostTurns / 2) busy_.push_back(fiber.name);
+  if (fiber.turns == kMostTurns) restless_ = main_is_next_ = true;
+}
+
+std::vector<std::string> CooperativeExecutive::restless_tasks() const {
+  return restless_ ? busy_ : std::vector<std::string>{};
 }
 
 void CooperativeExecutive::set_timer(Fiber& fiber, TimePoint deadline) {
@@ -241,6 +268,7 @@ void CooperativeExecutive::fire_timers() {
 }
 
 void CooperativeExecutive::advance_virtual_time() {
+  if (!restless_) busy_.clear();
   if (timers_.empty()) {
     make_ready(*main_);  // no task can ever run again, so main's wait ends
     return;
@@ -254,8 +282,6 @@ void CooperativeExecutive::wait_for_work() {
   running_.store(nullptr, std::memory_order_release);  // a task that waits here is not stuck
   inbox_changed_.wait_until(timers_.empty() ? kForever : std::get<TimePoint>(*timers_.begin()));
 }
-
-bool CooperativeExecutive::called_from_inside() const { return t_inside == this; }
 
 void CooperativeExecutive::post_notification(CooperativeEvent& event) {
   {

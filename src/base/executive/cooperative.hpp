@@ -30,6 +30,7 @@ class CooperativeExecutive final : public Executive {
   [[nodiscard]] std::unique_ptr<Event> make_event() override;
   [[nodiscard]] std::unique_ptr<Task> spawn(TaskOptions options, std::function<void()> body) override;
   void run(std::function<void()> main) override;
+  [[nodiscard]] std::vector<std::string> restless_tasks() const override;
   [[nodiscard]] std::optional<StuckTask> stuck_task(Duration limit) override;
 
   struct Fiber;
@@ -38,7 +39,6 @@ class CooperativeExecutive final : public Executive {
   void block_until(TimePoint deadline);
   void make_ready(Fiber& fiber);
   [[nodiscard]] Fiber* current() { return current_; }
-  [[nodiscard]] bool called_from_inside() const;
   void post_notification(CooperativeEvent& event);
   void forget_notifications(CooperativeEvent& event);
 
@@ -59,6 +59,7 @@ class CooperativeExecutive final : public Executive {
     [[nodiscard]] bool empty() const { return first_ == nullptr; }
     void add(Fiber& fiber);
     Fiber& pop();
+    void remove(Fiber& fiber);
 
    private:
     const bool by_priority_;
@@ -70,6 +71,8 @@ class CooperativeExecutive final : public Executive {
   std::unique_ptr<Fiber> make_fiber(TaskOptions options, std::function<void()> body);
   Fiber& next_to_run();
   void begin(Fiber& fiber);
+  void count_turn(Fiber& fiber);
+  Fiber& main_at_once();
   void set_timer(Fiber& fiber, TimePoint deadline);
   void cancel_timer(Fiber& fiber);
   void take_notifications();
@@ -87,6 +90,9 @@ class CooperativeExecutive final : public Executive {
   std::uint64_t sequence_ = 0;
   Fiber* current_ = nullptr;
   Fiber* main_ = nullptr;
+  std::vector<std::string> busy_;  // tasks that have had half of their turns at this instant
+  bool restless_ = false;          // busy_ keeps time from passing
+  bool main_is_next_ = false;      // to hear of it
 
   // Filled by other threads.
   FutexEvent inbox_changed_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cxxabi.h>
+#include <sys/mman.h>
 
 #include <boost/context/fiber.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
@@ -14,12 +15,9 @@ namespace {
 
 namespace bc = boost::context;
 
-// 256 KiB is too little: std::regex alone overflows it.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr std::size_t kStackBytes = 8 * 1024 * 1024;  // its red zones make frames several times as large
-#else
-constexpr std::size_t kStackBytes = 1024 * 1024;
-#endif
+// As much as a thread usually has, so that a component that works on threads works here, too. Only the part that is
+// used takes memory.
+constexpr std::size_t kStackBytes = 8 * 1024 * 1024;
 
 // The C++ runtime keeps the exceptions being handled per thread, not per fiber. These two words are exchanged
 // at every switch. Otherwise a rethrow after a switch inside a handler would throw another fiber's exception.
@@ -37,7 +35,12 @@ StackBounds bounds_of(const bc::stack_context& stack) {
 // The fiber keeps a copy of the allocator, and frees its stack with it when it has left the stack for good.
 struct StackAllocator {
   bc::protected_fixedsize_stack pages{kStackBytes};
-  bc::stack_context allocate() { return pages.allocate(); }
+  bc::stack_context allocate() {
+    bc::stack_context stack = pages.allocate();
+    // One page of 2 MB for a few kilobytes of stack would be a waste.
+    madvise(static_cast<char*>(stack.sp) - stack.size, stack.size, MADV_NOHUGEPAGE);
+    return stack;
+  }
   void deallocate(bc::stack_context& stack) {
     forget_stack(bounds_of(stack));
     pages.deallocate(stack);

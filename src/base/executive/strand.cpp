@@ -10,6 +10,11 @@ Strand::Strand(Executive& executive, TaskOptions options)
 
 void Strand::start(std::function<void()> body) { task_ = executive_.spawn(options_, std::move(body)); }
 
+void Strand::throw_foreign() const {
+  throw ForeignThread("a thread that runs no component waits in the name of " + name() +
+                      "; only the component's own hooks, laps and handlers may");
+}
+
 // Returns true if woken, false at the deadline.
 bool Strand::wait_watching(TimePoint deadline) {
   for (;;) {

@@ -7,17 +7,20 @@
 
 #include "futex_event.hpp"
 #include "steady_time.hpp"
+#include "task_thread.hpp"
 
 namespace orca::detail {
 namespace {
 
 class ThreadTask final : public Task {
  public:
-  ThreadTask(ThreadWatch& watch, const TaskOptions& options, std::function<void()> body)
+  ThreadTask(const Executive& executive, ThreadWatch& watch, const TaskOptions& options,
+             std::function<void()> body)
       : watch_(watch), waits_(options.name) {
     watch_.add(waits_);
     try {
-      thread_ = std::thread([this, run = std::move(body)] {
+      thread_ = std::thread([this, &executive, run = std::move(body)] {
+        const TaskThread here(executive);
         pthread_setname_np(pthread_self(), waits_.name().substr(0, 15).c_str());
         waits_.attach();
         run();
@@ -54,10 +57,13 @@ TimePoint ThreadExecutive::now() const { return steady_now(); }
 std::unique_ptr<Event> ThreadExecutive::make_event() { return std::make_unique<FutexEvent>(spin_); }
 
 std::unique_ptr<Task> ThreadExecutive::spawn(TaskOptions options, std::function<void()> body) {
-  return std::make_unique<ThreadTask>(watch_, options, std::move(body));
+  return std::make_unique<ThreadTask>(*this, watch_, options, std::move(body));
 }
 
-void ThreadExecutive::run(std::function<void()> main) { main(); }
+void ThreadExecutive::run(std::function<void()> main) {
+  const TaskThread here(*this);
+  main();
+}
 
 std::optional<StuckTask> ThreadExecutive::stuck_task(Duration limit) { return watch_.stuck_task(limit); }
 

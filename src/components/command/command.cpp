@@ -147,9 +147,9 @@ class Command final : public orca::Component {
     point->coordinate().point().y(place.y);
     point->coordinate().point().z(place.z);
     point->via(via);
-    point->reach_radius(via ? *via_radius_ : *reach_radius_);
+    point->reach_radius().distance(via ? *via_radius_ : *reach_radius_);
     point->use_orientation(!via && route.use_orientation);
-    if (!place.door) point->orientation(route.orientation);
+    if (!place.door) point->orientation().orientation().yaw(route.orientation);
     point->reach_angle(*reach_angle_);
     point->time_limit(*goal_timeout_);
     return goto_.send_wait_max(std::move(point), kRoomLimit);
@@ -159,7 +159,7 @@ class Command final : public orca::Component {
   static orca::Loan<orca::idl::GoalPoint> point_at(const orca::command::Place& place) {
     if (!place.door) return orca::make_object<orca::idl::GoalPoint>();
     auto door = orca::make_object<orca::idl::Door>();
-    door->orientation(place.door->direction);
+    door->orientation().orientation().yaw(place.door->direction);
     door->door_width().distance(place.door->width);
     door->passable(true);
     return door;

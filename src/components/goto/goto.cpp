@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "algorithm.hpp"
+#include "fault.hpp"
 #include "legs.hpp"
 #include "orca/component.hpp"
+#include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
+#include "path.hpp"
 #include "patience.hpp"
 #include "route.hpp"
 
@@ -26,7 +29,8 @@ using orca::go::Step;
 /// reach_radius is 0 until another goal comes. A goal may lie above or below the robot: its reach is a ball.
 /// Via points that come before a goal are passed in order. A point that comes when the route already ends in
 /// a goal, or belongs to another mission, replaces the whole route. It drives through doors in a straight line.
-/// While somebody subscribes to its failures it gives up goals that it cannot reach.
+/// While somebody subscribes to its failures it gives up goals that it cannot reach. It has not arrived as long as it
+/// does not know well enough where it is.
 class Goto final : public orca::Component {
  public:
   using Component::Component;
@@ -49,10 +53,12 @@ class Goto final : public orca::Component {
     if (route_.is_given_up(*goal))
       return orca::fail(orca::Code::failed_precondition,
                         "the route to \"" + goal->name() + "\" has been given up");
-    const char* fault = fault_of(*goal);
-    if (const auto door = goal.as<orca::idl::Door>(); door && fault == nullptr) fault = fault_of_door(*door);
+    const char* fault = orca::go::fault_of(*goal, *height_);
+    if (const auto door = goal.as<orca::idl::Door>(); door && fault == nullptr)
+      fault = orca::go::fault_of_door(*door, *door_room_);
     if (fault != nullptr) return refuse(*goal, fault);
     route_.add(goal, now());
+    doubts_ = false;
     before_.near = false;
     patience_.begin();
     return orca::ok();
@@ -65,29 +71,6 @@ class Goto final : public orca::Component {
     return orca::fail(orca::Code::invalid_argument, "the goal \"" + goal.name() + "\" " + fault);
   }
 
-  // Returns why the robot cannot go there; null if it can.
-  [[nodiscard]] const char* fault_of(const orca::idl::GoalPoint& goal) const {
-    const auto& place = goal.coordinate().point();
-    for (const double number :
-         {place.x(), place.y(), place.z(), goal.orientation(), goal.reach_radius(), goal.reach_angle()})
-      if (!std::isfinite(number)) return "holds a number that is not finite";
-    if (goal.reach_radius() < 0.0) return "has a negative reach_radius";
-    if (goal.use_orientation() && goal.reach_angle() <= 0.0)
-      return "has an orientation to take with a reach_angle that is not positive";
-    if (goal.reach_radius() > 0.0 && std::abs(place.z() - *height_) >= goal.reach_radius())
-      return "lies so far above or below the robot that no place on the floor is within its reach_radius";
-    return nullptr;
-  }
-
-  // Returns why the robot cannot go through that door; null if it can. A width of 0 is not known.
-  [[nodiscard]] const char* fault_of_door(const orca::idl::Door& door) const {
-    const double width = door.door_width().distance();
-    if (!std::isfinite(width)) return "holds a number that is not finite";
-    if (!door.passable()) return "is a door that is not passable";
-    if (width > 0.0 && width < *door_room_) return "is a door narrower than Goto's door_room";
-    return nullptr;
-  }
-
   orca::Outcome work() override {
     const Pose2 pose = take_pose();
     pass_via_points(pose);
@@ -97,7 +80,19 @@ class Goto final : public orca::Component {
     } else if (!is_hopeless(pose)) {
       drive(pose);
     }
+    push_path(pose);
     return orca::again();
+  }
+
+  // Shows the way that is left, if it has changed or somebody has come who has not seen it.
+  void push_path(const Pose2& pose) {
+    const PathShown now_shown{route_.changes(), path_.subscriber_count()};
+    const PathShown before = std::exchange(path_shown_, now_shown);
+    if (now_shown.change == before.change && now_shown.to <= before.to) return;
+    if (now_shown.to == 0) return;
+    auto path = path_.loan();
+    orca::go::fill_path(route_, pose, *height_, *path);
+    path_.push(std::move(path));
   }
 
   void drive(const Pose2& pose) {
@@ -106,15 +101,35 @@ class Goto final : public orca::Component {
     const Step step = step_towards(target, pose, limits(), before_);
     before_.near = step.near;
     before_.speed = step.speed;
-    if (step.kind == Step::Kind::reached) return arrive(pose);
-    motion_.push(orca::head(step.direction, step.speed, *weight_));
+    if (step.kind != Step::Kind::reached) {
+      motion_.push(orca::head(step.direction, step.speed, *weight_));
+    } else if (deviation_ <= target.reach_radius) {
+      arrive(pose);
+    } else {
+      wait_to_be_sure();
+    }
+  }
+
+  // Stands where it believes the goal is: its pose may become surer.
+  void wait_to_be_sure() {
+    motion_.push(orca::full_stop());
+    if (!std::exchange(doubts_, true))
+      log_warning("perhaps at \"" + route_.next().name() + "\", but not arrived: " + doubt());
+  }
+
+  // Says how unsure the position is, for people.
+  [[nodiscard]] std::string doubt() const {
+    return "its position is known only to " + in_short(deviation_) + " m, the goal's reach is " +
+           in_short(route_.next().reach_radius()) + " m";
   }
 
   // Pushes the point that it drives to, or a place on the way through a door.
   void push_goal(const orca::go::Target& target) {
     const auto& point = route_.next().coordinate().point();
-    if (target.place == orca::Vec2{point.x(), point.y()})
-      return goal_push_.push(orca::copy_value(route_.point()));
+    if (target.place == orca::Vec2{point.x(), point.y()}) {
+      goal_push_.push(orca::copy_value(route_.point()));
+      return;
+    }
     auto place = orca::make_object(route_.next());
     place->coordinate().point().x(target.place.x);
     place->coordinate().point().y(target.place.y);
@@ -125,13 +140,14 @@ class Goto final : public orca::Component {
   bool is_hopeless(const Pose2& pose) {
     const double stuck = patience_.note(distance(next_place(pose), pose), now());
     const orca::idl::GoalPoint& next = route_.next();
-    if (failed_.subscriber_count() == 0 || next.reach_radius() <= 0.0) return false;
+    if (failed_.subscriber_count() == 0 || next.reach_radius().distance() <= 0.0) return false;
     if (next.time_limit() > 0.0 && route_.age(now()) >= next.time_limit()) {
       end_route(orca::idl::GOAL_TIMED_OUT,
                 "timed out: not reached within " + in_short(next.time_limit()) + " s");
     } else if (*blocked_after_ > 0.0 && stuck >= *blocked_after_) {
       end_route(orca::idl::GOAL_BLOCKED, "blocked: no nearer than " + in_short(patience_.nearest()) +
-                                             " m to " + place() + " for " + in_short(*blocked_after_) + " s");
+                                             " m to " + place() + " for " + in_short(*blocked_after_) + " s" +
+                                             (doubts_ ? ", and " + doubt() : ""));
     } else {
       return false;
     }
@@ -176,10 +192,12 @@ class Goto final : public orca::Component {
     if (!localizer_.connected()) {
       const auto odometry = odometry_.get_update();
       note_time(odometry->stamp());
+      deviation_ = orca::position_deviation(odometry->covariance());
       return orca::plane_pose(*odometry);
     }
     const auto pose = localizer_.get_update();
     note_time(pose->stamp());
+    deviation_ = orca::position_deviation(pose->covariance());
     return orca::plane_pose(*pose);
   }
 
@@ -234,6 +252,10 @@ class Goto final : public orca::Component {
       *this, "GoalFailedPush", {.text = "One object per goal given up: refused, blocked or timed out."}};
   orca::PushServer<orca::idl::GoalPoint> goal_push_{
       *this, "GoalPush", {.text = "The via point or goal that it drives to now, once per lap."}};
+  orca::PushServer<orca::idl::Path> path_{
+      *this,
+      "PathPush",
+      {.text = "The way that is left: one object whenever its points change, and for a new subscriber."}};
   orca::PushProxy<orca::idl::Odometry> odometry_{
       *this, "odometry", {.text = "Pose of the robot, used if no localizer is connected.", .optional = true}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
@@ -298,11 +320,20 @@ class Goto final : public orca::Component {
       1.0,
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
+  // What the subscribers to the path have seen.
+  struct PathShown {
+    std::uint64_t change = 0;  // of the route
+    std::size_t to = 0;        // subscribers
+  };
+
   orca::go::Route route_;
+  PathShown path_shown_;
   orca::go::Legs legs_;
   orca::go::Patience patience_;
   orca::go::Before before_;
   std::optional<orca::TimePoint> posed_at_;
+  double deviation_ = 0.0;  // [m] standard deviation of its position, in the worst direction; 0: not known
+  bool doubts_ = false;     // Whether it has said that it may be at the goal.
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ Target on_the_way(const Target& end, Vec2 place, double reach) {
 
 std::deque<Target> through(const idl::Door& door, const Pose2& pose, const Manner& manner) {
   const Target middle = target_of(door, manner);
-  const Pose2 X_WD{middle.place.x, middle.place.y, door.orientation()};
+  const Pose2 X_WD{middle.place.x, middle.place.y, door.orientation().orientation().yaw()};
   const Vec2 here = seen_from(X_WD, pose.position());
   const double side = here.x < 0.0 ? -1.0 : 1.0;  // -1: the door's orientation leads through it
   std::deque<Target> legs;
@@ -31,8 +31,13 @@ std::deque<Target> through(const idl::Door& door, const Pose2& pose, const Manne
 
 Target target_of(const idl::GoalPoint& point, const Manner& manner) {
   const auto& place = point.coordinate().point();
-  return {{place.x(), place.y()}, place.z() - manner.height, point.reach_radius(), point.use_orientation(),
-          point.orientation(),    point.reach_angle(),       point.via()};
+  return {.place = {place.x(), place.y()},
+          .rise = place.z() - manner.height,
+          .reach_radius = point.reach_radius().distance(),
+          .use_orientation = point.use_orientation(),
+          .orientation = point.orientation().orientation().yaw(),
+          .reach_angle = point.reach_angle(),
+          .via = point.via()};
 }
 
 std::deque<Target> legs_to(const Route::Point& point, const Pose2& pose, const Manner& manner) {

@@ -8,11 +8,13 @@ void Route::add(const Point& point, TimePoint now) {
     points_.clear();
   if (points_.empty()) begun_ = now;
   points_.push_back(point);
+  ++changes_;
 }
 
 void Route::give_up(std::uint64_t mission) {
   std::erase_if(points_, [mission](const Point& point) { return point->mission() == mission; });
   given_up_ = mission;
+  ++changes_;
 }
 
 bool Route::is_given_up(const idl::GoalPoint& point) const {

@@ -28,7 +28,13 @@ class Route {
   /// @pre  not empty.
   [[nodiscard]] const idl::GoalPoint& next() const { return *point(); }
   [[nodiscard]] const Point& point() const { return points_.front(); }
-  void pop() { points_.pop_front(); }
+  [[nodiscard]] const std::deque<Point>& points() const { return points_; }
+  void pop() {
+    points_.pop_front();
+    ++changes_;
+  }
+  /// Returns a number that grows whenever the points change.
+  [[nodiscard]] std::uint64_t changes() const { return changes_; }
   /// Returns how long the robot has been on this route [s].
   [[nodiscard]] double age(TimePoint now) const { return to_seconds(now - begun_); }
 
@@ -36,6 +42,7 @@ class Route {
   std::deque<Point> points_;
   TimePoint begun_{};
   std::uint64_t given_up_ = 0;
+  std::uint64_t changes_ = 0;
 };
 
 }  // namespace orca::go

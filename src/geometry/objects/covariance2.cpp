@@ -50,4 +50,10 @@ idl::Pose2D inverse(const idl::Pose2D& X_AB) {
   return X_BA;
 }
 
+// The root of the larger eigenvalue of the covariance of x and y.
+double position_deviation(const std::array<double, 9>& covariance) {
+  const double mean = 0.5 * (covariance[0] + covariance[4]);
+  return std::sqrt(std::max(0.0, mean + std::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1])));
+}
+
 }  // namespace orca

@@ -5,13 +5,16 @@
 
 #include "matrix.hpp"
 #include "orca/geometry/arc.hpp"
-#include "orca/geometry/objects/plane.hpp"
 
 namespace orca {
 namespace {
 
 // Below this [rad] the series is exact to the last digits, but the quotient is not.
 constexpr double kSmall = 0.05;
+
+constexpr double kSin60 = 0.8660254037844386;
+// Rolling directions of three wheels at 60, 180 and 300 degrees when the base turns to the left.
+constexpr std::array<Vec2, 3> kTangents{Vec2{-kSin60, 0.5}, Vec2{0.0, -1.0}, Vec2{kSin60, 0.5}};
 
 // Returns the derivative of sin(h) / h, the chord per arc that turns by 2 h.
 double chord_ratio_slope(double h) {
@@ -20,62 +23,93 @@ double chord_ratio_slope(double h) {
   return (std::cos(h) - std::sin(h) / h) / h;
 }
 
-Status check(const WheelTravel& travel, const DifferentialBase& base) {
-  if (!(base.track > 0.0) || !std::isfinite(base.track)) {
-    return fail(Code::invalid_argument,
-                "the track is " + std::to_string(base.track) + " m, it must be positive");
-  }
-  const bool noise = base.left_noise >= 0.0 && base.right_noise >= 0.0;
-  if (!noise || !std::isfinite(base.left_noise) || !std::isfinite(base.right_noise)) {
-    return fail(Code::invalid_argument, "the wheels' noise must be finite and not negative");
-  }
-  if (!std::isfinite(travel.left) || !std::isfinite(travel.right)) {
-    return fail(Code::invalid_argument, "the wheels' travel must be finite");
-  }
-  return ok();
+Eigen::Vector3d vector_of(const Travel2& travel) { return {travel.forward, travel.left, travel.turn}; }
+
+// Returns the derivatives of the pose at the end of an arc by the pose at its start.
+Eigen::Matrix3d slope_by_start(const Vec2& chord) {
+  Eigen::Matrix3d slope;
+  slope << 1, 0, -chord.y, 0, 1, chord.x, 0, 0, 1;
+  return slope;
 }
 
-// Returns the derivatives of (x, y, orientation) with respect to the length and the turn of an arc that ends
-// `chord` away.
-Eigen::Matrix<double, 3, 2> slope_of(const Travel2& travel, const Vec2& chord, double start_orientation) {
+// Returns its derivatives by the travel forward, to the left and round.
+// @param yaw [rad]  at the start.
+Eigen::Matrix3d slope_by_travel(double yaw, const Travel2& travel, const Vec2& chord) {
   const double h = 0.5 * travel.turn;
-  const Vec2 along = direction(start_orientation + h);
+  const Vec2 ahead = direction(yaw + h);
+  const Vec2 way = rotated({travel.forward, travel.left}, yaw + h);
   const double ratio = chord_ratio(travel.turn);
-  const double lengthening = travel.forward * chord_ratio_slope(h) / 2.0;  // d chord / d turn
-  Eigen::Matrix<double, 3, 2> slope;
-  slope << ratio * along.x, lengthening * along.x - chord.y / 2.0,  //
-      ratio * along.y, lengthening * along.y + chord.x / 2.0,       //
-      0.0, 1.0;
+  const double lengthening = 0.5 * chord_ratio_slope(h);  // of the chord, relative to the arc, by the turn
+  Eigen::Matrix3d slope;
+  slope << ratio * ahead.x, -ratio * ahead.y, lengthening * way.x - 0.5 * chord.y,  //
+      ratio * ahead.y, ratio * ahead.x, lengthening * way.y + 0.5 * chord.x,        //
+      0.0, 0.0, 1.0;
   return slope;
+}
+
+template <int Columns>
+auto rows(std::array<double, static_cast<std::size_t>(3 * Columns)>& entries) {
+  return Eigen::Map<Eigen::Matrix<double, 3, Columns, Eigen::RowMajor>>(entries.data());
 }
 
 }  // namespace
 
-Result<idl::Pose2D> integrate_arc(const idl::Pose2D& X_WB, const WheelTravel& travel,
-                                  const DifferentialBase& base) {
-  if (const Status status = check(travel, base); !status.ok()) return status.error();
-  const Travel2 moved{.forward = (travel.left + travel.right) / 2.0,
-                      .turn = (travel.right - travel.left) / base.track};
-  const Vec2 way = chord(X_WB.orientation(), moved);
-  const Pose2 end = along_arc(plane_pose(X_WB), moved);
+OdometryUncertainty::OdometryUncertainty(idl::DriveType type, double track, const WheelErrorGuess& guess)
+    : wheels_(wheels_of(type, track)), guess_(guess), track_counts_(type != idl::SYNCHRO) {}
 
-  Eigen::Matrix3d for_pose;
-  for_pose << 1, 0, -way.y, 0, 1, way.x, 0, 0, 1;
-  Eigen::Matrix2d mixing;  // (way, turn) for (left, right)
-  mixing << 0.5, 0.5, -1.0 / base.track, 1.0 / base.track;
-  const Eigen::Matrix<double, 3, 2> for_wheels = slope_of(moved, way, X_WB.orientation()) * mixing;
-  const Eigen::Vector2d variance(base.left_noise * std::abs(travel.left),
-                                 base.right_noise * std::abs(travel.right));
+std::vector<OdometryUncertainty::Wheel> OdometryUncertainty::wheels_of(idl::DriveType type, double track) {
+  if (type == idl::DIFFERENTIAL) {
+    const Travel2 left{0.5, 0.0, -1.0 / track};
+    const Travel2 right{0.5, 0.0, 1.0 / track};
+    return {{{1.0, 0.0}, -0.5 * track, left, left}, {{1.0, 0.0}, 0.5 * track, right, right}};
+  }
+  std::vector<Wheel> wheels;
+  for (const Vec2& tangent : kTangents) {
+    if (type == idl::SYNCHRO) {
+      // The wheels roll abreast. Only their slip turns the body, by least squares over the three.
+      const Travel2 slip{1.0 / 3.0, 0.0, tangent.x / (0.75 * track)};
+      wheels.push_back({{1.0, 0.0}, 0.0, {1.0 / 3.0, 0.0, 0.0}, slip});
+    } else {
+      const Travel2 metre{2.0 / 3.0 * tangent.x, 2.0 / 3.0 * tangent.y, 1.0 / (1.5 * track)};
+      wheels.push_back({tangent, 0.5 * track, metre, metre});
+    }
+  }
+  return wheels;
+}
 
-  idl::Pose2D result;
-  result.x(end.x);
-  result.y(end.y);
-  result.orientation(end.yaw);
-  result.stamp(travel.stamp);
-  geometry::store<3>(for_pose * geometry::matrix_of<3>(X_WB.covariance()) * for_pose.transpose() +
-                         for_wheels * variance.asDiagonal() * for_wheels.transpose(),
-                     result.covariance());
-  return result;
+void OdometryUncertainty::move_to(const Pose2& X_OR) {
+  const Travel2 travel = arc_between(X_OR_, X_OR);
+  const Vec2 way = X_OR.position() - X_OR_.position();
+  const Eigen::Matrix3d by_start = slope_by_start(way);
+  const Eigen::Matrix3d by_travel = slope_by_travel(X_OR_.yaw, travel, way);
+
+  Eigen::Matrix3d slip = Eigen::Matrix3d::Zero();  // covariance of this step's travel
+  Eigen::Matrix<double, 3, kErrors> by_error = Eigen::Matrix<double, 3, kErrors>::Zero();
+  for (std::size_t k = 0; k < wheels_.size(); ++k) {
+    const double rolled = wheels_[k].travel(travel);
+    const Eigen::Vector3d moved = vector_of(wheels_[k].per_slip);
+    slip += guess_.slip * guess_.slip * std::abs(rolled) * moved * moved.transpose();
+    by_error.col(static_cast<Eigen::Index>(k)) = rolled * vector_of(wheels_[k].per_metre);
+  }
+  if (track_counts_) by_error(2, kErrors - 1) = -travel.turn;
+
+  const Eigen::Matrix3d before = geometry::matrix_of<3>(slip_);
+  geometry::store<3>(by_start * before * by_start.transpose() + by_travel * slip * by_travel.transpose(),
+                     slip_);
+  auto effect = rows<kErrors>(effect_);
+  effect = (by_start * effect + by_travel * by_error).eval();
+  X_OR_ = X_OR;
+}
+
+std::array<double, 9> OdometryUncertainty::covariance() const {
+  const double wheel = guess_.diameter * guess_.diameter;
+  const Eigen::Vector4d variance(wheel, wheel, wheel, guess_.track * guess_.track);
+  Effect copy = effect_;
+  const auto effect = rows<kErrors>(copy);
+  std::array<double, 9> entries{};
+  geometry::store<3>(geometry::matrix_of<3>(slip_) + effect * variance.asDiagonal() * effect.transpose(),
+                     entries);
+  return entries;
 }
 
 }  // namespace orca

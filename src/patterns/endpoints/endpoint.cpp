@@ -4,6 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "orca/base/activity.hpp"
+
 namespace orca {
 namespace {
 
@@ -15,6 +17,23 @@ Endpoint::Endpoint(PortHome& home, PortContract contract) : home_(home), contrac
 
 Endpoint::~Endpoint() {
   assert(link_ends_.empty());  // they would touch what has gone already
+}
+
+// The part of admits_caller() that strands do not need. A component that the main thread destroys has no strand
+// any more.
+bool Endpoint::admits_stranger() const {
+  const Activity* const activity = Activity::current();
+  if (activity != nullptr && activity->hook() == Hook::destructor) return true;
+  if (LinkObserver* observer = home_.observer)
+    observer->foreign_call(home_.component, contract_.name, home_.code.load(std::memory_order_acquire));
+  return false;
+}
+
+Error Endpoint::foreign_call() const {
+  return fail(Code::failed_precondition,
+              path() +
+                  " was called by a thread that runs no component; only the component's own hooks, laps and "
+                  "handlers may call its ports");
 }
 
 void Endpoint::stamp(ObjectLoan& loan, const Provenance* provenance) {

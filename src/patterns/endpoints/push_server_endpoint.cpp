@@ -61,7 +61,7 @@ ObjectRef PushServerEndpoint::seal(ObjectLoan loan, const Provenance* provenance
 
 void PushServerEndpoint::publish(ObjectRef object) {
   ++pushed_;
-  if (LinkObserver* observer = home().observer) observer->pushed(object);
+  if (LinkObserver* observer = home().observer) observer->pushed(component(), contract().name, object);
   if (subscriber_count() > 0 && !hand_out(object)) wait_for_room(object);
 }
 

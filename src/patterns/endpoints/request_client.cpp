@@ -21,13 +21,16 @@ template <class Answer>
 Result<typename RequestClient<Answer>::Offered> RequestClient<Answer>::offer(ObjectLoan loan,
                                                                              const Provenance* provenance,
                                                                              bool may_wait) {
+  if (!admits_caller()) return foreign_call();
   if (target_ == nullptr)
     return fail(Code::failed_precondition, "port " + path() + " is not connected; add <connect from=\"" +
                                                path() + "\" to=\"...\"/> to the graph");
   stamp(loan, provenance);
   const RequestId id = pending_.add();
   ++sent_;
-  std::optional<Answer> at_once = target_->offer(std::move(loan).seal(), *this, id, may_wait);
+  const ObjectRef object = std::move(loan).seal();
+  if (LinkObserver* observer = home().observer) observer->requested(component(), contract().name, object);
+  std::optional<Answer> at_once = target_->offer(object, *this, id, may_wait);
   if (!at_once) return Offered{id, false};
   pending_.answer(id, std::move(*at_once));
   return Offered{id, true};

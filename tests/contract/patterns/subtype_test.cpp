@@ -17,7 +17,7 @@ namespace {
 Loan<Door> kitchen_door() {
   auto door = make_object<Door>();
   door->name() = "kitchen_door";
-  door->reach_radius(0.3);
+  door->reach_radius().distance(0.3);
   door->door_width().distance(0.95);
   door->passable(true);
   return door;

@@ -8,7 +8,9 @@
 
 #include <cfenv>
 #include <clocale>
+#include <cstddef>
 #include <cstdlib>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -34,6 +36,32 @@ int overflow(int depth) {
 void throw_where_nothing_may() noexcept {
   const auto thrower = [] { throw std::runtime_error("the brakes are gone"); };
   thrower();
+}
+
+struct Mute : std::exception {
+  [[nodiscard]] const char* what() const noexcept override { return nullptr; }
+};
+
+void end_quietly_from_now_on() {
+  std::set_terminate([] { _exit(0); });
+}
+
+void steal_output() {
+  const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(null, STDOUT_FILENO);
+  close(null);
+}
+
+// Opening a file for writing ends the trial of configure(), so this happens at the start.
+void hang_after_trial() {
+  close(open("/dev/null", O_WRONLY | O_CLOEXEC));
+  for (;;) sleep(1);
+}
+
+int use_stack(std::size_t bytes) {
+  volatile char* const room = static_cast<char*>(__builtin_alloca(bytes));
+  for (std::size_t i = 0; i < bytes; i += 4096) room[i] = 1;
+  return room[0];
 }
 
 void lower_limit() {
@@ -75,7 +103,43 @@ void take_memory() {
   taken.push_back(std::make_unique<char[]>(1 << 20));
 }
 
-/// Does `deed` in the hook that `where` names, and works quietly otherwise.
+using Deeds = std::map<std::string, std::function<void()>>;
+
+const Deeds& deeds() {
+  static const Deeds all{
+      {"abort", [] { std::abort(); }},
+      {"close", close_many},
+      {"divide", [] { g_zero = g_hundred / g_zero; }},
+      {"exit", [] { std::exit(0); }},
+      {"folder", [] { (void)!chdir("/"); }},
+      {"fork", [] { (void)!fork(); }},
+      {"hard_limit", lower_hard_limit},
+      {"hang", hang_after_trial},
+      {"handler", [] { signal(SIGTERM, SIG_IGN); }},
+      {"leak", [] { open_many(1); }},
+      {"leak_all", [] { open_many(1000000); }},
+      {"limit", lower_limit},
+      {"locale", [] { std::setlocale(LC_ALL, "C.UTF-8"); }},
+      {"mask", block_signal},
+      {"noexcept", throw_where_nothing_may},
+      {"memory", take_memory},
+      {"mute", [] { throw Mute(); }},
+      {"none", [] {}},
+      {"overflow", [] { g_zero = overflow(0); }},
+      {"quick_exit", [] { std::quick_exit(0); }},
+      {"rounding", [] { std::fesetround(FE_UPWARD); }},
+      {"redirect", steal_output},
+      {"segfault", [] { *g_nowhere = 1; }},
+      {"sleep", [] { ::sleep(10); }},
+      {"stack", [] { g_zero = use_stack(1'200'000); }},
+      {"terminate", end_quietly_from_now_on},
+      {"thread", leave_thread},
+      {"umask", [] { umask(0); }},
+  };
+  return all;
+}
+
+/// Does `deed` in the hook that `where` names and `then` in each lap, and works quietly otherwise.
 class Hooligan final : public orca::Component {
  public:
   explicit Hooligan(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(50)); }
@@ -86,6 +150,7 @@ class Hooligan final : public orca::Component {
   void stop() override { act("stop"); }
   orca::Outcome work() override {
     act("work");
+    if (!then_->empty()) deeds().at (*then_)();
     if (*where_ == "after_wait") {
       Component::sleep(std::chrono::milliseconds(5));
       act("after_wait");
@@ -98,36 +163,12 @@ class Hooligan final : public orca::Component {
   }
 
   void act(const std::string& here) const {
-    static const std::map<std::string, std::function<void()>> kDeeds{
-        {"abort", [] { std::abort(); }},
-        {"close", close_many},
-        {"divide", [] { g_zero = g_hundred / g_zero; }},
-        {"exit", [] { std::exit(0); }},
-        {"folder", [] { (void)!chdir("/"); }},
-        {"fork", [] { (void)!fork(); }},
-        {"hard_limit", lower_hard_limit},
-        {"handler", [] { signal(SIGTERM, SIG_IGN); }},
-        {"leak", [] { open_many(1); }},
-        {"leak_all", [] { open_many(1000000); }},
-        {"limit", lower_limit},
-        {"locale", [] { std::setlocale(LC_ALL, "C.UTF-8"); }},
-        {"mask", block_signal},
-        {"noexcept", throw_where_nothing_may},
-        {"memory", take_memory},
-        {"none", [] {}},
-        {"overflow", [] { g_zero = overflow(0); }},
-        {"quick_exit", [] { std::quick_exit(0); }},
-        {"rounding", [] { std::fesetround(FE_UPWARD); }},
-        {"segfault", [] { *g_nowhere = 1; }},
-        {"sleep", [] { ::sleep(10); }},
-        {"thread", leave_thread},
-        {"umask", [] { umask(0); }},
-    };
-    if (here == *where_) kDeeds.at (*deed_)();
+    if (here == *where_) deeds().at (*deed_)();
   }
 
   orca::Param<std::string> where_{*this, "where", "work"};
   orca::Param<std::string> deed_{*this, "deed", "none"};
+  orca::Param<std::string> then_{*this, "then", "", {.text = "A second deed, in each lap; empty: none."}};
 };
 
 }  // namespace

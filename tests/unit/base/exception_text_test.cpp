@@ -24,6 +24,10 @@ std::string text_of(const Thrown& thrown) {
 
 struct Odd {};
 
+struct Mute : std::exception {
+  [[nodiscard]] const char* what() const noexcept override { return nullptr; }
+};
+
 }  // namespace
 
 TEST_CASE("an exception is described by its type and its text", "[base][exception]") {
@@ -32,6 +36,7 @@ TEST_CASE("an exception is described by its type and its text", "[base][exceptio
   CHECK(text_of(std::string("a text")) == "threw the text \"a text\"");
   CHECK(text_of(static_cast<const char*>("a text")) == "threw the text \"a text\"");
   CHECK(text_of(static_cast<const char*>(nullptr)) == "threw an object of type char const*");
+  CHECK(text_of(Mute{}) == "threw (anonymous namespace)::Mute");
   CHECK(text_of(Odd{}) == "threw an object of type (anonymous namespace)::Odd");
 }
 

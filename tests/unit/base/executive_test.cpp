@@ -7,6 +7,7 @@
 #include <regex>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "orca/base/executive.hpp"
@@ -42,6 +43,17 @@ std::vector<ExecutiveOptions> virtual_kinds() {
 }
 
 std::unique_ptr<Executive> make(const ExecutiveOptions& options) { return make_executive(options).value(); }
+
+// Writes to each page of a stack that grows by that many bytes.
+int use_stack(std::size_t bytes) {
+  volatile char* const room = static_cast<char*>(__builtin_alloca(bytes));
+  int sum = 0;
+  for (std::size_t i = 0; i < bytes; i += 4096) {
+    room[i] = 1;
+    sum += room[i];
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -118,6 +130,42 @@ TEST_CASE("tasks hand over to each other through events and are joined", "[base]
   }
 }
 
+TEST_CASE("a task may use 1.5 MB of stack, also after it has waited", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      int sum = 0;
+      const auto task = executive->spawn({"deep", 0}, [&] {
+        executive->sleep_until(executive->now() + 1ms);
+        sum = use_stack(1'500'000);
+      });
+      CHECK(task->join_until(kForever));
+      CHECK(sum > 0);
+    });
+  }
+}
+
+TEST_CASE("only the threads of its tasks run an executive", "[base][executive]") {
+  for (const auto& kind : all_kinds()) {
+    const auto executive = make(kind);
+    CHECK_FALSE(executive->runs_here());
+    executive->run([&] {
+      CHECK(executive->runs_here());
+      bool in_task = false;
+      bool in_stranger = true;
+      const auto task = executive->spawn({"task", 0}, [&] {
+        in_task = executive->runs_here();
+        std::thread([&] { in_stranger = executive->runs_here(); }).join();
+      });
+      CHECK(task->join_until(kForever));
+      CHECK(in_task);
+      CHECK_FALSE(in_stranger);
+      CHECK_FALSE(make(kind)->runs_here());
+    });
+    CHECK_FALSE(executive->runs_here());
+  }
+}
+
 TEST_CASE("a thread that the executive does not know may notify", "[base][executive]") {
   for (const auto& kind : all_kinds()) {
     if (kind.clock == ClockKind::virtual_time) continue;
@@ -181,6 +229,71 @@ TEST_CASE("when nothing can ever happen in virtual time, main's wait ends", "[ba
     executive->run([&] {
       const auto event = executive->make_event();
       CHECK_FALSE(event->wait_until(kForever));
+    });
+  }
+}
+
+TEST_CASE("tasks that wake each other at one instant for ever end main's wait, and are named",
+          "[base][executive][standstill]") {
+  const int priority = GENERATE(0, 100);
+  for (const auto& kind : virtual_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      const auto a = executive->make_event();
+      const auto b = executive->make_event();
+      bool over = false;
+      const auto answer = [&](Event& mine, Event& other) {
+        while (!over) {
+          other.notify();
+          mine.wait_until(kForever);
+        }
+        other.notify();
+      };
+      executive->sleep_until(executive->now() + 1s);
+      const auto ping = executive->spawn({"ping", priority}, [&] { answer(*a, *b); });
+      const auto pong = executive->spawn({"pong", priority}, [&] { answer(*b, *a); });
+      const auto idle = executive->spawn({"idle", 0}, [] {});
+      const TimePoint before = executive->now();
+      CHECK_FALSE(executive->make_event()->wait_until(before + 1s));
+      CHECK(executive->now() == before);
+      CHECK(executive->restless_tasks() == std::vector<std::string>{"ping", "pong"});
+      over = true;
+    });
+  }
+}
+
+TEST_CASE("a burst at one instant is no standstill", "[base][executive][standstill]") {
+  constexpr std::size_t kSenders = 300, kRounds = 30;
+  for (const auto& kind : virtual_kinds()) {
+    const auto executive = make(kind);
+    executive->run([&] {
+      const auto event = executive->make_event();
+      std::vector<Event*> waiting;
+      std::size_t turns = 0;
+      std::size_t ended = 0;
+      const auto receiver = executive->spawn({"receiver", 1}, [&] {
+        for (; ended < kSenders; ++turns) {
+          event->wait_until(kForever);
+          for (Event* sender : std::exchange(waiting, {})) sender->notify();
+        }
+      });
+      std::vector<std::unique_ptr<Task>> senders;
+      for (std::size_t i = 0; i < kSenders; ++i)
+        senders.push_back(executive->spawn({"sender", 0}, [&] {
+          const auto answered = executive->make_event();
+          for (std::size_t round = 0; round < kRounds; ++round) {
+            waiting.push_back(answered.get());
+            event->notify();
+            answered->wait_until(kForever);
+          }
+          ++ended;
+          event->notify();
+        }));
+      const TimePoint before = executive->now();
+      CHECK_FALSE(executive->make_event()->wait_until(before + 1s));
+      CHECK(executive->now() == before + 1s);
+      CHECK(turns >= kSenders * kRounds);
+      CHECK(executive->restless_tasks().empty());
     });
   }
 }

@@ -20,8 +20,8 @@ Route::Point door(bool via) {
   auto made = make_object<idl::Door>();
   made->coordinate().point().x(2.0);
   made->coordinate().point().y(4.5);
-  made->orientation(pi / 2);
-  made->reach_radius(0.3);
+  made->orientation().orientation().yaw(pi / 2);
+  made->reach_radius().distance(0.3);
   made->via(via);
   return ObjectPtr<idl::Door>(std::move(made).seal());
 }
@@ -30,7 +30,7 @@ Route::Point place(double x, double y) {
   auto made = make_object<idl::GoalPoint>();
   made->coordinate().point().x(x);
   made->coordinate().point().y(y);
-  made->reach_radius(0.2);
+  made->reach_radius().distance(0.2);
   return std::move(made).seal();
 }
 

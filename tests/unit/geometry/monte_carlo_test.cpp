@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 
+#include "orca/geometry/arc.hpp"
 #include "orca/geometry/objects/odometry.hpp"
 #include "poses.hpp"
 
@@ -100,23 +101,29 @@ TEST_CASE("the covariance of composed poses in space is that of a sample", "[geo
 
 TEST_CASE("the covariance of odometry is that of a sample of drives", "[geometry][monte_carlo]") {
   RandomStream random(GENERATE(51, 52, 53, 54, 55, 56), "test", "odometry");
-  const DifferentialBase base{.track = 0.35, .left_noise = 1e-6, .right_noise = 2e-6};
-  std::array<WheelTravel, 20> way;
-  for (WheelTravel& travel : way) {
-    travel.left = random.uniform(-0.05, 0.1);
-    travel.right = random.uniform(-0.05, 0.1);
-  }
-  idl::Pose2D expected;
-  for (const WheelTravel& travel : way) expected = integrate_arc(expected, travel, base).value();
-  const Matrix<3> sample = sample_covariance<3>(vector_of(expected), [&] {
-    idl::Pose2D pose;
-    for (const WheelTravel& travel : way) {
-      WheelTravel drawn = travel;
-      drawn.left += random.normal(0.0, std::sqrt(base.left_noise * std::abs(travel.left)));
-      drawn.right += random.normal(0.0, std::sqrt(base.right_noise * std::abs(travel.right)));
-      pose = integrate_arc(pose, drawn, {.track = base.track}).value();
-    }
-    return vector_of(pose);
+  constexpr double kTrack = 0.35;
+  const WheelErrorGuess guess{.diameter = 5e-4, .track = 1e-3, .slip = 1e-3};
+  std::array<Vec2, 20> way;  // travel of the left and of the right wheel
+  for (Vec2& wheels : way) wheels = {random.uniform(-0.05, 0.1), random.uniform(-0.05, 0.1)};
+  const auto next = [](const Pose2& pose, double left, double right, double track) {
+    return along_arc(pose, {0.5 * (left + right), 0.0, (right - left) / track});
+  };
+  OdometryUncertainty uncertainty(idl::DIFFERENTIAL, kTrack, guess);
+  Pose2 expected;
+  for (const Vec2& wheels : way) uncertainty.move_to(expected = next(expected, wheels.x, wheels.y, kTrack));
+  const Vector<3> mean(expected.x, expected.y, expected.yaw);
+  const Matrix<3> sample = sample_covariance<3>(mean, [&] {
+    const double left = 1.0 + random.normal(0.0, guess.diameter);
+    const double right = 1.0 + random.normal(0.0, guess.diameter);
+    const double track = kTrack * (1.0 + random.normal(0.0, guess.track));
+    const auto slipped = [&](double travel) {
+      return random.normal(0.0, guess.slip * std::sqrt(std::abs(travel)));
+    };
+    Pose2 pose;
+    for (const Vec2& wheels : way)
+      pose = next(pose, wheels.x * left + slipped(wheels.x), wheels.y * right + slipped(wheels.y), track);
+    return Vector<3>(pose.x, pose.y, pose.yaw);
   });
-  CHECK(worst_error<3>(sample, covariance_of(expected)) < kErrors);
+  const std::array<double, 9> entries = uncertainty.covariance();
+  CHECK(worst_error<3>(sample, Eigen::Map<const Matrix<3>>(entries.data())) < kErrors);
 }

@@ -118,3 +118,14 @@ TEST_CASE("the covariance in the plane stays a valid one through a hundred thous
   INFO("least eigenvalue of the correlation " << least);
   CHECK(least > -1e-14);
 }
+
+TEST_CASE("a position is as uncertain as it is in its worst direction", "[geometry][pose2]") {
+  CHECK(position_deviation({}) == 0.0);
+  CHECK(position_deviation({0.09, 0, 0, 0, 0.01, 0, 0, 0, 4.0}) == Approx(0.3));
+  // The same ellipse, turned by 30 deg; the orientation does not count.
+  const double c = std::cos(kPi / 6);
+  const double s = std::sin(kPi / 6);
+  const double cross = (0.09 - 0.01) * s * c;
+  CHECK(position_deviation({0.09 * c * c + 0.01 * s * s, cross, 0.5, cross, 0.09 * s * s + 0.01 * c * c, 0.5,
+                            0.5, 0.5, 4.0}) == Approx(0.3));
+}

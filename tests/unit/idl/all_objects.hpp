@@ -3,11 +3,17 @@
 
 #include <tuple>
 
+#include "orca/idl/estimators.hpp"
+#include "orca/idl/generated/estimators.reflection.hpp"
+#include "orca/idl/generated/geometry.reflection.hpp"
+#include "orca/idl/generated/graph.reflection.hpp"
 #include "orca/idl/generated/hardware.reflection.hpp"
 #include "orca/idl/generated/motion.reflection.hpp"
 #include "orca/idl/generated/navigation.reflection.hpp"
 #include "orca/idl/generated/sensing.reflection.hpp"
 #include "orca/idl/generated/system.reflection.hpp"
+#include "orca/idl/geometry.hpp"
+#include "orca/idl/graph.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
@@ -16,13 +22,26 @@
 
 namespace orca::test {
 
-/// Every object type; object_type_test.cpp checks that none is missing.
-using AllObjects =
+/// The plain structs that travel on their own.
+using TravellingStructs =
+    std::tuple<idl::Acceleration, idl::Orientation2D, idl::Orientation3D, idl::Point, idl::Pose2D,
+               idl::Pose3D, idl::Position2D, idl::Position3D, idl::Translation, idl::Velocity, idl::WDistance,
+               idl::WorldCoordinate3D, idl::WorldCoordinate6DOF>;
+
+/// The object types that have a header themselves.
+using HeadedObjects =
     std::tuple<idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::AskReading, idl::Battery,
-               idl::BumperReadings, idl::ClientList, idl::Contact, idl::Door, idl::Drive, idl::FusionReason,
-               idl::GoalFailed, idl::GoalPoint, idl::HolonomicVelocity, idl::InfraredRangeReadings,
-               idl::LaserRangeReadings, idl::LaserSensor, idl::LogRecord, idl::MotionCommand, idl::Odometry,
+               idl::BumperReadings, idl::ClientList, idl::Contact, idl::Door, idl::Drive, idl::Estimate,
+               idl::FusionReason, idl::GoalFailed, idl::GoalPoint, idl::Graph, idl::HolonomicVelocity,
+               idl::Image, idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor,
+               idl::LogRecord, idl::MotionCommand, idl::OccupancyGrid, idl::Odometry, idl::Path,
                idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor, idl::SonarRangeReadings,
                idl::SonarRing, idl::TurretAngle, idl::TurretCommand>;
+
+template <class... T>
+std::tuple<Travelling<T>...> with_headers(std::tuple<T...>);
+
+/// The C++ class of every object type; object_type_test.cpp checks that none is missing.
+using AllObjects = decltype(std::tuple_cat(HeadedObjects(), decltype(with_headers(TravellingStructs()))()));
 
 }  // namespace orca::test

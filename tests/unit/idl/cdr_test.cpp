@@ -17,6 +17,16 @@ using orca::test::serialized;
 
 namespace {
 
+template <class T>
+void write(const T& object, eprosima::fastcdr::Cdr& cdr) {
+  object.serialize(cdr);
+}
+template <class T>
+void write(const orca::Travelling<T>& object, eprosima::fastcdr::Cdr& cdr) {
+  object.orca::idl::OrcaObject::serialize(cdr);
+  object.T::serialize(cdr);
+}
+
 // The same object written by the code that fastddsgen generated: what a DDS peer would send.
 template <class T>
 Bytes serialized_by_fastcdr(const T& object) {
@@ -24,7 +34,7 @@ Bytes serialized_by_fastcdr(const T& object) {
   eprosima::fastcdr::FastBuffer buffer(memory.data(), memory.size());
   eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS,
                              eprosima::fastcdr::Cdr::DDS_CDR);
-  object.serialize(cdr);
+  write(object, cdr);
   Bytes bytes(cdr.getSerializedDataLength());
   std::memcpy(bytes.data(), memory.data(), bytes.size());
   return bytes;

@@ -173,6 +173,49 @@ class Parents(unittest.TestCase):
         self.assertIn("nullptr, pool_of_Goal);", table)
 
 
+class Travelling(unittest.TestCase):
+    ROOT = STRUCT.replace("Spot", "OrcaObject")
+    PLACE = "/// A place.\n/// @travels\nstruct Place {\n  double w;  ///< [m] text\n};"
+    FAMILY = ROOT + PLACE + ("/// M.\n/// @travels\nstruct More : Place {\n  long h;  ///< text\n};"
+                             "/// H.\nstruct Holder : OrcaObject {\n  More more;  ///< text\n};")
+
+    def refuses(self, body: str, expected: str):
+        with self.assertRaises(IdlError) as caught:
+            parse(body)
+        self.assertIn(expected, str(caught.exception))
+
+    def test_a_marked_struct_has_the_header_as_an_object_and_none_as_a_part(self):
+        place, more, holder = parse(self.FAMILY).structs[1:]
+        self.assertEqual(place.text, "A place.")
+        self.assertEqual(place.layout, "Place{w:double {m}}")
+        self.assertEqual(place.object_layout, "Place{x:double {m},n:int32,w:double {m}}")
+        self.assertEqual(more.object_layout, "More:Place{x:double {m},n:int32,w:double {m},h:int32}")
+        self.assertEqual(holder.object_layout, "Holder{x:double {m},n:int32,more:More{w:double {m},h:int32}}")
+
+    def test_it_is_an_object_type_with_its_parent(self):
+        table = type_table([parse(self.FAMILY)])
+        self.assertIn("make_object_type<ObjectOf<idl::Place>>(", table)
+        self.assertIn("&type_of_Place, pool_of_More);", table)
+
+    def test_a_mark_that_makes_no_sense_is_refused(self):
+        self.refuses(self.PLACE, "@travels needs OrcaObject")
+        self.refuses(self.ROOT + "/// P.\n/// @travels\nstruct P : OrcaObject {\n  long w;  ///< text\n};",
+                     "P derives from OrcaObject and travels without @travels")
+        self.refuses(self.ROOT + STRUCT + "/// P.\n/// @travels\nstruct P : Spot {\n  long w;  ///< text\n};",
+                     "P can travel only if Spot does: mark that with @travels too")
+        self.refuses(self.ROOT + "/// P.\n/// @travels\nstruct P {\n  long n;  ///< text\n};",
+                     "'n' is a field of OrcaObject, which P gets where it travels")
+
+
+class TextForm(unittest.TestCase):
+    def test_a_name_that_would_be_twice_on_an_element_is_refused(self):
+        clash = STRUCT + "/// T.\nstruct Top {\n  Spot spot;  ///< where\n  long n;  ///< text\n};"
+        with self.assertRaises(IdlError) as caught:
+            parse(clash)
+        self.assertIn("'n' would be twice on an element of Top", str(caught.exception))
+        parse(clash.replace("  Spot spot;  ///< where\n  long n;  ///< text\n", "  long n;  ///< text\n  Spot spot;  ///< where\n"))
+
+
 class Output(unittest.TestCase):
     def test_a_file_and_what_it_includes_come_once_and_in_order(self):
         files = load(top=idl("/// T.\nstruct Top {\n  Spot s;  ///< where\n  Kind k;  ///< which\n};", "top",

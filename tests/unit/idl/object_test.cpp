@@ -161,6 +161,18 @@ TEST_CASE("four threads make, share and drop objects without mixing them up", "[
   CHECK(pool_statistics(object_type<SonarRangeReadings>()).live == before);
 }
 
+TEST_CASE("range readings without a stamp of their own were sensed when the sensor had its pose",
+          "[idl][object]") {
+  SonarRangeReadings sonar;
+  sonar.creation_time().ns(9);
+  const auto stamp = [&] {
+    return object_type<SonarRangeReadings>().stamp(&sonar).time_since_epoch().count();
+  };
+  CHECK(stamp() == 9);  // Whoever does not set the pose's stamp keeps the creation time.
+  sonar.pose().stamp().ns(7);
+  CHECK(stamp() == 7);
+}
+
 TEST_CASE("an object of a derived type is seen as its parent, and as() gives it back", "[idl][object]") {
   auto loan = orca::make_object<orca::idl::Door>();
   loan->name() = "kitchen";

@@ -23,7 +23,32 @@ TEST_CASE("there is no object type by a name that the IDL files do not hold", "[
   CHECK(find_object_type("SonarRangeReading") == nullptr);
   CHECK(find_object_type("") == nullptr);
   CHECK(find_object_type("zzz") == nullptr);
-  CHECK(find_object_type("Point") == nullptr);  // A part of objects, but no object itself.
+  CHECK(find_object_type("Frame3D") == nullptr);  // A part of objects, but no object itself.
+}
+
+TEMPLATE_LIST_TEST_CASE(
+    "a plain struct that travels is known by its own name, with a header before its fields",
+    "[idl][type][travelling]", orca::test::TravellingStructs) {
+  const ObjectType& type = object_type<TestType>();
+  CHECK(&type == &object_type<orca::Travelling<TestType>>());
+  CHECK(type.name == orca::Reflection<TestType>::name);
+  CHECK_THAT(
+      std::string(type.layout),
+      Catch::StartsWith(std::string(type.name)) &&
+          Catch::Contains("{creation_time:TimeValue{ns:int64 {ns}},origin:string,seq:uint64,mission:uint64,"
+                          "cause:Cause{origin:string,seq:uint64},"));
+}
+
+TEST_CASE("a struct that travels and is a part of others has no header there", "[idl][type][travelling]") {
+  const std::string_view goal = object_type<orca::idl::GoalPoint>().layout;
+  CHECK_THAT(std::string(goal), Catch::Contains("coordinate:WorldCoordinate3D{point:Point{x:double {m},"));
+  CHECK(goal.find("creation_time") == goal.rfind("creation_time"));
+}
+
+TEST_CASE("a struct that travels keeps its parent", "[idl][type][travelling]") {
+  const ObjectType& attitude = object_type<orca::idl::WorldCoordinate6DOF>();
+  CHECK(attitude.parent == &object_type<orca::idl::WorldCoordinate3D>());
+  CHECK(object_type<orca::idl::Point>().parent == nullptr);
 }
 
 TEST_CASE("these tests cover every object type", "[idl][type]") {

@@ -27,6 +27,7 @@ void fill(idl::MotionCommand& command) { command.speed(0.5); }
 void fill(idl::SonarRangeReadings& sonar) {
   sonar.ranges().assign(16, 2.0);
   sonar.ranges_uncertainty().assign(16, 0.01);
+  sonar.pose(idl::Pose3D());
   sonar.poses().resize(16);
   sonar.stamps().resize(16);
 }

@@ -30,6 +30,7 @@ struct GotoPorts final : Partner {
   PushServer<idl::RobotPose> pose{*this, "localizer"};
   PushProxy<idl::MotionCommand> motion{*this, "MotionCmdPush"};
   PushProxy<idl::Arrived> arrived{*this, "ArrivedPush"};
+  PushProxy<idl::Path> path{*this, "PathPush", {.depth = 4}};
 };
 
 struct WrongType final : Partner {
@@ -55,7 +56,7 @@ void push_pose(GotoPorts& test, double x) {
 void send_goal(GotoPorts& test, double x) {
   auto goal = make_object<idl::GoalPoint>();
   goal->name() = "ahead";
-  goal->reach_radius(0.3);
+  goal->reach_radius().distance(0.3);
   goal->coordinate().point().x(x);
   REQUIRE(test.goal.send(std::move(goal)).ok());
 }
@@ -83,6 +84,23 @@ TEST_CASE("a component that takes goals by Send is driven to its goal by poses t
   });
   CHECK(drove);
   CHECK(arrived);
+}
+
+TEST_CASE("Goto shows the way that is left when it changes, and not in every lap", "[testing][goto]") {
+  std::vector<std::size_t> poses;
+  try_component<GotoPorts>({.type = "orca.Goto"}, [&](GotoPorts& test) {
+    const auto lap = [&](double x) {
+      push_pose(test, x);
+      test.sleep(50ms);
+      while (test.path.new_data_arrived()) poses.push_back(test.path.get_update()->poses().size());
+    };
+    lap(0.0);
+    send_goal(test, 2.0);
+    for (int i = 0; i < 3; ++i) lap(0.1 * i);
+    for (int i = 0; i < 100 && !test.arrived.new_data_arrived(); ++i) lap(1.9);
+    lap(1.9);
+  });
+  CHECK(poses == std::vector<std::size_t>{0, 2, 0});
 }
 
 TEST_CASE("time is virtual, and the limit of a trial counts in it", "[testing]") {

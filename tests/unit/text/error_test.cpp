@@ -36,7 +36,7 @@ TEST_CASE("an unknown object type is reported with the nearest one", "[text][err
   CHECK_THAT(errors("<GoalPiont/>"),
              Catch::StartsWith("x:1:1: error T001: <GoalPiont>: there is no such object type; there are: ") &&
                  Catch::EndsWith("; did you mean \"GoalPoint\"?\n"));
-  CHECK_THAT(errors("<Point/>"), Catch::Contains("T001"));  // A part of objects, but no object itself.
+  CHECK_THAT(errors("<Frame3D/>"), Catch::Contains("T001"));  // A part of objects, but no object itself.
 }
 
 TEST_CASE("an object of another type than expected is reported", "[text][errors]") {
@@ -99,17 +99,23 @@ TEST_CASE("a value that does not fit its type is reported with the expected form
 }
 
 TEST_CASE("a wrong unit is reported with those that fit", "[text][errors]") {
-  CHECK(errors("<GoalPoint reach_radius='3 kg'/>") ==
-        "x:1:26: error T007: <GoalPoint>: reach_radius: \"3 kg\": \"kg\" measures a mass; a length is "
+  CHECK(errors("<WDistance distance='3 kg'/>") ==
+        "x:1:22: error T007: <WDistance>: distance: \"3 kg\": \"kg\" measures a mass; a length is "
         "expected: write "
         "m, mm, cm or km\n");
-  CHECK(errors("<GoalPoint reach_radius='inf kg'/>") ==
-        "x:1:26: error T007: <GoalPoint>: reach_radius: \"inf kg\": \"kg\" measures a mass; a length is "
+  CHECK(errors("<WDistance distance='inf kg'/>") ==
+        "x:1:22: error T007: <WDistance>: distance: \"inf kg\": \"kg\" measures a mass; a length is "
         "expected: "
         "write m, mm, cm or km\n");
   CHECK_THAT(errors("<RobotPose covariance='1 0 0 0 1 0 0 0 1 m2'/>"),
              Catch::Contains("error T007") &&
                  Catch::Contains("write numbers alone here, their units differ: m2, m rad, rad2"));
+}
+
+TEST_CASE("a value that has become a struct is reported with its new form", "[text][errors]") {
+  CHECK(errors("<GoalPoint reach_radius='0.3 m'/>") ==
+        "x:1:12: error T003: <GoalPoint>: \"reach_radius\" has parts: write it as an element inside, "
+        "<reach_radius .../>\n");
 }
 
 TEST_CASE("an unknown enumerator is reported with the valid ones", "[text][errors]") {
@@ -128,13 +134,13 @@ TEST_CASE("for a lone backslash the error shows the correct form", "[text][error
 
 TEST_CASE("all errors of a text are reported at once, ordered by place", "[text][errors]") {
   const std::string text = errors(
-      "<GoalPoint nmae='a' reach_radius='x'\n  via='1'>\n <coordinate x='1 s' w='2'/>\n <cause "
+      "<GoalPoint nmae='a' reach_angle='x'\n  via='1'>\n <coordinate x='1 s' w='2'/>\n <cause "
       "seq='-1'/>\n</GoalPoint>");
   std::istringstream lines(text);
   std::string places;
   for (std::string line; std::getline(lines, line);) places += line.substr(0, line.find(": <")) + "\n";
   CHECK(places ==
-        "x:1:12: error T002\nx:1:35: error T006\nx:2:8: error T006\nx:3:17: error T007\nx:3:22: error T002\n"
+        "x:1:12: error T002\nx:1:34: error T006\nx:2:8: error T006\nx:3:17: error T007\nx:3:22: error T002\n"
         "x:4:14: error T008\n");
 }
 

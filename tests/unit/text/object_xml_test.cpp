@@ -14,10 +14,10 @@ using orca::test::written;
 
 TEST_CASE("a person can type a goal", "[text][xml]") {
   const auto goal = read<idl::GoalPoint>(
-      R"x(<GoalPoint name="kitchen" reach_radius="0.3 m"><coordinate x="3.6" y="6"/></GoalPoint>)x");
+      R"x(<GoalPoint name="kitchen"><coordinate x="3.6" y="6"/><reach_radius distance="0.3 m"/></GoalPoint>)x");
   idl::GoalPoint expected;
   expected.name("kitchen");
-  expected.reach_radius(0.3);
+  expected.reach_radius().distance(0.3);
   expected.coordinate().point().x(3.6);
   expected.coordinate().point().y(6.0);
   CHECK(goal == expected);
@@ -58,6 +58,21 @@ TEST_CASE("the first struct in a struct has no element of its own, at any depth"
   CHECK_THAT(written(laser),
              Catch::EndsWith(R"x(<mount x="0.2" y="0" z="0">)x"
                              R"x(<rotation roll="0" pitch="0" yaw="0.5"/></mount></LaserSensor>)x"));
+}
+
+TEST_CASE("a struct that travels is written as it is within others, with the header's attributes first",
+          "[text][xml]") {
+  Travelling<idl::WorldCoordinate3D> place;
+  place.seq(4);
+  place.cause().seq(2);
+  place.point().x(3.6);
+  place.uncertainty().y(0.1);
+  CHECK(written(place) ==
+        R"x(<WorldCoordinate3D creation_time="0" origin="" seq="4" mission="0" x="3.6" y="0" z="0">)x"
+        R"x(<cause origin="" seq="2"/><uncertainty x="0" y="0.1" z="0"/></WorldCoordinate3D>)x");
+  CHECK(read<Travelling<idl::WorldCoordinate3D>>(R"x(<WorldCoordinate3D x="3.6"/>)x").point().x() == 3.6);
+  CHECK(read<Travelling<idl::Pose2D>>(R"x(<Pose2D x="1" orientation="90 deg"/>)x").orientation() ==
+        std::numbers::pi / 2);
 }
 
 TEST_CASE("a list of numbers is one attribute, and a list of structs has one element for each",
@@ -112,9 +127,9 @@ TEST_CASE("a field that is not mentioned keeps its default, and the header may b
 
 TEST_CASE("values may have units, a list one for all its numbers", "[text][xml]") {
   const auto goal = read<idl::GoalPoint>(
-      R"x(<GoalPoint reach_radius="30 cm" orientation="180 deg"><coordinate x="3600mm"/></GoalPoint>)x");
-  CHECK(goal.reach_radius() == 0.3);
-  CHECK(goal.orientation() == std::numbers::pi);
+      R"x(<GoalPoint reach_angle="180 deg"><coordinate x="3600mm"/><reach_radius distance="30 cm"/></GoalPoint>)x");
+  CHECK(goal.reach_radius().distance() == 0.3);
+  CHECK(goal.reach_angle() == std::numbers::pi);
   CHECK(goal.coordinate().point().x() == 3.6);
   const auto readings = read<idl::LaserRangeReadings>(
       R"x(<LaserRangeReadings ranges="150 200 1500 mm" ranges_uncertainty="0.1 1cm" stamp="50 ms"/>)x");

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
 /// Geometry and world geometry (thesis 8.2): Point, Rotation3D, Frame3D, WDistance, Pose2D, ...
-/// idl/orca/geometry.idl gives the meaning, unit and frame of each field.
+/// idl/orca/geometry.idl gives the meaning, unit and frame of each field, and says which of them travel.
 #pragma once
 
 #include "orca/idl/generated/geometry.h"
+#include "orca/idl/generated/geometry.types.hpp"
+#include "orca/idl/object.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca {

@@ -10,6 +10,7 @@
 
 #include "orca/idl/generated/object.h"
 #include "orca/idl/object_type.hpp"
+#include "orca/idl/travelling.hpp"
 
 namespace orca {
 
@@ -89,7 +90,8 @@ template <class T>
 [[nodiscard]] ObjectPtr<T> object_cast(ObjectRef ref);
 
 /// An ObjectRef that knows its type: a shared view of an immutable T; or empty. The object may be of a type
-/// that is derived from T, and is then whole; as() asks for it.
+/// that is derived from T, and is then whole; as() asks for it. Where T is a plain struct that travels, the view
+/// shows it with its header (Travelling).
 ///
 /// Thread contract: as ObjectRef.
 template <class T>
@@ -106,10 +108,12 @@ class ObjectPtr {
   friend bool operator==(const ObjectPtr& a, std::nullptr_t) { return !a.ref_; }
 
   /// Returns the object, or nullptr if the view is empty.
-  [[nodiscard]] const T* get() const { return ref_ ? static_cast<const T*>(ref_.get()) : nullptr; }
+  [[nodiscard]] const ObjectOf<T>* get() const {
+    return ref_ ? static_cast<const ObjectOf<T>*>(ref_.get()) : nullptr;
+  }
   /// @pre  *this
-  const T& operator*() const { return *get(); }
-  const T* operator->() const { return get(); }
+  const ObjectOf<T>& operator*() const { return *get(); }
+  const ObjectOf<T>* operator->() const { return get(); }
 
   /// Returns the same object as a U, which derives from T; empty if the object is none.
   template <StrictlyDerivedFrom<T> U>
@@ -166,12 +170,12 @@ class Loan {
   Loan(Loan<U> other)  // NOLINT(google-explicit-constructor)
       : loan_(static_cast<ObjectLoan>(std::move(other))) {}
 
-  [[nodiscard]] T* get() { return static_cast<T*>(loan_.get()); }
-  [[nodiscard]] const T* get() const { return static_cast<const T*>(loan_.get()); }
-  T& operator*() { return *get(); }
-  const T& operator*() const { return *get(); }
-  T* operator->() { return get(); }
-  const T* operator->() const { return get(); }
+  [[nodiscard]] ObjectOf<T>* get() { return static_cast<ObjectOf<T>*>(loan_.get()); }
+  [[nodiscard]] const ObjectOf<T>* get() const { return static_cast<const ObjectOf<T>*>(loan_.get()); }
+  ObjectOf<T>& operator*() { return *get(); }
+  const ObjectOf<T>& operator*() const { return *get(); }
+  ObjectOf<T>* operator->() { return get(); }
+  const ObjectOf<T>* operator->() const { return get(); }
   explicit operator bool() const { return static_cast<bool>(loan_); }
 
   [[nodiscard]] ObjectPtr<T> seal() && { return object_cast<T>(std::move(loan_).seal()); }

@@ -41,7 +41,8 @@ struct ObjectType {
   void (*assign)(void* to, const void* from);   ///< Copies the value; `to` keeps its capacity.
   bool (*equal)(const void* a, const void* b);  ///< Compares all fields, including the header's.
   idl::OrcaObject& (*header)(void* object);     ///< Returns the inherited part.
-  /// Returns when the object's data were sensed: its field `stamp`, or its creation_time if it has none.
+  /// Returns when the object's data were sensed: its field `stamp`; if it has none, the stamp of its `pose`; if that is
+  /// missing or 0, its creation_time.
   TimePoint (*stamp)(const void* object);
   std::string (*dump)(const void* object);  ///< Returns a text for people: a field per line, with units.
 

@@ -5,19 +5,26 @@
 #include "orca/xml/names.hpp"
 #include "ports.hpp"
 #include "reading/codes.hpp"
+#include "reading/command_line.hpp"
 
 namespace orca::graph {
 namespace {
 
-void report_bad_form(const Node& connection, const char* attribute, const Model& model, Report& report) {
-  const Text& text = *connection.find(attribute);
-  const CheckedComponent* component = model.component(text.value);
-  std::string message =
-      std::string(attribute) + ": " + in_quotes(text.value) + " is no port: write component.port";
+// A name that should be that of a port.
+struct WrittenPort {
+  const std::string& name;
+  const xml::Position& place;
+  std::string title;      // of the attribute or option that names it
+  std::string component;  // its component as a message begins with it
+};
+
+void report_bad_form(const WrittenPort& written, const Model& model, Report& report) {
+  const CheckedComponent* component = model.component(written.name);
+  std::string message = written.title + ": " + in_quotes(written.name) + " is no port: write component.port";
   if (component != nullptr && component->contract && component->ports_known) {
-    message += "; " + in_quotes(text.value) + " has " + ports_of(*component->contract);
+    message += "; " + in_quotes(written.name) + " has " + ports_of(*component->contract);
   }
-  report.error(codes::kBadPort, text.position, message);
+  report.error(codes::kBadPort, written.place, message);
 }
 
 // Reports that the graph has disabled or renamed the port; returns false if it has not.
@@ -61,23 +68,30 @@ void find_port(Endpoint& end, const CheckedComponent& component, const xml::Posi
                    xml::did_you_mean(end.guessed));
 }
 
+Endpoint resolve(const WrittenPort& written, const Model& model, Report& report) {
+  Endpoint end;
+  const std::size_t dot = written.name.rfind('.');
+  if (dot == std::string::npos || dot == 0 || dot + 1 == written.name.size()) {
+    report_bad_form(written, model, report);
+    return end;
+  }
+  end.ref = {written.name.substr(0, dot), written.name.substr(dot + 1)};
+  if (!check_component_exists(end.ref.component, written.place, written.component, model, report)) return end;
+  const CheckedComponent& component = *model.component(end.ref.component);
+  if (component.contract && component.ports_known) find_port(end, component, written.place, report);
+  return end;
+}
+
 }  // namespace
 
 Endpoint resolve_endpoint(const Node& connection, const char* attribute, const Model& model, Report& report) {
-  Endpoint end;
   const Text* text = connection.known(attribute);
-  if (text == nullptr) return end;
-  const std::size_t dot = text->value.rfind('.');
-  if (dot == std::string::npos || dot == 0 || dot + 1 == text->value.size()) {
-    report_bad_form(connection, attribute, model, report);
-    return end;
-  }
-  end.ref = {text->value.substr(0, dot), text->value.substr(dot + 1)};
-  if (!check_component_exists(end.ref.component, text->position, in_quotes(text->value), model, report))
-    return end;
-  const CheckedComponent& component = *model.component(end.ref.component);
-  if (component.contract && component.ports_known) find_port(end, component, text->position, report);
-  return end;
+  if (text == nullptr) return {};
+  return resolve({text->value, text->position, attribute, in_quotes(text->value)}, model, report);
+}
+
+void check_recorded_port(const std::string& name, const Model& model, Report& report) {
+  (void)resolve({name, command_line(), "--record", shown_option("--record", name)}, model, report);
 }
 
 bool is_from_end(const PortContract& port) {

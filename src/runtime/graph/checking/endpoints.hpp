@@ -22,6 +22,9 @@ struct Endpoint {
 
 Endpoint resolve_endpoint(const Node& connection, const char* attribute, const Model& model, Report& report);
 
+// Reports a port that the command line wants to record if it is not there.
+void check_recorded_port(const std::string& name, const Model& model, Report& report);
+
 // Returns whether the port can be the `from` of a connection: a PushServer, a QueryProxy or a SendProxy.
 bool is_from_end(const PortContract& port);
 

@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/alarm.hpp"
 
+#include <array>
+#include <cstddef>
+
 #include "orca/base/log.hpp"
 
 namespace orca::host {
 namespace {
+
+// By the number of the enumerator.
+constexpr auto kNames = std::to_array<const char*>(
+    {"FAILED", "HARDWARE_FAULT", "STALLED", "PLUGIN_PINNED", "FORK", "FOREIGN_THREAD", "FLOATING_POINT",
+     "LOCALE", "TERMINATE_HANDLER", "SIGNAL_MASK", "SIGNAL_HANDLER", "WORKING_FOLDER", "UMASK",
+     "RESOURCE_LIMIT", "REDIRECTION", "DESCRIPTORS"});
+static_assert(kNames.size() == static_cast<std::size_t>(AlarmKind::descriptors) + 1);
 
 idl::AlarmSeverity severity_of(AlarmKind kind) {
   switch (kind) {
     case AlarmKind::hardware_fault: return idl::ALARM_CRITICAL;
     case AlarmKind::failed:
     case AlarmKind::stalled:
+    case AlarmKind::foreign_thread:
     case AlarmKind::descriptors: return idl::ALARM_WARNING;
     default: return idl::ALARM_NOTICE;  // it was restored, or harms nobody yet
   }
@@ -18,24 +29,7 @@ idl::AlarmSeverity severity_of(AlarmKind kind) {
 
 }  // namespace
 
-const char* to_string(AlarmKind kind) {
-  switch (kind) {
-    case AlarmKind::failed: return "FAILED";
-    case AlarmKind::hardware_fault: return "HARDWARE_FAULT";
-    case AlarmKind::stalled: return "STALLED";
-    case AlarmKind::plugin_pinned: return "PLUGIN_PINNED";
-    case AlarmKind::fork: return "FORK";
-    case AlarmKind::floating_point: return "FLOATING_POINT";
-    case AlarmKind::locale: return "LOCALE";
-    case AlarmKind::signal_mask: return "SIGNAL_MASK";
-    case AlarmKind::signal_handler: return "SIGNAL_HANDLER";
-    case AlarmKind::working_folder: return "WORKING_FOLDER";
-    case AlarmKind::umask: return "UMASK";
-    case AlarmKind::resource_limit: return "RESOURCE_LIMIT";
-    case AlarmKind::descriptors: return "DESCRIPTORS";
-  }
-  return "?";
-}
+const char* to_string(AlarmKind kind) { return kNames.at(static_cast<std::size_t>(kind)); }
 
 idl::Alarm make_alarm(AlarmKind kind, const std::string& component, const std::string& hook,
                       const std::string& text) {

@@ -30,6 +30,12 @@ void DescriptorWatch::keep() {
   opened_by_.clear();
 }
 
+std::optional<Finding> DescriptorWatch::look_at_streams() {
+  const std::string changes = own_.restore_redirected();
+  if (changes.empty()) return std::nullopt;
+  return Finding{AlarmKind::redirection, "redirected " + changes};
+}
+
 void DescriptorWatch::accept() {
   if (const int lowest = own_.lowest_free(); lowest >= 0) first_ += lowest - std::exchange(last_, lowest);
   known_.reset();

@@ -10,8 +10,8 @@
 
 namespace orca::host {
 
-/// A watch over the descriptors of the process. It reports closed descriptors that the process itself needs,
-/// a process that has none left, and a component that opens many during its turns and closes none.
+/// A watch over the descriptors of the process. It reports closed or redirected descriptors that the process itself
+/// needs, a process that has none left, and a component that opens many during its turns and closes none.
 ///
 /// As soon as 32 more are open than at first, each new one is counted for the component that alone had a turn
 /// since the last look. A component that has 32 of them open is reported. Descriptors that appear while
@@ -25,6 +25,8 @@ class DescriptorWatch {
 
   /// Returns whether a descriptor that the process itself needs has been closed.
   [[nodiscard]] bool own_are_closed() const { return !own_.all_open(); }
+  /// Restores stdin, stdout and stderr, and reports which of them had been redirected.
+  std::optional<Finding> look_at_streams();
   /// Returns whether so many are open that every turn must be checked.
   [[nodiscard]] bool is_crowded() const { return last_ - first_ >= kMany; }
 

@@ -13,6 +13,24 @@ namespace orca::host {
 namespace {
 
 constexpr std::size_t kNamed = 8;
+constexpr int kHighDescriptor = 900;
+
+// Returns the open file behind a descriptor, without its name.
+OpenFile file_behind(int fd) {
+  struct stat file {};
+  if (fstat(fd, &file) != 0) return {};
+  return {file.st_dev, file.st_ino, {}};
+}
+
+std::string name_of_file_behind(int fd) {
+  std::error_code unused;
+  return std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(fd), unused).native();
+}
+
+const char* name_of_stream(int fd) {
+  if (fd == STDIN_FILENO) return "stdin";
+  return fd == STDOUT_FILENO ? "stdout" : "stderr";
+}
 
 }  // namespace
 
@@ -47,20 +65,40 @@ std::string names_of(const Descriptors& descriptors) {
 
 void OwnDescriptors::remember() {
   release();
-  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(fd, F_GETFD) >= 0) own_.push_back(fd);
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(fd, F_GETFD) < 0) continue;
+    own_.push_back(fd);
+    streams_.push_back({fd, fcntl(fd, F_DUPFD_CLOEXEC, kHighDescriptor), file_behind(fd)});
+  }
   extra_ = open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (extra_ >= 0) own_.push_back(extra_);
 }
 
 void OwnDescriptors::release() {
   own_.clear();
+  for (const Stream& stream : streams_)
+    if (stream.copy >= 0) close(stream.copy);
+  streams_.clear();
   if (extra_ >= 0) close(extra_);
   extra_ = -1;
 }
 
 bool OwnDescriptors::all_open() const {
   return std::ranges::all_of(own_, [](int fd) { return fcntl(fd, F_GETFD) >= 0; });
+}
+
+std::string OwnDescriptors::restore_redirected() {
+  std::string changes;
+  for (Stream& stream : streams_) {
+    const OpenFile now = file_behind(stream.fd);
+    if (now == stream.file) continue;
+    changes += (changes.empty() ? "" : ", ") + std::string(name_of_stream(stream.fd)) + " to " +
+               name_of_file_behind(stream.fd);
+    if (file_behind(stream.copy) == stream.file && dup2(stream.copy, stream.fd) >= 0) continue;
+    changes += ", and the way back is closed";
+    stream.file = now;
+  }
+  return changes;
 }
 
 int OwnDescriptors::lowest_free() const {

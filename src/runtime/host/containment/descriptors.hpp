@@ -31,7 +31,7 @@ using Descriptors = std::map<int, OpenFile>;
 /// Returns a text for people: "7 (/dev/ttyS0), 8 (socket:[4711])"; only the first ones if there are many.
 [[nodiscard]] std::string names_of(const Descriptors& descriptors);
 
-/// The descriptors that the process itself needs, kept so that a plugin that closes them is noticed.
+/// The descriptors that the process itself needs, kept so that a plugin that closes or redirects them is noticed.
 ///
 /// Thread contract: one thread at a time.
 class OwnDescriptors {
@@ -41,11 +41,22 @@ class OwnDescriptors {
   void remember();
   void release();
   [[nodiscard]] bool all_open() const;
+  /// Restores those of stdin, stdout and stderr that lead to another file than before.
+  /// @return for people: "stdout to /tmp/log"; empty: there were none.
+  [[nodiscard]] std::string restore_redirected();
   /// Returns the number that the next descriptor would get; -1 if the process may open no more.
   [[nodiscard]] int lowest_free() const;
 
  private:
+  // One of stdin, stdout and stderr.
+  struct Stream {
+    int fd;
+    int copy;  // out of the reach of a plugin that closes every number it can count to; -1: there is none
+    OpenFile file;
+  };
+
   std::vector<int> own_;
+  std::vector<Stream> streams_;
   int extra_ = -1;
 };
 

@@ -33,6 +33,7 @@ Environment::Environment() : sink_(only_log) {
   of_thread_each_turn_.push_back(std::make_unique<FloatingPointWatch>());
   of_thread_each_turn_.push_back(std::make_unique<ThreadLocaleWatch>());
   of_process_each_turn_.push_back(std::make_unique<LocaleWatch>());
+  of_process_each_turn_.push_back(std::make_unique<TerminateWatch>());
   of_thread_.push_back(std::make_unique<SignalMaskWatch>());
   of_process_.push_back(std::make_unique<SignalHandlerWatch>());
   of_process_.push_back(std::make_unique<FolderWatch>());
@@ -174,6 +175,7 @@ void Environment::look_at_all(const Guest* leaver, bool may_open) {
   if (descriptors_.own_are_closed())
     LastWords::say_and_end("error: " + culprit(possible) +
                            " has closed descriptors that are not its own; the process cannot go on");
+  if (const auto finding = descriptors_.look_at_streams()) accuse(possible, *finding);
   const Guests leavers = leaver != nullptr ? Guests{leaver} : Guests{};
   for (const auto& watch : of_thread_)
     if (const auto finding = watch->look()) accuse(strands_overlap_ ? leavers : possible, *finding);

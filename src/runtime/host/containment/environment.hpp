@@ -18,11 +18,11 @@
 namespace orca::host {
 
 /// The state of the process and of its threads that no component may change: floating-point control, locale,
-/// signal mask and handlers, working folder, umask, resource limits, descriptors. When control leaves a
+/// terminate handler, signal mask and handlers, working folder, umask, resource limits, standard streams, descriptors. When control leaves a
 /// component, the watches compare this state with the reference and restore it. A change raises an alarm,
 /// once per component and kind. If a component has closed the process's own descriptors, the process ends.
 ///
-/// Floating-point control and locale are checked each time, because that costs next to nothing. The rest is
+/// Floating-point control, locale and terminate handler are checked each time, because that costs next to nothing. The rest is
 /// checked around configure(), start(), stop(), suspend() and resume(), and at a component's first two turns
 /// and then every 64th. An alarm names a component only if no other one can have made the change. Otherwise
 /// it says "one of", and from then on every turn is checked, so that a repeated change finds its author.

@@ -38,6 +38,7 @@ constexpr long kHungLimitNs = 200'000'000;
 
 std::atomic<bool> g_armed{false};
 std::atomic<bool> g_said{false};
+std::atomic<bool> g_dying{false};
 int g_stderr = STDERR_FILENO;
 int g_status = EXIT_FAILURE;
 int g_exhausted_status = EXIT_FAILURE;
@@ -140,6 +141,7 @@ bool lacks_memory() {
 
 void on_signal(int signal, siginfo_t* info, void* context) {
   if (lacks_memory()) end_exhausted(kNoMemoryText);
+  g_dying.store(true);  // before the handler changes, which others would report
   const auto place =
       static_cast<std::size_t>(std::find(kSignals.begin(), kSignals.end(), signal) - kSignals.begin());
   sigaction(signal, &g_before[place], nullptr);
@@ -291,6 +293,12 @@ LastWords::~LastWords() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &g_before[i], nullptr);
   if (g_stderr != STDERR_FILENO) close(g_stderr);
   g_stderr = STDERR_FILENO;
+}
+
+bool LastWords::is_dying() noexcept { return g_dying.load(); }
+
+std::terminate_handler LastWords::terminate_handler() noexcept {
+  return g_armed.load() ? on_terminate : std::get_terminate();
 }
 
 // exit() calls first what was registered last, and in between it destroys static variables, which the other threads

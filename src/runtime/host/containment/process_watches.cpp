@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "orca/host/last_words.hpp"
+
 namespace orca::host {
 namespace {
 
@@ -70,12 +72,21 @@ std::optional<Finding> SignalHandlerWatch::look() {
   for (const Handler& kept : reference_) {
     struct sigaction present {};
     sigaction(kept.signal, nullptr, &present);
-    if (same_handler(present, kept.action)) continue;
+    if (same_handler(present, kept.action) || LastWords::is_dying()) continue;
     sigaction(kept.signal, &kept.action, nullptr);
     changed += std::string(changed.empty() ? "SIG" : ", SIG") + sigabbrev_np(kept.signal);
   }
   if (changed.empty()) return std::nullopt;
   return Finding{AlarmKind::signal_handler, "changed what happens at " + changed};
+}
+
+void TerminateWatch::keep() { reference_ = LastWords::terminate_handler(); }
+
+std::optional<Finding> TerminateWatch::look() {
+  if (std::get_terminate() == reference_) return std::nullopt;
+  std::set_terminate(reference_);
+  return Finding{AlarmKind::terminate_handler,
+                 "changed what std::terminate() does, with std::set_terminate()"};
 }
 
 void FolderWatch::keep() { reference_ = current_folder(); }

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/types.h>
 
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,17 @@ class SignalHandlerWatch final : public Watch {
     struct sigaction action;
   };
   std::vector<Handler> reference_;
+};
+
+/// A watch over what std::terminate() does: with another handler a crash could end the process in silence, or with
+/// the exit status 0. A look costs a few nanoseconds.
+class TerminateWatch final : public Watch {
+ public:
+  void keep() override;
+  std::optional<Finding> look() override;
+
+ private:
+  std::terminate_handler reference_ = nullptr;
 };
 
 /// A watch over the working folder.

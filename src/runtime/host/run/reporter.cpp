@@ -5,6 +5,7 @@
 
 #include "orca/host/alarm.hpp"
 #include "orca/idl/time.hpp"
+#include "orca/plugin/loaded_plugins.hpp"
 
 namespace orca::host {
 namespace {
@@ -38,10 +39,12 @@ Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listen
 
 void Reporter::delivered(std::string_view component, std::string_view port, const ObjectRef& object) {
   trace_.delivered(component, port, object);
+  if (recorder_ != nullptr) recorder_->delivered(component, port, object);
   if (sightings_ != nullptr) sightings_->delivered(component, object);
 }
 
-void Reporter::pushed(const ObjectRef& object) {
+void Reporter::pushed(std::string_view component, std::string_view port, const ObjectRef& object) {
+  if (recorder_ != nullptr) recorder_->pushed(component, port, object);
   if (&object.type() == &object_type<idl::Arrived>()) hear(*static_cast<const idl::Arrived*>(object.get()));
   if (&object.type() == &object_type<idl::GoalFailed>())
     hear(*static_cast<const idl::GoalFailed*>(object.get()));
@@ -70,6 +73,20 @@ void Reporter::trouble(LinkTrouble kind, std::string_view from, std::string_view
   if (!left_out) return;
   log(log::Level::warning, component_of(kind == LinkTrouble::refused ? from : to),
       ends + ": " + std::string(text) + mention_left_out(*left_out));
+}
+
+void Reporter::foreign_call(std::string_view component, std::string_view port, const void* code) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!with_foreign_threads_.emplace(component).second) return;
+  }
+  const char* const plugin = plugin::plugin_at(code);
+  raise(make_alarm(
+      AlarmKind::foreign_thread, std::string(component), "",
+      std::string(component) + "." + std::string(port) +
+          " was called by a thread that runs no component, and refuses; only the component's own hooks, "
+          "laps and handlers may call its ports" +
+          (plugin != nullptr ? std::string("; the plugin is ") + plugin : "")));
 }
 
 void Reporter::ignore_trouble() {

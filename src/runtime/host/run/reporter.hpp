@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
+#include "recording/recorder.hpp"
 #include "sightings.hpp"
 #include "trace.hpp"
 
@@ -29,16 +32,25 @@ class Reporter final : public LinkObserver {
   /// Passes what is delivered on to `sightings` as well.
   /// @pre  nothing runs yet.
   void look_on(Sightings& sightings) { sightings_ = &sightings; }
+  /// Passes what travels on to `recorder` as well.
+  /// @pre  nothing runs yet.
+  void record(Recorder& recorder) { recorder_ = &recorder; }
 
   void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
   /// Passes on the results of missions: Arrived and GoalFailed.
-  void pushed(const ObjectRef& object) override;
+  void pushed(std::string_view component, std::string_view port, const ObjectRef& object) override;
+  void requested(std::string_view component, std::string_view port, const ObjectRef& object) override {
+    if (recorder_ != nullptr) recorder_->requested(component, port, object);
+  }
   void link_changed(std::string_view client, std::string_view server, bool connected) override {
     trace_.link_changed(client, server, connected);
   }
   /// Writes a warning to the log, under the name of the component that sends, asks or receives. Of one kind
   /// of trouble of one connection there is at most one line in 10 s of the run's clock.
   void trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) override;
+
+  /// Raises the alarm FOREIGN_THREAD, once for each component.
+  void foreign_call(std::string_view component, std::string_view port, const void* code) override;
 
   /// Reports no more trouble of connections: the system is being taken down.
   void ignore_trouble();
@@ -78,6 +90,7 @@ class Reporter final : public LinkObserver {
   const std::string log_name_;
   const TimePoint start_;
   Sightings* sightings_ = nullptr;
+  Recorder* recorder_ = nullptr;
   mutable std::mutex mutex_;
   std::vector<idl::Arrived> arrivals_;
   std::vector<idl::GoalFailed> failures_;
@@ -85,6 +98,7 @@ class Reporter final : public LinkObserver {
   std::vector<idl::Alarm> alarms_;
   RobotNames robots_;
   LineLimit trouble_lines_;
+  std::set<std::string, std::less<>> with_foreign_threads_;  // components
   bool ignores_trouble_ = false;
 };
 

@@ -2,6 +2,7 @@
 #include "orca/host/run_system.hpp"
 
 #include <atomic>
+#include <cstdio>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "live_view.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
+#include "orca/graph/port_list.hpp"
 #include "orca/host/last_words.hpp"
 #include "reporter.hpp"
 #include "robot_finder.hpp"
@@ -28,6 +30,15 @@ constexpr Duration kRestLimit = 1s;
 constexpr Duration kTakeDownLimit = 1500ms;
 constexpr Duration kMotorLimit = 150ms;
 constexpr Duration kShortRun = 1s;  // it ends before everybody has had something to do
+
+std::string restless_text(const std::vector<std::string>& names, Duration instant) {
+  char time[32];
+  std::snprintf(time, sizeof time, "%.6g s", to_seconds(instant));
+  return "virtual time stands still at " + std::string(time) + ": " + listed(names) +
+         (names.size() == 1 ? " goes" : " go") + " on at this instant without end (" +
+         std::to_string(Executive::kMostTurns) +
+         " turns so far); one of them must let time pass, for example work by period";
+}
 
 // One run, from bringing up to taking down. Its main() is the executive's main task.
 class Run {
@@ -63,6 +74,7 @@ class Run {
   void run() {
     if (const Status opened = open_outputs(); !opened.ok()) return refuse_output(opened.error());
     if (options_.looks_on) reporter_.look_on(sightings_);
+    if (!options_.recordings.empty()) reporter_.record(recorder_);
     if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
     reporter_.introduce(find_robots(graph_, system_->robots()));
     if (options_.looks_on)
@@ -79,8 +91,14 @@ class Run {
   // Opens all files that the run writes, so that a wrong name is known before anything moves.
   Status open_outputs() {
     if (!options_.trace_file.empty())
-      if (Status opened = trace_.open(options_.trace_file); !opened.ok()) return opened;
-    return options_.picture.file.empty() ? ok() : picture_.open(options_.picture.file);
+      if (Status opened = trace_.open(options_.trace_file,
+                                      options_.trace_values ? Trace::Detail::values : Trace::Detail::events);
+          !opened.ok())
+        return opened;
+    if (!options_.picture.file.empty())
+      if (Status opened = picture_.open(options_.picture.file); !opened.ok()) return opened;
+    if (options_.recordings.empty()) return ok();
+    return recorder_.open(options_.recordings, graph::list_ports(graph_, catalogue_));
   }
 
   void refuse_output(const Error& error) {
@@ -91,6 +109,7 @@ class Run {
   void close_outputs() {
     for (const Status& closed : {trace_.close(), picture_.close()})
       if (!closed.ok()) fail_output(closed.error());
+    for (const Error& error : recorder_.close()) fail_output(error);
   }
 
   // What people asked for is not there, so the run has failed, however well it went.
@@ -135,6 +154,7 @@ class Run {
       // After a request to stop, some components may not be up, and others would fail for want of them.
       LastWords::catch_exit();
       const bool opens = up.ok() && !stop_.requested();
+      if (opens) came_up_.store(true);
       if (opens) system_->open_gates();
       supervise();
       if (has_ended() && !stop_.requested()) wait_for_rest();
@@ -160,25 +180,41 @@ class Run {
   // watchdogs of the devices can.
   void stop_motors() {
     if (executive_.tasks_overlap()) system_->stop_hardware(kMotorLimit);
+    close_records();
+  }
+
+  // Writes what a run leaves behind that ends in the middle, in whatever state it is.
+  void close_records() {
     (void)trace_.close();
+    (void)recorder_.close();
   }
 
   void supervise() {
     const TimePoint end = options_.until ? executive_.now() + *options_.until : kForever;
-    while (!stop_.requested() && executive_.now() < end && !has_ended()) {
-      if (!changed_->wait_until(end) && end == kForever && executive_.is_virtual() && !stop_.requested()) {
-        stands_still_ = true;
-        return fail_with(
-            RunOutcome::failed,
-            fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
-      }
-    }
+    bool all_wait = false;
+    while (!stop_.requested() && executive_.now() < end && !has_ended() && !report_standstill(all_wait))
+      all_wait = !changed_->wait_until(end) && end == kForever && executive_.is_virtual();
     if (error_ || has_ended()) return;
     outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
     if (outcome_ == RunOutcome::time_is_up && !graph_.ends.empty()) report_time_limit();
     if (const std::string signal = stop_.failure(); !signal.empty())
       fail_with(RunOutcome::failed,
                 fail(Code::failed_precondition, "the signal " + signal + " ended the run"));
+  }
+
+  // Reports that virtual time cannot pass any more, and returns whether that is so.
+  // @param all_wait  no component can ever run again.
+  bool report_standstill(bool all_wait) {
+    const std::vector<std::string> restless = executive_.restless_tasks();
+    stands_still_ = all_wait;
+    if (!restless.empty()) {
+      fail_with(RunOutcome::failed,
+                fail(Code::deadline_exceeded, restless_text(restless, executive_.now() - start_)));
+    } else if (all_wait) {
+      fail_with(RunOutcome::failed,
+                fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
+    }
+    return all_wait || !restless.empty();
   }
 
   // Returns whether the components that the graph names in `ends` have come to an end. Keeps the reason if
@@ -240,7 +276,9 @@ class Run {
   // Waits for the closing phase: the last client has gone, and connections close down to the hardware.
   void wait_for_rest() {
     const TimePoint limit = executive_.now() + kRestLimit;
-    while (!system_->at_rest() && executive_.now() < limit && !stop_.requested()) changed_->wait_until(limit);
+    while (!system_->at_rest() && executive_.now() < limit && !stop_.requested() &&
+           executive_.restless_tasks().empty())
+      changed_->wait_until(limit);
   }
 
   // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.
@@ -252,21 +290,29 @@ class Run {
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
       reporter_.log_error(name + " does not end; the process is ended without it");
-    conclude(RunOutcome::failed, fail(Code::deadline_exceeded,
-                                      listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
+    conclude(failed_outcome(), fail(Code::deadline_exceeded,
+                                    listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
     close_outputs();
     listener_.abandon(result());  // a thread cannot be ended in any other way
   }
 
+  // Returns the outcome of a run that must be given up.
+  [[nodiscard]] RunOutcome failed_outcome() const {
+    return came_up_.load() ? RunOutcome::failed : RunOutcome::not_started;
+  }
+
   // Reports a standstill. It runs on the monitor's own thread, because no strand can run.
-  void stand_still(const std::string& component, const std::string& text) {
+  void stand_still(const std::string& component, const std::string& what) {
+    const ComponentInstance* const culprit = system_->component(component);
+    const std::string hook = culprit != nullptr ? culprit->current_hook() : "";
+    const std::string text = hook + (hook.empty() ? "" : " ") + what;
     reporter_.log(log::Level::error, component, text);
     RunResult ended = result();
-    ended.outcome = RunOutcome::failed;
+    ended.outcome = failed_outcome();
     ended.culprit = component;
     ended.error = fail(Code::deadline_exceeded, text, component);
     ended.trace_hash.reset();  // it would depend on the moment at which the standstill was noticed
-    (void)trace_.close();
+    close_records();
     listener_.abandon(ended);
   }
 
@@ -309,10 +355,12 @@ class Run {
   StopSignal& stop_;
   RunListener& listener_;
   Trace trace_;
+  Recorder recorder_{executive_};
   Sightings sightings_;
   Reporter reporter_;
   OutputFile picture_{"the picture"};
   std::atomic<bool> runs_{false};      // whether there are strands
+  std::atomic<bool> came_up_{false};   // whether the whole system has been up
   const KeptEnvironment environment_;  // lives longer than all that runs a plugin's code
   const TimePoint start_ = executive_.now();
   std::unique_ptr<Event> changed_ = executive_.make_event();

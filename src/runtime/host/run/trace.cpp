@@ -4,29 +4,21 @@
 #include <chrono>
 #include <cstdio>
 #include <string>
-#include <thread>
+
+#include "lock_before.hpp"
+#include "orca/text/object_xml.hpp"
 
 namespace orca::host {
 namespace {
 
-constexpr std::chrono::milliseconds kCloseLimit{200}, kCloseRetry{1};
-
-// Takes the mutex unless somebody holds it until the limit is over. A std::timed_mutex would do it too, but the
-// thread sanitizer of GCC 12 does not see that it is taken (no interceptor for pthread_mutex_clocklock).
-std::unique_lock<std::mutex> lock_before(std::chrono::steady_clock::time_point limit, std::mutex& mutex) {
-  std::unique_lock lock(mutex, std::try_to_lock);
-  while (!lock.owns_lock() && std::chrono::steady_clock::now() < limit) {
-    std::this_thread::sleep_for(kCloseRetry);
-    lock.try_lock();
-  }
-  return lock;
-}
+constexpr std::chrono::milliseconds kCloseLimit{200};
 
 }  // namespace
 
 Trace::Trace(const Executive& executive) : executive_(executive), start_(executive.now()) {}
 
-Status Trace::open(const std::string& path) {
+Status Trace::open(const std::string& path, Detail detail) {
+  detail_ = detail;
   const Status opened = file_.open(path);
   if (opened.ok()) file_.flush();  // so that nobody takes an older trace for that of a run that crashed
   writes_.store(opened.ok());
@@ -72,8 +64,9 @@ void Trace::delivered(std::string_view component, std::string_view port, const O
     hash_.add(payload_);
   }
   if (!writes_) return;
+  const std::string value = detail_ == Detail::values ? " " + to_xml(object) : "";
   write_line({"deliver", component, port, std::to_string(header.seq()), object.type().name, "from",
-              header.origin()});
+              header.origin() + value});
 }
 
 void Trace::link_changed(std::string_view client, std::string_view server, bool connected) {

@@ -21,16 +21,19 @@ namespace orca::host {
 /// A recorder of what happens in a run. In virtual time it also computes the trace hash: FNV-1a over (time in
 /// ns, component, port, seq, XCDR1 payload) of every delivery, in delivery order.
 ///
-/// The file has one line per event: time [s], what, who, details.
+/// The file has one line per event: time [s], what, who, details; a delivery's last words are the object itself
+/// as text (docs/objects.md) if values are wanted.
 ///
 /// Thread contract: any strand.
 class Trace final : public LinkObserver {
  public:
   explicit Trace(const Executive& executive);
 
+  enum class Detail { events, values };
+
   /// Starts to write a file as well.
   /// @errors  as OutputFile::open().
-  Status open(const std::string& path);
+  Status open(const std::string& path, Detail detail = Detail::events);
 
   /// Writes the rest of the file and closes it. What comes later is not written any more. It does not wait for
   /// a strand that is stuck while it writes; the rest is lost then.
@@ -51,6 +54,7 @@ class Trace final : public LinkObserver {
   const TimePoint start_;
   mutable std::mutex mutex_;
   std::atomic<bool> writes_{false};
+  Detail detail_ = Detail::events;
   OutputFile file_{"the trace"};
   Fnv1a hash_;
   // The object whose payload is in payload_, so that an object with many readers is serialised once.

@@ -82,6 +82,14 @@ std::optional<ElfFile::Bytes> ElfFile::at_offset(std::uint64_t offset, std::uint
   return Bytes(bytes_).subspan(offset, size);
 }
 
+std::vector<ElfFile::Bytes> ElfFile::loaded_parts(bool only_code) const {
+  std::vector<Bytes> parts;
+  for (const Segment& segment : segments_)
+    if (const auto bytes = at_offset(segment.offset, segment.size); bytes && (segment.code || !only_code))
+      parts.push_back(*bytes);
+  return parts;
+}
+
 std::optional<ElfFile::Bytes> ElfFile::at_address(std::uint64_t address, std::size_t size) const {
   for (const Segment& segment : segments_) {
     if (address < segment.address || address - segment.address > segment.size) continue;
@@ -149,7 +157,8 @@ Status ElfFile::read_segments() {
     if (segment->p_type != PT_LOAD) continue;
     if (!at_offset(segment->p_offset, segment->p_filesz))
       return cut_short("a segment", segment->p_offset + segment->p_filesz, bytes_.size());
-    segments_.push_back({segment->p_vaddr, segment->p_offset, segment->p_filesz});
+    segments_.push_back(
+        {segment->p_vaddr, segment->p_offset, segment->p_filesz, (segment->p_flags & PF_X) != 0});
   }
   if (!dynamic) return refuse("is no shared library: it has no dynamic section");
   return read_dynamic(dynamic->p_offset, dynamic->p_filesz);

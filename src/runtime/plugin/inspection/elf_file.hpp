@@ -48,6 +48,8 @@ class ElfFile {
 
   /// Returns the bytes of the file that belong to an address; nothing if they are not all in the file.
   [[nodiscard]] std::optional<Bytes> at_address(std::uint64_t address, std::size_t size) const;
+  /// Returns the parts of the file that are loaded into memory; those alone that are run as machine code, or all.
+  [[nodiscard]] std::vector<Bytes> loaded_parts(bool only_code) const;
   /// Returns a section by name; nothing if there is none, or no table of sections.
   [[nodiscard]] std::optional<Bytes> section(std::string_view name) const;
 
@@ -56,6 +58,7 @@ class ElfFile {
     std::uint64_t address;
     std::uint64_t offset;
     std::uint64_t size;
+    bool code;
   };
   struct Dynamic;
   using Versions = std::vector<std::pair<std::string_view, std::string_view>>;

@@ -17,6 +17,7 @@
 #include "orca/component/manifest.hpp"
 #include "orca/idl/object_type.hpp"
 #include "plugin_layouts.hpp"
+#include "telltale_bytes.hpp"
 #include "virtual_time.hpp"
 
 namespace orca::plugin {
@@ -224,14 +225,28 @@ std::vector<std::string> PluginFile::virtual_time_faults() const {
   if (!faults.empty()) return faults;
   std::vector<std::string> allowed = notes("allows ");
   for (std::string& note : allowed) note = note.substr(0, note.find(": "));
-  for (const ElfSymbol& symbol : elf_.symbols()) {
-    const auto use = symbol.defined ? std::nullopt : unfit_for_virtual_time(symbol.name);
-    std::string name = demangled(symbol.name);
-    name = name.substr(0, name.find('('));
+  const auto judge = [&](const std::string& name, std::string_view symbol) {
+    const auto use = unfit_for_virtual_time(symbol);
     if (use && std::ranges::find(allowed, name) == allowed.end())
       faults.push_back("uses " + name + ", which " + use->does + "; use " + use->instead);
+  };
+  for (const ElfSymbol& symbol : elf_.symbols()) {
+    const std::string name = demangled(symbol.name);
+    if (!symbol.defined) judge(name.substr(0, name.find('(')), symbol.name);
   }
+  for (const std::string_view telltale : telltales()) judge(std::string(telltale), function_like(telltale));
   return faults;
+}
+
+std::vector<std::string_view> PluginFile::telltales() const {
+  std::vector<std::string_view> found;
+  const auto add = [&found](const std::vector<std::string_view>& more) {
+    for (const std::string_view name : more)
+      if (std::ranges::find(found, name) == found.end()) found.push_back(name);
+  };
+  for (const ElfFile::Bytes code : elf_.loaded_parts(true)) add(telltale_instructions(code));
+  for (const ElfFile::Bytes part : elf_.loaded_parts(false)) add(telltale_paths(part));
+  return found;
 }
 
 bool PluginFile::may_start_threads() const {

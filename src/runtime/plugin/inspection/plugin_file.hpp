@@ -29,7 +29,8 @@ class PluginFile {
   /// layout, or a build that could not be unloaded. Empty if none was found.
   [[nodiscard]] std::vector<std::string> faults(const KnownType& known) const;
 
-  /// Returns every symbol that the plugin uses but must not use in virtual time, with its replacement. If the
+  /// Returns every symbol, instruction and path that the plugin uses but must not use in virtual time, with its
+  /// replacement. If the
   /// plugin declares that it needs the steady clock, returns its reasons instead.
   [[nodiscard]] std::vector<std::string> virtual_time_faults() const;
 
@@ -47,6 +48,8 @@ class PluginFile {
   void check_types(const KnownType& known, std::vector<std::string>& faults) const;
   [[nodiscard]] std::string layout_of(const std::string& type) const;
   [[nodiscard]] const ElfSymbol* manifest() const;
+  /// Returns what the plugin's bytes show of clocks and random numbers, apart from symbols.
+  [[nodiscard]] std::vector<std::string_view> telltales() const;
   /// Returns the texts of the notes that start with `mark`, without the mark.
   [[nodiscard]] std::vector<std::string> notes(std::string_view mark) const;
 

@@ -13,8 +13,9 @@ struct UnfitSymbol {
 };
 
 /// Returns why a symbol that a plugin needs from another library must not be used in virtual time; nothing if
-/// it may. The name is mangled, as in the file. Clocks, sleeps, threads, waits for threads, random devices
-/// and waits for devices would make a run depend on the machine, or hold up virtual time.
+/// it may. The name is mangled, as in the file. Clocks, sleeps, threads, waits for threads, random devices,
+/// questions about the machine and waits for devices would make a run depend on the machine, or hold up virtual
+/// time.
 [[nodiscard]] std::optional<UnfitSymbol> unfit_for_virtual_time(std::string_view symbol);
 
 /// Returns whether a plugin that uses the symbol can start threads.

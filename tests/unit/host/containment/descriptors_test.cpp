@@ -68,6 +68,39 @@ TEST_CASE("only the first of many descriptors are named", "[host][descriptors]")
         "3 (/dev/null), 4 (/dev/null), 5 (x), 6 (x), 7 (x), 8 (x), 9 (x), 10 (x) and 89 more");
 }
 
+TEST_CASE("a standard stream that was redirected is named with its new file, and restored",
+          "[host][descriptors]") {
+  const TempFolder folder;
+  const std::string name = folder.file("stolen");
+  OwnDescriptors own;
+  own.remember();
+  CHECK(own.restore_redirected().empty());
+  const int fd = open(name.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  dup2(fd, STDOUT_FILENO);
+  CHECK(own.restore_redirected() == "stdout to " + name);
+  CHECK(own.restore_redirected().empty());
+  CHECK(open_descriptors()->at(STDOUT_FILENO).name != name);
+  close(fd);
+}
+
+TEST_CASE("a redirected stream whose copy is gone, too, is named once and stays as it is",
+          "[host][descriptors]") {
+  const int kept = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
+  OwnDescriptors own;
+  own.remember();
+  const int fd = open("/dev/zero", O_RDONLY | O_CLOEXEC);
+  for (int high = 900; high < 1000; ++high) close(high);
+  dup2(fd, STDIN_FILENO);
+  const std::string said = own.restore_redirected();
+  const std::string again = own.restore_redirected();
+  own.release();
+  dup2(kept, STDIN_FILENO);
+  close(kept);
+  close(fd);
+  CHECK(said == "stdin to /dev/zero, and the way back is closed");
+  CHECK(again.empty());
+}
+
 TEST_CASE("the lowest free descriptor may be that of a closed standard input, and stays free",
           "[host][descriptors]") {
   OwnDescriptors own;

@@ -10,6 +10,7 @@
 
 #include <cfenv>
 #include <clocale>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -73,6 +74,8 @@ TEST_CASE("a watch finds its kind of change, puts it back, and finds nothing mor
   cases.push_back({watch<SignalMaskWatch>(), block_usr1, AlarmKind::signal_mask, "blocked SIGUSR1"});
   cases.push_back({watch<SignalHandlerWatch>(), [] { signal(SIGTERM, SIG_IGN), signal(SIGINT, SIG_IGN); },
                    AlarmKind::signal_handler, "changed what happens at SIGINT, SIGTERM"});
+  cases.push_back({watch<TerminateWatch>(), [] { std::set_terminate([] { _exit(0); }); },
+                   AlarmKind::terminate_handler, "changed what std::terminate() does"});
   cases.push_back({watch<FolderWatch>(), [] { (void)!chdir("/"); }, AlarmKind::working_folder,
                    "changed the working folder to /"});
   cases.push_back({watch<UmaskWatch>(), [] { umask(0); }, AlarmKind::umask, "changed the umask"});

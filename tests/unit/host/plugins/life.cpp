@@ -38,7 +38,10 @@ class Life final : public orca::Component {
     return orca::again();
   }
 
-  void stop() override { say("stop"); }
+  void stop() override {
+    say("stop");
+    if (*mode_ == "stop throws") throw std::runtime_error("no stop today");
+  }
   void suspend() override { say("suspend"); }
   void resume() override { say("resume"); }
 

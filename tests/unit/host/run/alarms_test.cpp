@@ -92,15 +92,13 @@ TEST_CASE("a component that throws raises an alarm, with the hook that threw", "
         std::pair{"stop", "stop()"}, std::pair{"destructor", "its destructor"}}) {
     const RecordedRun run = throw_in(where);
     CAPTURE(where);
-    REQUIRE_FALSE(run.result.alarms.empty());
-    for (const idl::Alarm& alarm :
-         run.result.alarms) {  // a stop() that throws is called again, to stop what it can
-      CHECK(alarm.kind() == "FAILED");
-      CHECK(alarm.source() == "bad");
-      CHECK(alarm.hook() == hook);
-      CHECK(alarm.severity() == idl::ALARM_WARNING);
-      CHECK_THAT(alarm.text(), Contains("the wheels came off"));
-    }
+    REQUIRE(run.result.alarms.size() == 1);
+    const idl::Alarm& alarm = run.result.alarms[0];
+    CHECK(alarm.kind() == "FAILED");
+    CHECK(alarm.source() == "bad");
+    CHECK(alarm.hook() == hook);
+    CHECK(alarm.severity() == idl::ALARM_WARNING);
+    CHECK_THAT(alarm.text(), Contains("the wheels came off"));
   }
 }
 

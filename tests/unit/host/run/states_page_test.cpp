@@ -45,7 +45,8 @@ const Names kComponentEventNames = {
     {"interrupted", "`start()` was made to return because the strand is to end."},
     {"done", "`work()` says that the task is done."},
     {"failed", "Loading or a hook reports a failure."},
-    {"threw", "A hook or a handler threw."}};
+    {"threw", "A hook other than `stop()`, or a handler, threw."},
+    {"stop threw", "`stop()` threw. It is not called again."}};
 
 const std::vector<std::string> kComponentActionNames = {"",
                                                         "load and construct",
@@ -159,7 +160,8 @@ Made from the tables that the runtime follows, `src/runtime/host/run/component/c
 model of the first; [ADR 0007](adr/0007-state-machine.md) says where it differs and why.
 
 Each row of a table says where an event leads from a state, and what is done on the way. The new state in **bold** is the point
-at which others see it. An action may end in an event of its own: `start()` in *started*, any hook in *threw*. That event is taken
+at which others see it. An action may end in an event of its own: `start()` in *started*, any hook in
+*threw* or *stop threw*. That event is taken
 at once, in the state that holds then, and the rest of the row is left out.
 
 An event without a row in a state leads nowhere: a circumstance changes nothing there, an order is refused, and an outcome cannot

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "live_system.hpp"
 
 using namespace orca;
@@ -71,6 +73,17 @@ TEST_CASE("a component that waits in start() when the system ends is stopped and
     });
     CHECK(live.news().back() == "stop");
   }
+}
+
+TEST_CASE("a stop() that throws is called once, and its component stays in WORK_FAILED", "[host][states]") {
+  LiveSystem live(life("stop throws") + kTwoUsers);
+  live.run(virtual_executives().front(), [](LiveSystem& run) {
+    run.sleep(5s);
+    CHECK(run.state("life") == ComponentState::broken);
+    CHECK(run.system().component("life")->failure() == "stop() threw std::runtime_error: no stop today");
+    CHECK(std::ranges::count(run.news(), "stop") == 1);
+  });
+  CHECK(live.news().empty());
 }
 
 TEST_CASE("a component that threw stays in WORK_FAILED, with the text", "[host][states]") {

@@ -74,6 +74,14 @@ TEST_CASE("laser, infrared ring and bumper ring come from the robot's file", "[s
   CHECK(model->sonars.at(0).parallel == 2);
 }
 
+TEST_CASE("a bumper ring may list the directions of its segments", "[sim][robot_file]") {
+  std::string errors;
+  const auto model = read(replaced(kBumper, "count=\"8\"", "count=\"3\" angles=\"30 0 -120 deg\""), errors);
+  INFO(errors);
+  REQUIRE(model);
+  CHECK(model->bumpers.at(0).segment(2).yaw == Approx(-120.0 * kDegree));
+}
+
 TEST_CASE("wrong lasers are reported at their place", "[sim][robot_file]") {
   const auto laser = [](const std::string& from, const std::string& to) {
     return errors_in(replaced(kLaser, from, to));
@@ -100,6 +108,10 @@ TEST_CASE("wrong infrared and bumper rings are reported at their place", "[sim][
   CHECK_THAT(errors_in(replaced(kBumper, "45 deg", "46 deg")),
              Catch::Contains("error R022: the segments are wider than a full turn together"));
   CHECK_THAT(errors_in(replaced(kBumper, "20 ms", "-1 s")), Catch::Contains("error R005: period"));
+  CHECK_THAT(errors_in(replaced(kBumper, "pitch", "first_angle=\"1 deg\" angles=\"1 2 3 4 5 6 7 8\" pitch")),
+             Catch::Contains("error R022: the directions are given by angles already"));
+  CHECK_THAT(errors_in(replaced(kBumper, "pitch", "angles=\"1 2\" pitch")),
+             Catch::Contains("error R005: angles"));
   CHECK_THAT(errors_in(replaced(kSonar, "parallel=\"2\"", "parallel=\"5\"")),
              Catch::Contains("error R005: parallel: \"5\" is out of range: 1 to 4 is allowed"));
 }
@@ -109,4 +121,49 @@ TEST_CASE("devices of all kinds have names of their own", "[sim][robot_file]") {
              Catch::Contains("error R010: there is a laser \"laser\" already; choose another name"));
   CHECK_THAT(errors_in(kBumper + kBumper), Catch::Contains("error R010: there is a bumper ring \"bumper\""));
   CHECK_THAT(errors_in(replaced(kLaser, "\"laser\"", "\"odometry\"")), Catch::Contains("error R010"));
+}
+
+TEST_CASE("a robot's file guesses the errors of its ranges and wheels, in general and per level of realism",
+          "[sim][robot_file]") {
+  const std::string guesses =
+      R"x(<range_errors fixed="10 mm" share="2 %"/><range_errors realism="harsh" fixed="3 cm" share="0"/>)x";
+  const std::string wheels =
+      R"x(<odometry period="50 ms"><wheel_errors realism="nominal" wheel_diameter="0.3 %" track="0.6 %"
+    slip="3 mm"/></odometry>)x";
+  std::string errors;
+  const auto model = read(replaced(kLaser, "/>", ">" + guesses + "</laser>") + kSonar + wheels, errors);
+  INFO(errors);
+  REQUIRE(model);
+  CHECK(model->lasers.at(0).errors.at(Realism::ideal) == orca::RangeErrorGuess{0.01, 0.02});
+  CHECK(model->lasers.at(0).errors.at(Realism::nominal) == orca::RangeErrorGuess{0.01, 0.02});
+  CHECK(model->lasers.at(0).errors.at(Realism::harsh) == orca::RangeErrorGuess{0.03, 0.0});
+  CHECK_FALSE(model->sonars.at(0).errors.at(Realism::nominal).is_known());
+  CHECK(model->odometer->errors.at(Realism::nominal) == orca::WheelErrorGuess{0.003, 0.006, 0.003});
+  CHECK_FALSE(model->odometer->errors.at(Realism::harsh).is_known());
+}
+
+TEST_CASE("guesses that make no sense are reported at their place", "[sim][robot_file]") {
+  const auto laser = [](const std::string& guesses) {
+    return errors_in(replaced(kLaser, "/>", ">" + guesses + "</laser>"));
+  };
+  const std::string good = R"x(<range_errors fixed="10 mm" share="2 %"/>)x";
+  CHECK_THAT(laser(good + good), Catch::Contains("error R010: there is a guess without realism already"));
+  CHECK_THAT(laser(replaced(good, "10 mm", "-1 mm")), Catch::Contains("error R005: fixed: \"-1 mm\""));
+  CHECK_THAT(laser(replaced(good, "10 mm", "9 m")),
+             Catch::Contains("error R022: a sensor with an error as large as"));
+  CHECK_THAT(laser(replaced(good, "2 %", "120 %")), Catch::Contains("error R005: share: \"120 %\""));
+  CHECK_THAT(laser(R"x(<range_errors fixed="0" share="0"/>)x"), Catch::Contains("error R022: zeros mean"));
+  CHECK_THAT(laser(R"x(<range_errors fixed="1 mm"/>)x"),
+             Catch::Contains("R004: <range_errors> needs the attribute"));
+  CHECK_THAT(laser(replaced(good, "fixed", "realism=\"hard\" fixed")),
+             Catch::Contains("error R005: realism: \"hard\""));
+  CHECK_THAT(laser(R"x(<wheel_errors wheel_diameter="1 %" track="1 %" slip="1 mm"/>)x"),
+             Catch::Contains("error R002"));
+  const std::string harsh =
+      R"x(<wheel_errors realism="harsh" wheel_diameter="1 %" track="1 %" slip="1 mm"/>)x";
+  CHECK_THAT(errors_in("<odometry period=\"50 ms\">" + harsh + harsh + "</odometry>"),
+             Catch::Contains("error R010: there is a guess for realism \"harsh\" already"));
+  CHECK_THAT(errors_in("<odometry period=\"50 ms\">" + replaced(harsh, "track=\"1 %\"", "track=\"1 m\"") +
+                       "</odometry>"),
+             Catch::Contains("error R005: track: \"1 m\""));
 }

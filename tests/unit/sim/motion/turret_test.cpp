@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "bases.hpp"
 
 using namespace orca::sim;
@@ -104,10 +106,13 @@ TEST_CASE("sensors on a turret look where it points, and say so in the robot's f
   Bench bench(turreted(), Realism::ideal, {-2.0, 3.0, 0.0});
   REQUIRE(bench.world.set_turret_command(bench.id, 0.5 * std::numbers::pi));
   bench.run(3.0);
-  const SonarReading first = next_round(bench).readings[0];
+  const SonarScan round = next_round(bench);
+  const SonarReading first = round.readings[0];
   CHECK(first.sensor.yaw == Approx(0.5 * std::numbers::pi).margin(1e-6));
   CHECK(first.sensor.y == Approx(0.19).margin(1e-6));
   CHECK(first.range == Approx(2.0 - 0.19).margin(1e-3));
+  CHECK(round.X_RB.yaw == Approx(0.5 * std::numbers::pi).margin(1e-6));
+  CHECK(std::ranges::min(round.readings, {}, &SonarReading::stamp).stamp == round.stamp);
 }
 
 TEST_CASE("sensors on the body of a synchro base stay behind when the wheels steer, and say so",

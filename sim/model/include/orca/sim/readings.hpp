@@ -27,6 +27,8 @@ struct SonarReading {
 /// One round of a ring, ordered by transducer number.
 struct SonarScan {
   std::vector<SonarReading> readings;
+  TimePoint stamp{};  ///< Time of the first shot.
+  Pose2 X_RB{};       ///< Pose of frame B in R at the stamp, see above.
 };
 
 /// One sweep of a laser.

@@ -106,6 +106,7 @@ struct SonarRing {
   std::vector<std::size_t> order;  ///< Firing order, a permutation of 0 .. count - 1.
   std::size_t parallel = 1;        ///< Number of successive transducers in `order` that fire at once.
   DeviceLabel label{};
+  Guesses<RangeErrorGuess> errors{};
 
   /// Returns the pose of transducer `k` in the base frame; it looks along its x axis.
   [[nodiscard]] Pose2 transducer(std::size_t k) const;
@@ -119,6 +120,7 @@ struct SonarRing {
 struct Odometer {
   Duration period{0};  ///< Time from one reading to the next.
   DeviceLabel label{};
+  Guesses<WheelErrorGuess> errors{};
 };
 
 /// The description of a type of robot for the simulation. A plain value; see read_robot().

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
+#include "orca/sim/guesses.hpp"
 
 namespace orca::sim {
 
@@ -35,6 +37,7 @@ struct LaserScanner {
   double height = 0.0;      ///< [m] Height of that link above the floor.
   bool on_turret = false;   ///< Whether that link turns with the turret.
   DeviceLabel label{};
+  Guesses<RangeErrorGuess> errors{};
 };
 
 /// A ring of short-range infrared sensors, all of which measure at once. Number k looks along
@@ -55,6 +58,7 @@ struct InfraredRing {
   double height = 0.0;     ///< [m] Height of that link above the floor.
   bool on_turret = false;  ///< Whether that link turns with the turret.
   DeviceLabel label{};
+  Guesses<RangeErrorGuess> errors{};
 
   /// Returns the pose of sensor `k` in the base frame; it looks along its x axis.
   [[nodiscard]] Pose2 sensor(std::size_t k) const {
@@ -64,20 +68,22 @@ struct InfraredRing {
 };
 
 /// A bumper divided into segments. Segment k is centred at the direction first_angle + k * pitch from the
-/// base frame's origin and extends half a pitch to either side.
+/// base frame's origin and extends half a pitch to either side. A bumper that does not go all around may list the
+/// directions of its segments.
 struct BumperRing {
   std::string name;
   std::size_t count = 0;
   /// [rad] Direction of segment 0 in the base frame, counter-clockwise from ahead.
   double first_angle = 0.0;
-  double pitch = 0.0;   ///< [rad] Angle from one segment to the next, counter-clockwise positive.
-  double radius = 0.0;  ///< [m] Radius of the bumper, which gives the segments' places.
-  Duration period{0};   ///< Time from one reading to the next.
+  double pitch = 0.0;  ///< [rad] Width of a segment, and angle to the next one, counter-clockwise positive.
+  std::vector<double> angles;  ///< [rad] Direction of each segment; empty: one after the other, as above.
+  double radius = 0.0;         ///< [m] Radius of the bumper, which gives the segments' places.
+  Duration period{0};          ///< Time from one reading to the next.
   DeviceLabel label{};
 
   /// Returns the pose of the middle of segment `k`, x axis outwards, in the base frame.
   [[nodiscard]] Pose2 segment(std::size_t k) const {
-    const double angle = first_angle + static_cast<double>(k) * pitch;
+    const double angle = angles.empty() ? first_angle + static_cast<double>(k) * pitch : angles[k];
     return {radius * std::cos(angle), radius * std::sin(angle), wrapped(angle)};
   }
 };

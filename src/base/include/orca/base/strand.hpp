@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,13 @@ namespace orca {
 /// or when the last client has gone. Not a std::exception, so that a component's `catch (const
 /// std::exception&)` lets it pass.
 struct Interrupted {};
+
+/// The exception of a wait on a thread that runs no component: two threads cannot wait in one component's
+/// name.
+class ForeignThread : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
 
 /// The one task on which all code of a component runs: laps, handlers, parameter changes and state hooks.
 /// They never overlap, so authors need no locks.
@@ -43,7 +51,7 @@ class Strand {
   /// Blocks until `condition` holds or the deadline comes. Serves waits inside a component's own code.
   ///
   /// @return whether the condition holds.
-  /// @errors  throws Interrupted.
+  /// @errors  throws Interrupted; ForeignThread if it would have to wait on a thread that runs no component.
   template <class Condition>
   bool wait_for(TimePoint deadline, Condition&& condition) {
     while (!condition()) {
@@ -72,9 +80,11 @@ class Strand {
 
  private:
   bool wait_until(TimePoint deadline) {
+    if (!executive_.runs_here()) throw_foreign();
     return watch_ ? wait_watching(deadline) : event_->wait_until(deadline);
   }
   bool wait_watching(TimePoint deadline);
+  [[noreturn]] void throw_foreign() const;
 
   Executive& executive_;
   TaskOptions options_;

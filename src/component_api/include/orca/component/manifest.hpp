@@ -80,7 +80,7 @@ void destroy(void* object) {
 /// is a literal.
 #define ORCA_STEADY_CLOCK_ONLY(reason) ORCA_DETAIL_CLOCK_NOTE(__LINE__, "steady only: " reason)
 
-/// Declares that this plugin may use a symbol that is otherwise refused in virtual time, and why the symbol
+/// Declares that this plugin may use a symbol, an instruction or a path that is otherwise refused in virtual time, and why the symbol
 /// does no harm: ORCA_ALLOW_IN_VIRTUAL_TIME("poll", "with a time-out of zero, it never waits"). The symbol is
 /// spelt as in the refusal.
 #define ORCA_ALLOW_IN_VIRTUAL_TIME(symbol, reason) \

@@ -36,8 +36,8 @@ class PushServerHandle {
 
  protected:
   /// Stamps the object as an answer to what the component currently handles, and pushes it.
-  void push_loan(ObjectLoan loan);
-  /// Stamps an object that answers nothing, pushes it, and returns it.
+  bool push_loan(ObjectLoan loan);
+  /// Stamps an object that answers nothing, pushes it, and returns it; null if the calling thread runs no component.
   /// @thread  the device's strand, for a port that is declared with from_device.
   ObjectRef push_reading(ObjectLoan reading);
 
@@ -63,12 +63,14 @@ class PushServer : public PushServerHandle {
   /// Pushes a loaned object, of T or a type derived from it; it arrives whole. Its header is filled in here. It waits only where the graph says
   /// overflow="block" for an edge that is full: at most the edge's block_limit, and after all other
   /// subscribers have the object.
-  void push(Loan<T> object) { push_loan(std::move(object)); }
+  /// @return false if the calling thread runs no component: a thread that the component or a library has started.
+  /// Nobody gets the object then, and the alarm FOREIGN_THREAD is raised. A component need not look at it.
+  bool push(Loan<T> object) { return push_loan(std::move(object)); }
 
   /// Pushes a copy of a value, of T or a type derived from it.
   template <std::derived_from<T> U = T>
-  void push(const U& value) {
-    push(Loan<T>(make_object(value)));
+  bool push(const U& value) {
+    return push(Loan<T>(make_object(value)));
   }
 };
 

@@ -82,14 +82,14 @@ class QueryProxy : public QueryProxyHandle {
   [[nodiscard]] Loan<Q> loan() const { return make_object<Q>(); }
 
   /// Sends a question and waits for the answer.
-  /// @errors  failed_precondition if not connected, unavailable if refused, deadline_exceeded, or the
-  /// server's own.
+  /// @errors  failed_precondition if not connected or called by a thread that runs no component, unavailable if
+  /// refused, deadline_exceeded, or the server's own.
   Result<ObjectPtr<A>> query(Loan<Q> request, Duration timeout = 1s) {
     return typed(ask_loan(std::move(request), timeout));
   }
 
   /// Sends a question without waiting for the answer.
-  /// @errors  failed_precondition if not connected; unavailable if refused within this process. A server in
+  /// @errors  failed_precondition as query(); unavailable if refused within this process. A server in
   /// another process sends its refusal as the answer.
   Result<QueryId> query_request(Loan<Q> request) { return request_loan(std::move(request)); }
 

@@ -87,8 +87,8 @@ class SendProxy : public SendProxyHandle {
   /// Sends an object of T or a type derived from it; it arrives whole. A full server refuses it. Waits only where the graph says overflow="block", at most the
   /// edge's block_limit, and on links to other processes for their answer.
   /// @return ok once the server has accepted the object: from then on it is not lost.
-  /// @errors  failed_precondition if not connected, unavailable with the server's reason if refused,
-  /// deadline_exceeded after a wait.
+  /// @errors  failed_precondition if not connected or called by a thread that runs no component, unavailable with the
+  /// server's reason if refused, deadline_exceeded after a wait.
   Status send(Loan<T> object) { return send_loan(std::move(object)); }
   template <std::derived_from<T> U = T>
   Status send(const U& value) {
@@ -103,7 +103,7 @@ class SendProxy : public SendProxyHandle {
   Status send_wait_max(Loan<T> object, Duration limit) { return send_wait_loan(std::move(object), limit); }
 
   /// Sends an object without waiting for anything; send_receive() reports what became of it.
-  /// @errors  failed_precondition if not connected.
+  /// @errors  failed_precondition as send().
   Result<SendId> send_request(Loan<T> object) { return request_loan(std::move(object)); }
 };
 

@@ -47,6 +47,8 @@ constexpr auto kRows = std::to_array<ComponentTransition>({
     {State::idle, Event::threw, State::broken, kFailAtRest},
     {State::connect, Event::threw, State::broken, kFailAtWork},
     {State::work, Event::threw, State::broken, kFailAtWork},
+    {State::connect, Event::stop_threw, State::broken, kFailAtRest},
+    {State::work, Event::stop_threw, State::broken, kFailAtRest},
     {State::work_done, Event::threw, State::broken, kFailAtRest},
     {State::work_failed, Event::threw, State::broken, kFailAtRest},
     {State::suspended_idle, Event::threw, State::broken, kFailAtRest},

@@ -42,7 +42,8 @@ enum class ComponentEvent {
   interrupted,  ///< start() was made to return because the strand is to end.
   done,         ///< work() reports that the task is done.
   failed,       ///< A hook reports a failure.
-  threw,        ///< A hook or a handler threw.
+  threw,        ///< A hook other than stop(), or a handler, threw.
+  stop_threw,   ///< stop() threw. It is not called again.
 };
 
 /// The actions of a transition.
@@ -66,13 +67,13 @@ enum class ComponentAction {
 };
 
 inline constexpr std::size_t kComponentStates = 11;
-inline constexpr std::size_t kComponentEvents = 14;
+inline constexpr std::size_t kComponentEvents = 15;
 
 using ComponentTransition = Transition<ComponentState, ComponentEvent, ComponentAction>;
 
 /// Looks up a transition in the state machine of a component.
 ///
-/// An action may end in an event of its own: start() in `started`, any hook in `threw`. That event is handled
+/// An action may end in an event of its own: start() in `started`, any hook in `threw` or `stop_threw`. That event is handled
 /// at once, in the state that holds then, and the rest of the row's actions are left out.
 ///
 /// @return the row for the event in the state, or null if the event leads nowhere; kind_of() tells what a

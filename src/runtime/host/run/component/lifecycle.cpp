@@ -56,7 +56,7 @@ Lifecycle::FollowUp Lifecycle::carry_out(ComponentAction action, ComponentState 
     case ComponentAction::load: return load();
     case ComponentAction::configure: return configure();
     case ComponentAction::start: return start();
-    case ComponentAction::stop: return call(Hook::stop, &Component::stop);
+    case ComponentAction::stop: return call(Hook::stop, &Component::stop, ComponentEvent::stop_threw);
     case ComponentAction::try_stop: try_stop(); return std::nullopt;
     case ComponentAction::suspend: return call(Hook::suspend, &Component::suspend);
     case ComponentAction::resume: return call(Hook::resume, &Component::resume);
@@ -140,10 +140,10 @@ void Lifecycle::try_stop() {
   if (fault && !fault->interrupted) parts_.report_failure(Hook::stop, "stop() " + fault->text);
 }
 
-Lifecycle::FollowUp Lifecycle::call(Hook hook, void (Component::*function)()) {
+Lifecycle::FollowUp Lifecycle::call(Hook hook, void (Component::*function)(), ComponentEvent if_it_throws) {
   const auto fault = parts_.hooks.call(hook, [&] { (residency_.component()->*function)(); });
   if (!fault || fault->interrupted) return std::nullopt;
-  return report(ComponentEvent::threw, hook, fault->text);
+  return report(if_it_throws, hook, fault->text);
 }
 
 // --- Orders -----------------------------------------------------------------------------------------------

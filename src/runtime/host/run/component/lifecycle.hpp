@@ -66,7 +66,8 @@ class Lifecycle {
   FollowUp refuse(ComponentEvent event, Error reason, const std::string& what);
   FollowUp start();
   void try_stop();
-  FollowUp call(Hook hook, void (Component::*function)());
+  FollowUp call(Hook hook, void (Component::*function)(),
+                ComponentEvent if_it_throws = ComponentEvent::threw);
   Status order(ComponentEvent event, const std::string& only);
   Status offer_params(const ParamValues& changed, const ParamValues& old);
   ComponentEvent report(ComponentEvent event, Hook hook, const std::string& what, const char* port = "");

@@ -20,11 +20,16 @@ Status Residency::load() {
   Result<LoadedType> type = loader_();
   if (!type) return type.error();
   type_ = std::move(type).value();
-  parts_.hooks.set_code(type_.entry);
+  set_code(type_.entry);
   if (Status constructed = construct(); !constructed.ok()) return constructed;
   if (!parts_.settings.on_demand) declare_what_is_there();
   set_params(parts_.site.declared().params, parts_.params.values());
   return parts_.ports.bind(parts_.site.declared().ports);
+}
+
+void Residency::set_code(const void* code) {
+  parts_.hooks.set_code(code);
+  parts_.home.code.store(code, std::memory_order_release);
 }
 
 Status Residency::construct() {
@@ -57,7 +62,7 @@ void Residency::destroy() {
     if (gone != nullptr) type_.entry->destroy(gone);
   });
   parts_.site.forget_code();
-  parts_.hooks.set_code(nullptr);
+  set_code(nullptr);
   if (fault) parts_.report_failure(Hook::destructor, "its destructor " + fault->text);
 }
 

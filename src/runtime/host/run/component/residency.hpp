@@ -41,6 +41,8 @@ class Residency {
   [[nodiscard]] Component* component() const { return component_; }
 
  private:
+  // Notes whose code runs, for alarms and last words.
+  void set_code(const void* code);
   Status construct();
   void declare_what_is_there();
 

@@ -20,7 +20,7 @@ namespace orca {
 [[nodiscard]] std::string to_xml(const ObjectRef& object);
 
 /// Reads the text form, as to_xml() or a person wrote it. A field that is not mentioned keeps its default (0,
-/// false, empty, the first enumerator). Quantities may have units: `reach_radius="30 cm"`.
+/// false, empty, the first enumerator). Quantities may have units: `reach_angle="20 deg"`.
 ///
 /// @param text         UTF-8, at most 16 MB.
 /// @param file_name    name of the source, for the positions of the errors.

@@ -65,6 +65,10 @@ class Attributes {
 
   /// Finds the rules of the children, and reports children that have none.
   [[nodiscard]] std::vector<std::pair<const Element*, const ElementRule*>> children() const;
+  /// Reads the attributes of a child that children() has returned.
+  [[nodiscard]] Attributes of_child(const Element& child, const ElementRule& rule) const {
+    return {child, rule, file_, reporter_};
+  }
 
   /// Reports an error at the element, or at the value of one of its attributes.
   void error(const char* code, std::string message) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -20,6 +21,8 @@ struct PortHome {
   std::string component;
   LinkObserver* observer = nullptr;  ///< May be null.
   Provenance provenance{};           ///< Used on the component's strand only.
+  /// Any address in the component's plugin; null: no code is loaded.
+  std::atomic<const void*> code{nullptr};
 };
 
 /// One end of a link, for as long as it serves a port. Its destructor cuts the link at this end; afterwards
@@ -50,6 +53,15 @@ class Endpoint {
     if (home_.observer != nullptr) home_.observer->delivered(home_.component, contract_.name, object);
   }
 
+  /// Returns whether the caller may use the port: it runs on a strand, or is the component's destructor. If not,
+  /// reports it to the observer.
+  /// @thread  any; costs a strand one look at a variable of its thread.
+  [[nodiscard]] bool admits_caller() const {
+    return home_.strand.executive().runs_here() || admits_stranger();
+  }
+  /// Returns the error of a call from a thread that runs no component.
+  [[nodiscard]] Error foreign_call() const;
+
   /// Keeps the end of a link that serves this port. The port destroys it before its own members go.
   /// @thread  before the component runs.
   void adopt(std::unique_ptr<LinkEnd> end) { link_ends_.push_back(std::move(end)); }
@@ -62,6 +74,8 @@ class Endpoint {
   void cut_links() { link_ends_.clear(); }
 
  private:
+  [[nodiscard]] bool admits_stranger() const;
+
   PortHome& home_;
   PortContract contract_;
   std::uint64_t next_seq_ = 1;

@@ -16,7 +16,8 @@ enum class LinkTrouble {
 
 /// An observer of everything that happens on the links of a run, for traces and taps.
 ///
-/// Thread contract: called from the strands of both ends; implementations synchronise themselves.
+/// Thread contract: called from the strands of both ends, foreign_call() from any thread; implementations
+/// synchronise themselves.
 class LinkObserver {
  public:
   virtual ~LinkObserver() = default;
@@ -25,7 +26,12 @@ class LinkObserver {
   virtual void delivered(std::string_view component, std::string_view port, const ObjectRef& object) = 0;
 
   /// Reports that a component has pushed an object, before anybody receives it, and even if nobody does.
-  virtual void pushed(const ObjectRef& /*object*/) {}
+  virtual void pushed(std::string_view /*component*/, std::string_view /*port*/,
+                      const ObjectRef& /*object*/) {}
+
+  /// Reports that a component sends an object, or asks a question, whatever the server says to it.
+  virtual void requested(std::string_view /*component*/, std::string_view /*port*/,
+                         const ObjectRef& /*object*/) {}
 
   /// Reports that a client's port was connected to, or disconnected from, a server's port.
   virtual void link_changed(std::string_view client, std::string_view server, bool connected) = 0;
@@ -35,6 +41,12 @@ class LinkObserver {
   /// @param text      what has happened, without the ends.
   virtual void trouble(LinkTrouble /*kind*/, std::string_view /*from*/, std::string_view /*to*/,
                        std::string_view /*text*/) {}
+
+  /// Reports that a port has refused a call, because the calling thread runs no component.
+  /// @param code  any address in the component's plugin; null: not known.
+  /// @thread  the one that called.
+  virtual void foreign_call(std::string_view /*component*/, std::string_view /*port*/, const void* /*code*/) {
+  }
 };
 
 }  // namespace orca

@@ -54,7 +54,7 @@ class RequestClient : public Endpoint, public ReplySink<Answer> {
 
   RequestClient(PortHome& home, PortContract contract, const Words& words);
   /// Stamps the object and offers it to the server.
-  /// @errors  failed_precondition if not connected.
+  /// @errors  failed_precondition if not connected, or if the calling thread runs no component.
   Result<Offered> offer(ObjectLoan loan, const Provenance* provenance, bool may_wait);
   /// @pre  connected()
   [[nodiscard]] RequestTarget<Answer>& target() const { return *target_; }

@@ -26,6 +26,8 @@ struct LoadOptions {
   bool try_components = false;  ///< Also call configure() of the components, as a trial.
   /// Components that --fail on the command line names; each must be there.
   std::vector<std::string> failing{};
+  /// Ports ("component.port") that --record on the command line names; each must be there.
+  std::vector<std::string> recorded{};
 };
 
 /// A function that returns the text of an included file. The path starts at the current folder.

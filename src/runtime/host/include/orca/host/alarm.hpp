@@ -16,14 +16,17 @@ enum class AlarmKind {
   stalled,         ///< A component computes or sleeps without waiting for anything of Orca.
   plugin_pinned,   ///< A plugin stays in memory although nothing uses it.
   fork,            ///< A component called fork(); the copy was ended.
+  foreign_thread,  ///< A thread that runs no component called a port; the call was refused.
   floating_point,  ///< The following are changes of state that all components share.
   locale,
+  terminate_handler,
   signal_mask,
   signal_handler,
   working_folder,
   umask,
   resource_limit,
-  descriptors  ///< Descriptors were left open, or none are left.
+  redirection,  ///< Of stdin, stdout or stderr.
+  descriptors   ///< Descriptors were left open, or none are left.
 };
 
 /// Returns the kind in capitals, as in idl::Alarm: "SIGNAL_MASK".

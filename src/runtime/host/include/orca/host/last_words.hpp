@@ -3,6 +3,7 @@
 
 #include <pthread.h>
 
+#include <exception>
 #include <string>
 
 namespace orca::host {
@@ -28,6 +29,14 @@ class LastWords {
 
   /// Gives the calling thread a stack to report from after an overflow of its own. Needed once per thread.
   static void prepare_thread();
+
+  /// Returns whether a signal is ending the process. Its handler is no longer what it was, which is nobody's doing.
+  /// @thread  any.
+  [[nodiscard]] static bool is_dying() noexcept;
+
+  /// Returns the handler that std::terminate() must lead to: that of the object, or without one the present one.
+  /// @thread  any.
+  [[nodiscard]] static std::terminate_handler terminate_handler() noexcept;
 
   /// Makes sure that exit() ends the process before it destroys anything that has been made so far. Called when the
   /// components begin to work.

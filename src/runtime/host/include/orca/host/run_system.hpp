@@ -11,6 +11,7 @@
 #include "orca/host/catalogue.hpp"
 #include "orca/host/picture.hpp"
 #include "orca/host/planned_failure.hpp"
+#include "orca/host/recording.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/stop_signal.hpp"
@@ -23,6 +24,8 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;  ///< None: the graph's seed, or 1 if it has none.
   std::optional<Duration> until;      ///< Time limit [s of the run's clock]; none: no limit.
   std::string trace_file;             ///< Empty: no trace is written.
+  bool trace_values = false;          ///< The trace shows each object that is delivered.
+  std::vector<RecordingOptions> recordings;
   PictureOptions picture;
   bool looks_on = false;  ///< The listener is offered a RunView, and the result has the ways of the robots.
   std::vector<PlannedFailure> planned_failures;  ///< What is to fail on purpose, in components of the graph.

@@ -8,6 +8,8 @@
 /// semidefinite if the arguments are.
 #pragma once
 
+#include <array>
+
 #include "orca/base/result.hpp"
 #include "orca/idl/geometry.hpp"
 
@@ -24,6 +26,12 @@ namespace orca {
 /// @thread  pure function; any thread.
 /// @source  Smith, Self and Cheeseman 1990: the inverse relationship.
 [[nodiscard]] idl::Pose2D inverse(const idl::Pose2D& X_AB);
+
+/// Returns how far the position of a pose in the plane may be off: its standard deviation [m] in the direction in which it
+/// is largest.
+/// @param covariance [m2, m rad, rad2]  of x, y, orientation, row by row; all zero, which means "not known", gives 0.
+/// @thread  pure function; any thread.
+[[nodiscard]] double position_deviation(const std::array<double, 9>& covariance);
 
 /// Composes poses in space, as compose() does in the plane.
 /// @errors  failed_precondition if the result's x axis points straight up or down (within 1e-6 rad) and its

@@ -1,38 +1,64 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "orca/base/result.hpp"
-#include "orca/idl/geometry.hpp"
+#include <array>
+#include <vector>
+
+#include "orca/geometry/error_guess.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/geometry/twist2.hpp"
+#include "orca/geometry/vec2.hpp"
+#include "orca/idl/hardware.hpp"
 
 namespace orca {
 
-/// A base with two driven wheels on one axle. Frame B lies in the middle between them.
-struct DifferentialBase {
-  double track = 0.0;        ///< [m] between the points where the wheels touch the ground, > 0
-  double left_noise = 0.0;   ///< [m2/m] variance of the left wheel's travel per metre that it rolls, >= 0
-  double right_noise = 0.0;  ///< [m2/m] the same for the right wheel
-};
-
-/// The distance that the wheels rolled between two readings.
-struct WheelTravel {
-  double left = 0.0;     ///< [m] forward positive
-  double right = 0.0;    ///< [m] forward positive
-  idl::TimeValue stamp;  ///< of the second reading
-};
-
-/// Integrates wheel travel to a pose, with its uncertainty. The wheels roll at a constant ratio between two
-/// readings, so the base drives along an arc of a circle (along_arc()). The wheels' errors are independent of
-/// each other and of the pose, with variances that grow with the distance rolled.
+/// The uncertainty of a pose that a base computes from the turns of its wheels, since the start of the odometry. A driver
+/// feeds it with the poses that the base reports; it needs no readings of single wheels.
 ///
-/// @param X_WB  pose of body B in world W at the previous reading.
-/// @return X_WB at the new reading, with its stamp; covariance to first order.
-/// @errors  invalid_argument if the track is not positive, a noise is negative, or any of them or the travel
-///          is not finite.
-/// @thread  pure function; any thread.
-/// @source  Siegwart and Nourbakhsh, "Introduction to Autonomous Mobile Robots", MIT Press 2004, 5.2.4, for
-/// the
-///          error model. They approximate the arc by its chord; here the arc is exact (docs/geometry.md).
-[[nodiscard]] Result<idl::Pose2D> integrate_arc(const idl::Pose2D& X_WB, const WheelTravel& travel,
-                                                const DifferentialBase& base);
+/// Slip is new in each step. Errors of wheels and track stay the same, so their effects add up along the way: they are
+/// unknown parameters of the run, whose influence on the pose is carried along. docs/geometry.md has the equations.
+///
+/// Thread contract: not synchronised; one strand.
+/// @source  K. S. Chong and L. Kleeman, "Accurate odometry and error modelling for a mobile robot", ICRA 1997, for the
+///          error of a wheel; J. Borenstein and L. Feng, "Measurement and correction of systematic odometry errors in
+///          mobile robots", IEEE Trans. Robotics and Automation 12(6), 1996, for the errors of wheels and track.
+class OdometryUncertainty {
+ public:
+  /// @param type   how the wheels work together. A synchro or holonomic base has three of them, at 60, 180 and 300 deg.
+  /// @param track [m]  diameter of the circle through the points where the wheels touch the floor, > 0.
+  /// @param guess  of the wheels' errors; nothing negative.
+  OdometryUncertainty(idl::DriveType type, double track, const WheelErrorGuess& guess);
+
+  /// Continues to the next pose that the base reports. It has moved there along an arc.
+  /// @param X_OR  pose of the robot in the frame of its odometry. At the start it is that frame.
+  /// @pre  the base turned by less than half a circle since the last pose.
+  void move_to(const Pose2& X_OR);
+
+  /// Returns the covariance of x, y and orientation [m2, m rad, rad2], row by row, to first order. All zero: not known.
+  [[nodiscard]] std::array<double, 9> covariance() const;
+
+ private:
+  // A wheel, by what it measures and by what its errors do to the travel that the base reports.
+  struct Wheel {
+    Vec2 rolls;         // direction in which it rolls when the base moves straight, seen from the robot
+    double lever;       // [m] of its travel per turn of the base
+    Travel2 per_metre;  // added to the reported travel by a metre that a wrong diameter adds
+    Travel2 per_slip;   // added by a metre of slip
+    [[nodiscard]] double travel(const Travel2& base) const {
+      return dot(rolls, {base.forward, base.left}) + lever * base.turn;
+    }
+  };
+  static constexpr int kErrors = 4;  // constant errors: of up to three wheels, and of the track
+  using Effect = std::array<double, 3 * kErrors>;
+
+  [[nodiscard]] static std::vector<Wheel> wheels_of(idl::DriveType type, double track);
+
+  std::vector<Wheel> wheels_;
+  WheelErrorGuess guess_;
+  bool track_counts_;  // whether the reported turn depends on the track
+  Pose2 X_OR_;
+  std::array<double, 9> slip_{};  // covariance that slip has caused, row by row
+  Effect effect_{};               // derivatives of x, y, orientation by the constant errors, row by row
+};
 
 }  // namespace orca

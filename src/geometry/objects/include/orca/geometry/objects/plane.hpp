@@ -7,6 +7,7 @@
 #include "orca/geometry/pose2.hpp"
 #include "orca/idl/geometry.hpp"
 #include "orca/idl/sensing.hpp"
+#include "orca/idl/time.hpp"
 
 namespace orca {
 
@@ -14,6 +15,11 @@ namespace orca {
 /// @thread  pure function, as all of this file; any thread.
 [[nodiscard]] inline Pose2 plane_pose(const idl::Frame3D& mount) {
   return {mount.position().x(), mount.position().y(), mount.rotation().yaw()};
+}
+
+/// Returns X_AB, seen from above, without its covariance and stamp.
+[[nodiscard]] inline Pose2 plane_pose(const idl::Pose3D& X_AB) {
+  return {X_AB.position().x(), X_AB.position().y(), X_AB.rotation().yaw()};
 }
 
 /// Returns X_WR, the pose of the robot in the world.
@@ -34,6 +40,15 @@ namespace orca {
 /// Returns the frame of something mounted level, `height` [m] above the floor.
 [[nodiscard]] inline idl::Frame3D level_frame(const Pose2& pose, double height) {
   return make_frame(make_point(pose.x, pose.y, height), pose.yaw);
+}
+
+/// Returns the pose of something level, `height` [m] above the floor, at an instant. Its covariance is not known.
+[[nodiscard]] inline idl::Pose3D level_pose(const Pose2& pose, double height, TimePoint stamp) {
+  idl::Pose3D level;
+  level.position(make_point(pose.x, pose.y, height));
+  level.rotation().yaw(pose.yaw);
+  level.stamp(to_time_value(stamp));
+  return level;
 }
 
 }  // namespace orca

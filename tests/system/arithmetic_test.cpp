@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One trace hash on every x86-64 processor: docs/adr/0032-one-arithmetic.md.
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "deployer.hpp"
+
+#if defined(__x86_64__)
+
+using namespace orca::test;
+
+namespace {
+
+const Words kWalk{source_file("graphs/random_walk.xml"), "--until", "600 s"};
+
+bool fuses() { return __builtin_cpu_supports("fma") != 0 || __builtin_cpu_supports("fma4") != 0; }
+
+// Runs a command with the C library told to use fewer of the processor's instructions.
+Words with_tunables(const std::string& tunables, const Words& command) {
+  return Words{"/usr/bin/env", "GLIBC_TUNABLES=" + tunables} + command;
+}
+
+std::string hash_with(const std::string& tunables) {
+  Subprocess program(with_tunables(tunables, deployer(kWalk + virtual_clock())));
+  const Run run = finish(program, Seconds(60));
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  REQUIRE(run.trace_hash());
+  return *run.trace_hash();
+}
+
+std::string of_process(const std::string& file) {
+  std::ifstream stream("/proc/" + file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Returns the number of the only process whose command line contains a text.
+std::string process_with(const std::string& text) {
+  std::string found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string number = entry.path().filename().string();
+    if (number.find_first_not_of("0123456789") == std::string::npos &&
+        of_process(number + "/cmdline").find(text) != std::string::npos)
+      found = number;
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("the trace hash is that of a processor without fused multiply-add", "[system][arithmetic][tool]") {
+  if (!fuses()) {
+    std::cout << "SKIPPED: this processor cannot fuse, so there is nothing to compare\n";
+    return;
+  }
+  const std::string usual = hash_with("");
+  for (const char* fewer : {"-FMA", "-FMA,-FMA4", "-AVX2", "-AVX,-AVX2,-FMA,-FMA4", "-SSE4_1,-FMA"}) {
+    CAPTURE(fewer);
+    CHECK(hash_with(std::string("glibc.cpu.hwcaps=") + fewer) == usual);
+  }
+}
+
+TEST_CASE("a run in virtual time is the same by any path of the program", "[system][arithmetic]") {
+  const Words walk = Words{source_file("graphs/random_walk.xml"), "--until", "10 s"} + virtual_clock();
+  const Run usual = run_deployer(walk);
+  Words command = deployer(walk);
+  const std::string folder = std::filesystem::path(command.front()).parent_path().string();
+  command.front() = "./deployer";
+  Subprocess program(command, {.folder = folder});
+  const Run other = finish(program, Seconds(30));
+  INFO(other.err);
+  CHECK(other.exit_code() == 0);
+  REQUIRE(usual.trace_hash());
+  CHECK(other.trace_hash() == usual.trace_hash());
+}
+
+TEST_CASE("the new start keeps the user's arguments, tunables and process", "[system][arithmetic][tool]") {
+  if (!fuses()) {
+    std::cout << "SKIPPED: this processor cannot fuse, so there is no new start\n";
+    return;
+  }
+  const std::string seed = "900" + std::to_string(getpid());
+  Words command = deployer(Words{source_file("graphs/random_walk.xml"), "--seed", seed} + virtual_clock());
+  const std::string folder = std::filesystem::path(command.front()).parent_path().string();
+  command.front() = "./deployer";
+  Subprocess program(with_tunables("glibc.malloc.perturb=0:glibc.cpu.hwcaps=-AVX512F", command),
+                     {.folder = folder});
+  std::string process;
+  std::string environment;
+  while (environment.find("-FMA") == std::string::npos) {
+    REQUIRE_FALSE(program.wait(Seconds(0.02)));
+    process = process_with(seed);
+    environment = of_process(process + "/environ");
+  }
+  // The C library puts a zero for each colon when it reads the tunables.
+  std::replace(environment.begin(), environment.end(), '\0', ':');
+  const std::string tunables = environment.substr(environment.find("GLIBC_TUNABLES="), 80);
+  CHECK_THAT(tunables, Catch::StartsWith(
+                           "GLIBC_TUNABLES=glibc.malloc.perturb=0:glibc.cpu.hwcaps=-AVX512F,-FMA,-FMA4:"));
+  CHECK_THAT(of_process(process + "/cmdline"), Catch::StartsWith("./deployer"));
+  CHECK(of_process(process + "/comm") == "deployer\n");
+  program.send(SIGINT);
+  const Run run = finish(program, Seconds(10));
+  CHECK(run.exit_code() == 0);
+  CHECK(run.trace_hash());
+}
+
+#endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the other threads do while a signal ends the process.
+#include "orca/host/last_words.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <new>
+#include <thread>
+
+#include "containment/environment.hpp"
+#include "orca/host/stop_signal.hpp"
+
+using namespace orca;
+using namespace orca::host;
+
+namespace {
+
+int* volatile g_nowhere = nullptr;
+
+// A number that a copy of the process shares with it.
+class SharedCount {
+ public:
+  SharedCount()
+      : memory_(mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
+                     -1, 0)),
+        count_(new (memory_) std::atomic<int>(0)) {}
+  ~SharedCount() { munmap(memory_, sizeof(std::atomic<int>)); }
+  SharedCount(const SharedCount&) = delete;
+  SharedCount& operator=(const SharedCount&) = delete;
+  std::atomic<int>& operator*() const { return *count_; }
+
+ private:
+  void* memory_;
+  std::atomic<int>* count_;
+};
+
+void begin_anew() {
+  for (const int signal : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGTERM}) ::signal(signal, SIG_DFL);
+  const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
+  dup2(null, STDERR_FILENO);
+}
+
+// Calls a hook again and again, with all checks around it.
+[[noreturn]] void work_on(std::atomic<int>& turns) {
+  for (;;) {
+    const Activity activity("good", Hook::configure, nullptr);
+    Environment::of_process().entering(activity);
+    Environment::of_process().left(activity);
+    ++turns;
+  }
+}
+
+// Crashes while stopping the motors takes a while and another component works on.
+[[noreturn]] void crash_beside_others(std::atomic<int>& alarms, std::atomic<int>& turns) {
+  begin_anew();
+  const LastWords words(EXIT_FAILURE, 3);
+  StopSignal stop(EXIT_SUCCESS);
+  stop.on_crash([&turns] {
+    const int before = turns;
+    while (turns < before + 10) std::this_thread::yield();
+  });
+  const KeptEnvironment kept(true, [&alarms](const idl::Alarm&) { ++alarms; });
+  std::thread([&turns] { work_on(turns); }).detach();
+  while (turns == 0) std::this_thread::yield();
+  const Activity activity("bad", Hook::work, nullptr);
+  Environment::of_process().entering(activity);
+  *g_nowhere = 1;
+  _exit(0);
+}
+
+}  // namespace
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_CASE("a process that dies of a signal raises no alarm about the handler of that signal",
+          "[host][last_words]") {
+  const SharedCount alarms;
+  const SharedCount turns;
+  const pid_t copy = fork();
+  if (copy == 0) crash_beside_others(*alarms, *turns);
+  int status = 0;
+  REQUIRE(waitpid(copy, &status, 0) == copy);
+  CHECK(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGSEGV);
+  CHECK(*turns >= 10);
+  CHECK(*alarms == 0);
+}
+#endif

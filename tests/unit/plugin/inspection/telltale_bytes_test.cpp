@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "inspection/telltale_bytes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <initializer_list>
+#include <string>
+
+using namespace orca::plugin;
+using Found = std::vector<std::string_view>;
+
+namespace {
+
+std::vector<std::byte> bytes(const std::string& text) {
+  std::vector<std::byte> made(text.size());
+  std::memcpy(made.data(), text.data(), text.size());
+  return made;
+}
+
+const std::string kNothing(8, '\x90');
+const std::string kShift("\x48\xc1\xe2\x20", 4);  // shl rdx, 32
+const std::string kSetCarry("\x0f\x92\xc0", 3);   // setc al
+
+}  // namespace
+
+#if defined(__x86_64__)
+TEST_CASE("an instruction that reads a clock or draws a number is found with what compilers put behind it",
+          "[plugin][virtual]") {
+  const auto found = [](const std::string& code) { return telltale_instructions(bytes(code)); };
+  const std::string clock("\x0f\x31", 2);
+  const std::string clock_in_order("\x0f\x01\xf9", 3);
+  const std::string number("\x48\x0f\xc7\xf0", 4);
+  const std::string seed("\x0f\xc7\xf9", 3);
+  CHECK(found(kNothing + clock + kNothing + kShift) == Found{"rdtsc"});
+  CHECK(found(clock_in_order + kShift) == Found{"rdtscp"});
+  CHECK(found(number + kNothing + kSetCarry) == Found{"rdrand"});
+  CHECK(found(seed + kSetCarry) == Found{"rdseed"});
+  CHECK(found(clock + kShift + seed + kSetCarry + clock + kShift) == Found{"rdtsc", "rdseed"});
+}
+
+TEST_CASE("bytes that look like such an instruction by chance are not taken for it", "[plugin][virtual]") {
+  const auto found = [](const std::string& code) { return telltale_instructions(bytes(code)); };
+  const std::string clock("\x0f\x31", 2);
+  CHECK(found("").empty());
+  CHECK(found(clock).empty());
+  CHECK(found(clock + kNothing + kNothing + kNothing + kNothing + kShift).empty());
+  CHECK(found(clock + std::string("\x48\xc1\xe2\x21", 4)).empty());  // a shift by 33
+  CHECK(found(std::string("\x0f\xc7\x08", 3) + kSetCarry).empty());  // cmpxchg8b
+  CHECK(found(std::string("\x0f\x01\xf8", 3) + kShift).empty());     // swapgs
+}
+#endif
+
+TEST_CASE("a path is found by its beginning, wherever it stands", "[plugin][virtual]") {
+  CHECK(telltale_paths(bytes("a/dev/urandom")) == Found{"/dev/urandom"});
+  CHECK(telltale_paths(bytes("/dev/ra|/dev/ura|/proc/self")) == Found{"/dev/urandom", "/proc/"});
+  CHECK(telltale_paths(bytes("/dev/random /dev/hwrng")) == Found{"/dev/random", "/dev/hwrng"});
+  CHECK(telltale_paths(bytes("/dev/ttyS0 /processes /dev/")).empty());
+}
+
+TEST_CASE("a telltale is judged like the function that does the same", "[plugin][virtual]") {
+  CHECK(function_like("rdtsc") == "clock_gettime");
+  CHECK(function_like("rdtscp") == "clock_gettime");
+  CHECK(function_like("rdrand") == "getrandom");
+  CHECK(function_like("/dev/urandom") == "getrandom");
+  CHECK(function_like("/proc/") == "getpid");
+}
