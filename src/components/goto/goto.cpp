@@ -120,7 +120,7 @@ class Goto final : public orca::Component {
   // Says how unsure the position is, for people.
   [[nodiscard]] std::string doubt() const {
     return "its position is known only to " + in_short(deviation_) + " m, the goal's reach is " +
-           in_short(route_.next().reach_radius()) + " m";
+           in_short(route_.next().reach_radius().distance()) + " m";
   }
 
   // Pushes the point that it drives to, or a place on the way through a door.
