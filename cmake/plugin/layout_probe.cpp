@@ -4,6 +4,7 @@
 #include "orca/component.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/server.hpp"
+#include "orca/idl/geometry.hpp"
 #include "orca/idl/motion.hpp"
 
 namespace {
@@ -12,6 +13,7 @@ using orca::idl::MotionCommand;
 
 }  // namespace
 
+template class orca::Travelling<orca::idl::Point>;
 template class orca::ObjectPtr<MotionCommand>;
 template class orca::Loan<MotionCommand>;
 template class orca::PushServer<MotionCommand>;

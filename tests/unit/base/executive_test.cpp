@@ -10,39 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "orca/base/executive.hpp"
+#include "executive_kinds.hpp"
 #include "orca/base/strand.hpp"
 
 using namespace orca;
+using namespace orca::test;
 
 namespace {
-
-#if defined(__SANITIZE_THREAD__)
-constexpr bool kFibersWork = false;  // TSan does not follow fibers; batons take their place
-#else
-constexpr bool kFibersWork = true;
-#endif
-
-std::vector<ExecutiveOptions> all_kinds() {
-  std::vector<ExecutiveOptions> kinds{{ClockKind::steady, Backend::thread},
-                                      {ClockKind::steady, Backend::thread, 50us},
-                                      {ClockKind::steady, Backend::baton},
-                                      {ClockKind::virtual_time, Backend::baton}};
-  if (kFibersWork) {
-    kinds.push_back({ClockKind::steady, Backend::fiber});
-    kinds.push_back({ClockKind::steady, Backend::fiber, 50us});
-    kinds.push_back({ClockKind::virtual_time, Backend::fiber});
-  }
-  return kinds;
-}
-
-std::vector<ExecutiveOptions> virtual_kinds() {
-  std::vector<ExecutiveOptions> kinds{{ClockKind::virtual_time, Backend::baton}};
-  if (kFibersWork) kinds.push_back({ClockKind::virtual_time, Backend::fiber});
-  return kinds;
-}
-
-std::unique_ptr<Executive> make(const ExecutiveOptions& options) { return make_executive(options).value(); }
 
 // Writes to each page of a stack that grows by that many bytes.
 int use_stack(std::size_t bytes) {
@@ -229,71 +203,6 @@ TEST_CASE("when nothing can ever happen in virtual time, main's wait ends", "[ba
     executive->run([&] {
       const auto event = executive->make_event();
       CHECK_FALSE(event->wait_until(kForever));
-    });
-  }
-}
-
-TEST_CASE("tasks that wake each other at one instant for ever end main's wait, and are named",
-          "[base][executive][standstill]") {
-  const int priority = GENERATE(0, 100);
-  for (const auto& kind : virtual_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      const auto a = executive->make_event();
-      const auto b = executive->make_event();
-      bool over = false;
-      const auto answer = [&](Event& mine, Event& other) {
-        while (!over) {
-          other.notify();
-          mine.wait_until(kForever);
-        }
-        other.notify();
-      };
-      executive->sleep_until(executive->now() + 1s);
-      const auto ping = executive->spawn({"ping", priority}, [&] { answer(*a, *b); });
-      const auto pong = executive->spawn({"pong", priority}, [&] { answer(*b, *a); });
-      const auto idle = executive->spawn({"idle", 0}, [] {});
-      const TimePoint before = executive->now();
-      CHECK_FALSE(executive->make_event()->wait_until(before + 1s));
-      CHECK(executive->now() == before);
-      CHECK(executive->restless_tasks() == std::vector<std::string>{"ping", "pong"});
-      over = true;
-    });
-  }
-}
-
-TEST_CASE("a burst at one instant is no standstill", "[base][executive][standstill]") {
-  constexpr std::size_t kSenders = 300, kRounds = 30;
-  for (const auto& kind : virtual_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      const auto event = executive->make_event();
-      std::vector<Event*> waiting;
-      std::size_t turns = 0;
-      std::size_t ended = 0;
-      const auto receiver = executive->spawn({"receiver", 1}, [&] {
-        for (; ended < kSenders; ++turns) {
-          event->wait_until(kForever);
-          for (Event* sender : std::exchange(waiting, {})) sender->notify();
-        }
-      });
-      std::vector<std::unique_ptr<Task>> senders;
-      for (std::size_t i = 0; i < kSenders; ++i)
-        senders.push_back(executive->spawn({"sender", 0}, [&] {
-          const auto answered = executive->make_event();
-          for (std::size_t round = 0; round < kRounds; ++round) {
-            waiting.push_back(answered.get());
-            event->notify();
-            answered->wait_until(kForever);
-          }
-          ++ended;
-          event->notify();
-        }));
-      const TimePoint before = executive->now();
-      CHECK_FALSE(executive->make_event()->wait_until(before + 1s));
-      CHECK(executive->now() == before + 1s);
-      CHECK(turns >= kSenders * kRounds);
-      CHECK(executive->restless_tasks().empty());
     });
   }
 }

@@ -18,6 +18,7 @@
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/host/last_words.hpp"
+#include "recording/run_files.hpp"
 #include "reporter.hpp"
 #include "robot_finder.hpp"
 #include "system.hpp"
@@ -51,8 +52,8 @@ class Run {
         executive_(executive),
         stop_(stop),
         listener_(listener),
-        trace_(executive),
-        reporter_(executive, trace_, listener, options.log_name),
+        files_(executive),
+        reporter_(executive, files_.trace(), listener, options.log_name),
         environment_(executive.tasks_overlap(), [this](const idl::Alarm& alarm) { raise(alarm); }) {
     catalogue_.on_alarm([this](const idl::Alarm& alarm) { reporter_.raise(alarm); });
   }
@@ -72,9 +73,12 @@ class Run {
 
  private:
   void run() {
-    if (const Status opened = open_outputs(); !opened.ok()) return refuse_output(opened.error());
+    const auto ports = options_.recordings.empty() ? std::vector<graph::ListedPort>{}
+                                                   : graph::list_ports(graph_, catalogue_);
+    if (const Status opened = files_.open(options_, ports); !opened.ok())
+      return refuse_output(opened.error());
     if (options_.looks_on) reporter_.look_on(sightings_);
-    if (!options_.recordings.empty()) reporter_.record(recorder_);
+    if (!options_.recordings.empty()) reporter_.record(files_.recorder());
     if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
     reporter_.introduce(find_robots(graph_, system_->robots()));
     if (options_.looks_on)
@@ -88,28 +92,13 @@ class Run {
     if (!options_.picture.file.empty()) draw();
   }
 
-  // Opens all files that the run writes, so that a wrong name is known before anything moves.
-  Status open_outputs() {
-    if (!options_.trace_file.empty())
-      if (Status opened = trace_.open(options_.trace_file,
-                                      options_.trace_values ? Trace::Detail::values : Trace::Detail::events);
-          !opened.ok())
-        return opened;
-    if (!options_.picture.file.empty())
-      if (Status opened = picture_.open(options_.picture.file); !opened.ok()) return opened;
-    if (options_.recordings.empty()) return ok();
-    return recorder_.open(options_.recordings, graph::list_ports(graph_, catalogue_));
-  }
-
   void refuse_output(const Error& error) {
     const bool wrong = error.code == Code::invalid_argument;
     fail_with(wrong ? RunOutcome::bad_options : RunOutcome::not_started, error);
   }
 
   void close_outputs() {
-    for (const Status& closed : {trace_.close(), picture_.close()})
-      if (!closed.ok()) fail_output(closed.error());
-    for (const Error& error : recorder_.close()) fail_output(error);
+    for (const Error& error : files_.close()) fail_output(error);
   }
 
   // What people asked for is not there, so the run has failed, however well it went.
@@ -180,13 +169,7 @@ class Run {
   // watchdogs of the devices can.
   void stop_motors() {
     if (executive_.tasks_overlap()) system_->stop_hardware(kMotorLimit);
-    close_records();
-  }
-
-  // Writes what a run leaves behind that ends in the middle, in whatever state it is.
-  void close_records() {
-    (void)trace_.close();
-    (void)recorder_.close();
+    files_.close_at_once();
   }
 
   void supervise() {
@@ -312,7 +295,7 @@ class Run {
     ended.culprit = component;
     ended.error = fail(Code::deadline_exceeded, text, component);
     ended.trace_hash.reset();  // it would depend on the moment at which the standstill was noticed
-    close_records();
+    files_.close_at_once();
     listener_.abandon(ended);
   }
 
@@ -329,7 +312,7 @@ class Run {
     scene.start = start_;
     system_->draw(scene);
     reporter_.draw(scene);
-    if (const Status drawn = write_picture(scene, options_.picture, picture_); !drawn.ok())
+    if (const Status drawn = write_picture(scene, options_.picture, files_.picture()); !drawn.ok())
       fail_output(drawn.error());
   }
 
@@ -340,7 +323,7 @@ class Run {
     result.error = error_;
     // Without a start there is nothing to compare.
     const bool ran = outcome_ != RunOutcome::not_started && outcome_ != RunOutcome::bad_options;
-    if (ran && executive_.is_virtual()) result.trace_hash = trace_.hash();
+    if (ran && executive_.is_virtual()) result.trace_hash = files_.trace().hash();
     reporter_.fill(result);
     result.end = end_.value_or(executive_.now());
     result.ways = sightings_.ways();
@@ -354,18 +337,16 @@ class Run {
   Executive& executive_;
   StopSignal& stop_;
   RunListener& listener_;
-  Trace trace_;
-  Recorder recorder_{executive_};
+  RunFiles files_;
   Sightings sightings_;
   Reporter reporter_;
-  OutputFile picture_{"the picture"};
   std::atomic<bool> runs_{false};      // whether there are strands
   std::atomic<bool> came_up_{false};   // whether the whole system has been up
   const KeptEnvironment environment_;  // lives longer than all that runs a plugin's code
   const TimePoint start_ = executive_.now();
   std::unique_ptr<Event> changed_ = executive_.make_event();
   RunContext context_{executive_,
-                      trace_,
+                      files_.trace(),
                       reporter_,
                       options_.seed.value_or(graph_.seed.value_or(1)),
                       [this] { changed_->notify(); },

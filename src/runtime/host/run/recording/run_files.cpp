@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "run_files.hpp"
+
+namespace orca::host {
+
+Status RunFiles::open(const RunOptions& options, const std::vector<graph::ListedPort>& ports) {
+  if (!options.trace_file.empty()) {
+    const auto detail = options.trace_values ? Trace::Detail::values : Trace::Detail::events;
+    if (Status opened = trace_.open(options.trace_file, detail); !opened.ok()) return opened;
+  }
+  if (!options.picture.file.empty())
+    if (Status opened = picture_.open(options.picture.file); !opened.ok()) return opened;
+  return options.recordings.empty() ? ok() : recorder_.open(options.recordings, ports);
+}
+
+std::vector<Error> RunFiles::close() {
+  std::vector<Error> errors;
+  for (const Status& closed : {trace_.close(), picture_.close()})
+    if (!closed.ok()) errors.push_back(closed.error());
+  for (const Error& error : recorder_.close()) errors.push_back(error);
+  return errors;
+}
+
+void RunFiles::close_at_once() {
+  (void)trace_.close();
+  (void)recorder_.close();
+}
+
+}  // namespace orca::host
