@@ -60,6 +60,12 @@ const std::vector<Case> kCases{
     {"scout_rounds", "base", How::silent, Worse::stands},
     {"scout_rounds", "localizer", How::crashed, Worse::nowhere},
 
+    {"scout_odometry", "command", How::silent, Worse::stands},
+    {"scout_odometry", "goto", How::silent, Worse::nowhere},
+    {"scout_odometry", "avoid", How::removed, Worse::contact},
+    {"scout_odometry", "fuser", How::silent, Worse::stands},
+    {"scout_odometry", "base", How::silent, Worse::stands},
+
     {"scout_hospital", "command", How::silent, Worse::stands},
     {"scout_hospital", "goto", How::silent, Worse::nowhere},
     {"scout_hospital", "avoid", How::removed, Worse::contact},
@@ -80,6 +86,9 @@ const std::vector<Case> kCases{
     {"random_walk", "fuser", How::silent, Worse::stands},
     {"random_walk", "base", How::silent, Worse::stands},
 };
+
+// Shipped graphs with goals that the robot cannot reach, or not surely.
+const std::set<std::string> kLeavesGoals{"scout_rounds", "scout_odometry"};
 
 // Shipped graphs of several robots, and of how many. Each robot has the components of scout_goto under its own prefix.
 const std::map<std::string, std::size_t> kOfSeveral{{"two_robots", 2}, {"five_robots", 5}};
@@ -192,7 +201,7 @@ TEST_CASE("with all its components each shipped graph drives, arrives and touche
     const Run whole = run(graph, name, {});
     CAPTURE(name);
     INFO(whole.err);
-    CHECK(whole.exit_code() == (name == "scout_rounds" ? 1 : 0));  // one of its goals is walled in
+    CHECK(whole.exit_code() == (kLeavesGoals.contains(name) ? 1 : 0));
     CHECK(whole.contacts().empty());
     CHECK(moves(whole));
     CHECK(whole.arrivals().empty() == (name == "random_walk"));
