@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "orca/component.hpp"
 #include "orca/idl/motion.hpp"
@@ -19,6 +20,27 @@ struct Listened {
   ObjectPtr<idl::MotionCommand> last = {};
   ObjectPtr<idl::MotionCommand> last_wish = {};  ///< Opinions only.
   Reliance reliance = {};
+};
+
+/// The behaviours that had fallen silent when the fuser listened to them last. They stay unreliable until they are heard
+/// in time again, whatever client lists come in between.
+class Lost {
+ public:
+  /// Notes the behaviours that the fuser will no longer listen to.
+  void remember(const std::vector<Listened>& behaviours) {
+    for (const Listened& behaviour : behaviours) {
+      std::erase_if(lost_, [&](const Listened& lost) { return lost.source == behaviour.source; });
+      if (behaviour.reliance.is_lost()) lost_.push_back(behaviour);
+    }
+  }
+  [[nodiscard]] Reliance reliance_of(const MotionPort::Source& source) const {
+    for (const Listened& lost : lost_)
+      if (lost.source == source) return lost.reliance;
+    return {};
+  }
+
+ private:
+  std::vector<Listened> lost_;
 };
 
 }  // namespace orca::fuse

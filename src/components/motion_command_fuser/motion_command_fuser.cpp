@@ -98,16 +98,24 @@ class MotionCommandFuser final : public orca::Component {
 
   // Forgets the messages of the behaviours that it listened to before.
   Status choose(const std::vector<std::string>& names) {
+    lost_.remember(listened_);
     std::vector<Listened> chosen;
     for (const std::string& name : names) {
       const std::optional<Source> source = source_of(name);
       if (!source) return not_connected(name);
       const auto same = [&](const Listened& behaviour) { return behaviour.source == *source; };
-      if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back({*source, name, now()});
+      if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back(anew(*source, name));
     }
     listened_ = std::move(chosen);
     stay_active(!listened_.empty());
     return orca::ok();
+  }
+
+  // Returns a behaviour of which nothing has been heard yet. One that had fallen silent is told to be so at once.
+  [[nodiscard]] Listened anew(const Source& source, const std::string& name) const {
+    const orca::fuse::Reliance reliance = lost_.reliance_of(source);
+    const orca::TimePoint since = reliance.is_lost() ? orca::TimePoint{} : now();
+    return {.source = source, .name = name, .since = since, .reliance = reliance};
   }
 
   orca::Outcome work() override {
@@ -244,7 +252,8 @@ class MotionCommandFuser final : public orca::Component {
   // Reports silence and its end, but not the moment before all have spoken for the first time.
   void tell_change(const Decision& decision) {
     if (decision.verdict == Verdict::told_to_stop) return;  // which says nothing about the other behaviours
-    const bool is_silent = decision.verdict == Verdict::required_silent && has_had_time(decision.decided_by);
+    const bool is_silent = decision.verdict == Verdict::required_silent;
+    if (is_silent && !has_had_time(decision.decided_by)) return;
     if (is_silent && !told_silence_)
       log_warning("stops the robot: nothing is heard of the behaviour \"" + decision.decided_by + "\"");
     if (told_silence_ && !is_silent) log_info("all behaviours are heard again");
@@ -428,6 +437,7 @@ class MotionCommandFuser final : public orca::Component {
   orca::Synchronizer behaviours_;
   orca::fuse::Rules rules_;
   std::vector<Listened> listened_;
+  orca::fuse::Lost lost_;
   std::vector<Voice> voices_;
   Decision decision_;  // the last one
   bool told_silence_ = false;

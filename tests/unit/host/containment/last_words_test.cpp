@@ -18,6 +18,9 @@
 #include "containment/environment.hpp"
 #include "orca/host/stop_signal.hpp"
 
+// The sanitizers have handlers of their own for these signals.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
 using namespace orca;
 using namespace orca::host;
 
@@ -78,7 +81,6 @@ void begin_anew() {
 
 }  // namespace
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("a process that dies of a signal raises no alarm about the handler of that signal",
           "[host][last_words]") {
   const SharedCount alarms;
