@@ -13,12 +13,9 @@ using namespace orca::test;
 namespace {
 
 const std::vector<std::pair<std::string, std::vector<std::string>>> kDrivers{
-    {"scout_goto", {"goto", "avoid"}},
-    {"scout_gallery", {"goto", "avoid"}},
-    {"scout_rounds", {"goto", "avoid"}},
-    {"scout_odometry", {"goto", "avoid"}},
-    {"pioneer_laser_goto", {"goto", "avoid"}},
-    {"random_walk", {"walk", "avoid"}},
+    {"scout_goto", {"goto", "avoid"}},         {"scout_gallery", {"goto", "avoid"}},
+    {"scout_rounds", {"goto", "avoid"}},       {"scout_odometry", {"goto", "avoid"}},
+    {"pioneer_laser_goto", {"goto", "avoid"}}, {"random_walk", {"walk", "avoid"}},
 };
 
 constexpr double kFailsAt = 10.0;
