@@ -53,6 +53,16 @@ std::string process_with(const std::string& text) {
   return found;
 }
 
+// Returns whether the program has blocked SIGINT to read it in its own time: from then on it ends as it should when it
+// is interrupted.
+bool awaits_interrupts(const std::string& process) {
+  const std::string status = of_process(process + "/status");
+  const std::string mark = "SigBlk:\t";
+  const auto found = status.find(mark);
+  return found != std::string::npos &&
+         (std::stoull(status.substr(found + mark.size(), 16), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+}
+
 }  // namespace
 
 TEST_CASE("the trace hash is that of a processor without fused multiply-add", "[system][arithmetic][tool]") {
@@ -106,6 +116,9 @@ TEST_CASE("the new start keeps the user's arguments, tunables and process", "[sy
                            "GLIBC_TUNABLES=glibc.malloc.perturb=0:glibc.cpu.hwcaps=-AVX512F,-FMA,-FMA4:"));
   CHECK_THAT(of_process(process + "/cmdline"), Catch::StartsWith("./deployer"));
   CHECK(of_process(process + "/comm") == "deployer\n");
+  for (int look = 0; look < 1500 && !awaits_interrupts(process); ++look)
+    REQUIRE_FALSE(program.wait(Seconds(0.02)));
+  REQUIRE(awaits_interrupts(process));
   program.send(SIGINT);
   const Run run = finish(program, Seconds(10));
   CHECK(run.exit_code() == 0);
