@@ -2,10 +2,11 @@
 #include "shipped_graph.hpp"
 
 #include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <regex>
 
-#include "deployer.hpp"
 #include "temp_folder.hpp"
 
 namespace orca::test {
@@ -15,16 +16,33 @@ std::string without(const std::string& text, const std::string& pattern) {
   return std::regex_replace(text, std::regex(pattern), "");
 }
 
+std::string replaced(const std::string& text, const std::string& pattern, const std::string& by) {
+  return std::regex_replace(text, std::regex(pattern), by);
+}
+
 void insert_before(std::string& text, const std::string& mark, const std::string& more) {
   text.insert(text.rfind(mark), more);
+}
+
+// Returns the picture of a hall of 20 x 12 m with a pillar in the middle, 1.2 m wide.
+std::string hall_with_pillar() {
+  constexpr int kWidth = 200;
+  constexpr int kHeight = 120;
+  std::string text = "P5\n" + std::to_string(kWidth) + " " + std::to_string(kHeight) + "\n255\n";
+  for (int row = 0; row < kHeight; ++row)
+    for (int column = 0; column < kWidth; ++column)
+      text += std::abs(row - kHeight / 2) <= 6 && std::abs(column - kWidth / 2) <= 6 ? '\0' : '\xff';
+  return text;
 }
 
 }  // namespace
 
 // The copy is read from another folder, so its paths become absolute.
 ShippedGraph::ShippedGraph(const std::string& name)
-    : text_(std::regex_replace(read_text(source_file("graphs/" + name + ".xml")), std::regex("\\.\\./sim/"),
-                               source_file("sim/"))) {}
+    : text_(read_text(source_file("graphs/" + name + ".xml"))) {
+  text_ = replaced(text_, "\\.\\./sim/", source_file("sim/"));
+  text_ = replaced(text_, "graph=\"(?=[^/\"]+\\.xml\")", "graph=\"" + source_file("graphs/"));
+}
 
 void ShippedGraph::remove(const std::string& component) {
   const std::string start = "\\s*<component name=\"" + component + "\"[^>]*";
@@ -35,12 +53,12 @@ void ShippedGraph::remove(const std::string& component) {
 }
 
 void ShippedGraph::watch_motion(const std::string& base) {
+  const std::string watch = base.substr(0, base.rfind('/') + 1) + "watch";
   insert_before(text_, "</graph>",
-                "  <component name=\"watch\" type=\"test.MotionWatch\"/>\n"
-                "  <connect from=\"" +
-                    base + ".OdometryPush\" to=\"watch.odometry\"/>\n");
+                "  <component name=\"" + watch + "\" type=\"test.MotionWatch\"/>\n  <connect from=\"" + base +
+                    ".OdometryPush\" to=\"" + watch + ".odometry\"/>\n");
   const std::string plugins = " plugins=\"" ORCA_BINARY_DIR "/tests/plugins\"";
-  text_.insert(text_.find('>', text_.find("<graph ")), plugins);
+  if (text_.find(plugins) == std::string::npos) text_.insert(text_.find('>', text_.find("<graph ")), plugins);
 }
 
 std::vector<std::string> shipped_graphs() {
@@ -49,6 +67,24 @@ std::vector<std::string> shipped_graphs() {
     if (file.path().extension() == ".xml") names.push_back(file.path().stem());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+Words needed_arguments(const std::string& graph, const TempFolder& folder) {
+  if (graph != "scout_hospital") return {};
+  return {"--set", "map=" + folder.write("hall.pgm", hall_with_pillar()),
+          "--set", "map_width=20 m",
+          "--set", "x=2 m",
+          "--set", "y=5.8 m",
+          "--set", "goals=east: 18 5.8"};
+}
+
+std::string printed(const std::string& graph) {
+  const TempFolder folder;
+  const Run run = run_deployer(Words{source_file("graphs/" + graph + ".xml"), "--print"} +
+                               needed_arguments(graph, folder));
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  return run.out;
 }
 
 }  // namespace orca::test

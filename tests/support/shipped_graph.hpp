@@ -4,7 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "deployer.hpp"
+
 namespace orca::test {
+
+class TempFolder;
 
 /// A graph of graphs/ that a test changes before it is run.
 class ShippedGraph {
@@ -14,7 +18,8 @@ class ShippedGraph {
 
   /// Takes a component away with all that names it: its connections, and its place in lists of behaviours.
   void remove(const std::string& component);
-  /// Adds test.MotionWatch, which reports in the log when the robot moves and rests.
+  /// Adds test.MotionWatch, which reports in the log when the robot moves and rests. It is called "watch", in the
+  /// context of the base.
   /// @param base  name of the component that gives its odometry.
   void watch_motion(const std::string& base);
 
@@ -26,5 +31,13 @@ class ShippedGraph {
 
 /// Returns the names of all shipped graphs, as "scout_goto", sorted.
 [[nodiscard]] std::vector<std::string> shipped_graphs();
+
+/// Returns the arguments without which a shipped graph does not run. scout_hospital gets a hall with a pillar, because
+/// the floor plan of the hospital is not in the repository.
+/// @param folder  for files that the arguments name; to be kept until the end of the run.
+[[nodiscard]] Words needed_arguments(const std::string& graph, const TempFolder& folder);
+
+/// Returns a shipped graph as `--print` shows it: in its default profile, sub-graphs expanded.
+[[nodiscard]] std::string printed(const std::string& graph);
 
 }  // namespace orca::test

@@ -93,37 +93,12 @@ const std::set<std::string> kLeavesGoals{"scout_rounds", "scout_odometry"};
 // Shipped graphs of several robots, and of how many. Each robot has the components of scout_goto under its own prefix.
 const std::map<std::string, std::size_t> kOfSeveral{{"two_robots", 2}, {"five_robots", 5}};
 
-// A hall of 20 x 12 m with a pillar in the middle, 1.2 m wide.
-std::string hall_with_pillar(const TempFolder& folder) {
-  constexpr int kWidth = 200;
-  constexpr int kHeight = 120;
-  std::string text = "P5\n" + std::to_string(kWidth) + " " + std::to_string(kHeight) + "\n255\n";
-  for (int row = 0; row < kHeight; ++row)
-    for (int column = 0; column < kWidth; ++column)
-      text += std::abs(row - kHeight / 2) <= 6 && std::abs(column - kWidth / 2) <= 6 ? '\0' : '\xff';
-  return folder.write("hall.pgm", text);
-}
-
-// Returns the arguments without which a graph does not run.
-Words arguments(const std::string& graph, const TempFolder& folder) {
-  if (graph != "scout_hospital") return {};
-  return {"--set", "map=" + hall_with_pillar(folder),
-          "--set", "map_width=20 m",
-          "--set", "x=2 m",
-          "--set", "y=5.8 m",
-          "--set", "goals=east: 18 5.8"};
-}
-
 // Returns the names of all components of a shipped graph in its default profile.
 std::vector<std::string> components_of(const std::string& graph) {
-  const TempFolder folder;
-  const Run printed =
-      run_deployer(Words{source_file("graphs/" + graph + ".xml"), "--print"} + arguments(graph, folder));
-  REQUIRE(printed.exit_code() == 0);
+  const std::string text = printed(graph);
   const std::regex declaration("<component name=\"([^\"]+)\"");
   std::vector<std::string> names;
-  for (std::sregex_iterator found(printed.out.begin(), printed.out.end(), declaration), end; found != end;
-       ++found)
+  for (std::sregex_iterator found(text.begin(), text.end(), declaration), end; found != end; ++found)
     names.push_back((*found)[1]);
   return names;
 }
@@ -131,7 +106,7 @@ std::vector<std::string> components_of(const std::string& graph) {
 Run run(const ShippedGraph& graph, const std::string& name, const Words& more) {
   const TempFolder folder;
   return run_deployer(Words{folder.write(name + ".xml", graph.text()), "--until", "200 s"} +
-                      arguments(name, folder) + virtual_clock() + more);
+                      needed_arguments(name, folder) + virtual_clock() + more);
 }
 
 bool moves(const Run& run) { return run.says("watch: moves after"); }

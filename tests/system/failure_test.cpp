@@ -1,35 +1,84 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A behaviour of a shipped graph fails while the robot drives: the robot is stopped, and the screen says why.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <memory>
 #include <optional>
+#include <regex>
+#include <set>
 
 #include "deployer.hpp"
+#include "public_data.hpp"
 #include "shipped_graph.hpp"
 #include "temp_folder.hpp"
+#include "terminal.hpp"
 
 using namespace orca::test;
 
 namespace {
 
-const std::vector<std::pair<std::string, std::vector<std::string>>> kDrivers{
-    {"scout_goto", {"goto", "avoid"}},         {"scout_gallery", {"goto", "avoid"}},
-    {"scout_rounds", {"goto", "avoid"}},       {"scout_odometry", {"goto", "avoid"}},
-    {"pioneer_laser_goto", {"goto", "avoid"}}, {"random_walk", {"walk", "avoid"}},
+// A robot of a shipped graph, and the behaviours that its fuser listens to.
+struct Robot {
+  std::string graph;
+  std::string context;  // of its components, as "dewey/"
+  std::vector<std::string> behaviours;
 };
 
-constexpr double kFailsAt = 10.0;
+const std::vector<Robot> kRobots{
+    {"scout_goto", "", {"goto", "avoid"}},         {"scout_gallery", "", {"goto", "avoid"}},
+    {"scout_rounds", "", {"goto", "avoid"}},       {"scout_odometry", "", {"goto", "avoid"}},
+    {"scout_hospital", "", {"goto", "avoid"}},     {"pioneer_laser_goto", "", {"goto", "avoid"}},
+    {"random_walk", "", {"walk", "avoid"}},        {"two_robots", "dewey/", {"goto", "avoid"}},
+    {"two_robots", "huey/", {"goto", "avoid"}},    {"five_robots", "dewey/", {"goto", "avoid"}},
+    {"five_robots", "huey/", {"goto", "avoid"}},   {"five_robots", "louie/", {"goto", "avoid"}},
+    {"five_robots", "donald/", {"goto", "avoid"}}, {"five_robots", "daisy/", {"goto", "avoid"}},
+};
+
+// Driven by a person, in real time.
+const Robot kTeleop{"scout_teleop", "", {"teleop", "avoid"}};
+
+const Words kHows{"silent", "throw", "hang", "slow"};
+
+constexpr double kFailsAt = 5.0;
+constexpr double kSeenFor = 10.0;
 // The longest silence of a behaviour that announces 100 ms, less what had passed of the period, and a watch period.
 constexpr double kStopLimit = 0.3 + 0.02;
 constexpr double kRestLimit = 0.5;  // [s] from the failure until the robot is at rest
 
-Run drive(const std::string& name, const std::string& behaviour, const std::string& how) {
+// A behaviour that fails, and how.
+struct Failure {
+  Robot robot;
+  std::string behaviour;
+  std::string how;
+};
+
+// Returns the options that let it fail [s] after the start, and that end the run.
+Words options(const Failure& failure, double at, double end) {
+  const auto seconds = [](double time) { return std::to_string(time) + "s"; };
+  return {"--until", seconds(end), "--fail",
+          failure.robot.context + failure.behaviour + "=" + failure.how + "@" + seconds(at)};
+}
+
+// Returns the other robots of the graph.
+std::vector<std::string> contexts_beside(const Robot& robot) {
+  std::vector<std::string> contexts;
+  for (const Robot& other : kRobots)
+    if (other.graph == robot.graph && other.context != robot.context) contexts.push_back(other.context);
+  return contexts;
+}
+
+std::string watched(const Robot& robot) {
+  ShippedGraph graph(robot.graph);
+  graph.watch_motion(robot.context + "base");
+  for (const std::string& other : contexts_beside(robot)) graph.watch_motion(other + "base");
+  return graph.text();
+}
+
+Run drive(const Failure& failure, const Words& arguments) {
   const TempFolder folder;
-  ShippedGraph graph(name);
-  graph.watch_motion("base");
-  return run_deployer(Words{folder.write("graph.xml", graph.text()), "--until", "30 s", "--fail",
-                            behaviour + "=" + how + "@10s"} +
-                      virtual_clock());
+  return run_deployer(Words{folder.write("graph.xml", watched(failure.robot))} +
+                      options(failure, kFailsAt, kFailsAt + kSeenFor) + arguments + virtual_clock());
 }
 
 // Returns the time of the last line of the log that holds a text [s].
@@ -41,30 +90,128 @@ std::optional<double> last_time(const Run& run, const std::string& text) {
   return time;
 }
 
+// Checks that the robot moved until the behaviour failed, that it rests soon afterwards, for good, and that it is
+// said why. A failure begins with the first lap that fails.
+void check_stops(const Run& run, const Failure& failure, double at, double slowdown = 1.0) {
+  const auto& [robot, behaviour, how] = failure;
+  const auto fails = last_time(run, " " + robot.context + behaviour + ": fails from now on");
+  const auto stopped =
+      last_time(run, " " + robot.context + "fuser: stops the robot: nothing is heard of the behaviour \"" +
+                         behaviour + "\"");
+  const auto rests = last_time(run, " " + robot.context + "watch: rests after");
+  REQUIRE(fails);
+  REQUIRE(stopped);
+  REQUIRE(rests);
+  CHECK(*fails >= at);
+  CHECK(*stopped >= *fails);
+  CHECK(*stopped <= *fails + kStopLimit * slowdown);
+  CHECK(*rests > *fails);
+  CHECK(*rests <= *fails + kRestLimit * slowdown);
+  CHECK(last_time(run, " " + robot.context + "watch: moves after") < rests);
+  CHECK(run.contacts().empty());
+}
+
+void check_goes_on(const Run& run, const std::string& context) {
+  CAPTURE(context);
+  CHECK_FALSE(last_time(run, " " + context + "fuser: "));
+  CHECK(last_time(run, " " + context + "watch: drives on after") > kFailsAt + kSeenFor / 2);
+}
+
+void check_failures_of(const Robot& robot, const Words& arguments) {
+  for (const std::string& behaviour : robot.behaviours) {
+    for (const std::string& how : kHows) {
+      const Failure failure{robot, behaviour, how};
+      CAPTURE(robot.graph, robot.context, behaviour, how);
+      const Run run = drive(failure, arguments);
+      INFO(run.err);
+      check_stops(run, failure, kFailsAt);
+      for (const std::string& other : contexts_beside(robot)) check_goes_on(run, other);
+    }
+  }
+}
+
+// A run that a person drives straight ahead.
+class DrivenByHand {
+ public:
+  explicit DrivenByHand(const Failure& failure)
+      : program_(deployer(Words{folder_.write("graph.xml", watched(failure.robot)), "--set",
+                                "keyboard=" + terminal_.name()} +
+                          options(failure, kAt, kAt + 2.0))) {}
+
+  void press() const { terminal_.press("w"); }
+  [[nodiscard]] bool ends_within(Seconds limit) { return program_.wait(limit).has_value(); }
+  [[nodiscard]] Run result() { return finish(program_, Seconds(10)); }
+
+  static constexpr double kAt = 2.0;  // [s]
+
+ private:
+  const TempFolder folder_;
+  const Terminal terminal_;
+  Subprocess program_;
+};
+
+// Returns each behaviour that a fuser of a shipped graph listens to, as "two_robots: dewey/goto".
+std::set<std::string> behaviours_of(const std::string& graph) {
+  const std::string text = printed(graph);
+  const std::regex fuser("<component name=\"([^\"]+)\" type=\"orca.MotionCommandFuser\"");
+  const std::regex connection("<connect from=\"([^\"]+)\\.[^\".]+\" to=\"([^\"]+)\\.motion\"");
+  const auto found = [&](const std::regex& pattern) {
+    return std::vector<std::smatch>(std::sregex_iterator(text.begin(), text.end(), pattern), {});
+  };
+  std::set<std::string> fusers;
+  for (const std::smatch& match : found(fuser)) fusers.insert(match[1]);
+  std::set<std::string> behaviours;
+  for (const std::smatch& match : found(connection))
+    if (fusers.contains(match[2])) behaviours.insert(graph + ": " + match[1].str());
+  CHECK(behaviours.empty() == fusers.empty());
+  return behaviours;
+}
+
 }  // namespace
 
+TEST_CASE("every behaviour of every shipped graph has its rehearsal", "[system][failure]") {
+  std::set<std::string> shipped;
+  for (const std::string& graph : shipped_graphs()) shipped.merge(behaviours_of(graph));
+  std::vector<Robot> robots = kRobots;
+  robots.push_back(kTeleop);
+  std::set<std::string> rehearsed;
+  for (const Robot& robot : robots)
+    for (const std::string& behaviour : robot.behaviours)
+      rehearsed.insert(robot.graph + ": " + robot.context + behaviour);
+  CHECK(shipped == rehearsed);
+}
+
 TEST_CASE(
-    "silence, an exception, a hang or slowness of any behaviour stops a shipped robot for good, and it is "
-    "said why",
+    "silence, an exception, a hang or slowness of any behaviour stops its robot for good, and it is said "
+    "why; "
+    "the other robots go on",
     "[system][failure]") {
-  for (const auto& [graph, behaviours] : kDrivers) {
-    for (const std::string& behaviour : behaviours) {
-      for (const char* how : {"silent", "throw", "hang", "slow"}) {
-        CAPTURE(graph, behaviour, how);
-        const Run run = drive(graph, behaviour, how);
-        INFO(run.err);
-        const auto stopped =
-            last_time(run, "stops the robot: nothing is heard of the behaviour \"" + behaviour + "\"");
-        REQUIRE(stopped);
-        CHECK(*stopped >= kFailsAt);
-        CHECK(*stopped <= kFailsAt + kStopLimit);
-        const auto rests = last_time(run, "watch: rests after");
-        REQUIRE(rests);
-        CHECK(*rests > kFailsAt);
-        CHECK(*rests <= kFailsAt + kRestLimit);
-        CHECK(last_time(run, "watch: moves after") < rests);
-        CHECK(run.contacts().empty());
-      }
+  for (const Robot& robot : kRobots) {
+    const TempFolder folder;
+    check_failures_of(robot, needed_arguments(robot.graph, folder));
+  }
+}
+
+TEST_CASE("a behaviour that fails in the real hospital stops the robot, too", "[system][failure][data]") {
+  const std::string map = public_data("stage_maps/hospital.png");
+  if (!map.empty()) check_failures_of({"scout_hospital", "", {"goto", "avoid"}}, {"--set", "map=" + map});
+}
+
+TEST_CASE("a robot that a person drives is stopped when Teleop or the avoider fails", "[system][failure]") {
+  for (const std::string& behaviour : kTeleop.behaviours) {
+    std::vector<std::unique_ptr<DrivenByHand>> runs;
+    for (const std::string& how : kHows)
+      runs.push_back(std::make_unique<DrivenByHand>(Failure{kTeleop, behaviour, how}));
+    const auto all_have_ended = [&] {
+      return std::ranges::all_of(runs, [](const auto& run) { return run->ends_within(Seconds(0.02)); });
+    };
+    while (!all_have_ended())
+      for (const auto& run : runs) run->press();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      CAPTURE(behaviour, kHows[i]);
+      const Run run = runs[i]->result();
+      INFO(run.err);
+      check_stops(run, {kTeleop, behaviour, kHows[i]}, DrivenByHand::kAt, kSlowdown);
     }
   }
 }

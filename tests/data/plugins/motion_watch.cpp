@@ -7,8 +7,11 @@
 
 namespace {
 
-/// Reports in the log when a robot begins to move and when it comes to rest, and the way that it has made by then.
+/// Reports in the log when a robot begins to move and when it comes to rest, each with the way that it has made by
+/// then, and each kStep of that way.
 class MotionWatch final : public orca::Component {
+  static constexpr double kStep = 0.25;  // [m]
+
  public:
   explicit MotionWatch(orca::ComponentHost& host) : Component(host) { lap_on("odometry"); }
 
@@ -24,7 +27,9 @@ class MotionWatch final : public orca::Component {
   }
 
   void look(const orca::idl::Odometry& reading) {
+    const double way_before = way_;
     if (known_) way_ += std::hypot(reading.x() - x_, reading.y() - y_);
+    if (std::floor(way_ / kStep) > std::floor(way_before / kStep)) report("drives on");
     known_ = true;
     x_ = reading.x();
     y_ = reading.y();
@@ -32,8 +37,12 @@ class MotionWatch final : public orca::Component {
         std::abs(reading.translational_velocity()) > 0.005 || std::abs(reading.steering_velocity()) > 0.01;
     if (moves == moves_) return;
     moves_ = moves;
+    report(moves ? "moves" : "rests");
+  }
+
+  void report(const char* what) {
     char text[64];
-    std::snprintf(text, sizeof text, "%s after %.2f m", moves ? "moves" : "rests", way_);
+    std::snprintf(text, sizeof text, "%s after %.2f m", what, way_);
     log_info(text);
   }
 
