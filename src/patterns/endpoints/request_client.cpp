@@ -4,8 +4,16 @@
 #include <string>
 #include <utility>
 
+#include "orca/base/activity.hpp"
+
 namespace orca {
 namespace {
+
+// Returns whether the caller is a stop(), which has more to do after a refusal.
+bool is_stop() {
+  const Activity* const activity = Activity::current();
+  return activity != nullptr && activity->hook() == Hook::stop;
+}
 
 // Returns the object that an answer brings; null if it brings none.
 ObjectRef object_of(const Result<ObjectRef>& answer) { return answer ? *answer : ObjectRef{}; }
@@ -43,6 +51,7 @@ std::optional<Answer> RequestClient<Answer>::receive(RequestId id) {
     if (pending_.state(id) != Pending::State::unknown) return std::nullopt;
     return Answer(fail(Code::not_found, path() + " has " + words_.unknown + " " + std::to_string(id)));
   }
+  if (!*answer) leave_if_ending();
   if (const ObjectRef object = object_of(*answer)) home().provenance.note(object.header());
   ++(*answer ? answered_ : failed_);
   if (!*answer) report("refused: " + answer->error().text());
@@ -56,11 +65,17 @@ Answer RequestClient<Answer>::receive_until(RequestId id, TimePoint deadline) {
   target_->withdraw(id);
   if (std::optional<Answer> answer = receive(id)) return std::move(*answer);  // it came at the last moment
   pending_.forget(id);
+  leave_if_ending();
   ++timed_out_;
   const Error late = fail(Code::deadline_exceeded,
                           target_->path() + " " + words_.late + " " + path() + " " + words_.late_ending);
   report(late.message);
   return late;
+}
+
+template <class Answer>
+void RequestClient<Answer>::leave_if_ending() const {
+  if (home().strand.is_ending() && !is_stop()) throw Interrupted{};
 }
 
 template <class Answer>

@@ -120,6 +120,7 @@ bool System::at_rest() const {
 }
 
 std::vector<std::string> System::take_down(TimePoint deadline) {
+  for (const auto& component : components_) component->announce_exit();
   for (const auto& hardware : hardware_) hardware->container().shut_down();
   for (const auto& component : components_) component->request_exit();
   std::vector<std::string> stuck;

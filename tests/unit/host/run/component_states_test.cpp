@@ -27,7 +27,7 @@ constexpr std::array<const char*, kComponentStates> kStateNames = {
 const std::string kSpecification = R"(
                 asked_for wanted  unwanted unused   exit suspend        resume loaded configured started interrupted done failed threw  stop_threw
 unloaded        init      .       .        .        exit no             no     !      !          !       !           !    !      !      !
-init            .         .       .        .        .    no             no     init   idle       !       !           !    broken broken  !
+init            .         .       .        .        .    no             no     init   idle       !       exit        !    broken broken  !
 idle            .         connect .        unloaded exit idle_suspended no     !      !          !       !           !    !      broken  !
 connect         .         .       .        .        .    no             no     !      !          work    idle        !    failed broken  broken
 work            .         .       idle     .        idle work_suspended no     !      !          !       !           done failed broken  broken

@@ -42,7 +42,7 @@ const Names kComponentEventNames = {
     {"loaded", "Its code is there, and it is constructed."},
     {"configured", "`configure()` has returned without an error."},
     {"started", "`start()` has returned without an error."},
-    {"interrupted", "`start()` was made to return because the strand is to end."},
+    {"interrupted", "`configure()` or `start()` was made to return because the strand is to end."},
     {"done", "`work()` says that the task is done."},
     {"failed", "Loading or a hook reports a failure."},
     {"threw", "A hook other than `stop()`, or a handler, threw."},

@@ -43,6 +43,12 @@ class Strand {
   /// woken. Call before start().
   void set_leave_condition(std::function<bool()> leave) { leave_ = std::move(leave); }
 
+  /// Announces that the strand is to end for good, and others with it. It goes on until its leave condition ends
+  /// it, but what others refuse it meanwhile is no news: see RequestClient::receive().
+  /// @thread  any.
+  void end() { ending_.store(true, std::memory_order_release); }
+  [[nodiscard]] bool is_ending() const { return ending_.load(std::memory_order_acquire); }
+
   /// Sets a function that looks after something while the strand waits. Each wait calls it at its beginning and
   /// again at the time that it returns, which must be in the future; kForever: not again in this wait. It has no
   /// other effect on the wait. Call before start(), or on the strand.
@@ -93,6 +99,7 @@ class Strand {
   std::function<TimePoint()> watch_;
   std::unique_ptr<Task> task_;
   std::atomic<std::uint64_t> activity_{0};
+  std::atomic<bool> ending_{false};
 };
 
 }  // namespace orca

@@ -71,6 +71,8 @@ class QueryProxyHandle {
 /// The client of a Query port. It asks one QueryServer (thesis 7.3, Fig. 7.5): blocking with query(), or in
 /// two steps with query_request() and query_receive(), query_receive_wait() or query_forget().
 ///
+/// The waits throw Interrupted when the component must leave its lap; let it pass. So does an error while the system
+/// is being stopped, except in stop(), which gets the error.
 /// Thread contract: the component's strand.
 template <class Q, class A>
 class QueryProxy : public QueryProxyHandle {

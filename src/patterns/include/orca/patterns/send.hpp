@@ -74,7 +74,8 @@ class SendProxyHandle {
 /// with send(), waiting for room with send_wait() and send_wait_max(), or in two steps with send_request()
 /// and send_receive().
 ///
-/// The waits throw Interrupted when the component must leave its lap; let it pass.
+/// The waits throw Interrupted when the component must leave its lap; let it pass. So does a refusal while the system
+/// is being stopped, except in stop(), which gets the refusal.
 /// Thread contract: the component's strand.
 template <class T>
 class SendProxy : public SendProxyHandle {

@@ -39,6 +39,9 @@ class ComponentInstance final {
   void start();
   /// Lets the component leave IDLE: the whole system is up.
   void open_gate() { loop_.open_gate(); }
+  /// Announces request_exit(): the component begins nothing new, and what others refuse it is no news. To be called
+  /// for all components of a system before the first of them ends.
+  void announce_exit() { loop_.announce_exit(); }
   /// Ends the strand at the next wait or lap boundary.
   void request_exit() { loop_.request_exit(); }
   [[nodiscard]] bool join_until(TimePoint deadline) { return parts_.strand.join_until(deadline); }

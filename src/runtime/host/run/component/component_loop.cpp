@@ -16,6 +16,8 @@ void ComponentLoop::open_gate() {
   parts_.strand.wake();
 }
 
+void ComponentLoop::announce_exit() { parts_.strand.end(); }
+
 void ComponentLoop::request_exit() {
   exit_requested_.store(true, std::memory_order_release);
   parts_.strand.wake();
@@ -34,6 +36,7 @@ void ComponentLoop::run() {
 }
 
 void ComponentLoop::turn() {
+  if (parts_.strand.is_ending()) return parts_.strand.pause_until(kForever);
   if (parts_.orders.carry_out_next()) return parts_.run.changed();
   const bool silent = parts_.injector.is_silent();
   if (!silent && handle_one_intake()) return;

@@ -14,7 +14,7 @@ namespace orca::host {
 /// The body of one component's strand. It checks the component's circumstances, turns them into events for
 /// the state machine, and calls laps and handlers between them.
 ///
-/// Thread contract: open_gate() and request_exit() from anywhere, the rest on the strand.
+/// Thread contract: open_gate(), announce_exit() and request_exit() from anywhere, the rest on the strand.
 class ComponentLoop {
  public:
   /// Makes the strand ask this object whether a wait is to be given up.
@@ -26,6 +26,8 @@ class ComponentLoop {
   void run();
   /// Lets the component leave IDLE: the whole system is up.
   void open_gate();
+  /// Announces request_exit(). The component ends its present hook or lap and begins nothing new.
+  void announce_exit();
   /// Ends the loop at the next wait or lap boundary.
   void request_exit();
 

@@ -55,7 +55,8 @@ constexpr auto kRows = std::to_array<ComponentTransition>({
     {State::suspended_work, Event::threw, State::broken, kFailAtRest},
     {State::broken, Event::threw, State::broken, kFailAtRest},
 
-    // The end. INIT and CONNECT end by themselves first.
+    // The end. CONNECT ends by itself first, and INIT by itself or at once.
+    {State::init, Event::interrupted, State::exit, kEnd},
     {State::suspended_idle, Event::exit, State::idle, kEnter},
     {State::suspended_work, Event::exit, State::work, kEnter},
     {State::work, Event::exit, State::idle, kLeaveWork},

@@ -39,7 +39,7 @@ enum class ComponentEvent {
   loaded,
   configured,
   started,
-  interrupted,  ///< start() was made to return because the strand is to end.
+  interrupted,  ///< configure() or start() was made to return because the strand is to end.
   done,         ///< work() reports that the task is done.
   failed,       ///< A hook reports a failure.
   threw,        ///< A hook other than stop(), or a handler, threw.

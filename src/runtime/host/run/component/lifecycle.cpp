@@ -106,6 +106,7 @@ Lifecycle::FollowUp Lifecycle::configure() {
   Status configured;
   const auto fault =
       parts_.hooks.call(Hook::configure, [&] { configured = residency_.component()->configure(); });
+  if (fault && fault->interrupted) return ComponentEvent::interrupted;
   if (fault)
     return refuse(ComponentEvent::threw, fail(Code::invalid_argument, "configure() " + fault->text),
                   fault->text);

@@ -26,10 +26,15 @@ class RequestClient : public Endpoint, public ReplySink<Answer> {
 
   /// Returns the answer, or nothing while there is none yet. An answer that is an error goes to the observer,
   /// too.
-  /// @errors  not_found for an id that was never given or whose answer has been taken.
+  ///
+  /// On a strand that is ending, an error is neither returned nor reported nor counted: the server may have ended
+  /// first, and that is no news. Only a stop() hook gets it, because it goes on after a refusal.
+  /// @errors  not_found for an id that was never given or whose answer has been taken; throws Interrupted for an
+  ///          error on a strand that is ending.
   std::optional<Answer> receive(RequestId id);
 
-  /// Blocks until the answer is there. At the deadline it withdraws the object and forgets its answer.
+  /// Blocks until the answer is there. At the deadline it withdraws the object and forgets its answer. On a strand
+  /// that is ending, a missed deadline is an error as in receive().
   /// @errors  deadline_exceeded; throws Interrupted.
   Answer receive_until(RequestId id, TimePoint deadline);
 
@@ -63,6 +68,7 @@ class RequestClient : public Endpoint, public ReplySink<Answer> {
   using Pending = PendingAnswers<Answer>;
 
   void report(const std::string& failure) const;
+  void leave_if_ending() const;
 
   const Words words_;
   RequestTarget<Answer>* target_ = nullptr;
