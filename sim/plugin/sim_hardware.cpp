@@ -148,6 +148,11 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     const auto& other = static_cast<const SimHardware&>(earlier);
     std::vector<orca::HardwareFault> faults;
     if (*world_file_ != *other.world_file_) return faults;
+    faults.push_back({"world",
+                      "it is the world of hardware " + orca::in_quotes(other.host().name()) +
+                          " too, and a simulated world lives in one process",
+                      {},
+                      true});
     const std::string whose = "that of hardware " + orca::in_quotes(other.host().name());
     if (*name_ == *other.name_)
       faults.push_back({"name", "there is a robot " + orca::in_quotes(*name_) + " in this world already, " +

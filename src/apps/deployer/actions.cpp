@@ -55,6 +55,7 @@ struct Loaded {
 void load(const std::string& file, const Options& options, Loaded& loaded) {
   const bool judges = options.action == Action::check || options.action == Action::run;
   graph::LoadOptions wanted{options.profiles, options.settings, options.strict, judges};
+  wanted.any_link = !judges || options.run.executive.clock == ClockKind::virtual_time;
   if (judges) {
     for (const host::PlannedFailure& planned : options.run.planned_failures)
       wanted.failing.push_back(planned.component);

@@ -22,8 +22,7 @@ const ElementRule* ElementRule::child(std::string_view wanted) const { return fi
 
 std::vector<std::string> ElementRule::attribute_names() const {
   std::vector<std::string> names;
-  for (const AttributeRule& rule : attributes)
-    if (!rule.planned) names.emplace_back(rule.name);
+  for (const AttributeRule& rule : attributes) names.emplace_back(rule.name);
   return names;
 }
 
@@ -38,7 +37,7 @@ const ElementRule* FileRules::find(std::string_view element) const { return find
 std::string FileRules::parents_of(std::string_view child) const {
   std::string result;
   for (const ElementRule* rule : elements) {
-    if (rule->child(child) == nullptr || rule->planned) continue;
+    if (rule->child(child) == nullptr) continue;
     result += (result.empty() ? "<" : " or <") + std::string(rule->name) + ">";
   }
   return result;

@@ -226,6 +226,11 @@ std::vector<orca::HardwareFault> FakeCatalogue::validate_hardware(const graph::H
 
 std::vector<orca::HardwareFault> FakeCatalogue::hardware_conflicts(const graph::HardwareUse& use,
                                                                    const graph::HardwareUse& earlier) {
+  if (use.type == "orca.hw.Sim" && use.params.at("world") == earlier.params.at("world"))
+    return {{"world",
+             "hardware \"" + earlier.name + "\" has this world too, which lives in one process",
+             {},
+             true}};
   if (use.type != "orca.hw.NomadScout" || use.params.at("port") != earlier.params.at("port")) return {};
   return {{"port", "hardware \"" + earlier.name + "\" is on this port already"}};
 }

@@ -102,11 +102,7 @@ class ComponentReader {
   // Returns the value of an attribute, by its rule.
   template <class T>
   std::optional<T> attribute(const char* name) {
-    const Text* text = node_.find(name);
-    if (text == nullptr) return std::nullopt;
-    const auto value =
-        read_value(*text, node_.rule->attribute(name)->value, node_.title() + ": " + name, report_);
-    return value ? std::optional(std::get<T>(*value)) : std::nullopt;
+    return read_attribute<T>(node_, name, report_);
   }
 
   void read_scheduling() {

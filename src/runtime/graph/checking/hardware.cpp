@@ -33,7 +33,9 @@ HardwareUse use_of(const CheckedHardware& checked) {
 
 CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   CheckedHardware checked;
-  checked.value = {node.value("name"), node.value("type"), {}, node.position};
+  checked.value.name = node.value("name");
+  checked.value.type = node.value("type");
+  checked.value.position = node.position;
   check_name(node, "name", report);
   const std::optional<Contract> contract = types.hardware(node);
   if (!contract) return checked;
@@ -56,13 +58,21 @@ struct Sound {
 // system finds what is left.
 constexpr std::size_t kMostCompared = 1000;
 
-void check_conflicts(const std::vector<Sound>& all, Catalogue& catalogue, Report& report) {
-  for (std::size_t i = 0; i < std::min(all.size(), kMostCompared); ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      if (all[i].use.type != all[k].use.type) continue;
-      for (const HardwareFault& fault : catalogue.hardware_conflicts(all[i].use, all[k].use))
-        report_fault(*all[i].node, fault, report);
+// Reports what the two cannot have both, and notes what they cannot have in different processes.
+void compare(const Sound& later, const Sound& earlier, Catalogue& catalogue, Model& model, Report& report) {
+  if (later.use.type != earlier.use.type) return;
+  for (HardwareFault& fault : catalogue.hardware_conflicts(later.use, earlier.use)) {
+    if (fault.if_apart) {
+      model.shared.push_back({later.node, earlier.use.name, std::move(fault)});
+    } else {
+      report_fault(*later.node, fault, report);
     }
+  }
+}
+
+void check_conflicts(const std::vector<Sound>& all, Catalogue& catalogue, Model& model, Report& report) {
+  for (std::size_t i = 0; i < std::min(all.size(), kMostCompared); ++i)
+    for (std::size_t k = 0; k < i; ++k) compare(all[i], all[k], catalogue, model, report);
 }
 
 }  // namespace
@@ -75,7 +85,7 @@ void check_hardware(const std::vector<Node>& nodes, Types& types, Model& model, 
     if (checked.sound && by_name) sound.push_back({&node, use_of(checked)});
     model.add(std::move(checked), by_name);
   }
-  check_conflicts(sound, types.catalogue(), report);
+  check_conflicts(sound, types.catalogue(), model, report);
 }
 
 }  // namespace orca::graph

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "checking/placing/placement.hpp"
+#include "checking/placing/processes.hpp"
 #include "components.hpp"
 #include "configuration.hpp"
 #include "endpoints.hpp"
@@ -45,6 +47,7 @@ Graph read_root(const Node& root, Report& report) {
   graph.name = root.value("name");
   graph.default_profile = root.value("default_profile");
   graph.seed = read_seed(root, report);
+  graph.supervision = read_supervision(root, report);
   return graph;
 }
 
@@ -60,6 +63,29 @@ void note_candidates(Model& model, const std::vector<Edge>& edges) {
   }
 }
 
+// Checks everything but the connections.
+Model check_parts(const Assembly& assembly, const Parts& parts, Catalogue& catalogue, Report& report) {
+  Types types(catalogue, report);
+  Model model;
+  model.excused = assembly.excused;
+  model.names_incomplete = assembly.names_incomplete;
+  model.parts_missing = parts.some_missing;
+  check_machines(parts.machines, model, report);
+  check_processes(parts.processes, model, report);
+  check_hardware(parts.hardware, types, model, report);
+  check_components(parts.components, types, model, report);
+  check_placement(parts.hardware, parts.components, model, report);
+  check_start_order(model, report);
+  return model;
+}
+
+void take_parts(Model&& model, Graph& graph) {
+  graph.machines = std::move(model.machines);
+  for (CheckedProcess& process : model.processes) graph.processes.push_back(std::move(process.value));
+  for (CheckedHardware& hardware : model.hardware) graph.hardware.push_back(std::move(hardware.value));
+  for (CheckedComponent& component : model.components) graph.components.push_back(std::move(component.value));
+}
+
 Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& catalogue, Report& report) {
   const Node& root = assembly.graph;
   Graph graph = read_root(root, report);
@@ -67,14 +93,8 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   catalogue.add_folders(graph.plugin_dirs);
   Parts parts = merge_profiles(assembly, options.profiles, report);
   set_parameters(assembly, parts, report);
-  Types types(catalogue, report);
-  Model model;
-  model.excused = assembly.excused;
-  model.names_incomplete = assembly.names_incomplete;
-  model.parts_missing = parts.some_missing;
-  check_hardware(parts.hardware, types, model, report);
-  check_components(parts.components, types, model, report);
-  check_start_order(model, report);
+  Model model = check_parts(assembly, parts, catalogue, report);
+  model.any_link = options.any_link;
   graph.ends = read_ends(root, model, report);
   for (const std::string& name : options.failing)
     check_component_exists(name, command_line(), shown_option("--fail", name), model, report);
@@ -83,11 +103,13 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   graph.edges = std::move(wired.edges);
   check_waiting_room(model, graph.edges, report);
   note_candidates(model, graph.edges);
-  if (report.no_errors()) check_influence(model, graph, report);
+  if (report.no_errors()) {
+    check_influence(model, graph, report);
+    check_nothing_runs(model, report);
+  }
   if (options.try_components)
     check_configuration({parts.components, model, graph, wired.doubtful}, catalogue, report);
-  for (CheckedHardware& hardware : model.hardware) graph.hardware.push_back(std::move(hardware.value));
-  for (CheckedComponent& component : model.components) graph.components.push_back(std::move(component.value));
+  take_parts(std::move(model), graph);
   return graph;
 }
 

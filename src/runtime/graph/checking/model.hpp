@@ -14,9 +14,22 @@
 
 namespace orca::graph {
 
+struct CheckedProcess {
+  ProcessNode value;
+  bool placed = true;  // false: its machine is not known, which is reported
+};
+
 struct CheckedHardware {
   HardwareNode value;
-  bool sound = false;  // whether it may be shown to components
+  bool sound = false;         // whether it may be shown to components
+  bool process_known = true;  // false: it names a process that does not exist, which is reported
+};
+
+// Something that two hardware containers can share only within one process.
+struct SharedThing {
+  const Node* node;     // the later one
+  std::string earlier;  // name of the other one
+  HardwareFault fault;  // what there is to say if they are in different processes
 };
 
 // A port whose peers are chosen at run time, from candidates.
@@ -37,6 +50,7 @@ struct CheckedComponent {
   std::optional<Contract> contract;  // nothing if the type is missing or unknown
   bool ports_known = false;          // false: its ports cannot be checked, for a reason reported already
   bool duplicate = false;
+  bool process_known = true;                      // as for hardware
   bool sound = false;                             // whether its own values are all known
   std::map<std::string, xml::Position> disabled;  // disabled ports, and the places that disable them
   std::map<std::string, Renaming> renamed;        // by the name that the author gave
@@ -55,15 +69,31 @@ struct CheckedComponent {
 
 // The knowledge about the graph that the checks share. Nodes stay in the order of the file.
 struct Model {
+  std::vector<MachineNode> machines;
+  std::vector<CheckedProcess> processes;  // those that the graph declares
+  CheckedProcess implicit_main{{.name = kMainProcess}};
+  std::vector<SharedThing> shared;
   std::vector<CheckedHardware> hardware;
   std::vector<CheckedComponent> components;
+  std::map<std::string, std::size_t> process_by_name;
   std::map<std::string, std::size_t> hardware_by_name;
   std::map<std::string, std::size_t> component_by_name;
   std::vector<std::string> hardware_names;  // the same names, in the order of the file, for hints
   std::vector<std::string> component_names;
-  std::set<std::string> excused;  // see Structure
-  bool names_incomplete = false;  // see Structure
-  bool parts_missing = false;     // see Parts
+  std::vector<std::string> machine_names;
+  std::vector<std::string> process_names{kMainProcess};  // "main" exists without a declaration
+  std::set<std::string> excused;                         // see Structure
+  bool names_incomplete = false;                         // see Structure
+  bool parts_missing = false;                            // see Parts
+  bool any_link = false;                                 // see LoadOptions
+
+  void add(CheckedProcess process, bool by_name) {
+    const std::string& name = process.value.name;
+    if (by_name && process_by_name.emplace(name, processes.size()).second && name != kMainProcess) {
+      process_names.push_back(name);
+    }
+    processes.push_back(std::move(process));
+  }
 
   void add(CheckedHardware node, bool by_name) {
     if (by_name && hardware_by_name.emplace(node.value.name, hardware.size()).second) {
@@ -80,6 +110,11 @@ struct Model {
   [[nodiscard]] const CheckedComponent* component(const std::string& name) const {
     const auto found = component_by_name.find(name);
     return found == component_by_name.end() ? nullptr : &components[found->second];
+  }
+  [[nodiscard]] const CheckedProcess* find_process(const std::string& name) const {
+    const auto found = process_by_name.find(name);
+    if (found != process_by_name.end()) return &processes[found->second];
+    return name == kMainProcess ? &implicit_main : nullptr;
   }
   [[nodiscard]] const CheckedHardware* find_hardware(const std::string& name) const {
     const auto found = hardware_by_name.find(name);

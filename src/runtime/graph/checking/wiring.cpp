@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "candidates.hpp"
+#include "checking/placing/links.hpp"
 #include "edges.hpp"
 #include "endpoints.hpp"
 #include "orca/base/text.hpp"
@@ -50,6 +51,7 @@ class Wiring {
     if (!edge) doubt(from, to);
     if (!edge || connection.duplicate) return;
     edge->late_bound = late_bound;
+    edge->link = link_of(connection, *edge, model_, report_);
     if (late_bound && is_there_already(*edge)) return;
     if (takes_one_more(*edge, from, to)) edges_.push_back(*std::move(edge));
   }

@@ -64,5 +64,11 @@ inline constexpr const char* kNothingToCollect = "G056";
 inline constexpr const char* kLoading = "G060";
 inline constexpr const char* kUnfit = "G061";
 inline constexpr const char* kComponentRefuses = "G062";
+inline constexpr const char* kUnknownProcess = "G063";
+inline constexpr const char* kUnknownMachine = "G064";
+inline constexpr const char* kNoMachine = "G065";
+inline constexpr const char* kSplit = "G066";
+inline constexpr const char* kLink = "G067";
+inline constexpr const char* kNothingRuns = "G068";
 
 }  // namespace orca::graph::codes

@@ -2,6 +2,7 @@
 #include "prefix.hpp"
 
 #include "naming.hpp"
+#include "orca/graph/process.hpp"
 
 namespace orca::graph {
 namespace {
@@ -22,14 +23,27 @@ void prefix_names(Node& node, const char* attribute, const std::string& context)
   found->second.value = result;
 }
 
+// "main" is one process, whichever file names it.
+void prefix_process(Node& node, const char* attribute, const std::string& context) {
+  if (node.value(attribute) != kMainProcess) prefix_name(node, attribute, context);
+}
+
+void prefix_component(Node& node, const std::string& context) {
+  prefix_name(node, "name", context);
+  prefix_name(node, "hardware", context);
+  prefix_process(node, "process", context);
+  prefix_names(node, "start_after", context);
+}
+
 }  // namespace
 
 void put_prefix(Node& node, const std::string& context) {
-  if (node.is("hardware") || node.is("component")) prefix_name(node, "name", context);
-  if (node.is("component")) {
-    prefix_name(node, "hardware", context);
-    prefix_names(node, "start_after", context);
+  if (node.is("machine")) prefix_name(node, "name", context);
+  if (node.is("process")) {
+    prefix_process(node, "name", context);
+    prefix_name(node, "machine", context);
   }
+  if (node.is("hardware") || node.is("component")) prefix_component(node, context);
   if (node.is("connect")) {
     prefix_name(node, "from", context);
     prefix_name(node, "to", context);

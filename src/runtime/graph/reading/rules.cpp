@@ -16,6 +16,12 @@ constexpr std::array<std::string_view, 2> kYesNo{"true", "false"};
 constexpr std::array<std::string_view, 2> kStart{"at_once", "on_demand"};
 constexpr std::array<std::string_view, 3> kFuse{"any", "all", "stamps"};
 constexpr std::array<std::string_view, 2> kStay{"cold", "warm"};
+constexpr std::array<std::string_view, 3> kStrategy{"one_for_one", "rest_for_one", "one_for_all"};
+constexpr std::array<std::string_view, 2> kSupervisorLoss{"stop", "continue"};
+constexpr std::array<std::string_view, 2> kMachineLoss{"stop", "go_on"};
+constexpr std::array<std::string_view, 2> kExecutor{"thread", "fiber"};
+constexpr std::array<std::string_view, 3> kRestart{"permanent", "transient", "temporary"};
+constexpr std::array<std::string_view, 3> kLink{"local", "shm", "dds"};
 constexpr std::array<std::string_view, 4> kOverflow{"drop_oldest", "drop_newest", "block", "refuse"};
 
 constexpr double kDay = 86400.0;
@@ -26,8 +32,11 @@ constexpr ValueRule one_of(std::span<const std::string_view> choices) { return {
 constexpr ValueRule integer(double min, double max) {
   return {.form = ValueRule::Form::integer, .min = min, .max = max};
 }
-constexpr ValueRule seconds(double min) {
-  return {.form = ValueRule::Form::number, .unit = "s", .min = min, .max = kDay};
+constexpr ValueRule seconds(double min, double max = kDay) {
+  return {.form = ValueRule::Form::number, .unit = "s", .min = min, .max = max};
+}
+constexpr ValueRule bytes(double min, double max) {
+  return {.form = ValueRule::Form::number, .unit = "B", .min = min, .max = max};
 }
 
 constexpr std::array kGraph{
@@ -37,7 +46,51 @@ constexpr std::array kGraph{
     AttributeRule{"default_profile", false, "Profile that is chosen unless --profile names others."},
     AttributeRule{"plugins", false, "Further folders with plugins, separated by ';'."},
     AttributeRule{"seed", false, "Seed of all random numbers, unless --seed gives another.",
-                  integer(0, ValueRule::kUnlimited)}};
+                  integer(0, ValueRule::kUnlimited)},
+    AttributeRule{"strategy", false,
+                  "What is started again when a process has failed: that one, also those after it, or all; "
+                  "one_for_one if not given.",
+                  one_of(kStrategy)},
+    AttributeRule{"restarts", false,
+                  "How often processes may be started again in the time of within; 3 if not given.",
+                  integer(0, 1000)},
+    AttributeRule{"within", false, "Time in which restarts are counted; 10 s if not given.", seconds(0.1)},
+    AttributeRule{"on_supervisor_loss", false,
+                  "What the processes do when their supervisor is gone; stop if not given.",
+                  one_of(kSupervisorLoss)}};
+constexpr std::array kMachine{
+    AttributeRule{"name", true, "Name of the machine in this system."},
+    AttributeRule{"address", false, "Its IP address or host name; found by itself if not given."},
+    AttributeRule{"interface", false,
+                  "Network interface of its links to other machines, for example wlan0; any if not given."},
+    AttributeRule{"on_loss", false, "What the other machines do when this one goes away; stop if not given.",
+                  one_of(kMachineLoss)}};
+constexpr std::array kProcess{
+    AttributeRule{"name", true, "Name of the process."},
+    AttributeRule{"machine", false, "Machine on which it runs; needed if the graph declares machines."},
+    AttributeRule{"executor", false,
+                  "How its components run: on a thread each, or all on one thread as fibers, which hand over "
+                  "faster; thread if not given.",
+                  one_of(kExecutor)},
+    AttributeRule{
+        "spin", false,
+        "Longest time that an idle thread spins before it sleeps, for example 50 us; 0 s if not given.",
+        seconds(0.0, 0.1)},
+    AttributeRule{"processors", false,
+                  "Numbers of the processors that it may use, counted from 0; all if not given."},
+    AttributeRule{"priority", false, "Real-time priority from 1 to 99 (SCHED_FIFO); none if not given.",
+                  integer(1, 99)},
+    AttributeRule{"lock_memory", false, "Whether its memory always stays in RAM; false if not given.",
+                  kBoolean},
+    AttributeRule{"memory", false, "Most memory that it may have, for example 200 MB; no limit if not given.",
+                  bytes(1e6, 1e15)},
+    AttributeRule{"restart", false,
+                  "When it is started again: whenever it has ended, only after a fault, or never; permanent "
+                  "if not given.",
+                  one_of(kRestart)},
+    AttributeRule{"hang_limit", false,
+                  "Time without a sign of life after which it is killed; 0.5 s if not given.", seconds(0.01)},
+    AttributeRule{"text", false, "Purpose of the process, for people."}};
 constexpr std::array kArg{
     AttributeRule{"name", true, "Name of the argument; the values of this file use it as ${name}."},
     AttributeRule{"default", false,
@@ -48,15 +101,14 @@ constexpr std::array kProfile{
 // The type may come from another profile, so it is looked for after merging.
 constexpr std::array kHardware{
     AttributeRule{"name", true, "Name of the device in this system."},
-    AttributeRule{"type", false, "Type of the hardware, for example orca.hw.Sim."}};
+    AttributeRule{"type", false, "Type of the hardware, for example orca.hw.Sim."},
+    AttributeRule{"process", false, "Process in which it lives; if not given, that of its components."}};
 constexpr std::array kComponent{
     AttributeRule{"name", true,
                   "Name of the component: letters, digits and '_'; contexts are joined by '/'."},
     AttributeRule{"type", false, "Type of the component, for example orca.SonarAvoid."},
     AttributeRule{"hardware", false, "Hardware that the component wraps."},
-    AttributeRule{.name = "process",
-                  .text = "all components live in one process until Orca can start several; remove it",
-                  .planned = true},
+    AttributeRule{"process", false, "Process in which the component runs; main if not given."},
     AttributeRule{"priority", false,
                   "From -100 to 100; of several components that are ready, the one with the highest priority "
                   "goes first.",
@@ -111,7 +163,11 @@ constexpr std::array kConnect{
                   "queue=\"latest\", otherwise 0.",
                   integer(0, 1'000'000'000)},
     AttributeRule{"interval", false, "Time in which at most one object is delivered, for example 1 s.",
-                  seconds(0.0)}};
+                  seconds(0.0)},
+    AttributeRule{"link", false,
+                  "What carries the objects; if not given: local within a process, shm within a machine, dds "
+                  "between machines.",
+                  one_of(kLink)}};
 constexpr std::array kPort{
     AttributeRule{"name", true, "Name that the component's author gave the port."},
     AttributeRule{"as", false, "New name of the port, everywhere in this graph."},
@@ -130,10 +186,6 @@ constexpr std::array<std::string_view, 2> kEnds{"from", "to"};
 // The attributes by which editors find graphs/orca-graph.xsd.
 constexpr std::array<std::string_view, 2> kSchema{"xmlns:xsi", "xsi:noNamespaceSchemaLocation"};
 
-// These contain each other.
-extern const ElementRule kMachineRule;
-extern const ElementRule kProcessRule;
-
 constexpr ElementRule kArgRule{
     .name = "arg", .attributes = kArg, .text = "A value that can be set when the graph is run or included."};
 constexpr ElementRule kGivenArgRule{
@@ -150,6 +202,11 @@ constexpr ElementRule kPortRule{
     .name = "port", .attributes = kPort, .text = "A change to a port of the component, in this system only."};
 constexpr ElementRule kConnectRule{
     .name = "connect", .attributes = kConnect, .text = "A connection between two ports.", .telling = kEnds};
+
+constexpr ElementRule kMachineRule{
+    .name = "machine", .attributes = kMachine, .text = "A computer of the system."};
+constexpr ElementRule kProcessRule{
+    .name = "process", .attributes = kProcess, .text = "A process of the system, which components name."};
 
 constexpr std::array kInHardware{&kParamRule};
 constexpr ElementRule kHardwareRule{.name = "hardware",
@@ -172,30 +229,25 @@ constexpr ElementRule kUseRule{
     .children = kInBringer,
     .text = "Another graph file as a sub-graph: its names get a context of their own."};
 
-constexpr std::array kInProfile{&kHardwareRule, &kComponentRule, &kConnectRule, &kIncludeRule,
-                                &kUseRule,      &kMachineRule,   &kProcessRule};
+constexpr std::array kInProfile{&kMachineRule, &kProcessRule, &kHardwareRule, &kComponentRule,
+                                &kConnectRule, &kIncludeRule, &kUseRule};
 constexpr ElementRule kProfileRule{
     .name = "profile",
     .attributes = kProfile,
     .children = kInProfile,
     .text = "Parts that are added, or override others, when the profile is chosen."};
-constexpr std::string_view kTakeOut = "put what it contains directly into the graph";
-constexpr ElementRule kMachineRule{
-    .name = "machine", .children = kInProfile, .text = kTakeOut, .planned = true};
-constexpr ElementRule kProcessRule{
-    .name = "process", .children = kInProfile, .text = kTakeOut, .planned = true};
 
-constexpr std::array kInGraph{&kArgRule,     &kProfileRule, &kHardwareRule, &kComponentRule, &kConnectRule,
-                              &kIncludeRule, &kUseRule,     &kMachineRule,  &kProcessRule};
+constexpr std::array kInGraph{&kArgRule,       &kProfileRule, &kMachineRule, &kProcessRule, &kHardwareRule,
+                              &kComponentRule, &kConnectRule, &kIncludeRule, &kUseRule};
 constexpr ElementRule kGraphRule{.name = "graph",
                                  .attributes = kGraph,
                                  .children = kInGraph,
                                  .text = "A robot system.",
                                  .foreign = kSchema};
 
-constexpr std::array kElements{&kGraphRule, &kArgRule,      &kProfileRule, &kHardwareRule, &kComponentRule,
-                               &kParamRule, &kPropertyRule, &kConnectRule, &kMachineRule,  &kProcessRule,
-                               &kPortRule,  &kIncludeRule,  &kUseRule};
+constexpr std::array kElements{&kGraphRule,    &kArgRule,       &kProfileRule, &kMachineRule,  &kProcessRule,
+                               &kHardwareRule, &kComponentRule, &kParamRule,   &kPropertyRule, &kConnectRule,
+                               &kPortRule,     &kIncludeRule,   &kUseRule};
 
 constexpr xml::FileRules kFile{"a graph",
                                kElements,

@@ -51,18 +51,7 @@ class Reader {
 
   void read_attributes(const xml::Element& element, Node& node) {
     for (const auto& [name, attribute] : xml::match_attributes(element, *node.rule, graph_rules(), report_))
-      take(*node.rule->attribute(name), *attribute, node);
-  }
-
-  void take(const xml::AttributeRule& rule, const xml::Attribute& attribute, Node& node) {
-    Text text = arguments_.replaced(attribute);
-    if (!rule.planned) {
-      node.attributes.emplace(rule.name, std::move(text));
-    } else {
-      report_.error(codes::kUnsupported, attribute.position,
-                    "the attribute " + in_quotes(rule.name) + " of " + tag(node.rule->name) +
-                        " is not supported yet: " + std::string(rule.text));
-    }
+      node.attributes.emplace(name, arguments_.replaced(*attribute));
   }
 
   void read_children(const xml::Element& element, Node& parent) {
@@ -73,19 +62,9 @@ class Reader {
   // @param rule  the rule that was probably meant; null: unknown
   void read_child(const xml::Element& element, const xml::ElementRule* rule, Node& parent) {
     if (rule == nullptr) return excuse(element);
-    if (rule->planned) {
-      read_planned(element, *rule, parent);
-    } else {
-      parent.children.push_back(read(element, *rule));
-    }
-  }
-
-  void read_planned(const xml::Element& element, const xml::ElementRule& rule, Node& parent) {
+    if (!rule->planned) return parent.children.push_back(read(element, *rule));
     report_.error(codes::kUnsupported, element.position(),
-                  tag(rule.name) + " is not supported yet: " + std::string(rule.text));
-    Node inside{&rule, element.position(), {}, {}};
-    read_children(element, inside);
-    for (Node& child : inside.children) parent.children.push_back(std::move(child));
+                  tag(rule->name) + " is not supported yet: " + std::string(rule->text));
   }
 
   void excuse(const xml::Element& element) {

@@ -32,6 +32,26 @@ void add_trigger(Attributes& attributes, const Trigger& trigger) {
   if (trigger.period > Duration{0}) add(attributes, "at_least_every", seconds_text(trigger.period));
 }
 
+void add(Attributes& attributes, const Supervision& supervision) {
+  const Supervision standard;
+  if (supervision.strategy != standard.strategy) add(attributes, "strategy", to_string(supervision.strategy));
+  if (supervision.restarts != standard.restarts)
+    add(attributes, "restarts", std::to_string(supervision.restarts));
+  if (supervision.within != standard.within) add(attributes, "within", seconds_text(supervision.within));
+  if (supervision.on_supervisor_loss == OnLoss::go_on) add(attributes, "on_supervisor_loss", "continue");
+}
+
+std::string processors_text(const std::vector<int>& processors) {
+  std::string text;
+  for (const int processor : processors) text += (text.empty() ? "" : " ") + std::to_string(processor);
+  return text;
+}
+
+// Adds the process of a component or hardware. Without the attribute it is "main".
+void add_process(Attributes& attributes, const std::string& process) {
+  if (process != kMainProcess) add(attributes, "process", process);
+}
+
 }  // namespace
 
 std::string value_text(const ParamValue& value) { return std::visit(ValueText{}, value); }
@@ -42,14 +62,43 @@ Attributes attributes_of(const Graph& graph) {
   add(result, "default_profile", graph.default_profile);
   add(result, "plugins", joined(graph.plugin_dirs, ";"));
   if (graph.seed) add(result, "seed", std::to_string(*graph.seed));
+  add(result, graph.supervision);
   return result;
 }
 
-Attributes attributes_of(const HardwareNode& node) { return {{"type", node.type}}; }
+Attributes attributes_of(const MachineNode& node) {
+  Attributes result;
+  add(result, "address", node.address);
+  add(result, "interface", node.interface);
+  if (node.on_loss == OnLoss::go_on) add(result, "on_loss", "go_on");
+  return result;
+}
+
+Attributes attributes_of(const ProcessNode& node) {
+  const ProcessNode standard;
+  Attributes result;
+  add(result, "machine", node.machine);
+  if (node.executor == Backend::fiber) add(result, "executor", "fiber");
+  if (node.spin != standard.spin) add(result, "spin", seconds_text(node.spin));
+  add(result, "processors", processors_text(node.processors));
+  if (node.priority) add(result, "priority", std::to_string(*node.priority));
+  if (node.lock_memory) add(result, "lock_memory", "true");
+  if (node.memory) add(result, "memory", std::to_string(*node.memory) + " B");
+  if (node.restart != standard.restart) add(result, "restart", to_string(node.restart));
+  if (node.hang_limit != standard.hang_limit) add(result, "hang_limit", seconds_text(node.hang_limit));
+  return result;
+}
+
+Attributes attributes_of(const HardwareNode& node) {
+  Attributes result{{"type", node.type}};
+  add_process(result, node.process);
+  return result;
+}
 
 Attributes attributes_of(const ComponentNode& node) {
   Attributes result{{"type", node.type}};
   add(result, "hardware", node.hardware);
+  add_process(result, node.process);
   if (node.priority != 0) add(result, "priority", std::to_string(node.priority));
   if (node.autonomous) add(result, "autonomous", value_text(*node.autonomous));
   if (node.trigger) add_trigger(result, *node.trigger);
@@ -79,10 +128,12 @@ Attributes attributes_of(const Edge& edge) {
     if (edge.queue.overflow == QueuePolicy::Overflow::block)
       add(result, "block_limit", seconds_text(edge.queue.block_limit));
   }
-  if (edge.pattern != Pattern::push) return result;
-  add(result, "interval", seconds_text(edge.interval));
-  add(result, "deadline", seconds_text(edge.queue.deadline));
-  if (edge.queue.drop_limit) add(result, "drop_limit", std::to_string(*edge.queue.drop_limit));
+  if (edge.pattern == Pattern::push) {
+    add(result, "interval", seconds_text(edge.interval));
+    add(result, "deadline", seconds_text(edge.queue.deadline));
+    if (edge.queue.drop_limit) add(result, "drop_limit", std::to_string(*edge.queue.drop_limit));
+  }
+  if (edge.link != Link::local) add(result, "link", to_string(edge.link));
   return result;
 }
 

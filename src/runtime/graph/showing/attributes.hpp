@@ -15,6 +15,8 @@ using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 // Return the attributes of a part, without its name and without values equal to the default.
 Attributes attributes_of(const Graph& graph);
+Attributes attributes_of(const MachineNode& node);
+Attributes attributes_of(const ProcessNode& node);
 Attributes attributes_of(const HardwareNode& node);
 Attributes attributes_of(const ComponentNode& node);
 Attributes attributes_of(const PortSetting& setting);

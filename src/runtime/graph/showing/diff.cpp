@@ -47,10 +47,17 @@ Fields fields_of(const ComponentNode& node) {
 Parts parts_of(const Graph& graph, Change::Part part) {
   Parts parts;
   if (part == Change::Part::graph) {
-    Graph sorted{graph.name, graph.ends, graph.plugin_dirs, "", graph.seed, {}, {}, {}};
+    Graph sorted = graph;
+    sorted.default_profile.clear();
     std::ranges::sort(sorted.ends);
     parts["graph"] = fields_of(attributes_of(sorted));
     parts["graph"]["name"] = graph.name;
+  } else if (part == Change::Part::machine) {
+    for (const MachineNode& node : graph.machines) parts[node.name] = fields_of(attributes_of(node));
+  } else if (part == Change::Part::process) {
+    // Without a declaration, "main" is as with one that says nothing.
+    for (const ProcessNode& node : graph.processes)
+      if (node != ProcessNode{.name = kMainProcess}) parts[node.name] = fields_of(attributes_of(node));
   } else if (part == Change::Part::hardware) {
     for (const HardwareNode& node : graph.hardware) parts[node.name] = fields_of(node);
   } else if (part == Change::Part::component) {
@@ -100,6 +107,8 @@ const char* to_string(Change::Kind kind) {
 const char* to_string(Change::Part part) {
   switch (part) {
     case Change::Part::graph: return "graph";
+    case Change::Part::machine: return "machine";
+    case Change::Part::process: return "process";
     case Change::Part::hardware: return "hardware";
     case Change::Part::component: return "component";
     case Change::Part::connection: return "connection";
@@ -113,8 +122,8 @@ std::string shown(const std::string& value) { return value.empty() ? "nothing" :
 
 std::vector<Change> diff(const Graph& before, const Graph& after) {
   std::vector<Change> changes;
-  for (const auto part :
-       {Change::Part::graph, Change::Part::hardware, Change::Part::component, Change::Part::connection})
+  for (const auto part : {Change::Part::graph, Change::Part::machine, Change::Part::process,
+                          Change::Part::hardware, Change::Part::component, Change::Part::connection})
     compare(part, parts_of(before, part), parts_of(after, part), changes);
   return changes;
 }

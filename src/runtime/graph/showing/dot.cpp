@@ -23,7 +23,11 @@ std::string label_of(const DrawnNode& node) {
 
 std::string node_text(const DrawnNode& node) {
   const char* shape = node.hardware ? ", shape=cylinder" : "";
-  return node.id + " [label=" + label_of(node) + shape + "];\n";
+  return node.id + " [label=" + label_of(node) + shape + "];";
+}
+
+std::string begin_box(int number, const std::string& title) {
+  return "subgraph cluster_" + std::to_string(number) + " { label=" + quoted(title) + ";";
 }
 
 }  // namespace
@@ -32,14 +36,7 @@ std::string dot(const Graph& graph, const std::string& profiles) {
   const Drawing drawing = drawing_of(graph, profiles);
   std::string text = "digraph " + quoted(graph.name) + " {\n  label=" + quoted(drawing.title) +
                      ";\n  rankdir=LR;\n  node [shape=box];\n";
-  int clusters = 0;
-  for (const auto& [context, nodes] : drawing.nodes) {
-    const bool boxed = !context.empty();
-    if (boxed)
-      text += "  subgraph cluster_" + std::to_string(clusters++) + " {\n    label=" + quoted(context) + ";\n";
-    for (const DrawnNode& node : nodes) text += (boxed ? "    " : "  ") + node_text(node);
-    if (boxed) text += "  }\n";
-  }
+  text += boxes_text(drawing, {begin_box, "}", node_text});
   for (const DrawnEdge& edge : drawing.edges) {
     text += "  " + edge.from + " -> " + edge.to + " [label=" + quoted(edge.label) +
             (edge.dashed ? ", style=dashed" : "") + "];\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,12 +26,28 @@ struct DrawnEdge {
   bool dashed = false;
 };
 
+// The parts of one process, or of the whole graph if it has only one process.
+struct DrawnProcess {
+  std::string title;                                    // "process base, machine robot"; empty: no box
+  std::map<std::string, std::vector<DrawnNode>> nodes;  // by context, "" first
+};
+
 // A picture of a graph before it is written in any language.
 struct Drawing {
   std::string title;
-  std::map<std::string, std::vector<DrawnNode>> nodes;  // by context, "" first
+  std::vector<DrawnProcess> processes;
   std::vector<DrawnEdge> edges;
 };
+
+// The words of a language for boxes and what is in them, one line each.
+struct BoxWords {
+  std::function<std::string(int number, const std::string& title)> begin;
+  std::string end;
+  std::function<std::string(const DrawnNode&)> node;
+};
+
+// Returns the nodes of a drawing: a box per process, and in it one per context.
+std::string boxes_text(const Drawing& drawing, const BoxWords& words);
 
 Drawing drawing_of(const Graph& graph, const std::string& profiles);
 

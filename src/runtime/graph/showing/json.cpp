@@ -20,6 +20,19 @@ void write(const Params& params, JsonWriter& json) {
   json.end();
 }
 
+// Writes machines or processes.
+template <class Node>
+void write(const char* key, const std::vector<Node>& nodes, JsonWriter& json) {
+  json.key(key).begin_array();
+  for (const Node& node : nodes) {
+    json.begin_object();
+    json.member("name", node.name);
+    write(attributes_of(node), json);
+    json.end();
+  }
+  json.end();
+}
+
 void write(const ComponentNode& node, JsonWriter& json) {
   json.begin_object();
   json.member("name", node.name);
@@ -52,6 +65,8 @@ std::string graph_json(const Graph& graph) {
   json.begin_object();
   json.member("name", graph.name);
   write(attributes_of(graph), json);
+  write("machines", graph.machines, json);
+  write("processes", graph.processes, json);
   json.key("hardware").begin_array();
   for (const HardwareNode& node : graph.hardware) {
     json.begin_object();

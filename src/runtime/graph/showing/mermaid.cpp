@@ -24,7 +24,11 @@ std::string node_text(const DrawnNode& node) {
   const std::string label = quoted(node.name + "\n" + node.type);
   std::string broken = label;
   broken.replace(broken.find('\n'), 1, "<br/>");
-  return node.id + (node.hardware ? "[(" + broken + ")]" : "[" + broken + "]") + "\n";
+  return node.id + (node.hardware ? "[(" + broken + ")]" : "[" + broken + "]");
+}
+
+std::string begin_box(int number, const std::string& title) {
+  return "subgraph s" + std::to_string(number) + "[" + quoted(title) + "]";
 }
 
 }  // namespace
@@ -32,13 +36,7 @@ std::string node_text(const DrawnNode& node) {
 std::string mermaid(const Graph& graph, const std::string& profiles) {
   const Drawing drawing = drawing_of(graph, profiles);
   std::string text = "---\ntitle: " + drawing.title + "\n---\nflowchart LR\n";
-  int boxes = 0;
-  for (const auto& [context, nodes] : drawing.nodes) {
-    const bool boxed = !context.empty();
-    if (boxed) text += "  subgraph s" + std::to_string(boxes++) + "[" + quoted(context) + "]\n";
-    for (const DrawnNode& node : nodes) text += (boxed ? "    " : "  ") + node_text(node);
-    if (boxed) text += "  end\n";
-  }
+  text += boxes_text(drawing, {begin_box, "end", node_text});
   for (const DrawnEdge& edge : drawing.edges) {
     text += "  " + edge.from + (edge.dashed ? " -. " : " -- ") + quoted(edge.label) +
             (edge.dashed ? " .-> " : " --> ") + edge.to + "\n";

@@ -19,7 +19,7 @@ Result<Contract> contract_of(const ComponentNode& node, const Graph& graph, Cata
 }
 
 ListedPort listed(const ComponentNode& node, const PortContract& contract) {
-  ListedPort port{{node.name, contract.name}, contract, false, {}, {}};
+  ListedPort port{{node.name, contract.name}, contract, false, {}, {}, node.process};
   const auto found = node.ports.find(contract.name);
   if (found == node.ports.end()) return port;
   if (!found->second.alias.empty()) port.ref.port = found->second.alias;
@@ -28,9 +28,16 @@ ListedPort listed(const ComponentNode& node, const PortContract& contract) {
   return port;
 }
 
-std::string names(const std::vector<PortRef>& refs) {
+std::string name(const PortRef& ref) { return ref.text(); }
+std::string name(const ListedPeer& peer) {
+  const std::string link = peer.link == Link::local ? "" : std::string(" (") + to_string(peer.link) + ")";
+  return peer.ref.text() + link;
+}
+
+template <class Named>
+std::string names(const std::vector<Named>& ports) {
   std::string text;
-  for (const PortRef& ref : refs) text += (text.empty() ? "" : ", ") + ref.text();
+  for (const Named& port : ports) text += (text.empty() ? "" : ", ") + name(port);
   return text;
 }
 
@@ -60,8 +67,15 @@ std::vector<std::string> texts(const std::vector<PortRef>& refs) {
 
 void write(const ListedPort& port, JsonWriter& json) {
   json.begin_object();
+  std::vector<PortRef> peers;
+  std::vector<std::string> links;
+  for (const ListedPeer& peer : port.peers) {
+    peers.push_back(peer.ref);
+    links.emplace_back(to_string(peer.link));
+  }
   json.member("port", port.ref.text());
   json.member("declared_as", port.contract.name);
+  json.member("process", port.process);
   json.member("pattern", to_string(port.contract.pattern));
   json.member("role", to_string(port.contract.role));
   json.member("type", port.contract.type.name);
@@ -69,7 +83,8 @@ void write(const ListedPort& port, JsonWriter& json) {
   json.member("required", port.contract.required);
   json.member("many", port.contract.many);
   json.member("disabled", port.disabled);
-  json.member("connected_to", texts(port.peers));
+  json.member("connected_to", texts(peers));
+  json.member("links", links);
   json.member("candidates", texts(port.candidates));
   json.member("text", port.contract.text);
   json.end();
@@ -78,10 +93,10 @@ void write(const ListedPort& port, JsonWriter& json) {
 }  // namespace
 
 std::vector<ListedPort> list_ports(const Graph& graph, Catalogue& catalogue) {
-  std::map<PortRef, std::vector<PortRef>> peers;
+  std::map<PortRef, std::vector<ListedPeer>> peers;
   for (const Edge& edge : graph.edges) {
-    peers[edge.from].push_back(edge.to);
-    if (!edge.late_bound) peers[edge.to].push_back(edge.from);
+    peers[edge.from].push_back({edge.to, edge.link});
+    if (!edge.late_bound) peers[edge.to].push_back({edge.from, edge.link});
   }
   std::vector<ListedPort> ports;
   for (const ComponentNode& node : graph.components) {

@@ -34,6 +34,12 @@ std::string element(const std::string& name, const std::string& attributes, cons
   return content.empty() ? start + "/>\n" : start + ">\n" + content + "  </" + name + ">\n";
 }
 
+// Returns the text of a machine or process.
+template <class Node>
+std::string plain_text(const char* name, const Node& node) {
+  return element(name, attribute("name", node.name) + text_of(attributes_of(node)), "");
+}
+
 std::string component_text(const ComponentNode& node) {
   std::string content = params_text(node.params);
   for (const auto& [name, setting] : node.ports)
@@ -56,6 +62,8 @@ std::string print(const Graph& graph) {
   // gives the same value.
   if (!graph.default_profile.empty())
     result += element("profile", attribute("name", graph.default_profile), "");
+  for (const MachineNode& node : graph.machines) result += plain_text("machine", node);
+  for (const ProcessNode& node : graph.processes) result += plain_text("process", node);
   for (const HardwareNode& node : graph.hardware) {
     result += element("hardware", attribute("name", node.name) + text_of(attributes_of(node)),
                       params_text(node.params));

@@ -52,8 +52,7 @@ std::string children_text(const ElementRule& rule) {
 std::string type_text(const std::string& name, const ElementRule& rule) {
   std::string text =
       "  <xs:complexType name=\"" + name + "\">\n" + documentation(rule.text, "    ") + children_text(rule);
-  for (const AttributeRule& attribute : rule.attributes)
-    if (!attribute.planned) text += attribute_text(attribute);
+  for (const AttributeRule& attribute : rule.attributes) text += attribute_text(attribute);
   return text + "  </xs:complexType>\n";
 }
 

@@ -96,6 +96,27 @@ TEST_CASE("candidates belong to their port", "[graph][diff]") {
         "~ component fuser\n    port motion: nothing -> candidates=\"avoid.motion\"\n");
 }
 
+TEST_CASE("moving a component shows its process, its links and what is declared for them", "[graph][diff]") {
+  const Graph together = graph_with(kAvoid);
+  const Graph apart = graph_with(
+      "<process name='p' priority='9'/><component name='avoid' type='orca.SonarAvoid' process='p'/>"
+      "<connect from='base.SonarRangeReadingsPush' to='avoid.sonar'/>");
+  CHECK(diff_text(diff(together, apart)) ==
+        "+ process p\n~ component avoid\n    process: nothing -> p\n"
+        "~ connection base.SonarRangeReadingsPush to avoid.sonar\n    link: nothing -> shm\n");
+  Graph hurried = apart;
+  hurried.processes[0].priority = 20;
+  hurried.supervision.restarts = 5;
+  CHECK(diff_text(diff(apart, hurried)) ==
+        "~ graph\n    restarts: nothing -> 5\n~ process p\n    priority: 9 -> 20\n");
+}
+
+TEST_CASE("a main process that is declared with the usual settings makes no difference", "[graph][diff]") {
+  CHECK(diff(graph_with(""), graph_with("<process name='main'/>")).empty());
+  CHECK(diff_text(diff(graph_with(""), graph_with("<process name='main' memory='1 GB'/>"))) ==
+        "+ process main\n");
+}
+
 TEST_CASE("the JSON form holds the same", "[graph][diff]") {
   const Graph before = graph_with("");
   Graph after = before;

@@ -134,11 +134,48 @@ TEST_CASE("the DOT text has every component, hardware and connection, and sub-gr
   REQUIRE_NOTHROW(reader.read());
   CHECK(reader.nodes == 7 + 2);
   CHECK(reader.edges == 2 * 3 + 1 + 2);
-  CHECK(reader.boxes == 2);
+  CHECK(reader.boxes == 2);  // and none for the only process
   CHECK(count(text, "label=\"SonarRangeReadingsPush > sonar (3)\"") == 2);
   CHECK(count(text, "style=dashed") == 2);
   CHECK(count(text, "label=\"pair, profile sim\"") == 1);
   CHECK(count(text, "\"robot\\norca.hw.Sim\", shape=cylinder") == 2);
+}
+
+// The left robot in a process of its own, on another machine.
+Graph robots_apart() {
+  Graph graph = two_robots();
+  graph.processes = {{.name = "left", .machine = "far"}, {.name = "main", .machine = "near"}};
+  graph.hardware[0].process = "left";
+  for (std::size_t i = 0; i < 3; ++i) graph.components[i].process = "left";
+  graph.edges.front().link = Link::dds;
+  return graph;
+}
+
+TEST_CASE("the DOT text has a box per process, and in it one per sub-graph", "[graph][drawing]") {
+  const std::string text = dot(robots_apart(), "sim");
+  INFO(text);
+  DotReader reader(text);
+  REQUIRE_NOTHROW(reader.read());
+  CHECK(reader.nodes == 7 + 2);
+  CHECK(reader.edges == 2 * 3 + 1 + 2);
+  CHECK(reader.boxes == 2 + 2);
+  CHECK(count(text,
+              "  subgraph cluster_0 { label=\"process left, machine far\";\n"
+              "    subgraph cluster_1 { label=\"left\";\n"
+              "      h0 [") == 1);
+  CHECK(count(text, "label=\"process main, machine near\"") == 1);
+  CHECK(count(text, "(dds)") == 1);
+}
+
+TEST_CASE("the Mermaid chart has a box per process, and in it one per sub-graph", "[graph][drawing]") {
+  const std::string text = mermaid(robots_apart(), "sim");
+  INFO(text);
+  CHECK(count(text,
+              "  subgraph s0[\"process left, machine far\"]\n"
+              "    subgraph s1[\"left\"]\n"
+              "      h0[(") == 1);
+  CHECK(count(text, "subgraph s") == 4);
+  CHECK(count(text, "    end\n  end\n") == 2);
 }
 
 TEST_CASE("names with characters that mean something to Graphviz do no harm", "[graph][drawing]") {

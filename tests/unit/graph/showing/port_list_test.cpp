@@ -43,3 +43,18 @@ TEST_CASE("the JSON form of a port holds the name that its author gave it", "[gr
   CHECK(json.find("\"port\": \"base.odom\",\n    \"declared_as\": \"OdometryPush\"") != std::string::npos);
   CHECK(json.find("\"disabled\": true") != std::string::npos);
 }
+
+TEST_CASE("a connection between processes is listed with its link", "[graph][ports]") {
+  FakeCatalogue catalogue;
+  Graph graph = must_load(kText);
+  graph.components[1].process = "behaviours";
+  graph.edges[0].link = Link::shm;
+  const std::vector<ListedPort> ports = list_ports(graph, catalogue);
+  const std::string text = ports_text(ports);
+  CHECK(text.find("SonarRangeReadings       to avoid.sonar (shm)\n") != std::string::npos);
+  CHECK(text.find("SonarRangeReadings       from base.SonarRangeReadingsPush (shm)\n") != std::string::npos);
+  CHECK(text.find("to avoid.odometry\n") != std::string::npos);
+  const std::string json = ports_json(ports);
+  CHECK(json.find("\"declared_as\": \"sonar\",\n    \"process\": \"behaviours\"") != std::string::npos);
+  CHECK(json.find("\"links\": [\n      \"shm\"\n    ]") != std::string::npos);
+}

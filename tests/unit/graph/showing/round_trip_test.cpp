@@ -20,13 +20,14 @@ class RandomGraph {
     late_bound_ = pick(2) == 0;
     std::string result = "<graph name='r" + std::to_string(pick(100)) + "'" +
                          maybe(" seed='" + integer(0, 1000) + "'") + maybe(" plugins='x;/y z;../q$$'") +
-                         maybe(" ends='avoid0'") + ">";
-    result += "<hardware name='robot' type='orca.hw.Sim'>" + maybe(param("world", free_text())) +
-              maybe(param("realism", "harsh")) + "</hardware>" +
-              "<component name='base' type='orca.RobotBaseServer' hardware='robot'" +
+                         maybe(" ends='avoid0'") + maybe(supervision()) + ">" + places();
+    const std::string base = process();
+    result += "<hardware name='robot' type='orca.hw.Sim'" + maybe(base) + ">" +
+              maybe(param("world", free_text())) + maybe(param("realism", "harsh")) + "</hardware>" +
+              "<component name='base' type='orca.RobotBaseServer' hardware='robot'" + base +
               maybe(" period='" + real(0.001, 9) + "'") + ">" +
               maybe("<port name='OdometryPush' as='odom'/>") +
-              "</component><component name='fuser' type='orca.MotionCommandFuser'>" +
+              "</component><component name='fuser' type='orca.MotionCommandFuser'" + process() + ">" +
               maybe("<port name='ClientListSend' disabled='true'/>") + candidates(avoiders) + "</component>" +
               "<component name='planner' type='orca.Planner'/>" +
               connect("planner.limits", "base.LimitsQuery", "") +
@@ -47,10 +48,38 @@ class RandomGraph {
     return " start='on_demand'" + (pick(2) == 0 ? " stay='warm'" : maybe(" idle_time='" + real(0, 9) + "'"));
   }
 
+  std::string supervision() {
+    return " strategy='" + choice({"one_for_one", "rest_for_one", "one_for_all"}) + "' restarts='" +
+           integer(0, 9) + "' within='" + real(0.1, 99) + "' on_supervisor_loss='" +
+           choice({"stop", "continue"}) + "'";
+  }
+
+  // Two processes beside "main", on a machine each if there are any.
+  std::string places() {
+    const bool machines = pick(2) == 0;
+    const auto on = [&](const char* name) { return machines ? " machine='" + std::string(name) + "'" : ""; };
+    return (machines ? "<machine name='robot'" + maybe(" address='10.0.0.2'") + maybe(" interface='wlan0'") +
+                           "/><machine name='laptop'" + maybe(" on_loss='go_on'") + "/>" +
+                           "<process name='main'" + on("laptop") + maybe(" priority='1'") + "/>"
+                     : "") +
+           "<process name='p1'" + on("robot") + maybe(" executor='fiber'") +
+           maybe(" spin='" + integer(0, 99) + " us'") + maybe(" processors='3 0,1'") + maybe(" text='x'") +
+           "/><process name='p2'" + on("robot") + maybe(" priority='" + integer(1, 99) + "'") +
+           maybe(" lock_memory='true'") + maybe(" memory='" + integer(1, 4000) + " MiB'") +
+           maybe(" hang_limit='" + real(0.01, 9) + "'") +
+           maybe(" restart='" + choice({"permanent", "transient", "temporary"}) + "'") + "/>";
+  }
+  std::string process() {
+    return choice({"", " process=''", " process='main'", " process='p1'", " process='p2'"});
+  }
+  std::string choice(const std::vector<std::string>& choices) {
+    return choices[static_cast<std::size_t>(pick(static_cast<int>(choices.size())))];
+  }
+
   std::string avoider(int i) {
     const std::string name = "avoid" + std::to_string(i);
     const bool by_stamps = pick(3) == 0;
-    return "<component name='" + name + "' type='orca.SonarAvoid'" +
+    return "<component name='" + name + "' type='orca.SonarAvoid'" + process() +
            maybe(" priority='" + integer(-100, 100) + "'") +
            (pick(2) == 0 ? loading() : maybe(" autonomous='true'")) + maybe(" start_after='base fuser'") +
            maybe(" may_fail='true'") + (by_stamps ? stamps() : maybe(trigger())) + ">" +
@@ -112,16 +141,18 @@ class RandomGraph {
   bool late_bound_ = false;
 };
 
+const LoadOptions kAnyLink{.any_link = true};
+
 }  // namespace
 
 TEST_CASE("parse, print, parse is the identity", "[graph][property]") {
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     const std::string text = RandomGraph(seed).text();
     INFO("seed " << seed);
-    const Graph first = must_load(text, {}, "/srv/graphs/random.xml");
+    const Graph first = must_load(text, kAnyLink, "/srv/graphs/random.xml");
     const std::string printed = print(first);
     INFO(printed);
-    const Graph second = must_load(printed, {}, "/elsewhere/printed.xml");
+    const Graph second = must_load(printed, kAnyLink, "/elsewhere/printed.xml");
     REQUIRE(first == second);
     REQUIRE(print(second) == printed);
   }

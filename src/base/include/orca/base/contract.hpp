@@ -148,6 +148,8 @@ struct HardwareFault {
   /// Other parameters that the fault follows from. The checker drops the fault if the value of one of them, or
   /// of `param`, could not be read: what is wrong with that one is reported already.
   std::vector<std::string> follows_from{};
+  /// Of two containers that are compared: it is a fault only if they are in different processes.
+  bool if_apart = false;
   friend bool operator==(const HardwareFault&, const HardwareFault&) = default;
 };
 

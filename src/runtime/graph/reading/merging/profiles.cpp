@@ -173,20 +173,20 @@ class Choice {
 Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& chosen, Report& report) {
   Parts parts;
   Clashes clashes;
-  Merger hardware(parts.hardware, clashes);
-  Merger components(parts.components, clashes);
-  Merger connections(parts.connections, clashes);
+  std::map<std::string_view, Merger> mergers{{"machine", {parts.machines, clashes}},
+                                             {"process", {parts.processes, clashes}},
+                                             {"hardware", {parts.hardware, clashes}},
+                                             {"component", {parts.components, clashes}},
+                                             {"connect", {parts.connections, clashes}}};
   Choice choice(assembly, chosen, report);
   parts.some_missing = assembly.files_missing || choice.some_unknown();
   std::vector<const Node*> sections = std::move(choice).profiles();
   sections.insert(sections.begin(), &assembly.graph);
   for (const Node* section : sections) {
-    for (Merger* merger : {&hardware, &components, &connections}) merger->start_section();
-    for (const Node& child : section->children) {
-      if (child.is("hardware")) hardware.add(child);
-      if (child.is("component")) components.add(child);
-      if (child.is("connect")) connections.add(child);
-    }
+    for (auto& [element, merger] : mergers) merger.start_section();
+    for (const Node& child : section->children)
+      if (const auto merger = mergers.find(child.rule->name); merger != mergers.end())
+        merger->second.add(child);
   }
   clashes.report(report);
   return parts;

@@ -12,6 +12,8 @@ namespace orca::graph {
 
 // The parts of a graph once its profiles are merged.
 struct Parts {
+  std::vector<Node> machines;
+  std::vector<Node> processes;
   std::vector<Node> hardware;
   std::vector<Node> components;
   std::vector<Node> connections;

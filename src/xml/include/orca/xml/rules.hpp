@@ -34,7 +34,6 @@ struct AttributeRule {
   bool required = false;
   std::string_view text = {};  ///< For people: what it says.
   ValueRule value = {};
-  bool planned = false;  ///< The attribute is not supported yet; `text` says why, and what to do.
 };
 
 /// The content that an element may hold.
@@ -43,8 +42,7 @@ struct ElementRule {
   std::span<const AttributeRule> attributes = {};
   std::span<const ElementRule* const> children = {};
   std::string_view text = {};  ///< For people: what the element is.
-  /// The element is not supported yet, and `text` says what to do; its content can be looked at as if it stood outside.
-  bool planned = false;
+  bool planned = false;        ///< The element is not supported yet, and `text` says what to do.
   /// Attributes that identify the element: an unknown element with all of them is taken for this one. Empty:
   /// only the name identifies it.
   std::span<const std::string_view> telling = {};

@@ -55,7 +55,8 @@ class HardwareContainer : public Device {
   virtual std::vector<HardwareFault> prepare() = 0;
 
   /// Compares this hardware with one of the same type that the graph names earlier, so that a graph can be
-  /// checked for what the two cannot have both, for instance one serial port.
+  /// checked for what the two cannot have both, for instance one serial port, and for what they can share only
+  /// within one process (HardwareFault::if_apart).
   /// @pre  both were prepared, without a fault.
   /// @return the faults, of this hardware's parameters; empty: none.
   [[nodiscard]] virtual std::vector<HardwareFault> conflicts_with(

@@ -7,8 +7,8 @@
 
 namespace orca::graph {
 
-/// The graph as JSON, for programs: an object with hardware, components and connections; attributes as in
-/// XML, parameters as numbers, flags and texts, in SI.
+/// The graph as JSON, for programs: an object with machines, processes, hardware, components and connections;
+/// attributes as in XML, parameters as numbers, flags and texts, in SI.
 [[nodiscard]] std::string graph_json(const Graph& graph);
 
 }  // namespace orca::graph

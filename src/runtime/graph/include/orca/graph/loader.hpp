@@ -28,6 +28,9 @@ struct LoadOptions {
   std::vector<std::string> failing{};
   /// Ports ("component.port") that --record on the command line names; each must be there.
   std::vector<std::string> recorded{};
+  /// Links that Orca cannot make yet are no errors, because no process needs them: the run is in virtual time and so in
+  /// one process, or nothing is run.
+  bool any_link = false;
 };
 
 /// A function that returns the text of an included file. The path starts at the current folder.

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "placement.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "orca/base/text.hpp"
+#include "reading/codes.hpp"
+#include "reading/parameters.hpp"
+
+namespace orca::graph {
+namespace {
+
+class Placement {
+ public:
+  Placement(Model& model, Report& report) : model_(model), report_(report) {}
+
+  void place(const Node& node, CheckedComponent& component) { read_process(node, component); }
+
+  void place(const Node& node, CheckedHardware& hardware) {
+    if (read_process(node, hardware)) deciders_[&hardware] = nullptr;
+  }
+
+  // Puts hardware that names no process into that of its first component, and reports components in another one.
+  void join(const CheckedComponent& component) {
+    const auto found = model_.hardware_by_name.find(component.value.hardware);
+    if (found == model_.hardware_by_name.end() || component.duplicate || !component.process_known) return;
+    CheckedHardware& hardware = model_.hardware[found->second];
+    if (!hardware.process_known) return;
+    const auto [decider, fresh] = deciders_.try_emplace(&hardware, &component);
+    if (fresh) hardware.value.process = component.value.process;
+    if (component.value.process != hardware.value.process) report_apart(component, hardware, decider->second);
+  }
+
+  // Reports that parts are in "main", if the graph declares machines and does not say on which of them it runs.
+  template <class Checked>
+  void check_machine_of_main(const std::vector<Checked>& nodes) {
+    const auto in_main = [&](const Checked& node) {
+      return node.process_known && model_.find_process(node.value.process) == &model_.implicit_main;
+    };
+    if (model_.implicit_main.placed || main_reported_) return;
+    if (model_.parts_missing || model_.excused.contains(kMainProcess)) return;  // it may be declared there
+    const auto found = std::ranges::find_if(nodes, in_main);
+    if (found == nodes.end()) return;
+    main_reported_ = true;
+    report_.error(codes::kNoMachine, found->value.position,
+                  in_quotes(found->value.name) +
+                      " is in the process \"main\", which has no machine; name another process, or declare "
+                      "<process name=\"main\" machine=\"NAME\"/> with one of: " +
+                      listed(model_.machine_names));
+  }
+
+  // Reports hardware that must share a process and does not, once for each.
+  void check_shared() {
+    std::set<const Node*> reported;
+    for (const SharedThing& shared : model_.shared) {
+      const CheckedHardware& later = *model_.find_hardware(shared.node->value("name"));
+      const CheckedHardware& earlier = *model_.find_hardware(shared.earlier);
+      const bool known = later.process_known && earlier.process_known;
+      if (!known || later.value.process == earlier.value.process) continue;
+      if (!reported.insert(shared.node).second) continue;
+      report_.error(codes::kSplit, place_of_param(*shared.node, shared.fault.param),
+                    shared.node->title() + ": parameter " + in_quotes(shared.fault.param) + ": " +
+                        shared.fault.text + "; " + whereabouts(later.value) + ", " +
+                        whereabouts(earlier.value) + "; put both into one process");
+    }
+  }
+
+ private:
+  // Puts a component or hardware into the process that it names; returns whether it names one.
+  template <class Checked>
+  bool read_process(const Node& node, Checked& checked) {
+    const Text* name = node.find("process");
+    if (name == nullptr || (name->known && name->value.empty())) return false;
+    checked.process_known = name->known && check_exists(node, *name);
+    if (checked.process_known) checked.value.process = name->value;
+    return true;
+  }
+
+  bool check_exists(const Node& node, const Text& name) {
+    if (model_.find_process(name.value) != nullptr) return true;
+    if (model_.excused.contains(name.value)) return false;
+    const std::string hint = report_.hint_in_contexts(name.value, model_.process_names);
+    if (model_.parts_missing && hint.empty()) return false;
+    report_.error(codes::kUnknownProcess, name.position,
+                  node.title() + ": there is no process " + in_quotes(name.value) +
+                      "; the graph has: " + listed(model_.process_names) +
+                      (hint.empty() ? "; declare it: <process name=" + in_quotes(name.value) + "/>" : hint));
+    return false;
+  }
+
+  // @param decider  the component that decides the hardware's process; null: the hardware names it
+  void report_apart(const CheckedComponent& component, const CheckedHardware& hardware,
+                    const CheckedComponent* decider) {
+    const std::string other = decider == nullptr ? "the hardware" : in_quotes(decider->value.name);
+    report_.error(codes::kSplit, component.value.position,
+                  "hardware " + in_quotes(hardware.value.name) +
+                      " and the components that are bound to it live in one process, but " +
+                      whereabouts(component.value) + ", and " + other + " is in " +
+                      in_quotes(hardware.value.process) + "; name one process in all of them");
+  }
+
+  template <class Part>
+  static std::string whereabouts(const Part& part) {
+    return in_quotes(part.name) + " is in the process " + in_quotes(part.process);
+  }
+
+  Model& model_;
+  Report& report_;
+  // The components that decide the process of hardware; null: the hardware names it itself.
+  std::map<const CheckedHardware*, const CheckedComponent*> deciders_;
+  bool main_reported_ = false;
+};
+
+}  // namespace
+
+void check_placement(const std::vector<Node>& hardware, const std::vector<Node>& components, Model& model,
+                     Report& report) {
+  Placement placement(model, report);
+  for (std::size_t i = 0; i < model.components.size(); ++i)
+    placement.place(components[i], model.components[i]);
+  for (std::size_t i = 0; i < model.hardware.size(); ++i) placement.place(hardware[i], model.hardware[i]);
+  for (const CheckedComponent& component : model.components) placement.join(component);
+  placement.check_machine_of_main(model.components);
+  placement.check_machine_of_main(model.hardware);
+  placement.check_shared();
+}
+
+void check_nothing_runs(const Model& model, Report& report) {
+  std::set<std::string> used;
+  for (const CheckedHardware& hardware : model.hardware) used.insert(hardware.value.process);
+  for (const CheckedComponent& component : model.components) used.insert(component.value.process);
+  std::set<std::string> named;
+  for (const CheckedProcess& process : model.processes) {
+    named.insert(process.value.machine);
+    if (used.contains(process.value.name)) continue;
+    report.warning(codes::kNothingRuns, process.value.position,
+                   "nothing runs in the process " + in_quotes(process.value.name) +
+                       ", so it is not started; name it in components, or remove it");
+  }
+  for (const MachineNode& machine : model.machines) {
+    if (named.contains(machine.name)) continue;
+    report.warning(
+        codes::kNothingRuns, machine.position,
+        "no process runs on the machine " + in_quotes(machine.name) + "; name it in a process, or remove it");
+  }
+}
+
+}  // namespace orca::graph
