@@ -6,7 +6,7 @@
 namespace orca::bench {
 namespace {
 
-constexpr int kWarmUp = 4;
+constexpr int kWarmUp = 2;
 
 template <class Port>
 Port& port(test::Peer& peer, const std::string& name) {

@@ -24,7 +24,7 @@ void push_beside_copy(benchmark::State& state, Row& row) {
   run_on(kThreads, [&](Executive& executive) {
     ProcessPushPair pair(executive, kImage);
     alternate(
-        state, row, 10, [&](int n) { return pair.time(n); }, copy_image);
+        state, row, 1, [&](int n) { return pair.time(n); }, copy_image);
   });
 }
 

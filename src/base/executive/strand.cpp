@@ -5,8 +5,15 @@
 
 namespace orca {
 
+// The strand that takes in on this thread in order to wait, or null. It is awake, so nothing need wake it.
+[[gnu::tls_model("initial-exec")]] static thread_local const Strand* t_awake = nullptr;
+
 Strand::Strand(Executive& executive, TaskOptions options)
     : executive_(executive), options_(std::move(options)), event_(executive.make_event()) {}
+
+void Strand::wake() {
+  if (t_awake != this) event_->notify();
+}
 
 void Strand::set_doorbell(DoorbellWord& own) {
   event_ = executive_.make_doorbell_event(own);
@@ -16,6 +23,14 @@ void Strand::set_doorbell(DoorbellWord& own) {
 bool Strand::take_in_all() {
   bool arrived = false;
   for (Intake* intake : intakes_) arrived = intake->take_in() || arrived;
+  return arrived;
+}
+
+// Takes in, as a part of a wait. If something has arrived, the wait ends and what is waited for is looked at again.
+bool Strand::take_in_awake() {
+  t_awake = this;
+  const bool arrived = take_in_all();
+  t_awake = nullptr;
   return arrived;
 }
 

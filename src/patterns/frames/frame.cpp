@@ -23,7 +23,7 @@ class Writer {
 
   void add(std::span<const std::byte> bytes) {
     const auto rest = free();
-    if (bytes.size() <= rest.size()) std::ranges::copy(bytes, rest.begin());
+    if (!bytes.empty() && bytes.size() <= rest.size()) std::memcpy(rest.data(), bytes.data(), bytes.size());
     used_ += bytes.size();
   }
   template <class T>

@@ -199,3 +199,41 @@ TEST_CASE("a strand looks at its intakes before it sleeps, and does not sleep if
     });
   }
 }
+
+namespace {
+
+// Wakes the strand for what has arrived, as a queue does.
+struct Waking final : Intake {
+  explicit Waking(Strand& to_wake) : strand(to_wake) {}
+  bool take_in() override {
+    if (!std::exchange(arrived, false)) return false;
+    strand.wake();
+    return true;
+  }
+  Strand& strand;
+  bool arrived = false;
+};
+
+}  // namespace
+
+TEST_CASE("what a look takes in still ends the next wait, and what a wait takes in ends that wait alone",
+          "[base][strand]") {
+  for (const ExecutiveOptions& options : virtual_kinds()) {
+    const auto executive = make(options);
+    executive->run([&] {
+      Strand strand(*executive, {"strand", 0});
+      Waking intake(strand);
+      strand.add_intake(intake);
+      intake.arrived = true;
+      CHECK(strand.take_in());
+      strand.pause_until(executive->now() + 1h);
+      CHECK(executive->now() == TimePoint{});
+      intake.arrived = true;
+      strand.pause_until(executive->now() + 1h);
+      CHECK(executive->now() == TimePoint{});
+      strand.pause_until(executive->now() + 1h);
+      CHECK(executive->now() == TimePoint{} + 1h);
+      strand.remove_intake(intake);
+    });
+  }
+}

@@ -49,7 +49,7 @@ class Strand {
   void start(std::function<void()> body);
 
   /// Reports that something has changed that the strand may be waiting for.
-  void wake() { event_->notify(); }
+  void wake();
 
   /// Sets the condition that makes wait_for() throw Interrupted. The strand evaluates it each time it is
   /// woken. Call before start().
@@ -109,11 +109,12 @@ class Strand {
  private:
   bool wait_until(TimePoint deadline) {
     if (!executive_.runs_here()) throw_foreign();
-    if (take_in()) return true;
+    if (!intakes_.empty() && take_in_awake()) return true;
     return watch_ ? wait_watching(deadline) : event_->wait_until(deadline);
   }
   bool wait_watching(TimePoint deadline);
   bool take_in_all();
+  bool take_in_awake();
   [[noreturn]] void throw_foreign() const;
 
   Executive& executive_;
