@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   register_fan_out();
   register_isolation();
   register_query();
+  register_shm();
   register_throughput();
   register_graph();
   register_sim_cast();

@@ -41,18 +41,6 @@ void spinning(benchmark::State& state, Row& row) {
   beside<FutexRingPair>(state, row, options, kLaser, 20);
 }
 
-Nanoseconds copy_image(int times) {
-  static const std::vector<double> from(kImage, 1.0);
-  static std::vector<double> to(kImage);
-  return time_per_operation(times, [times] {
-    for (int i = 0; i < times; ++i) {
-      to = from;
-      benchmark::DoNotOptimize(to.data());
-      benchmark::ClobberMemory();
-    }
-  });
-}
-
 void beside_copy(benchmark::State& state, Row& row) {
   run_on(kFibers, [&](Executive& executive) {
     PushPair pair(executive, kImage);

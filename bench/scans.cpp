@@ -19,6 +19,18 @@ std::vector<Loan<Scan>> make_scans(int count, std::size_t ranges) {
   return scans;
 }
 
+Nanoseconds copy_image(int times) {
+  static const std::vector<double> from(kImage, 1.0);
+  static std::vector<double> to(kImage);
+  return time_per_operation(times, [times] {
+    for (int i = 0; i < times; ++i) {
+      to = from;
+      benchmark::DoNotOptimize(to.data());
+      benchmark::ClobberMemory();
+    }
+  });
+}
+
 void subscribe(Publisher& publisher, Subscriber& subscriber, const QueuePolicy& policy) {
   const Status connected = LocalLinks().connect(publisher.endpoint("out"), subscriber.endpoint("in"), policy);
   if (!connected.ok()) throw std::runtime_error(connected.error().text());

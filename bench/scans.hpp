@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "comparison.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "peer.hpp"
@@ -20,6 +21,9 @@ constexpr std::size_t kImage = 131072;  // 1 MB
 /// Returns scans as a driver has just filled them, with the header still in the caches. The time to make them
 /// is not measured.
 std::vector<Loan<Scan>> make_scans(int count, std::size_t ranges);
+
+/// Returns the time in which the bytes of a scan of kImage ranges are copied.
+Nanoseconds copy_image(int times);
 
 struct Publisher : test::Peer {
   explicit Publisher(Executive& executive, const std::string& name = "publisher") : Peer(executive, name) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "cdr_reader.hpp"
 
-#include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace orca::detail {
@@ -18,7 +18,7 @@ void CdrReader::copy_out(std::span<std::byte> to) {
                std::to_string(at_ + to.size()) + " are needed";
     return;
   }
-  std::ranges::copy(payload_.subspan(at_, to.size()), to.begin());
+  if (!to.empty()) std::memcpy(to.data(), payload_.data() + at_, to.size());
   at_ += to.size();
 }
 

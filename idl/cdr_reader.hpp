@@ -70,6 +70,9 @@ class CdrReader {
   void read(std::vector<T>& values) {
     const std::size_t count = read_count(min_wire_size<T>());
     if (failed()) return;
+    if constexpr (WireNumber<T>) {
+      if (assign_in_place(values, count)) return;
+    }
     values.resize(count);
     read_elements(std::span<T>(values));
   }
@@ -92,6 +95,19 @@ class CdrReader {
         if (failed()) return;
       }
     }
+  }
+
+  // Copies a sequence from where it stands, if it stands aligned. The memory is then not cleared before.
+  template <WireNumber T>
+  bool assign_in_place(std::vector<T>& values, std::size_t count) {
+    const std::size_t start = (at_ + sizeof(T) - 1) / sizeof(T) * sizeof(T);
+    if (start > payload_.size() || count > (payload_.size() - start) / sizeof(T)) return false;
+    const std::byte* const from = payload_.data() + start;
+    if (count == 0 || reinterpret_cast<std::uintptr_t>(from) % alignof(T) != 0) return false;
+    const auto* const first = reinterpret_cast<const T*>(from);
+    values.assign(first, first + count);
+    at_ = start + count * sizeof(T);
+    return true;
   }
 
   template <WireNumber T>

@@ -5,8 +5,32 @@
 
 namespace orca {
 
+// The strand that takes in on this thread in order to wait, or null. It is awake, so nothing need wake it.
+[[gnu::tls_model("initial-exec")]] static thread_local const Strand* t_awake = nullptr;
+
 Strand::Strand(Executive& executive, TaskOptions options)
     : executive_(executive), options_(std::move(options)), event_(executive.make_event()) {}
+
+bool Strand::is_taking_in_here() const { return t_awake == this; }
+
+void Strand::set_doorbell(DoorbellWord& own) {
+  event_ = executive_.make_doorbell_event(own);
+  doorbell_ = executive_.doorbell() != nullptr ? executive_.doorbell() : &own;
+}
+
+bool Strand::take_in_all() {
+  bool arrived = false;
+  for (Intake* intake : intakes_) arrived = intake->take_in() || arrived;
+  return arrived;
+}
+
+// Takes in, as a part of a wait. If something has arrived, the wait ends and what is waited for is looked at again.
+bool Strand::take_in_awake() {
+  t_awake = this;
+  const bool arrived = take_in_all();
+  t_awake = nullptr;
+  return arrived;
+}
 
 void Strand::start(std::function<void()> body) { task_ = executive_.spawn(options_, std::move(body)); }
 

@@ -20,6 +20,7 @@
 #include "orca/patterns/local/local_links.hpp"
 #include "orca/patterns/synchronizer.hpp"
 #include "peer.hpp"
+#include "shm_links.hpp"
 
 namespace orca::test {
 
@@ -70,7 +71,23 @@ struct ByteKit : Kit<ByteLinks> {
   explicit ByteKit(Executive& used) : Kit(used, used) {}
 };
 
-using LinkKits = std::tuple<LocalKit, ByteKit>;
+/// The links through shared memory, with both ends in this process.
+struct ShmKit : Kit<ShmLinks> {
+  static constexpr bool kSharesObjects = false;
+
+  // Virtual time does not wait for other processes. An executive that runs one task at a time has one doorbell.
+  static std::vector<ExecutiveOptions> executives() {
+    static DoorbellWord bell{0};
+    std::vector<ExecutiveOptions> kinds = steady_executives();
+    for (ExecutiveOptions& kind : kinds)
+      if (kind.backend != Backend::thread) kind.doorbell = &bell;
+    return kinds;
+  }
+
+  explicit ShmKit(Executive& used) : Kit(used, used) {}
+};
+
+using LinkKits = std::tuple<LocalKit, ByteKit, ShmKit>;
 
 /// Runs `body` with a fresh kit on each executive where the kit works.
 template <class Kit>

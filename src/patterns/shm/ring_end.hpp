@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frames/frame_end.hpp"
+#include "orca/base/strand.hpp"
+#include "orca/patterns/shm/shm_edges.hpp"
+#include "ring.hpp"
+
+namespace orca::shm {
+
+/// Which end of an edge: the client writes the first ring of a segment, the server the second.
+enum class Side : std::size_t { client, server };
+
+/// One end of a link through two rings. Frames are written straight into one of them, and read straight out of the
+/// other. A peer that writes what cannot be, or does not read, is cut off.
+///
+/// Thread contract: as FrameEnd, ShmEnd and Intake. The handlers run in take_in(), one at a time.
+class RingEnd final : public frames::FrameEnd, public Intake, public ShmEnd {
+ public:
+  /// @param strand  of the port; outlives the end.
+  /// @param name    for people: "a.out to b.in".
+  RingEnd(Side side, RingSegment segment, Strand& strand, ShmPeer peer, std::string name);
+  ~RingEnd() override;
+
+  void start(frames::FrameHandlers handlers) override;
+  void stop() override;
+  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never) override;
+  [[nodiscard]] bool is_cut() const override { return cut_.load(std::memory_order_acquire); }
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] frames::Traffic& traffic() const override { return traffic_; }
+
+  bool take_in() override;
+
+  void cut(Error reason) override;
+  void renew(RingSegment segment) override;
+  [[nodiscard]] ShmCounters counters() const override;
+
+ private:
+  // What another thread asks for.
+  struct Change {
+    Error reason;
+    std::optional<RingSegment> segment;
+  };
+
+  [[nodiscard]] bool has_news() const;
+  bool apply_change();
+  void replace(RingSegment segment);
+  void receive_all();
+  Status receive_frames();
+  Status handle(std::span<const std::byte> record);
+  void flush();
+  void lose(const Error& reason);
+  void cut_off(const Error& reason);
+  [[nodiscard]] std::optional<Error> fault() const;
+  [[nodiscard]] bool is_closed_by_peer() const { return reader_.is_closed(); }
+
+  // Called with mutex_ held.
+  frames::Sent write_or_keep(const frames::Frame& frame, frames::Loss loss);
+  frames::Sent keep(const frames::Frame& frame);
+  bool write_unsent();
+  void note_fault(const Error& error);
+  void note_too_large();
+
+  const Side side_;
+  Strand& strand_;
+  const ShmPeer peer_;
+  const std::string name_;
+  mutable frames::Traffic traffic_;
+  frames::FrameHandlers handlers_;
+  RingSegment segment_;
+
+  std::mutex reading_;  // held by whoever takes in
+  RingReader reader_;
+  std::atomic<bool> cut_{false};
+
+  mutable std::mutex mutex_;
+  // Below: guarded by mutex_. The flag may be read at any time.
+  RingWriter writer_;
+  std::deque<std::vector<std::byte>> unsent_;  // frames that found no room yet, oldest first
+  std::size_t unsent_bytes_ = 0;
+  std::optional<Error> fault_;      // of the peer, noticed while writing
+  bool warned_ = false;             // of a frame that is too large
+  std::atomic<bool> waits_{false};  // something is unsent, or there is a fault
+
+  std::mutex change_mutex_;
+  std::optional<Change> change_;  // guarded by change_mutex_
+  std::atomic<bool> is_to_change_{false};
+};
+
+}  // namespace orca::shm

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes seeds for ring_fuzz into a folder: for each pattern and side, what an honest peer writes into the segment.
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "orca/idl/motion.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/patterns/shm/shm_edges.hpp"
+#include "peer.hpp"
+
+namespace {
+
+using namespace orca;
+using idl::MotionCommand;
+
+struct Node : test::Peer {
+  explicit Node(Executive& executive) : Peer(executive, "peer") {}
+  Status on_command(const ObjectPtr<MotionCommand>&) { return ok(); }
+  Result<Loan<MotionCommand>> on_ask(const ObjectPtr<idl::Ask>&) { return full_stop(); }
+  PushServer<MotionCommand> out{*this, "out"};
+  PushProxy<MotionCommand> in{*this, "in"};
+  SendProxy<MotionCommand> sender{*this, "sender"};
+  SendServer<MotionCommand> taker{*this, "taker", &Node::on_command};
+  QueryProxy<idl::Ask, MotionCommand> question{*this, "question"};
+  QueryServer<idl::Ask, MotionCommand> answerer{*this, "answerer", &Node::on_ask};
+};
+
+// One edge, with both ends here.
+struct Edge {
+  explicit Edge(Executive& executive) : client(executive), server(executive) {
+    client.strand().set_doorbell(bells[0]);
+    server.strand().set_doorbell(bells[1]);
+    server.open();
+  }
+  RingSegment map() const { return RingSegment::map(file.descriptor()).value(); }
+  ShmPeer to_client() { return {"client.port", &bells[0]}; }
+  ShmPeer to_server() { return {"server.port", &bells[1]}; }
+  template <class Port>
+  static Port& port(Node& node, const std::string& name) {
+    return static_cast<Port&>(node.endpoint(name));
+  }
+
+  void push() {
+    make_shm_end(port<PushServerEndpoint>(server, "out"), map(), to_client(), {});
+    make_shm_end(port<PushClientEndpoint>(client, "in"), map(), to_server(), {}, Duration{0});
+    client.in.subscribe();
+    server.strand().take_in();
+    server.out.push(full_stop());
+  }
+  void send() {
+    make_shm_end(port<SendServerEndpoint>(server, "taker"), map(), to_client(), {});
+    make_shm_end(port<SendClientEndpoint>(client, "sender"), map(), to_server(), {});
+    (void)client.sender.send_request(full_stop());
+    server.strand().take_in();
+  }
+  void ask() {
+    make_shm_end(port<QueryServerEndpoint>(server, "answerer"), map(), to_client());
+    make_shm_end(port<QueryClientEndpoint>(client, "question"), map(), to_server());
+    (void)client.question.query_request(client.question.loan());
+    server.strand().take_in();
+    (void)server.handle_one();
+  }
+
+  MemoryFile file = RingSegment::create("seed", 4096).value();
+  DoorbellWord bells[2] = {};
+  Node client;
+  Node server;
+};
+
+void write_piece(std::ofstream& out, std::span<const std::byte> segment, std::size_t at, std::size_t count) {
+  out.put(static_cast<char>(at % 256)).put(static_cast<char>(at / 256)).put(static_cast<char>(count));
+  out.write(reinterpret_cast<const char*>(segment.data() + at), static_cast<std::streamsize>(count));
+}
+
+// Writes what the peer of one side has written: its records, then its line of the control block.
+void write_seed(const std::string& path, const Edge& edge, std::size_t choice, std::size_t ring) {
+  std::ofstream out(path, std::ios::binary);
+  const RingSegment segment = edge.map();
+  const auto bytes = segment.memory().bytes();
+  out.put(static_cast<char>(choice));
+  write_piece(out, bytes, 4096 + ring * 4096, 248);
+  write_piece(out, bytes, ring * 128, 32);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: ring_seeds FOLDER\n";
+    return 2;
+  }
+  const auto executive = make_executive({}).value();
+  executive->run([&] {
+    void (Edge::*const actions[])() = {&Edge::push, &Edge::send, &Edge::ask};
+    for (std::size_t pattern = 0; pattern < 3; ++pattern) {
+      Edge edge(*executive);
+      (edge.*actions[pattern])();
+      for (std::size_t side = 0; side < 2;
+           ++side)  // the server first, to which the client writes the first ring
+        write_seed(std::string(argv[1]) + "/" + std::to_string(2 * pattern + side), edge, 2 * pattern + side,
+                   side);
+    }
+  });
+  return 0;
+}
