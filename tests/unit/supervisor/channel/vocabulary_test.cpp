@@ -1,49 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/supervisor/vocabulary.hpp"
 
-#include <fcntl.h>
-
 #include "open_descriptors.hpp"
+#include "samples.hpp"
 
 using namespace orca;
 using namespace orca::supervisor;
+using namespace orca::test;
 
 namespace {
-
-Descriptor null_device() { return Descriptor(open("/dev/null", O_RDWR | O_CLOEXEC)); }
-
-std::vector<std::byte> some_bytes() { return {std::byte{1}, std::byte{0}, std::byte{255}}; }
-
-Setup setup() {
-  Setup setup{"base", "<graph/>", {{"seed", "7"}, {"profile", "sim"}}, null_device(), {}};
-  setup.edges.push_back({3, null_device()});
-  setup.edges.push_back({12, null_device()});
-  return setup;
-}
-
-template <class Words, class... Word>
-std::vector<Words> list_of(Word... word) {
-  std::vector<Words> words;
-  (words.emplace_back(std::move(word)), ...);
-  return words;
-}
-
-std::vector<Order> all_orders() {
-  return list_of<Order>(setup(), Build{}, OpenHardware{}, Configure{"avoid"}, OpenGates{}, TakeDown{},
-                        StopMotors{"estop"}, Suspend{"avoid"}, Resume{"avoid"},
-                        SetParams{"avoid", {{"stop_distance", "0.5 m"}}}, RenewEdge{{4, null_device()}},
-                        CutEdge{4, "process \"base\" has crashed"}, Glance{});
-}
-
-std::vector<Report> all_reports() {
-  return list_of<Report>(
-      Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
-      Built{{{"hardware", "scout"}}}, StateChange{"avoid", "WORK_FAILED", "no echo", true, true},
-      ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()}, ContactReport{{}},
-      AlarmReport{some_bytes()}, Logged{log::Level::warning, "avoid", "text"},
-      Glanced{1500ms, 3, {{"avoid", "SUSPENDED"}}, {{"kitchen", 2.5}, {"door", 0.0}}, "avoid FAILED: text"},
-      Ended{some_bytes()}, LastWordsReport{"SIGSEGV"});
-}
 
 template <class Words>
 Result<Words> decode(Message message) {
@@ -141,10 +106,10 @@ TEST_CASE("Fields keep their values", "[supervisor][vocabulary]") {
 }
 
 TEST_CASE("Damaged messages are refused", "[supervisor][vocabulary]") {
-  const std::size_t before = test::open_descriptors();
+  const std::size_t before = open_descriptors();
   for (auto& order : all_orders()) check_damage(std::move(order));
   for (auto& report : all_reports()) check_damage(std::move(report));
-  CHECK(test::open_descriptors() == before);
+  CHECK(open_descriptors() == before);
 }
 
 TEST_CASE("A host process gives no orders, and the supervisor sends no reports", "[supervisor][vocabulary]") {
