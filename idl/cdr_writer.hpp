@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,14 +22,17 @@ static_assert(std::endian::native == std::endian::little, "CDR is written as the
 template <class T>
 concept WireNumber = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
-/// A writer of values in XCDR version 1, the encoding that Fast DDS uses. Alignment counts from the first
-/// byte.
+/// A writer of values in XCDR version 1, the encoding that Fast DDS uses, into memory of a fixed size. Alignment
+/// counts from the first byte. What does not fit is counted, but not written.
 ///
 /// Thread contract: one thread.
 /// @source  OMG DDS-XTypes 1.3, 7.4.3 (plain CDR, version 1); CORBA 3.3 part 2, 9.3.
 class CdrWriter {
  public:
-  explicit CdrWriter(std::vector<std::byte>& out) : out_(out), start_(out.size()) {}
+  explicit CdrWriter(std::span<std::byte> to) : to_(to) {}
+
+  /// Returns the number of bytes that the values take so far, whether they fitted or not.
+  [[nodiscard]] std::size_t size() const { return used_; }
 
   template <class T>
   void field(const FieldInfo&, const T& value) {
@@ -39,12 +43,12 @@ class CdrWriter {
   void write(T value) {
     write_numbers(std::span<const T>(&value, 1));
   }
-  void write(bool value) { out_.push_back(static_cast<std::byte>(value)); }
+  void write(bool value) { append_byte(static_cast<std::byte>(value)); }
   void write(const std::string& text) {
     const std::string_view visible(text.c_str());  // An IDL string contains no zero.
     write(static_cast<std::uint32_t>(visible.size() + 1));
     append(std::as_bytes(std::span(visible)));
-    out_.push_back(std::byte{0});
+    append_byte(std::byte{0});
   }
   template <ReflectedEnum T>
   void write(T value) {
@@ -76,15 +80,22 @@ class CdrWriter {
 
   template <WireNumber T>
   void write_numbers(std::span<const T> numbers) {
-    const std::size_t used = out_.size() - start_;
-    out_.resize(start_ + (used + sizeof(T) - 1) / sizeof(T) * sizeof(T));
+    while (used_ % sizeof(T) != 0) append_byte(std::byte{0});
     append(std::as_bytes(numbers));
   }
 
-  void append(std::span<const std::byte> bytes) { out_.insert(out_.end(), bytes.begin(), bytes.end()); }
+  void append_byte(std::byte byte) {
+    if (used_ < to_.size()) to_[used_] = byte;
+    ++used_;
+  }
+  void append(std::span<const std::byte> bytes) {
+    if (used_ <= to_.size() && bytes.size() <= to_.size() - used_ && !bytes.empty())
+      std::memcpy(to_.data() + used_, bytes.data(), bytes.size());
+    used_ += bytes.size();
+  }
 
-  std::vector<std::byte>& out_;
-  std::size_t start_;
+  std::span<std::byte> to_;
+  std::size_t used_ = 0;
 };
 
 }  // namespace orca::detail

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <new>
+#include <span>
+#include <vector>
 
 #include "cdr_reader.hpp"
 #include "cdr_writer.hpp"
@@ -13,6 +16,10 @@
 #include "orca/idl/time.hpp"
 
 namespace orca::detail {
+
+/// Appends what `write` writes of the object.
+void append_written(std::size_t (*write)(const void* object, std::span<std::byte> to), const void* object,
+                    std::vector<std::byte>& out);
 
 /// The operations of a reflected type T, with its type erased.
 template <class T>
@@ -38,9 +45,13 @@ struct Operations {
     Reflection<T>::fields(as(object), writer);
     return std::move(writer).take();
   }
-  static void serialize(const void* object, std::vector<std::byte>& out) {
-    CdrWriter writer(out);
+  static std::size_t write(const void* object, std::span<std::byte> to) {
+    CdrWriter writer(to);
     Reflection<T>::fields(as(object), writer);
+    return writer.size();
+  }
+  static void serialize(const void* object, std::vector<std::byte>& out) {
+    append_written(write, object, out);
   }
   static Status deserialize(std::span<const std::byte> payload, void* object) {
     CdrReader reader(payload);
@@ -67,6 +78,7 @@ constexpr ObjectType make_object_type(std::string_view layout, std::uint64_t lay
           .stamp = Do::stamp,
           .dump = Do::dump,
           .fields = visit_fields<T>,
+          .write = Do::write,
           .serialize = Do::serialize,
           .deserialize = Do::deserialize,
           .pool = pool};

@@ -3,7 +3,23 @@
 
 #include <algorithm>
 
+#include "make_object_type.hpp"
+
 namespace orca {
+
+namespace detail {
+
+void append_written(std::size_t (*write)(const void* object, std::span<std::byte> to), const void* object,
+                    std::vector<std::byte>& out) {
+  constexpr std::size_t kGuess = 512;  // [bytes] most objects take less
+  const std::size_t start = out.size();
+  out.resize(start + kGuess);
+  const std::size_t size = write(object, std::span(out).subspan(start));
+  out.resize(start + size);
+  if (size > kGuess) write(object, std::span(out).subspan(start));
+}
+
+}  // namespace detail
 
 const ObjectType* find_object_type(std::string_view name) {
   const auto types = object_types();

@@ -25,6 +25,7 @@ class Layer:
 COMPONENT = ("component_api", "patterns", "idl", "base")
 ENDPOINTS = ("patterns_endpoints", "idl", "base")
 DEVICE = ("hw_api", "geometry", *COMPONENT)
+PATTERNS = "src/patterns"
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
 SUPERVISOR = "src/runtime/supervisor"
 SIM_MODEL = ("geometry", "xml", "base")
@@ -50,7 +51,11 @@ LAYERS = (
           ("orca/patterns/endpoints/", "orca/patterns/counters.hpp", "orca/patterns/request_id.hpp",
            "orca/patterns/update_rate.hpp"), ("idl", "base"), ("fmt",)),
     Layer("patterns_local", ("src/patterns/local",), ("orca/patterns/local/",), ENDPOINTS, ("fmt",)),
-    Layer("patterns_bytes", ("src/patterns/bytes",), ("orca/patterns/bytes/",), ENDPOINTS, ("fmt",)),
+    Layer("patterns_frames", (f"{PATTERNS}/frames",), (), ENDPOINTS, ("fmt",), module=PATTERNS),
+    Layer("patterns_bytes", (f"{PATTERNS}/bytes",), ("orca/patterns/bytes/",), ("patterns_frames", *ENDPOINTS), ("fmt",),
+          module=PATTERNS),
+    Layer("patterns_shm", (f"{PATTERNS}/shm",), ("orca/patterns/shm/",), ("patterns_frames", *ENDPOINTS), ("fmt",),
+          module=PATTERNS),
     Layer("patterns_dds", ("src/patterns/dds",), ("orca/patterns/dds/",), ENDPOINTS, ("fastdds", "fastcdr", "fmt")),
     Layer("component_api", ("src/component_api", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
           ("patterns", "idl", "base"), ("fmt",)),

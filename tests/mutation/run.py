@@ -59,7 +59,7 @@ def stage(*tests, also=()):
 _DEPLOYER = ("deployer", "orca_run")
 MODULES = (
     Module("src/base/", (stage("base_test"), stage("patterns_contract_test"), stage("host_test"))),
-    Module("src/patterns/", (stage("patterns_test", "patterns_bytes_test"), stage("patterns_contract_test"),
+    Module("src/patterns/", (stage("patterns_test", "patterns_bytes_test", "patterns_frames_test"), stage("patterns_contract_test"),
                              stage("patterns_allocation_test"))),
     Module("src/runtime/graph/", (stage("graph_test"), stage("plugin_faults_test"))),
     Module("src/runtime/plugin/", (stage("plugin_test"), stage("plugin_faults_test", "system_bad_plugins_test", also=_DEPLOYER))),

@@ -123,11 +123,12 @@ void CooperativeExecutive::ReadyQueue::remove(Fiber& fiber) {
 }
 
 CooperativeExecutive::CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts,
-                                           Duration spin)
+                                           Duration spin, DoorbellWord* doorbell)
     : clock_(clock),
       contexts_(std::move(contexts)),
+      doorbell_(doorbell),
       ready_(clock == ClockKind::virtual_time),
-      inbox_changed_(spin) {}
+      inbox_changed_(spin, doorbell) {}
 
 CooperativeExecutive::~CooperativeExecutive() = default;
 
@@ -137,6 +138,13 @@ TimePoint CooperativeExecutive::now() const {
 
 std::unique_ptr<Event> CooperativeExecutive::make_event() {
   return std::make_unique<CooperativeEvent>(*this);
+}
+
+std::unique_ptr<Event> CooperativeExecutive::make_doorbell_event(DoorbellWord& /*own*/) {
+  assert(doorbell_ != nullptr);
+  auto event = std::make_unique<CooperativeEvent>(*this);
+  rung_.push_back(event.get());
+  return event;
 }
 
 std::unique_ptr<CooperativeExecutive::Fiber> CooperativeExecutive::make_fiber(TaskOptions options,
@@ -280,7 +288,12 @@ void CooperativeExecutive::advance_virtual_time() {
 
 void CooperativeExecutive::wait_for_work() {
   running_.store(nullptr, std::memory_order_release);  // a task that waits here is not stuck
-  inbox_changed_.wait_until(timers_.empty() ? kForever : std::get<TimePoint>(*timers_.begin()));
+  if (inbox_changed_.wait_until(timers_.empty() ? kForever : std::get<TimePoint>(*timers_.begin())))
+    notify_rung();
+}
+
+void CooperativeExecutive::notify_rung() {
+  for (CooperativeEvent* event : rung_) event->notify_inside();
 }
 
 void CooperativeExecutive::post_notification(CooperativeEvent& event) {
@@ -294,11 +307,13 @@ void CooperativeExecutive::post_notification(CooperativeEvent& event) {
 }
 
 void CooperativeExecutive::forget_notifications(CooperativeEvent& event) {
+  std::erase(rung_, &event);
   const std::lock_guard lock(inbox_mutex_);
   std::erase(inbox_, &event);
 }
 
 void CooperativeExecutive::take_notifications() {
+  if (doorbell_ != nullptr && inbox_changed_.take()) notify_rung();
   if (!inbox_filled_.load(std::memory_order_acquire)) return;
   const std::lock_guard lock(inbox_mutex_);
   for (CooperativeEvent* event : inbox_) {

@@ -21,13 +21,16 @@ class CooperativeEvent;
 /// same way, so the order of tasks is the same.
 class CooperativeExecutive final : public Executive {
  public:
-  CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts, Duration spin);
+  CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts, Duration spin,
+                       DoorbellWord* doorbell);
   ~CooperativeExecutive() override;
 
   [[nodiscard]] TimePoint now() const override;
   [[nodiscard]] bool is_virtual() const override { return clock_ == ClockKind::virtual_time; }
   [[nodiscard]] bool tasks_overlap() const override { return false; }
   [[nodiscard]] std::unique_ptr<Event> make_event() override;
+  [[nodiscard]] DoorbellWord* doorbell() const override { return doorbell_; }
+  [[nodiscard]] std::unique_ptr<Event> make_doorbell_event(DoorbellWord& own) override;
   [[nodiscard]] std::unique_ptr<Task> spawn(TaskOptions options, std::function<void()> body) override;
   void run(std::function<void()> main) override;
   [[nodiscard]] std::vector<std::string> restless_tasks() const override;
@@ -76,12 +79,14 @@ class CooperativeExecutive final : public Executive {
   void set_timer(Fiber& fiber, TimePoint deadline);
   void cancel_timer(Fiber& fiber);
   void take_notifications();
+  void notify_rung();
   void fire_timers();
   void wait_for_work();
   void advance_virtual_time();
 
   const ClockKind clock_;
   const std::unique_ptr<ContextMaker> contexts_;
+  DoorbellWord* const doorbell_;
   std::atomic<std::int64_t> virtual_now_ns_{0};
 
   // Touched only by the thread that schedules or holds the baton.
@@ -90,12 +95,13 @@ class CooperativeExecutive final : public Executive {
   std::uint64_t sequence_ = 0;
   Fiber* current_ = nullptr;
   Fiber* main_ = nullptr;
-  std::vector<std::string> busy_;  // tasks that have had half of their turns at this instant
-  bool restless_ = false;          // busy_ keeps time from passing
-  bool main_is_next_ = false;      // to hear of it
+  std::vector<std::string> busy_;        // tasks that have had half of their turns at this instant
+  std::vector<CooperativeEvent*> rung_;  // by the doorbell
+  bool restless_ = false;                // busy_ keeps time from passing
+  bool main_is_next_ = false;            // to hear of it
 
   // Filled by other threads.
-  FutexEvent inbox_changed_;
+  FutexEvent inbox_changed_;  // its word is the doorbell, if there is one
   std::mutex inbox_mutex_;
   std::vector<CooperativeEvent*> inbox_;
   std::atomic<bool> inbox_filled_{false};

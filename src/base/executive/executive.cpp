@@ -26,6 +26,9 @@ void Executive::sleep_until(TimePoint time) {
 }
 
 Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& options) {
+  if (options.doorbell != nullptr && options.clock == ClockKind::virtual_time)
+    return fail(Code::invalid_argument,
+                "virtual time does not wait for other processes, so it has no doorbell");
   if (options.backend == Backend::thread) {
     if (options.clock == ClockKind::virtual_time)
       return fail(
@@ -38,7 +41,7 @@ Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& option
   auto contexts =
       options.backend == Backend::fiber ? detail::make_fiber_contexts() : detail::make_baton_contexts();
   return std::unique_ptr<Executive>(std::make_unique<detail::CooperativeExecutive>(
-      options.clock, std::move(contexts), detail::useful_spin(options.spin)));
+      options.clock, std::move(contexts), detail::useful_spin(options.spin), options.doorbell));
 }
 
 }  // namespace orca

@@ -16,7 +16,12 @@
 namespace orca::detail {
 namespace {
 
+// Only the waiter sets kAsleep, and only the waiter leaves it at a timeout. Any other way out is a notification,
+// so none is lost. Whatever else another process may write counts as a notification, too.
+enum State : std::uint32_t { kIdle, kNotified, kAsleep };
+
 constexpr int kChecksPerClockReading = 32;
+constexpr int kAllProcesses = 0;
 
 void relax_processor() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -26,9 +31,15 @@ void relax_processor() {
 #endif
 }
 
-void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value, const timespec* deadline) {
-  static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t));
-  syscall(SYS_futex, &word, operation | FUTEX_PRIVATE_FLAG, value, deadline, nullptr, FUTEX_BITSET_MATCH_ANY);
+void futex(DoorbellWord& word, int operation, std::uint32_t value, const timespec* deadline) {
+  syscall(SYS_futex, &word, operation, value, deadline, nullptr, FUTEX_BITSET_MATCH_ANY);
+}
+
+// The waiter may destroy the event, and with it a word of its own, as soon as it sees the flag. The wake-up then
+// goes to an address where no thread sleeps, or where a later sleeper checks its own word again.
+void notify_word(DoorbellWord& word, int scope) {
+  if (word.exchange(kNotified, std::memory_order_acq_rel) == kAsleep)
+    futex(word, FUTEX_WAKE | scope, 1, nullptr);
 }
 
 timespec to_timespec(TimePoint time) {
@@ -38,20 +49,22 @@ timespec to_timespec(TimePoint time) {
 }
 
 // Sleeps until the word changes or the deadline comes, or for a shorter time.
-void sleep_once(std::atomic<std::uint32_t>& word, std::uint32_t value, TimePoint deadline) {
+void sleep_once(DoorbellWord& word, int scope, TimePoint deadline) {
   if constexpr (kLongestSleep != Duration::max()) deadline = std::min(deadline, steady_now() + kLongestSleep);
   const timespec limit = deadline == kForever ? timespec{} : to_timespec(deadline);
-  futex(word, FUTEX_WAIT_BITSET, value, deadline == kForever ? nullptr : &limit);
+  futex(word, FUTEX_WAIT_BITSET | scope, kAsleep, deadline == kForever ? nullptr : &limit);
   let_signals_be_handled();
 }
 
 }  // namespace
 
-void FutexEvent::notify() {
-  // The waiter may destroy the event as soon as it sees the flag. The wake-up then goes to an address where
-  // no thread sleeps, or where a later sleeper checks its own word again.
-  if (state_.exchange(kNotified, std::memory_order_acq_rel) == kAsleep) futex(state_, FUTEX_WAKE, 1, nullptr);
-}
+FutexEvent::FutexEvent(Duration spin_limit, DoorbellWord* doorbell)
+    : state_(doorbell != nullptr ? *doorbell : own_),
+      scope_(doorbell != nullptr ? kAllProcesses : FUTEX_PRIVATE_FLAG),
+      spin_limit_(spin_limit),
+      spin_(spin_limit) {}
+
+void FutexEvent::notify() { notify_word(state_, scope_); }
 
 bool FutexEvent::wait_until(TimePoint deadline) {
   const Waiting waiting;
@@ -60,9 +73,8 @@ bool FutexEvent::wait_until(TimePoint deadline) {
 }
 
 bool FutexEvent::take() {
-  std::uint32_t expected = kNotified;
-  return state_.load(std::memory_order_relaxed) == kNotified &&
-         state_.compare_exchange_strong(expected, kIdle, std::memory_order_acquire);
+  return state_.load(std::memory_order_relaxed) != kIdle &&
+         state_.exchange(kIdle, std::memory_order_acquire) != kIdle;
 }
 
 bool FutexEvent::spin_then_sleep(TimePoint deadline) {
@@ -91,7 +103,7 @@ bool FutexEvent::sleep(TimePoint deadline) {
       seen = kAsleep;
       if (state_.compare_exchange_strong(seen, kIdle, std::memory_order_acquire)) return false;
     } else {
-      sleep_once(state_, kAsleep, deadline);
+      sleep_once(state_, scope_, deadline);
     }
   }
   return take();
@@ -105,3 +117,5 @@ Duration useful_spin(Duration limit) {
 }
 
 }  // namespace orca::detail
+
+void orca::ring(DoorbellWord& word) { detail::notify_word(word, detail::kAllProcesses); }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 
+#include "orca/base/doorbell.hpp"
 #include "orca/base/executive.hpp"
 
 namespace orca::detail {
 
-/// An Event between threads. It is one word, and makes a system call only when a thread sleeps or must be
+/// An Event between threads, also of several processes. It is one word, and makes a system call only when a thread sleeps or must be
 /// woken.
 ///
 /// The waiting thread spins for a while before it sleeps, because to wake a thread on a halted core often
@@ -19,22 +19,24 @@ namespace orca::detail {
 class FutexEvent final : public Event {
  public:
   /// @param spin_limit  longest time to spin before sleeping [s]; 0: never spin.
-  explicit FutexEvent(Duration spin_limit) : spin_limit_(spin_limit), spin_(spin_limit) {}
+  /// @param doorbell    a word shared with other processes, which outlives the event; null: a word of its own.
+  explicit FutexEvent(Duration spin_limit, DoorbellWord* doorbell = nullptr);
 
   void notify() override;
   bool wait_until(TimePoint deadline) override;
 
- private:
-  // Only the waiter sets kAsleep, and only the waiter leaves it at a timeout. Any other way out is a
-  // notification, so none is lost.
-  enum State : std::uint32_t { kIdle, kNotified, kAsleep };
-
+  /// Clears the flag without waiting. Serves the waiter.
+  /// @return whether it was set.
   bool take();
+
+ private:
   bool spin_then_sleep(TimePoint deadline);
   bool spin(TimePoint until);
   bool sleep(TimePoint deadline);
 
-  std::atomic<std::uint32_t> state_{kIdle};
+  DoorbellWord own_{0};
+  DoorbellWord& state_;
+  const int scope_;  // of the futex: this process, or all
   const Duration spin_limit_;
   Duration spin_;  // used by the waiter only: how long it spins at present
 };

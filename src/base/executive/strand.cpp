@@ -8,6 +8,17 @@ namespace orca {
 Strand::Strand(Executive& executive, TaskOptions options)
     : executive_(executive), options_(std::move(options)), event_(executive.make_event()) {}
 
+void Strand::set_doorbell(DoorbellWord& own) {
+  event_ = executive_.make_doorbell_event(own);
+  doorbell_ = executive_.doorbell() != nullptr ? executive_.doorbell() : &own;
+}
+
+bool Strand::take_in_all() {
+  bool arrived = false;
+  for (Intake* intake : intakes_) arrived = intake->take_in() || arrived;
+  return arrived;
+}
+
 void Strand::start(std::function<void()> body) { task_ = executive_.spawn(options_, std::move(body)); }
 
 void Strand::throw_foreign() const {

@@ -56,6 +56,10 @@ TimePoint ThreadExecutive::now() const { return steady_now(); }
 
 std::unique_ptr<Event> ThreadExecutive::make_event() { return std::make_unique<FutexEvent>(spin_); }
 
+std::unique_ptr<Event> ThreadExecutive::make_doorbell_event(DoorbellWord& own) {
+  return std::make_unique<FutexEvent>(spin_, &own);
+}
+
 std::unique_ptr<Task> ThreadExecutive::spawn(TaskOptions options, std::function<void()> body) {
   return std::make_unique<ThreadTask>(*this, watch_, options, std::move(body));
 }

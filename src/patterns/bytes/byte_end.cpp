@@ -7,6 +7,9 @@
 #include "orca/base/log.hpp"
 
 namespace orca::bytes {
+
+using namespace frames;
+
 namespace {
 
 constexpr std::size_t kMostUnsent = std::size_t{64} << 20;  // [bytes]
@@ -18,9 +21,8 @@ ByteEnd::ByteEnd(Connection connection)
 
 ByteEnd::~ByteEnd() { stop(); }
 
-void ByteEnd::start(Receive receive, std::function<void(const Error&)> on_cut) {
-  receive_ = std::move(receive);
-  on_cut_ = std::move(on_cut);
+void ByteEnd::start(FrameHandlers handlers) {
+  handlers_ = std::move(handlers);
   connection_.in->set_receiver(event_.get());
   connection_.out->set_sender(event_.get());
   task_ = connection_.executive.spawn({"link " + connection_.name, 0}, [this] { work(); });
@@ -39,15 +41,15 @@ void ByteEnd::stop() {
   cut_ = true;
 }
 
-bool ByteEnd::send(FrameWriter frame, Loss loss) {
-  if (is_cut()) return false;
+Sent ByteEnd::send(const Frame& frame, Loss loss) {
+  if (is_cut()) return Sent::cut;
   const std::lock_guard lock(mutex_);
-  if (loss == Loss::allowed && !unsent_.empty()) return false;
-  const auto bytes = frame.bytes();
+  if (loss == Loss::allowed && !unsent_.empty()) return Sent::no_room;
+  const std::vector<std::byte> bytes = in_stream(frame);
   const std::size_t sent = unsent_.empty() ? connection_.out->write(bytes) : 0;
   unsent_.insert(unsent_.end(), bytes.begin() + static_cast<std::ptrdiff_t>(sent), bytes.end());
   if (unsent_.size() > kMostUnsent && !std::exchange(peer_is_deaf_, true)) event_->notify();
-  return true;
+  return Sent::yes;
 }
 
 void ByteEnd::flush() {
@@ -92,7 +94,7 @@ Status ByteEnd::receive_all() {
       if (!frame->has_value()) break;
       connection_.traffic.frames_received.fetch_add(1, std::memory_order_relaxed);
       FrameReader reader(**frame);
-      if (Status handled = receive_(reader); !handled.ok()) return handled;
+      if (Status handled = handlers_.receive(reader); !handled.ok()) return handled;
       if (Status whole = reader.status(); !whole.ok()) return whole;
     }
   }
@@ -103,7 +105,7 @@ void ByteEnd::cut_off(const Error& reason) {
   cut_.store(true, std::memory_order_release);
   connection_.in->close();
   connection_.out->close();
-  on_cut_(reason);
+  handlers_.cut(reason);
 }
 
 }  // namespace orca::bytes

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,52 +10,37 @@
 #include <vector>
 
 #include "byte_wire.hpp"
-#include "frame.hpp"
+#include "frame_splitter.hpp"
+#include "frames/frame_end.hpp"
 #include "orca/base/executive.hpp"
-#include "traffic.hpp"
 
 namespace orca::bytes {
 
 /// The wires by which an end reaches its peer.
 struct Connection {
   Executive& executive;
-  Traffic& traffic;
+  frames::Traffic& traffic;
   std::string name;  ///< For people: "a.out > b.in".
   std::shared_ptr<ByteWire> out;
   std::shared_ptr<ByteWire> in;
 };
 
-/// One end of a link of bytes. It sends frames to a peer, and receives frames on a task of its own. A peer
-/// that sends invalid data, or that does not read, is cut off: nothing passes in either direction any more,
-/// and the event is counted and logged.
+/// One end of a link of bytes, which receives frames on a task of its own. A peer that does not read is cut off,
+/// too. It is never renewed.
 ///
-/// Thread contract: send() and cut() from any thread; start() and stop() from one task.
-class ByteEnd {
+/// Thread contract: as FrameEnd. The handlers run on the receiving task.
+class ByteEnd final : public frames::FrameEnd {
  public:
-  /// Whether a frame may be dropped because the link has no room for it.
-  enum class Loss { never, allowed };
-  /// Handles a frame; an error cuts the peer off.
-  using Receive = std::function<Status(FrameReader&)>;
-
   explicit ByteEnd(Connection connection);
-  ~ByteEnd();
-  ByteEnd(const ByteEnd&) = delete;
-  ByteEnd& operator=(const ByteEnd&) = delete;
+  ~ByteEnd() override;
 
-  /// Starts the receiving task, which calls both functions; neither may block.
-  /// @param on_cut  called once if the link is cut by either side.
-  void start(Receive receive, std::function<void(const Error&)> on_cut);
-  /// Cuts the link and ends the receiving task.
-  void stop();
+  void start(frames::FrameHandlers handlers) override;
+  void stop() override;
+  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never) override;
 
-  /// Sends a frame, at once or as soon as the link has room.
-  /// @return false if it was dropped: there was no room, or the link is cut.
-  bool send(FrameWriter frame, Loss loss = Loss::never);
-
-  [[nodiscard]] bool is_cut() const { return cut_.load(std::memory_order_acquire); }
-  [[nodiscard]] const std::string& name() const { return connection_.name; }
-  [[nodiscard]] Executive& executive() const { return connection_.executive; }
-  [[nodiscard]] Traffic& traffic() const { return connection_.traffic; }
+  [[nodiscard]] bool is_cut() const override { return cut_.load(std::memory_order_acquire); }
+  [[nodiscard]] const std::string& name() const override { return connection_.name; }
+  [[nodiscard]] frames::Traffic& traffic() const override { return connection_.traffic; }
 
  private:
   void work();
@@ -67,8 +51,7 @@ class ByteEnd {
 
   Connection connection_;
   std::unique_ptr<Event> event_;
-  Receive receive_;
-  std::function<void(const Error&)> on_cut_;
+  frames::FrameHandlers handlers_;
   FrameSplitter splitter_;
   std::atomic<bool> ending_{false};
   std::atomic<bool> cut_{false};

@@ -4,20 +4,21 @@
 #include <optional>
 #include <utility>
 
+#include "byte_end.hpp"
 #include "courier.hpp"
-#include "push_over_bytes.hpp"
-#include "request_over_bytes.hpp"
-#include "traffic.hpp"
+#include "frames/push_over_frames.hpp"
+#include "frames/request_over_frames.hpp"
 
 namespace orca {
 namespace {
 
 using namespace bytes;
+using namespace frames;
 
 // The two ends of a new link.
 struct Pair {
-  Connection client;
-  Connection server;
+  std::unique_ptr<FrameEnd> client;
+  std::unique_ptr<FrameEnd> server;
 };
 
 Pair make_pair(Executive& executive, Courier& courier, Traffic& traffic, std::size_t capacity,
@@ -26,8 +27,11 @@ Pair make_pair(Executive& executive, Courier& courier, Traffic& traffic, std::si
   const auto to_client = std::make_shared<ByteWire>(courier, capacity);
   courier.serve(to_server);
   courier.serve(to_client);
-  return {{executive, traffic, client.path() + " to " + server.path(), to_server, to_client},
-          {executive, traffic, server.path() + " to " + client.path(), to_client, to_server}};
+  const auto end = [&](const Endpoint& from, const Endpoint& to, const auto& out, const auto& in) {
+    return std::make_unique<ByteEnd>(
+        Connection{executive, traffic, from.path() + " to " + to.path(), out, in});
+  };
+  return {end(client, server, to_server, to_client), end(server, client, to_client, to_server)};
 }
 
 const ObjectType& type_of(const TypeId& id) { return *find_object_type(id.name); }
@@ -42,9 +46,9 @@ template <class Answer>
 void connect_requests(Pair pair, RequestClient<Answer>& client, Endpoint& server,
                       RequestTarget<Answer>& target) {
   const RequestTypes types = types_of(client, server);
-  auto near = std::make_unique<TargetOverBytes<Answer>>(std::move(pair.client), types, server.path(),
-                                                        target.patience());
-  server.adopt(std::make_unique<CallerOverBytes<Answer>>(std::move(pair.server), types, target));
+  auto near = std::make_unique<TargetOverFrames<Answer>>(std::move(pair.client), client.home().strand, types,
+                                                         server.path(), target.patience());
+  server.adopt(std::make_unique<CallerOverFrames<Answer>>(std::move(pair.server), types, target));
   client.connect(*near);
   client.adopt(std::move(near));
 }
@@ -66,9 +70,9 @@ ByteLinkCounters ByteLinks::counters() const {
 void ByteLinks::push(PushServerEndpoint& server, PushClientEndpoint& client, const QueuePolicy& policy) {
   Pair pair = make_pair(executive_, *courier_, *traffic_, capacity_, client, server);
   PushSource& source = server.connect();
-  auto near = std::make_unique<PushSourceOverBytes>(std::move(pair.client), type_of(server.contract().type),
-                                                    server.path(), server.base_period());
-  server.adopt(std::make_unique<PushSinkOverBytes>(std::move(pair.server), source, policy));
+  auto near = std::make_unique<PushSourceOverFrames>(std::move(pair.client), type_of(server.contract().type),
+                                                     server.path(), server.base_period());
+  server.adopt(std::make_unique<PushSinkOverFrames>(std::move(pair.server), source, policy));
   client.connect(*near, policy);
   client.adopt(std::move(near));
 }

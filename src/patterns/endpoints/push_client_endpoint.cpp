@@ -17,12 +17,13 @@ PushEdge& PushClientEndpoint::connect(PushSource& source, const QueuePolicy& pol
 }
 
 bool PushClientEndpoint::has_new() const {
-  return std::any_of(edges_.begin(), edges_.end(), [](const auto& edge) { return edge->has_new(); });
+  home().strand.take_in();
+  return std::any_of(edges_.begin(), edges_.end(), [](const auto& edge) { return edge->holds_new(); });
 }
 
 bool PushClientEndpoint::has_new_from_all() const {
   return has_new() && std::all_of(edges_.begin(), edges_.end(),
-                                  [](const auto& edge) { return edge->has_new() || !edge->subscribed(); });
+                                  [](const auto& edge) { return edge->holds_new() || !edge->subscribed(); });
 }
 
 bool PushClientEndpoint::has_deadline() const {

@@ -240,6 +240,7 @@ bool PushEdge::drop_before(TimePoint time) {
 }
 
 ObjectRef PushEdge::latest() const {
+  look();
   const std::lock_guard lock(mutex_);
   const std::uint32_t count = count_.load(std::memory_order_relaxed);
   return count == 0 ? newest_ : ring_[(first_ + count - 1) % policy_.depth];

@@ -38,6 +38,7 @@ Result<typename RequestClient<Answer>::Offered> RequestClient<Answer>::offer(Obj
 
 template <class Answer>
 std::optional<Answer> RequestClient<Answer>::receive(RequestId id) {
+  home().strand.take_in();
   std::optional<Answer> answer = pending_.take(id);
   if (!answer) {
     if (pending_.state(id) != Pending::State::unknown) return std::nullopt;

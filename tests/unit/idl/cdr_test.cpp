@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 #include <fastcdr/Cdr.h>
@@ -55,6 +56,19 @@ TEMPLATE_LIST_TEST_CASE("the bytes are those that Fast CDR writes", "[idl][cdr]"
   const auto object = random_object<TestType>(seed);
   CHECK(serialized(object) == serialized_by_fastcdr(object));
   CHECK(serialized(TestType()) == serialized_by_fastcdr(TestType()));
+}
+
+TEMPLATE_LIST_TEST_CASE("an object is written whole or only counted, and never beyond its place",
+                        "[idl][cdr]", orca::test::AllObjects) {
+  const auto object = random_object<TestType>(7);
+  const Bytes whole = serialized(object);
+  for (std::size_t room = 0; room <= whole.size() + 1; ++room) {
+    Bytes place(whole.size() + 8, std::byte{0x5a});
+    REQUIRE(object_type<TestType>().write(&object, std::span(place).first(room)) == whole.size());
+    const auto end = place.begin() + static_cast<std::ptrdiff_t>(room);
+    REQUIRE(std::all_of(end, place.end(), [](std::byte byte) { return byte == std::byte{0x5a}; }));
+    if (room >= whole.size()) REQUIRE(std::equal(whole.begin(), whole.end(), place.begin()));
+  }
 }
 
 TEST_CASE("serialize appends, and aligns from where it began", "[idl][cdr]") {

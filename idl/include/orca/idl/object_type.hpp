@@ -48,6 +48,10 @@ struct ObjectType {
 
   void (*fields)(void* object, FieldVisitor& visitor);  ///< Visits all fields, inherited ones first.
 
+  /// Writes what serialize() appends, as far as it fits into `to`.
+  /// @return the bytes that the whole object takes. If `to` has fewer, its contents are unspecified.
+  std::size_t (*write)(const void* object, std::span<std::byte> to);
+
   /// Appends the object as XCDR1, little-endian, without encapsulation header; alignment counts from the
   /// first byte appended. Allocates only if `out` must grow. Texts end at their first zero.
   void (*serialize)(const void* object, std::vector<std::byte>& out);

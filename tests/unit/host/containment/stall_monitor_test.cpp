@@ -20,6 +20,7 @@ class StuckExecutive final : public Executive {
   [[nodiscard]] bool is_virtual() const override { return task_.holds_up_others; }
   [[nodiscard]] bool tasks_overlap() const override { return !task_.holds_up_others; }
   [[nodiscard]] std::unique_ptr<Event> make_event() override { return nullptr; }
+  [[nodiscard]] std::unique_ptr<Event> make_doorbell_event(DoorbellWord&) override { return nullptr; }
   [[nodiscard]] std::unique_ptr<Task> spawn(TaskOptions /*options*/,
                                             std::function<void()> /*body*/) override {
     return nullptr;

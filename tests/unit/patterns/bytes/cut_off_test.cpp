@@ -9,16 +9,17 @@
 #include "byte_end.hpp"
 #include "courier.hpp"
 #include "executives.hpp"
+#include "frames/push_over_frames.hpp"
+#include "frames/request_over_frames.hpp"
 #include "orca/base/log.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/patterns/bytes/byte_links.hpp"
 #include "peer.hpp"
-#include "push_over_bytes.hpp"
-#include "request_over_bytes.hpp"
 
 using namespace orca;
 using namespace orca::bytes;
+using namespace orca::frames;
 using namespace orca::test;
 using Catch::Contains;
 using idl::MotionCommand;
@@ -59,10 +60,12 @@ class Wires {
   Wires(const Wires&) = delete;
   Wires& operator=(const Wires&) = delete;
 
-  Connection connection() { return {executive_, traffic_, "a to b", to_peer_, from_peer_}; }
+  std::unique_ptr<ByteEnd> end() {
+    return std::make_unique<ByteEnd>(Connection{executive_, traffic_, "a to b", to_peer_, from_peer_});
+  }
 
   void say(std::span<const std::byte> bytes) { CHECK(from_peer_->write(bytes) == bytes.size()); }
-  void say(FrameWriter frame) { say(frame.bytes()); }
+  void say(const Frame& frame) { say(in_stream(frame)); }
   void hang_up() { from_peer_->close(); }
 
   [[nodiscard]] bool cuts_off() {
@@ -95,8 +98,8 @@ class Wires {
 
 std::vector<std::byte> rubbish() { return std::vector<std::byte>(100, std::byte{0xee}); }
 
-FrameWriter attach_frame(std::uint64_t interval_ns = 0, std::uint64_t multiple = 1) {
-  FrameWriter frame(FrameKind::attach, 1);
+Frame attach_frame(std::uint64_t interval_ns = 0, std::uint64_t multiple = 1) {
+  Frame frame(FrameKind::attach, 1);
   frame.add(interval_ns);
   frame.add(multiple);
   return frame;
@@ -110,8 +113,8 @@ TEST_CASE("a subscriber that sends rubbish is cut off, counted, and costs the pu
     Wires wires(executive);
     Source source(executive);
     auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
-    server.adopt(std::make_unique<PushSinkOverBytes>(
-        wires.connection(), server.connect(),
+    server.adopt(std::make_unique<PushSinkOverFrames>(
+        wires.end(), server.connect(),
         QueuePolicy{.overflow = QueuePolicy::Overflow::block, .block_limit = 1h}));
     wires.say(attach_frame());
     REQUIRE(eventually(executive, [&] { return source.out.subscriber_count() == 1; }));
@@ -126,11 +129,11 @@ TEST_CASE("a peer that reads nothing is cut off as soon as too much waits for it
           "[patterns][bytes]") {
   run_on_each(steady_executives(), [](Executive& executive) {
     Wires wires(executive);
-    ByteEnd end(wires.connection());
-    end.start([](FrameReader&) { return ok(); }, [](const Error&) {});
-    FrameWriter frame(FrameKind::offer, 1);
+    const auto end = wires.end();
+    end->start({[](FrameReader&) { return ok(); }, [](const Error&) {}, [] {}});
+    Frame frame(FrameKind::offer, 1);
     frame.add(std::string(std::size_t{65} << 20, 'x'));
-    CHECK(end.send(std::move(frame)));
+    CHECK(end->send(frame) == Sent::yes);
     CHECK(wires.cuts_off());
   });
 }
@@ -138,13 +141,13 @@ TEST_CASE("a peer that reads nothing is cut off as soon as too much waits for it
 TEST_CASE("an end whose link is cut sends nothing more, and says so", "[patterns][bytes]") {
   run_on_each(steady_executives(), [](Executive& executive) {
     Wires wires(executive);
-    ByteEnd end(wires.connection());
-    end.start([](FrameReader&) { return ok(); }, [](const Error&) {});
-    CHECK(end.send(FrameWriter(FrameKind::detach, 1)));
+    const auto end = wires.end();
+    end->start({[](FrameReader&) { return ok(); }, [](const Error&) {}, [] {}});
+    CHECK(end->send(Frame(FrameKind::detach, 1)) == Sent::yes);
     wires.hang_up();
-    REQUIRE(eventually(executive, [&] { return end.is_cut(); }));
-    CHECK_FALSE(end.send(FrameWriter(FrameKind::detach, 1)));
-    CHECK_FALSE(end.send(FrameWriter(FrameKind::object, 1), ByteEnd::Loss::allowed));
+    REQUIRE(eventually(executive, [&] { return end->is_cut(); }));
+    CHECK(end->send(Frame(FrameKind::detach, 1)) == Sent::cut);
+    CHECK(end->send(Frame(FrameKind::object, 1), Loss::allowed) == Sent::cut);
   });
 }
 
@@ -153,7 +156,7 @@ TEST_CASE("while nothing is lost each object is one frame", "[patterns][bytes]")
     Wires wires(executive);
     Source source(executive);
     auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
-    server.adopt(std::make_unique<PushSinkOverBytes>(wires.connection(), server.connect(), QueuePolicy{}));
+    server.adopt(std::make_unique<PushSinkOverFrames>(wires.end(), server.connect(), QueuePolicy{}));
     wires.say(attach_frame());
     REQUIRE(eventually(executive, [&] { return source.out.subscriber_count() == 1; }));
     for (int i = 0; i < 3; ++i) source.out.push(full_stop());
@@ -174,7 +177,7 @@ TEST_CASE("a subscriber that asks for an impossible rate is cut off before anybo
     Wires wires(executive);
     Source source(executive);
     auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
-    server.adopt(std::make_unique<PushSinkOverBytes>(wires.connection(), server.connect(), QueuePolicy{}));
+    server.adopt(std::make_unique<PushSinkOverFrames>(wires.end(), server.connect(), QueuePolicy{}));
     wires.say(attach_frame(asked.interval_ns, asked.multiple));
     REQUIRE(wires.cuts_off());
     CHECK(source.out.subscriber_count() == 0);
@@ -186,7 +189,7 @@ TEST_CASE("a subscriber may ask for the slowest rate that can be said", "[patter
     Wires wires(executive);
     Source source(executive);
     auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
-    server.adopt(std::make_unique<PushSinkOverBytes>(wires.connection(), server.connect(), QueuePolicy{}));
+    server.adopt(std::make_unique<PushSinkOverFrames>(wires.end(), server.connect(), QueuePolicy{}));
     wires.say(
         attach_frame(static_cast<std::uint64_t>(Duration::max().count()), (std::uint64_t{1} << 32) - 1));
     CHECK(eventually(executive, [&] { return source.out.subscriber_count() == 1; }));
@@ -198,7 +201,7 @@ TEST_CASE("a subscriber that attaches a second time is still one subscriber", "[
     Wires wires(executive);
     Source source(executive);
     auto& server = static_cast<PushServerEndpoint&>(source.endpoint("out"));
-    server.adopt(std::make_unique<PushSinkOverBytes>(wires.connection(), server.connect(), QueuePolicy{}));
+    server.adopt(std::make_unique<PushSinkOverFrames>(wires.end(), server.connect(), QueuePolicy{}));
     wires.say(attach_frame());
     wires.say(attach_frame());
     CHECK(wires.kinds_sent(2) == std::vector{FrameKind::granted, FrameKind::granted});
@@ -217,20 +220,20 @@ TEST_CASE(
     Wires wires(executive);
     Listener listener(executive);
     auto& client = static_cast<PushClientEndpoint&>(listener.endpoint("in"));
-    auto end = std::make_unique<PushSourceOverBytes>(wires.connection(), object_type<MotionCommand>(),
-                                                     "source.out", Duration{0});
+    auto end = std::make_unique<PushSourceOverFrames>(wires.end(), object_type<MotionCommand>(), "source.out",
+                                                      Duration{0});
     client.connect(*end, {.depth = 4});
     client.adopt(std::move(end));
     listener.in.subscribe();
-    FrameWriter good(FrameKind::object, 1);
+    Frame good(FrameKind::object, 1);
     good.add(std::uint64_t{0});
     good.add(ObjectRef(head(0.0, 3.0).seal()));
-    wires.say(std::move(good));
+    wires.say(good);
     REQUIRE(listener.in.get_update_wait_max(5s));
-    FrameWriter bad(FrameKind::object, 1);
+    Frame bad(FrameKind::object, 1);
     bad.add(std::uint64_t{0});
     bad.add(std::string("no motion command"));
-    wires.say(std::move(bad));
+    wires.say(bad);
     REQUIRE(wires.cuts_off());
     CHECK_FALSE(listener.in.new_data_arrived());
     CHECK(listener.in.latest()->speed() == 3.0);
@@ -242,9 +245,8 @@ TEST_CASE("a frame that does not belong to the pattern cuts its sender off", "[p
     Wires wires(executive);
     Taker taker(executive);
     auto& server = static_cast<SendServerEndpoint&>(taker.endpoint("in"));
-    server.adopt(std::make_unique<CallerOverBytes<Status>>(
-        wires.connection(), RequestTypes{object_type<MotionCommand>(), nullptr},
-        server.connect("a.out", {})));
+    server.adopt(std::make_unique<CallerOverFrames<Status>>(
+        wires.end(), RequestTypes{object_type<MotionCommand>(), nullptr}, server.connect("a.out", {})));
     wires.say(attach_frame());
     REQUIRE(wires.cuts_off());
     CHECK(wires.frames_received() == 1);
@@ -257,8 +259,9 @@ TEST_CASE("a sender whose link is cut gets an error, at once and from then on", 
     Wires wires(executive);
     Sender sender(executive);
     auto& client = static_cast<SendClientEndpoint&>(sender.endpoint("out"));
-    auto end = std::make_unique<TargetOverBytes<Status>>(
-        wires.connection(), RequestTypes{object_type<MotionCommand>(), nullptr}, "taker.in", Duration{0});
+    auto end = std::make_unique<TargetOverFrames<Status>>(wires.end(), sender.strand(),
+                                                          RequestTypes{object_type<MotionCommand>(), nullptr},
+                                                          "taker.in", Duration{0});
     client.connect(*end);
     client.adopt(std::move(end));
     const Result<SendId> id = sender.out.send_request(full_stop());

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/doorbell.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 
@@ -94,6 +95,14 @@ class Executive {
   [[nodiscard]] bool runs_here() const noexcept;
   [[nodiscard]] virtual std::unique_ptr<Event> make_event() = 0;
 
+  /// Returns the word by which other processes wake all tasks of this executive; null: it has none.
+  [[nodiscard]] virtual DoorbellWord* doorbell() const { return nullptr; }
+  /// Makes an event that is also notified when a doorbell is rung: that of the executive if it has one, otherwise
+  /// `own`. Rings of the executive's doorbell notify all these events.
+  /// @param own  outlives the event; no other event has it.
+  /// @pre  threads, or doorbell() is not null.
+  [[nodiscard]] virtual std::unique_ptr<Event> make_doorbell_event(DoorbellWord& own) = 0;
+
   /// Starts a task. `body` must not throw.
   [[nodiscard]] virtual std::unique_ptr<Task> spawn(TaskOptions options, std::function<void()> body) = 0;
 
@@ -134,9 +143,13 @@ struct ExecutiveOptions {
   /// thread spins only where waits tend to end within this time, and never where the process has a single
   /// processor.
   Duration spin{0};
+  /// Fiber and baton, steady clock: the word by which other processes wake the tasks; null: they cannot. It
+  /// outlives the executive. With threads each strand has its own (Strand::set_doorbell).
+  DoorbellWord* doorbell = nullptr;
 };
 
-/// @errors  invalid_argument for a combination that cannot work (virtual clock on free-running threads).
+/// @errors  invalid_argument for a combination that cannot work (virtual clock on free-running threads, or with
+/// other processes).
 [[nodiscard]] Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& options);
 
 }  // namespace orca

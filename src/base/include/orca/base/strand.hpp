@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "orca/base/executive.hpp"
 
@@ -23,6 +24,17 @@ struct Interrupted {};
 class ForeignThread : public std::logic_error {
  public:
   using std::logic_error::logic_error;
+};
+
+/// A place from which a strand fetches what has arrived for its component, in memory that other processes write.
+///
+/// Thread contract: any task; it guards itself.
+class Intake {
+ public:
+  virtual ~Intake() = default;
+  /// Takes in what has arrived. It does not block.
+  /// @return whether something has arrived.
+  virtual bool take_in() = 0;
 };
 
 /// The one task on which all code of a component runs: laps, handlers, parameter changes and state hooks.
@@ -47,6 +59,22 @@ class Strand {
   /// again at the time that it returns, which must be in the future; kForever: not again in this wait. It has no
   /// other effect on the wait. Call before start(), or on the strand.
   void set_watch(std::function<TimePoint()> watch) { watch_ = std::move(watch); }
+
+  /// Lets other processes wake the strand, by ring(*doorbell()).
+  /// @param own  the strand's word, unless its executive has one for all strands. It outlives the strand.
+  /// @pre  as Executive::make_doorbell_event(). Call before start(), and before anybody wakes the strand.
+  void set_doorbell(DoorbellWord& own);
+  /// Returns the word by which other processes wake the strand; null: it has none.
+  [[nodiscard]] DoorbellWord* doorbell() const { return doorbell_; }
+
+  /// Add and remove a place that the strand looks at before it sleeps, and whenever the component looks at a port.
+  /// @thread  the strand's, or any while the component does not run.
+  void add_intake(Intake& intake) { intakes_.push_back(&intake); }
+  void remove_intake(Intake& intake) { std::erase(intakes_, &intake); }
+
+  /// Takes in what has arrived at all intakes. A wait that does so ends as if the strand had been woken.
+  /// @return whether something has arrived. Without intakes it costs one look at an empty list.
+  bool take_in() { return !intakes_.empty() && take_in_all(); }
 
   /// Blocks until `condition` holds or the deadline comes. Serves waits inside a component's own code.
   ///
@@ -81,14 +109,18 @@ class Strand {
  private:
   bool wait_until(TimePoint deadline) {
     if (!executive_.runs_here()) throw_foreign();
+    if (take_in()) return true;
     return watch_ ? wait_watching(deadline) : event_->wait_until(deadline);
   }
   bool wait_watching(TimePoint deadline);
+  bool take_in_all();
   [[noreturn]] void throw_foreign() const;
 
   Executive& executive_;
   TaskOptions options_;
   std::unique_ptr<Event> event_;
+  DoorbellWord* doorbell_ = nullptr;
+  std::vector<Intake*> intakes_;
   std::function<bool()> leave_;
   std::function<TimePoint()> watch_;
   std::unique_ptr<Task> task_;

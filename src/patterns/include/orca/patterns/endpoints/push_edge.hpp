@@ -48,7 +48,13 @@ class PushEdge final : public PushSink {
   /// Drops the waiting objects whose stamp is before `time`, up to the first that is not.
   /// @return whether there were any.
   bool drop_before(TimePoint time);
-  [[nodiscard]] bool has_new() const { return count_.load(std::memory_order_acquire) > 0; }
+  /// Returns whether an object waits to be taken.
+  [[nodiscard]] bool has_new() const {
+    look();
+    return holds_new();
+  }
+  /// Does the same, without a look at what has arrived from other processes.
+  [[nodiscard]] bool holds_new() const { return count_.load(std::memory_order_acquire) > 0; }
 
   /// Returns whether the edge's deadline has passed since the last object, or since the subscription. It
   /// stays true until the next object comes. It is always false without a deadline.
@@ -78,6 +84,7 @@ class PushEdge final : public PushSink {
     Published<std::uint32_t> high_water;
   };
 
+  void look() const { client_.home().strand.take_in(); }
   [[nodiscard]] ObjectRef pop();
   bool make_room();
   void drop(Published<std::uint64_t>& reason, std::uint64_t objects);

@@ -11,8 +11,10 @@ namespace orca {
 
 namespace bytes {
 class Courier;
+}
+namespace frames {
 struct Traffic;
-}  // namespace bytes
+}
 
 /// The counters of the links of one ByteLinks, from its start until now. A plain value.
 struct ByteLinkCounters {
@@ -44,7 +46,7 @@ class ByteLinks final : public Links {
 
   Executive& executive_;
   const std::size_t capacity_;
-  std::unique_ptr<bytes::Traffic> traffic_;
+  std::unique_ptr<frames::Traffic> traffic_;
   std::unique_ptr<bytes::Courier> courier_;
 };
 

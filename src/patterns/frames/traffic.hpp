@@ -4,13 +4,13 @@
 #include <atomic>
 #include <cstdint>
 
-namespace orca::bytes {
+namespace orca::frames {
 
-/// The counters of all ends of one ByteLinks.
+/// The counters of ends of links: of all that share them.
 struct Traffic {
   std::atomic<std::uint64_t> frames_received{0};
   std::atomic<std::uint64_t> objects_lost{0};
   std::atomic<std::uint64_t> peers_cut_off{0};
 };
 
-}  // namespace orca::bytes
+}  // namespace orca::frames

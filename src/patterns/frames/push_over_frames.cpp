@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "push_over_bytes.hpp"
+#include "push_over_frames.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-namespace orca::bytes {
+namespace orca::frames {
 namespace {
 
 Error unexpected(const FrameReader& frame) {
@@ -13,8 +13,8 @@ Error unexpected(const FrameReader& frame) {
                                    " does not belong to Push, or not in this direction");
 }
 
-FrameWriter with_rate(FrameKind kind, std::uint64_t subscription, const UpdateRate& rate) {
-  FrameWriter frame(kind, subscription);
+Frame with_rate(FrameKind kind, std::uint64_t subscription, const UpdateRate& rate) {
+  Frame frame(kind, subscription);
   // What a component asks for may make no sense; what travels does, or the peer would cut this end off.
   frame.add(static_cast<std::uint64_t>(std::max(rate.interval, Duration{0}).count()));
   frame.add(std::uint64_t{std::max(rate.multiple, 1U)});
@@ -73,32 +73,40 @@ Result<std::uint64_t> read_single(FrameReader& frame) {
 
 }  // namespace
 
-PushSourceOverBytes::PushSourceOverBytes(Connection connection, const ObjectType& type, std::string path,
-                                         Duration base_period)
-    : type_(type), path_(std::move(path)), base_period_(base_period), end_(std::move(connection)) {
-  end_.start([this](FrameReader& frame) { return receive(frame); }, [](const Error&) {});
+PushSourceOverFrames::PushSourceOverFrames(std::unique_ptr<FrameEnd> end, const ObjectType& type,
+                                           std::string path, Duration base_period)
+    : type_(type), path_(std::move(path)), base_period_(base_period), end_(std::move(end)) {
+  end_->start({[this](FrameReader& frame) { return receive(frame); },
+               [this](const Error& /*reason*/) { lose_server(); }, [this] { subscribe_again(); }});
 }
 
-void PushSourceOverBytes::attach(PushSink& sink, const UpdateRate& rate) {
+void PushSourceOverFrames::attach(PushSink& sink, const UpdateRate& rate) {
   const std::lock_guard lock(mutex_);
   sink_ = &sink;
-  ++subscription_;
-  end_.send(with_rate(FrameKind::attach, subscription_, rate));
+  rate_ = rate;
+  send_attach();
 }
 
-void PushSourceOverBytes::detach() {
+// Called with the lock held.
+void PushSourceOverFrames::send_attach() {
+  ++subscription_;
+  end_->send(with_rate(FrameKind::attach, subscription_, rate_));
+}
+
+void PushSourceOverFrames::detach() {
   const std::lock_guard lock(mutex_);
   sink_ = nullptr;
   held_.reset();
-  end_.send(FrameWriter(FrameKind::detach, subscription_));
+  end_->send(Frame(FrameKind::detach, subscription_));
 }
 
-void PushSourceOverBytes::change(const UpdateRate& rate) {
+void PushSourceOverFrames::change(const UpdateRate& rate) {
   const std::lock_guard lock(mutex_);
-  end_.send(with_rate(FrameKind::change, subscription_, rate));
+  rate_ = rate;
+  end_->send(with_rate(FrameKind::change, subscription_, rate));
 }
 
-void PushSourceOverBytes::room() {
+void PushSourceOverFrames::room() {
   const std::lock_guard lock(mutex_);
   if (sink_ == nullptr || !held_) return;
   Held held = std::move(*held_);
@@ -106,24 +114,24 @@ void PushSourceOverBytes::room() {
   deliver(std::move(held.object), held.ticket);
 }
 
-Duration PushSourceOverBytes::base_period() const {
+Duration PushSourceOverFrames::base_period() const {
   const std::lock_guard lock(mutex_);
   return base_period_;
 }
 
 // Called with the lock held.
-void PushSourceOverBytes::deliver(ObjectRef object, std::uint64_t ticket) {
+void PushSourceOverFrames::deliver(ObjectRef object, std::uint64_t ticket) {
   if (sink_->deliver(std::move(object)).has_value()) {
     held_ = Held{std::move(object), ticket};  // deliver() left it unchanged
     return;
   }
   if (ticket == 0) return;
-  FrameWriter taken(FrameKind::taken, subscription_);
+  Frame taken(FrameKind::taken, subscription_);
   taken.add(ticket);
-  end_.send(std::move(taken));
+  end_->send(taken);
 }
 
-Status PushSourceOverBytes::receive(FrameReader& frame) {
+Status PushSourceOverFrames::receive(FrameReader& frame) {
   switch (frame.kind()) {
     case FrameKind::object: return receive_object(frame);
     case FrameKind::granted: return receive_grant(frame);
@@ -133,12 +141,24 @@ Status PushSourceOverBytes::receive(FrameReader& frame) {
   }
 }
 
+// Drops an object that waits for room, because nobody waits for it to be taken any more.
+void PushSourceOverFrames::lose_server() {
+  const std::lock_guard lock(mutex_);
+  if (held_) sink_->give_up(held_->object);
+  held_.reset();
+}
+
+void PushSourceOverFrames::subscribe_again() {
+  const std::lock_guard lock(mutex_);
+  if (sink_ != nullptr) send_attach();
+}
+
 // Returns whether the frame belongs to the present subscription. Called with the lock held.
-bool PushSourceOverBytes::is_current(const FrameReader& frame) const {
+bool PushSourceOverFrames::is_current(const FrameReader& frame) const {
   return sink_ != nullptr && frame.number() == subscription_;
 }
 
-Status PushSourceOverBytes::receive_object(FrameReader& frame) {
+Status PushSourceOverFrames::receive_object(FrameReader& frame) {
   const std::uint64_t ticket = frame.read_number();
   Result<ObjectRef> object = frame.read_object(type_);
   if (!object) return object.error();
@@ -147,7 +167,7 @@ Status PushSourceOverBytes::receive_object(FrameReader& frame) {
   return ok();
 }
 
-Status PushSourceOverBytes::receive_grant(FrameReader& frame) {
+Status PushSourceOverFrames::receive_grant(FrameReader& frame) {
   const Result<UpdateGrant> grant = read_grant(frame);
   if (!grant) return grant.error();
   const std::lock_guard lock(mutex_);
@@ -157,7 +177,7 @@ Status PushSourceOverBytes::receive_grant(FrameReader& frame) {
   return ok();
 }
 
-Status PushSourceOverBytes::receive_give_up(FrameReader& frame) {
+Status PushSourceOverFrames::receive_give_up(FrameReader& frame) {
   const Result<std::uint64_t> ticket = read_single(frame);
   if (!ticket) return ticket.error();
   const std::lock_guard lock(mutex_);
@@ -166,7 +186,7 @@ Status PushSourceOverBytes::receive_give_up(FrameReader& frame) {
   return ok();
 }
 
-Status PushSourceOverBytes::receive_loss(FrameReader& frame) {
+Status PushSourceOverFrames::receive_loss(FrameReader& frame) {
   const Result<std::uint64_t> objects = read_single(frame);
   if (!objects) return objects.error();
   const std::lock_guard lock(mutex_);
@@ -174,26 +194,33 @@ Status PushSourceOverBytes::receive_loss(FrameReader& frame) {
   return ok();
 }
 
-PushSinkOverBytes::PushSinkOverBytes(Connection connection, PushSource& source, const QueuePolicy& policy)
+PushSinkOverFrames::PushSinkOverFrames(std::unique_ptr<FrameEnd> end, PushSource& source,
+                                       const QueuePolicy& policy)
     : source_(source),
       waits_(policy.overflow == QueuePolicy::Overflow::block),
       limit_(policy.block_limit),
-      end_(std::move(connection)) {
-  end_.start([this](FrameReader& frame) { return receive(frame); },
-             [this](const Error&) { source_.detach(); });
+      end_(std::move(end)) {
+  end_->start({[this](FrameReader& frame) { return receive(frame); },
+               [this](const Error& /*reason*/) { lose_client(); }, [] {}});  // the new client subscribes
 }
 
-PushSinkOverBytes::~PushSinkOverBytes() {
-  end_.stop();
+PushSinkOverFrames::~PushSinkOverFrames() {
+  end_->stop();
   source_.detach();
 }
 
-std::uint64_t PushSinkOverBytes::subscription() const {
+void PushSinkOverFrames::lose_client() {
+  source_.detach();
+  const std::lock_guard lock(mutex_);
+  in_flight_ = {};
+}
+
+std::uint64_t PushSinkOverFrames::subscription() const {
   const std::lock_guard lock(mutex_);
   return attached_;
 }
 
-Status PushSinkOverBytes::receive(FrameReader& frame) {
+Status PushSinkOverFrames::receive(FrameReader& frame) {
   switch (frame.kind()) {
     case FrameKind::attach:
     case FrameKind::change: return receive_rate(frame);
@@ -203,7 +230,7 @@ Status PushSinkOverBytes::receive(FrameReader& frame) {
   }
 }
 
-Status PushSinkOverBytes::receive_rate(FrameReader& frame) {
+Status PushSinkOverFrames::receive_rate(FrameReader& frame) {
   const Result<UpdateRate> rate = read_rate(frame);
   if (!rate) return rate.error();
   if (frame.kind() == FrameKind::change) {
@@ -218,7 +245,7 @@ Status PushSinkOverBytes::receive_rate(FrameReader& frame) {
   return ok();
 }
 
-Status PushSinkOverBytes::receive_taken(FrameReader& frame) {
+Status PushSinkOverFrames::receive_taken(FrameReader& frame) {
   const Result<std::uint64_t> ticket = read_single(frame);
   if (!ticket) return ticket.error();
   {
@@ -229,34 +256,33 @@ Status PushSinkOverBytes::receive_taken(FrameReader& frame) {
   return ok();
 }
 
-std::optional<Duration> PushSinkOverBytes::deliver(ObjectRef&& object) {
-  if (end_.is_cut()) return std::nullopt;
+std::optional<Duration> PushSinkOverFrames::deliver(ObjectRef&& object) {
+  if (end_->is_cut()) return std::nullopt;
   if (waits_) return push_and_wait(object);
   push(object);
   return std::nullopt;
 }
 
-void PushSinkOverBytes::push(const ObjectRef& object) {
+void PushSinkOverFrames::push(const ObjectRef& object) {
   const std::uint64_t current = subscription();
   if (losses_ > 0) {
-    FrameWriter losses(FrameKind::lost, current);
+    Frame losses(FrameKind::lost, current);
     losses.add(losses_);
-    if (end_.send(std::move(losses), ByteEnd::Loss::allowed)) losses_ = 0;
+    if (end_->send(losses, Loss::allowed) == Sent::yes) losses_ = 0;
   }
-  FrameWriter frame(FrameKind::object, current);
+  Frame frame(FrameKind::object, current);
   frame.add(std::uint64_t{0});
   frame.add(object);
-  if (end_.send(std::move(frame), ByteEnd::Loss::allowed)) return;
-  lost(1);
+  if (end_->send(frame, Loss::allowed) != Sent::yes) lost(1);
 }
 
-void PushSinkOverBytes::lost(std::uint64_t objects) {
+void PushSinkOverFrames::lost(std::uint64_t objects) {
   losses_ += objects;
-  end_.traffic().objects_lost.fetch_add(objects, std::memory_order_relaxed);
+  end_->traffic().objects_lost.fetch_add(objects, std::memory_order_relaxed);
 }
 
 // Called repeatedly with the same object until the client has taken it.
-std::optional<Duration> PushSinkOverBytes::push_and_wait(const ObjectRef& object) {
+std::optional<Duration> PushSinkOverFrames::push_and_wait(const ObjectRef& object) {
   const std::lock_guard lock(mutex_);
   if (in_flight_ == object) {
     if (!taken_) return limit_;
@@ -265,27 +291,29 @@ std::optional<Duration> PushSinkOverBytes::push_and_wait(const ObjectRef& object
   }
   in_flight_ = object;
   taken_ = false;
-  FrameWriter frame(FrameKind::object, attached_);
+  Frame frame(FrameKind::object, attached_);
   frame.add(++ticket_);
   frame.add(object);
-  end_.send(std::move(frame));
-  return limit_;
+  if (end_->send(frame) == Sent::yes) return limit_;
+  in_flight_ = {};
+  lost(1);
+  return std::nullopt;
 }
 
-void PushSinkOverBytes::give_up(const ObjectRef& /*object*/) {
+void PushSinkOverFrames::give_up(const ObjectRef& /*object*/) {
   const std::lock_guard lock(mutex_);
   in_flight_ = {};
-  FrameWriter frame(FrameKind::give_up, attached_);
+  Frame frame(FrameKind::give_up, attached_);
   frame.add(ticket_);
-  end_.send(std::move(frame));
+  end_->send(frame);
 }
 
-void PushSinkOverBytes::granted(const UpdateGrant& grant) {
-  FrameWriter frame(FrameKind::granted, subscription());
+void PushSinkOverFrames::granted(const UpdateGrant& grant) {
+  Frame frame(FrameKind::granted, subscription());
   frame.add(static_cast<std::uint64_t>(grant.base_period.count()));
   frame.add(std::uint64_t{grant.multiple});
   frame.add(static_cast<std::uint64_t>(grant.interval.count()));
-  end_.send(std::move(frame));
+  end_->send(frame);
 }
 
-}  // namespace orca::bytes
+}  // namespace orca::frames

@@ -2,25 +2,28 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
-#include "byte_end.hpp"
+#include "frame_end.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/push_link.hpp"
 
-namespace orca::bytes {
+namespace orca::frames {
 
 /// The client's end of a Push edge. It stands for the server's source.
 ///
 /// Thread contract: as PushSource.
-class PushSourceOverBytes final : public PushSource, public LinkEnd {
+class PushSourceOverFrames final : public PushSource, public LinkEnd {
  public:
+  /// @param type         what the objects are, or are derived from.
   /// @param path         of the server.
   /// @param base_period  of the server at present [s]; later ones come with what it grants.
-  PushSourceOverBytes(Connection connection, const ObjectType& type, std::string path, Duration base_period);
-  ~PushSourceOverBytes() override { end_.stop(); }
+  PushSourceOverFrames(std::unique_ptr<FrameEnd> end, const ObjectType& type, std::string path,
+                       Duration base_period);
+  ~PushSourceOverFrames() override { end_->stop(); }
 
   void attach(PushSink& sink, const UpdateRate& rate) override;
   void detach() override;
@@ -41,6 +44,9 @@ class PushSourceOverBytes final : public PushSource, public LinkEnd {
   Status receive_grant(FrameReader& frame);
   Status receive_give_up(FrameReader& frame);
   Status receive_loss(FrameReader& frame);
+  void lose_server();
+  void subscribe_again();
+  void send_attach();
   [[nodiscard]] bool is_current(const FrameReader& frame) const;
   void deliver(ObjectRef object, std::uint64_t ticket);
 
@@ -51,20 +57,21 @@ class PushSourceOverBytes final : public PushSource, public LinkEnd {
   // Below: guarded by mutex_.
   PushSink* sink_ = nullptr;        // null: not subscribed
   std::uint64_t subscription_ = 0;  // a count, so that objects of an earlier one are discarded
+  UpdateRate rate_;                 // that was asked for last
   Duration base_period_;
   std::optional<Held> held_;
 
-  ByteEnd end_;  // the last member: its task uses the others
+  const std::unique_ptr<FrameEnd> end_;  // the last member: its handlers use the others
 };
 
 /// The server's end of a Push edge. It stands for the client's sink. Where the edge's policy is `block`, a
 /// publisher waits for each object until the client has taken it in, which costs a round trip.
 ///
 /// Thread contract: as PushSink.
-class PushSinkOverBytes final : public PushSink, public LinkEnd {
+class PushSinkOverFrames final : public PushSink, public LinkEnd {
  public:
-  PushSinkOverBytes(Connection connection, PushSource& source, const QueuePolicy& policy);
-  ~PushSinkOverBytes() override;
+  PushSinkOverFrames(std::unique_ptr<FrameEnd> end, PushSource& source, const QueuePolicy& policy);
+  ~PushSinkOverFrames() override;
 
   std::optional<Duration> deliver(ObjectRef&& object) override;
   void give_up(const ObjectRef& object) override;
@@ -75,6 +82,7 @@ class PushSinkOverBytes final : public PushSink, public LinkEnd {
   Status receive(FrameReader& frame);
   Status receive_rate(FrameReader& frame);
   Status receive_taken(FrameReader& frame);
+  void lose_client();
   void push(const ObjectRef& object);
   std::optional<Duration> push_and_wait(const ObjectRef& object);
   [[nodiscard]] std::uint64_t subscription() const;
@@ -91,7 +99,7 @@ class PushSinkOverBytes final : public PushSink, public LinkEnd {
   std::uint64_t ticket_ = 0;
   bool taken_ = false;
 
-  ByteEnd end_;  // the last member: its task uses the others
+  const std::unique_ptr<FrameEnd> end_;  // the last member: its handlers use the others
 };
 
-}  // namespace orca::bytes
+}  // namespace orca::frames

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,9 +11,9 @@
 #include "orca/base/result.hpp"
 #include "orca/idl/object.hpp"
 
-namespace orca::bytes {
+namespace orca::frames {
 
-/// The kinds of frame. The number in a frame's header is the subscription's for Push, the request's for Query
+/// The kinds of frame. The number in a frame's head is the subscription's for Push, the request's for Query
 /// and Send.
 enum class FrameKind : std::uint8_t {
   attach = 1,  ///< Push, client: subscribes. Interval [ns], multiple.
@@ -30,31 +30,51 @@ enum class FrameKind : std::uint8_t {
   answer,      ///< Request, server: a code, a text, a place; of a reply, the object.
 };
 
-/// A frame that is being written. It holds the length [bytes] of all that follows the length, the kind, the
-/// number, then the fields as they are added. All numbers are little-endian.
-class FrameWriter {
+/// The fewest bytes that a frame takes: its kind and its number.
+inline constexpr std::size_t kShortest = 2 * sizeof(std::uint64_t);
+
+/// A frame that is to be sent: a small head and at most one object. It is encoded only when the transport has a
+/// place for it. A frame without texts uses no heap.
+///
+/// Encoded it is the kind, the number, the numbers that were added, the texts, each behind its length (32 bits),
+/// and the object, as the hash of its type's layout and XCDR1. All numbers are little-endian; those without a
+/// size here have 64 bits.
+///
+/// Thread contract: one thread at a time.
+class Frame {
  public:
-  FrameWriter(FrameKind kind, std::uint64_t number);
+  Frame(FrameKind kind, std::uint64_t number) : kind_(kind), number_(number) {}
 
-  void add(std::uint64_t value);
-  void add(const std::string& text);
-  /// Adds an object: the hash of its type's layout, then XCDR1. It must be the last field.
-  void add(const ObjectRef& object);
+  /// @pre  no text and no object was added; at most 3 numbers.
+  void add(std::uint64_t value) { numbers_[number_count_++] = value; }
+  /// @pre  no object was added; at most 2 texts.
+  void add(std::string text) { texts_[text_count_++] = std::move(text); }
+  /// @pre  the frame has no object.
+  void add(ObjectRef object) { object_ = std::move(object); }
 
-  /// Returns the whole frame.
-  [[nodiscard]] std::span<const std::byte> bytes();
+  /// Encodes the frame as far as it fits into `to`.
+  /// @return the bytes that the whole frame takes. If `to` has fewer, its contents are unspecified.
+  std::size_t write(std::span<std::byte> to) const;
+
+  /// Appends the encoded frame.
+  void append_to(std::vector<std::byte>& bytes) const;
 
  private:
-  std::vector<std::byte> bytes_;
+  FrameKind kind_;
+  std::uint64_t number_;
+  std::array<std::uint64_t, 3> numbers_{};
+  std::size_t number_count_ = 0;
+  std::array<std::string, 2> texts_;
+  std::size_t text_count_ = 0;
+  ObjectRef object_;
 };
 
 /// A frame that has been received. Its bytes are not trusted: a missing field reads as 0 or empty, and
-/// status() reports it.
+/// status() reports it. They may even change meanwhile, because each is read once.
 ///
 /// A view; it must not outlive the bytes.
 class FrameReader {
  public:
-  /// @param frame  all bytes that follow the length.
   explicit FrameReader(std::span<const std::byte> frame);
 
   [[nodiscard]] FrameKind kind() const { return kind_; }
@@ -73,6 +93,7 @@ class FrameReader {
  private:
   template <class T>
   T read_plain();
+  FrameKind read_kind();
 
   std::span<const std::byte> rest_;
   bool cut_short_ = false;
@@ -80,17 +101,4 @@ class FrameReader {
   std::uint64_t number_;
 };
 
-/// A stream of bytes that is cut into frames.
-class FrameSplitter {
- public:
-  void append(std::span<const std::byte> bytes);
-  /// Returns the next whole frame without its length, valid until the next call; nothing if it is not whole yet.
-  /// @errors  data_loss for an impossible length.
-  Result<std::optional<std::span<const std::byte>>> next();
-
- private:
-  std::vector<std::byte> bytes_;
-  std::size_t used_ = 0;
-};
-
-}  // namespace orca::bytes
+}  // namespace orca::frames

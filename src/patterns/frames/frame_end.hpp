@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "frame.hpp"
+#include "orca/base/result.hpp"
+#include "traffic.hpp"
+
+namespace orca::frames {
+
+/// What has become of a frame that was to be sent.
+enum class Sent {
+  yes,        ///< It is on its way, or as soon as there is room.
+  no_room,    ///< It was dropped, as it may be: there was no room.
+  too_large,  ///< It was dropped, because it will never find room.
+  cut,        ///< It was dropped, because the link is cut.
+};
+
+/// Whether a frame may be dropped because the link has no room for it at present.
+enum class Loss { never, allowed };
+
+/// The functions that an end calls. None may block; no two run at the same time.
+struct FrameHandlers {
+  /// Handles a frame; an error cuts the peer off.
+  std::function<Status(FrameReader&)> receive;
+  /// Called once when the link is cut by either side. Nothing is received afterwards, unless it is renewed.
+  std::function<void(const Error&)> cut;
+  /// Called when a link that was cut has a new peer. The peer knows nothing of what was sent to the old one.
+  std::function<void()> renewed;
+};
+
+/// One end of a link that carries frames to and from a peer, by some kind of transport. A peer that sends
+/// invalid data is cut off: nothing passes in either direction any more, and the event is counted and logged.
+///
+/// Thread contract: send(), is_cut() and name() from any thread; start() and stop() from one task.
+class FrameEnd {
+ public:
+  virtual ~FrameEnd() = default;
+  FrameEnd() = default;
+  FrameEnd(const FrameEnd&) = delete;
+  FrameEnd& operator=(const FrameEnd&) = delete;
+
+  /// Starts to receive.
+  virtual void start(FrameHandlers handlers) = 0;
+  /// Ends receiving, and cuts the link. No handler runs afterwards.
+  virtual void stop() = 0;
+
+  /// Sends a frame, at once or as soon as the link has room.
+  virtual Sent send(const Frame& frame, Loss loss = Loss::never) = 0;
+
+  [[nodiscard]] virtual bool is_cut() const = 0;
+  /// Returns a name for people: "a.out to b.in".
+  [[nodiscard]] virtual const std::string& name() const = 0;
+  [[nodiscard]] virtual Traffic& traffic() const = 0;
+};
+
+}  // namespace orca::frames
