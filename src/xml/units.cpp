@@ -44,6 +44,13 @@ constexpr std::array kUnits{
     Unit{"mV", "V", 1, 1000},
     Unit{"A", "A", 1, 1},
     Unit{"mA", "A", 1, 1000},
+    Unit{"B", "B", 1, 1},
+    Unit{"kB", "B", 1000, 1},
+    Unit{"MB", "B", 1'000'000, 1},
+    Unit{"GB", "B", 1'000'000'000, 1},
+    Unit{"KiB", "B", 1024, 1},
+    Unit{"MiB", "B", 1024.0 * 1024, 1},
+    Unit{"GiB", "B", 1024.0 * 1024 * 1024, 1},
     Unit{"%", "", 1, 100},
 };
 
@@ -66,6 +73,7 @@ constexpr std::array kQuantities{
     Quantity{"Nm", "a torque"},
     Quantity{"V", "a voltage"},
     Quantity{"A", "a current"},
+    Quantity{"B", "an amount of memory"},
     Quantity{"", "a plain number"},
 };
 

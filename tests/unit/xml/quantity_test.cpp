@@ -21,6 +21,19 @@ TEST_CASE("a quantity is converted to SI without rounding where the decimal allo
   CHECK(*parse_quantity("35 %", "") == 0.35);
 }
 
+TEST_CASE("an amount of memory is in bytes, with decimal or binary multiples", "[xml][quantity]") {
+  CHECK(*parse_quantity("200 MB", "B") == 200e6);
+  CHECK(*parse_quantity("64 kB", "B") == 64e3);
+  CHECK(*parse_quantity("1.5 GB", "B") == 1.5e9);
+  CHECK(*parse_quantity("8 KiB", "B") == 8192);
+  CHECK(*parse_quantity("2MiB", "B") == 2097152);
+  CHECK(*parse_quantity("0.5 GiB", "B") == 536870912);
+  CHECK(*parse_quantity("4096", "B") == 4096);
+  CHECK(parse_quantity("2 m", "B").error().message ==
+        "\"2 m\": \"m\" measures a length; an amount of memory is expected: write B, kB, MB, GB, KiB, MiB or "
+        "GiB");
+}
+
 TEST_CASE("a bare number is in SI already", "[xml][quantity]") {
   CHECK(*parse_quantity("0.5", "m") == 0.5);
   CHECK(*parse_quantity("0.5", "") == 0.5);

@@ -33,7 +33,9 @@ HardwareUse use_of(const CheckedHardware& checked) {
 
 CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   CheckedHardware checked;
-  checked.value = {node.value("name"), node.value("type"), {}, node.position};
+  checked.value.name = node.value("name");
+  checked.value.type = node.value("type");
+  checked.value.position = node.position;
   check_name(node, "name", report);
   const std::optional<Contract> contract = types.hardware(node);
   if (!contract) return checked;

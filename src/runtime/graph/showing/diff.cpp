@@ -47,7 +47,8 @@ Fields fields_of(const ComponentNode& node) {
 Parts parts_of(const Graph& graph, Change::Part part) {
   Parts parts;
   if (part == Change::Part::graph) {
-    Graph sorted{graph.name, graph.ends, graph.plugin_dirs, "", graph.seed, {}, {}, {}};
+    Graph sorted = graph;
+    sorted.default_profile.clear();
     std::ranges::sort(sorted.ends);
     parts["graph"] = fields_of(attributes_of(sorted));
     parts["graph"]["name"] = graph.name;

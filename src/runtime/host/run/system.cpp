@@ -8,6 +8,7 @@
 
 #include "component_making.hpp"
 #include "orca/base/text.hpp"
+#include "orca/graph/placement.hpp"
 #include "orca/graph/settings.hpp"
 #include "orca/patterns/local/local_links.hpp"
 
@@ -61,8 +62,8 @@ Status System::declare(const graph::ComponentNode& node, ComponentInstance& inst
 
 Status System::bring_up(Event& changed, TimePoint deadline) {
   if (Status opened = open_hardware(changed, deadline); !opened.ok()) return opened;
-  for (ComponentInstance* component : start_order())
-    if (Status configured = configure(*component, changed, deadline); !configured.ok()) return configured;
+  for (const std::string& name : graph::start_order(graph_))
+    if (Status configured = configure(*find(name), changed, deadline); !configured.ok()) return configured;
   return ok();
 }
 
@@ -90,23 +91,6 @@ Status System::configure(ComponentInstance& component, Event& changed, TimePoint
     return fail(Code::deadline_exceeded, "configure() did not return in time", component.name());
   if (component.has_failed()) return fail(Code::failed_precondition, component.failure(), component.name());
   return ok();
-}
-
-std::vector<ComponentInstance*> System::start_order() const {
-  std::vector<ComponentInstance*> order;
-  std::vector<const graph::ComponentNode*> left;
-  for (const graph::ComponentNode& node : graph_.components) left.push_back(&node);
-  const auto is_up = [&](const std::string& name) {
-    return std::any_of(order.begin(), order.end(), [&](const auto* up) { return up->name() == name; });
-  };
-  while (!left.empty()) {  // the checker has refused cycles
-    const auto next = std::find_if(left.begin(), left.end(), [&](const graph::ComponentNode* node) {
-      return std::all_of(node->start_after.begin(), node->start_after.end(), is_up);
-    });
-    order.push_back(find((*next)->name));
-    left.erase(next);
-  }
-  return order;
 }
 
 void System::open_gates() {

@@ -88,7 +88,6 @@ class System {
   [[nodiscard]] Error no_such(const std::string& name) const;
   [[nodiscard]] ComponentInstance* find(const std::string& name) const;
   [[nodiscard]] hw::HardwareContainer* container(const std::string& name) const;
-  [[nodiscard]] std::vector<ComponentInstance*> start_order() const;
 
   const graph::Graph& graph_;
   RunContext& run_;

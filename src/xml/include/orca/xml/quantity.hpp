@@ -13,8 +13,8 @@ namespace orca::xml {
 /// @param value    as written.
 /// @param written  the unit behind the number, e.g. "mm"; empty: the number is in SI already.
 /// @param si       the SI unit that is expected: "m", "rad", "s", "Hz", "m/s", "rad/s", "m/s2", "rad/s2",
-///                 "kg", "N", "Nm", "V", "A"; empty for a plain number, which may be written with "%". Any
-///                 other unit must be written exactly so.
+///                 "kg", "N", "Nm", "V", "A", and "B" for bytes; empty for a plain number, which may be written
+///                 with "%". Any other unit must be written exactly so.
 /// @errors  invalid_argument: the unit is unknown or measures something else; says what may be written.
 [[nodiscard]] Result<double> to_si(double value, std::string_view written, std::string_view si);
 

@@ -9,6 +9,7 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/base/time.hpp"
+#include "orca/graph/process.hpp"
 #include "orca/xml/diagnostics.hpp"
 
 namespace orca::graph {
@@ -19,7 +20,8 @@ using Params = std::map<std::string, ParamValue>;
 /// A hardware container of the system: a device, or the simulator in its place.
 struct HardwareNode {
   std::string name;
-  std::string type;  ///< E.g. "orca.hw.Sim".
+  std::string type;                    ///< E.g. "orca.hw.Sim".
+  std::string process = kMainProcess;  ///< Of all components that are bound to it.
   Params params;
   xml::Position position;  ///< Place of its element; not compared.
 
@@ -50,7 +52,8 @@ struct ComponentNode {
   std::string name;
   std::string type;      ///< E.g. "orca.SonarAvoid".
   std::string hardware;  ///< Name of a HardwareNode; empty: none.
-  int priority = 0;      ///< -100 to 100; of components that are ready together, the highest goes first.
+  std::string process = kMainProcess;
+  int priority = 0;  ///< -100 to 100; of components that are ready together, the highest goes first.
   std::optional<bool> autonomous;  ///< Works without clients; nothing: the author's choice.
   bool on_demand = false;          ///< Loaded when first asked for, and unloaded when long unused.
   bool stay_warm = false;          ///< Stays in memory once it is loaded.
@@ -65,6 +68,22 @@ struct ComponentNode {
   friend bool operator==(const ComponentNode& a, const ComponentNode& b);
 };
 
+/// The carrier of an edge's objects.
+enum class Link {
+  local,  ///< Queues within a process.
+  shm,    ///< Memory that two processes of one machine share.
+  dds,    ///< The network.
+};
+
+[[nodiscard]] constexpr const char* to_string(Link link) {
+  switch (link) {
+    case Link::local: return "local";
+    case Link::shm: return "shm";
+    case Link::dds: return "dds";
+  }
+  return "?";
+}
+
 /// A connection.
 struct Edge {
   PortRef from;  ///< The PushServer, QueryProxy or SendProxy.
@@ -76,6 +95,7 @@ struct Edge {
   Duration interval{0};     ///< Push: deliver at most one object per interval; 0: every one.
   xml::Position position;   ///< Place of its element; not compared.
   bool late_bound = false;  ///< Made from a candidate: subscribed to only once the component names it.
+  Link link = Link::local;  ///< What the graph says; else chosen by the processes and machines of its ends.
 
   friend bool operator==(const Edge& a, const Edge& b);
 };
@@ -88,6 +108,9 @@ struct Graph {
   std::vector<std::string> plugin_dirs;  ///< Absolute; searched after Orca's own.
   std::string default_profile;           ///< Empty: none.
   std::optional<std::uint64_t> seed;     ///< For random numbers, unless the command line gives one.
+  Supervision supervision;
+  std::vector<MachineNode> machines;
+  std::vector<ProcessNode> processes;  ///< Those that the graph declares; processes_of() returns all.
   std::vector<HardwareNode> hardware;
   std::vector<ComponentNode> components;
   std::vector<Edge> edges;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "orca/graph/graph.hpp"
+
+namespace orca::graph {
+
+/// The parts of a graph that belong to one process, each in the order of the graph.
+struct ProcessPart {
+  std::vector<std::string> components;
+  std::vector<std::string> hardware;
+  // Indices into Graph::edges.
+  std::vector<std::size_t> edges_within;  ///< Both ends are in the process.
+  std::vector<std::size_t> edges_out;     ///< Only the `from` end is.
+  std::vector<std::size_t> edges_in;      ///< Only the `to` end is.
+};
+
+/// Returns the processes in which something runs: those that the graph declares, in its order, then "main" with
+/// the default settings if parts are in it and the graph does not declare it.
+/// @thread  pure function; any thread. So are the others.
+[[nodiscard]] std::vector<ProcessNode> processes_of(const Graph& graph);
+
+/// Returns what runs in the process of that name, and the edges at its components.
+[[nodiscard]] ProcessPart part_of(const Graph& graph, const std::string& process);
+
+/// Returns the names of all components in the order in which they come up: each after those that its start_after
+/// names, otherwise as in the graph.
+/// @pre  the graph was checked: start_after names components and goes in no circle.
+[[nodiscard]] std::vector<std::string> start_order(const Graph& graph);
+
+}  // namespace orca::graph

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/graph/placement.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <queue>
+#include <set>
+
+namespace orca::graph {
+namespace {
+
+std::set<std::string> used_processes(const Graph& graph) {
+  std::set<std::string> used;
+  for (const HardwareNode& node : graph.hardware) used.insert(node.process);
+  for (const ComponentNode& node : graph.components) used.insert(node.process);
+  return used;
+}
+
+// A search for the order in which components come up.
+class StartOrder {
+ public:
+  explicit StartOrder(const Graph& graph) : graph_(graph), waits_for_(graph.components.size()) {
+    for (std::size_t i = 0; i < graph.components.size(); ++i) index_.emplace(graph.components[i].name, i);
+    for (std::size_t i = 0; i < graph.components.size(); ++i)
+      for (const std::string& before : graph.components[i].start_after) wait(i, before);
+  }
+
+  std::vector<std::string> run() {
+    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready;
+    for (std::size_t i = 0; i < waits_for_.size(); ++i)
+      if (waits_for_[i] == 0) ready.push(i);
+    std::vector<std::string> order;
+    while (!ready.empty()) {
+      const std::size_t next = ready.top();
+      ready.pop();
+      order.push_back(graph_.components[next].name);
+      for (const std::size_t waiting : followers_[next])
+        if (--waits_for_[waiting] == 0) ready.push(waiting);
+    }
+    return order;
+  }
+
+ private:
+  void wait(std::size_t component, const std::string& before) {
+    followers_[index_.at(before)].push_back(component);
+    ++waits_for_[component];
+  }
+
+  const Graph& graph_;
+  std::map<std::string, std::size_t> index_;
+  std::vector<std::size_t> waits_for_;  // number of components that must come up before
+  std::map<std::size_t, std::vector<std::size_t>> followers_;  // components that wait for one
+};
+
+}  // namespace
+
+std::vector<ProcessNode> processes_of(const Graph& graph) {
+  std::set<std::string> left = used_processes(graph);
+  std::vector<ProcessNode> processes;
+  for (const ProcessNode& node : graph.processes)
+    if (left.erase(node.name) > 0) processes.push_back(node);
+  if (left.contains(kMainProcess)) processes.push_back({.name = kMainProcess});
+  return processes;
+}
+
+ProcessPart part_of(const Graph& graph, const std::string& process) {
+  ProcessPart part;
+  for (const HardwareNode& node : graph.hardware)
+    if (node.process == process) part.hardware.push_back(node.name);
+  for (const ComponentNode& node : graph.components)
+    if (node.process == process) part.components.push_back(node.name);
+  const std::set<std::string> inside(part.components.begin(), part.components.end());
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    const bool from = inside.contains(graph.edges[i].from.component);
+    const bool to = inside.contains(graph.edges[i].to.component);
+    if (from && to) part.edges_within.push_back(i);
+    if (from && !to) part.edges_out.push_back(i);
+    if (!from && to) part.edges_in.push_back(i);
+  }
+  return part;
+}
+
+std::vector<std::string> start_order(const Graph& graph) { return StartOrder(graph).run(); }
+
+}  // namespace orca::graph
