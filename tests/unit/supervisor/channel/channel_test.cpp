@@ -199,7 +199,10 @@ TEST_CASE("Impossible packets cut the channel off, and their descriptors are clo
   const std::size_t before = test::open_descriptors();
   {
     Half half;
-    auto packets = *split(message_of(2 * kPacketBytes));
+    Message message = with_descriptors(1);
+    auto small = (*split(with_descriptors(1))).front().bytes;
+    message.body.resize(2 * kPacketBytes);
+    auto packets = *split(std::move(message));
     auto first = packets[0].bytes, next = packets[1].bytes;
     const auto with = [](std::vector<std::byte> bytes, std::size_t at, int value) {
       bytes.at(at) = static_cast<std::byte>(value);
@@ -215,6 +218,7 @@ TEST_CASE("Impossible packets cut the channel off, and their descriptors are clo
         {"announces 4 GB", with(first, 12, 0xFF)},
         {"announces 4 billion descriptors", with(first, 16, 0xFF)},
         {"announces a descriptor that is not there", with(first, 13, 2)},
+        {"has a byte more than it announces", shorter(small, 30)},
         {"is too short", shorter(first, kPacketBytes - 1)},
         {"is too long", shorter(first, kPacketBytes + 1)},
         {"is far too long", shorter(first, kPacketBytes + 20'000)},

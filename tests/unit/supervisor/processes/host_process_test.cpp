@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/supervisor/host_process.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sched.h>
 #include <sys/resource.h>
@@ -74,7 +75,7 @@ std::string line_of(const std::string& text, const std::string& start) {
 
 TEST_CASE("A host process begins with nothing of the supervisor's but what it needs",
           "[supervisor][processes]") {
-  const Descriptor open_here(dup(0));  // without close-on-exec
+  const Descriptor open_here(fcntl(0, F_DUPFD, 20));  // without close-on-exec
   signal(SIGUSR1, SIG_IGN);
   sigset_t usr2;
   sigemptyset(&usr2);
