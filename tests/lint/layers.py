@@ -27,6 +27,7 @@ ENDPOINTS = ("patterns_endpoints", "idl", "base")
 DEVICE = ("hw_api", "geometry", *COMPONENT)
 PATTERNS = "src/patterns"
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
+SUPERVISOR = "src/runtime/supervisor"
 SIM_MODEL = ("geometry", "xml", "base")
 SIM_RAYS = ("sim_model", *SIM_MODEL)
 SIM_SENSORS = ("sim_rays", *SIM_RAYS)
@@ -91,6 +92,11 @@ LAYERS = (
           ("host_containment", "host_picture", "graph", "plugin", "text", "xml", "patterns_endpoints", "patterns_local",
            "patterns_dds", *DEVICE),
           ("fmt",), module=HOST),
+    Layer("supervisor_channel", (f"{SUPERVISOR}/channel",),
+          tuple(f"orca/supervisor/{name}.hpp" for name in ("channel", "message", "vocabulary")), ("base",),
+          module=SUPERVISOR),
+    Layer("supervisor", (SUPERVISOR,), ("orca/supervisor/",), ("supervisor_channel", "graph", "xml", "base"),
+          module=SUPERVISOR),
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),
     Layer("apps", ("src/apps",), (),
           ("host_run", "host_containment", "host_picture", "graph", "plugin", "text", "xml", *DEVICE), ("fmt",)),

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace orca::supervisor {
+
+/// How a host process is started. A plain value.
+struct HostStart {
+  std::string name;                    ///< Of the process in the graph.
+  std::string program;                 ///< Path of the program.
+  std::vector<std::string> arguments;  ///< What main() gets, from argv[0] on.
+  /// Limit of private writable memory [bytes]. The system counts what is reserved, not what is used: a thread's stack
+  /// counts in full (8 MiB by default). None: no limit.
+  std::optional<std::uint64_t> data_limit;
+  std::vector<int> processors;  ///< Those that it may use; empty: all that the supervisor may use.
+  int priority = 0;             ///< Of SCHED_FIFO, 1 to 99; 0: the normal scheduler.
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "orca/base/descriptor.hpp"
+
+namespace orca::supervisor {
+
+/// The kinds of message on a control channel. The numbers travel; a kind keeps its number.
+enum class Kind : std::uint16_t {
+  // Orders: from the supervisor to a host process.
+  setup = 1,
+  build,
+  open_hardware,
+  configure,
+  open_gates,
+  take_down,
+  stop_motors,
+  suspend,
+  resume,
+  set_params,
+  renew_edge,
+  cut_edge,
+  glance,
+  // Reports: from a host process to the supervisor.
+  answer = 101,
+  built,
+  state_change,
+  arrived,
+  goal_failed,
+  contact,
+  alarm,
+  logged,
+  glanced,
+  ended,
+  last_words,
+};
+
+/// One message of a control channel, encoded. orca/supervisor/vocabulary.hpp gives it a meaning.
+///
+/// A plain value that owns its descriptors.
+struct Message {
+  Kind kind{};
+  std::uint64_t request =
+      0;  ///< The answer to an order repeats the order's number; 0: no answer is expected.
+  std::vector<std::byte> body;
+  std::vector<Descriptor> descriptors;  ///< All open.
+};
+
+}  // namespace orca::supervisor

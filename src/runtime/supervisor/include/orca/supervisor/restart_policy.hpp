@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "orca/base/time.hpp"
+#include "orca/graph/process.hpp"
+#include "orca/supervisor/moment.hpp"
+
+namespace orca::supervisor {
+
+/// What to do after a process has ended. What is to be started is asked for with RestartPolicy::take_due().
+struct RestartDecision {
+  bool restarts = false;         ///< The process is started again.
+  bool gives_up = false;         ///< There were too many restarts: everything is to be taken down.
+  std::vector<std::size_t> end;  ///< Processes to be ended now, the last in the order of the graph first.
+};
+
+/// Decides which processes are ended and started again after one of them has ended, and when. It does neither itself, and
+/// has no clock.
+///
+/// * A process is started again by its own rule: permanent, transient or temporary. One that is not started again
+///   concerns no other process.
+/// * The strategy says which others are ended and started again with it. Of these, a temporary process is ended and stays
+///   so; one that is not running because it has finished stays so, too.
+/// * The first restart of a process follows at once. After that each waits: 50 ms, then twice as long each time, up to
+///   2 s. A process that has had no fault for `within` begins anew.
+/// * More than `restarts` restarts within `within`, of all processes together, are too many. Processes that are started
+///   again only because of another one do not count.
+///
+/// Thread contract: not synchronised.
+class RestartPolicy {
+ public:
+  /// All processes run at first, or are about to.
+  /// @param processes  in the order of the graph, which gives them their indices.
+  RestartPolicy(const std::vector<graph::ProcessNode>& processes, const graph::Supervision& rules);
+
+  /// Reports that a process has ended, also one that was to be ended by a decision, and one that could not be started.
+  /// @param is_normal  it ended by itself, with exit status 0.
+  /// @param now        not before the times of earlier calls.
+  [[nodiscard]] RestartDecision ended(std::size_t process, bool is_normal, Moment now);
+
+  /// Returns the processes that are to be started now, in the order of the graph, once each. From here on they count as
+  /// running. None is returned while one that is to be ended still runs.
+  [[nodiscard]] std::vector<std::size_t> take_due(Moment now);
+  /// Returns when take_due() will next have something; nothing if never, or if an end is awaited first.
+  [[nodiscard]] std::optional<Moment> due() const;
+
+ private:
+  enum class State {
+    running,
+    ending,    // to be ended, then started again
+    leaving,   // to be ended, and not started again
+    waiting,   // to be started at start_at
+    finished,  // not to be started again
+  };
+  struct Process {
+    graph::Restart rule;
+    State state = State::running;
+    Moment start_at{};       // while ending or waiting
+    std::size_t faults = 0;  // since it last had none for `within`
+    Moment last_fault{};
+  };
+
+  [[nodiscard]] bool is_restarted(const Process& process, bool is_normal) const;
+  [[nodiscard]] bool are_too_many(Moment now);
+  Duration delay_after_fault(Process& process, Moment now) const;
+  [[nodiscard]] std::size_t first_concerned(std::size_t process) const;
+  [[nodiscard]] std::size_t end_of_concerned(std::size_t process) const;
+  RestartDecision restart_from(std::size_t process, Moment start_at);
+  RestartDecision give_up();
+  [[nodiscard]] bool awaits_end() const;
+
+  const graph::Supervision rules_;
+  std::vector<Process> processes_;
+  std::deque<Moment> restarts_;  // of the last `within`, oldest first
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "orca/base/descriptor.hpp"
+#include "orca/base/doorbell.hpp"
+#include "orca/base/result.hpp"
+#include "orca/base/shared_memory.hpp"
+
+namespace orca::supervisor {
+
+/// The memory that all host processes of a machine share with their supervisor: a count of missions, a heartbeat for each
+/// process, and doorbells. Processes and components are counted in the order of the graph. Each word has a cache line of
+/// its own.
+///
+/// Any of the processes may write anything into it, so a reader must cope with every value of every word. No size and no
+/// place is read from it.
+///
+/// Thread contract: any thread.
+class RunPage {
+ public:
+  /// Makes the page of a machine, with all words 0.
+  /// @errors  as MemoryFile::create().
+  [[nodiscard]] static Result<RunPage> create(std::size_t processes, std::size_t components);
+  /// Maps the page that the supervisor has made for the same graph.
+  /// @errors  data_loss if the memory is no page for so many processes and components.
+  [[nodiscard]] static Result<RunPage> map(Descriptor file, std::size_t processes, std::size_t components);
+
+  /// Returns the number of missions that have begun. Adding to it begins one.
+  [[nodiscard]] std::atomic<std::uint64_t>& missions() const;
+  /// Returns the word to which a process adds while it is well; 0: it has not begun.
+  /// @pre  process < processes()
+  [[nodiscard]] std::atomic<std::uint32_t>& heartbeat(std::size_t process) const;
+  /// Returns the word that wakes the strand of a component.
+  /// @pre  component < components()
+  [[nodiscard]] DoorbellWord& doorbell(std::size_t component) const;
+  /// Returns the word that wakes a process whose strands have one word together.
+  /// @pre  process < processes()
+  [[nodiscard]] DoorbellWord& process_doorbell(std::size_t process) const;
+
+  [[nodiscard]] std::size_t processes() const { return processes_; }
+  [[nodiscard]] std::size_t components() const { return components_; }
+
+  /// Returns a new descriptor of the page, to give to a host process.
+  /// @pre  made by create().
+  /// @errors  throws std::system_error if there are no descriptors left (orca/base/exhaustion.hpp).
+  [[nodiscard]] Descriptor descriptor() const;
+
+ private:
+  RunPage(SharedMemory memory, std::size_t processes, std::size_t components)
+      : memory_(std::move(memory)), processes_(processes), components_(components) {}
+  [[nodiscard]] std::atomic<std::uint32_t>& word(std::size_t line) const;
+
+  std::optional<MemoryFile> file_;  // of the process that has made it
+  SharedMemory memory_;
+  std::size_t processes_;
+  std::size_t components_;
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "orca/base/descriptor.hpp"
+#include "orca/base/log.hpp"
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+#include "orca/supervisor/message.hpp"
+
+namespace orca::supervisor {
+
+/// What the supervisor and its host processes say to each other. Names of components are those of the graph; an edge is
+/// named by its index in the graph.
+
+/// Names with their values.
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+/// The memory of an edge between two processes.
+struct EdgeMemory {
+  std::uint64_t edge = 0;
+  Descriptor memory;
+};
+
+// ---- Orders, from the supervisor to a host process.
+
+/// Tells a new process who it is. The first order.
+struct Setup {
+  static constexpr Kind kKind = Kind::setup;
+  std::string process;            ///< Its name in the graph.
+  std::string graph;              ///< The expanded graph, as `deployer --print` writes it.
+  Pairs options;                  ///< Of the run, by their names on the command line.
+  Descriptor run_page;            ///< See orca/supervisor/run_page.hpp.
+  std::vector<EdgeMemory> edges;  ///< The edges to other processes.
+};
+/// Asks to construct all components and hardware and to connect the ports. Built comes before the answer.
+struct Build {
+  static constexpr Kind kKind = Kind::build;
+};
+/// Asks to open all hardware.
+struct OpenHardware {
+  static constexpr Kind kKind = Kind::open_hardware;
+};
+/// Asks to configure one component.
+struct Configure {
+  static constexpr Kind kKind = Kind::configure;
+  std::string component;
+};
+/// Asks to let the components work.
+struct OpenGates {
+  static constexpr Kind kKind = Kind::open_gates;
+};
+/// Asks to end: motors first, then everything else. Ended comes last.
+struct TakeDown {
+  static constexpr Kind kKind = Kind::take_down;
+};
+/// Asks to stop all motors of the process now. Everything else goes on.
+struct StopMotors {
+  static constexpr Kind kKind = Kind::stop_motors;
+  std::string reason;
+};
+/// Asks to suspend a component.
+struct Suspend {
+  static constexpr Kind kKind = Kind::suspend;
+  std::string component;
+};
+/// Asks to let a suspended component go on.
+struct Resume {
+  static constexpr Kind kKind = Kind::resume;
+  std::string component;
+};
+/// Asks to change parameters of a component, all together or none.
+struct SetParams {
+  static constexpr Kind kKind = Kind::set_params;
+  std::string component;
+  Pairs values;  ///< Values are texts as in the graph, with units.
+};
+/// Gives an edge new memory, because the process at its other end has been started again.
+struct RenewEdge {
+  static constexpr Kind kKind = Kind::renew_edge;
+  EdgeMemory edge;
+};
+/// Says that the process at the other end of an edge is gone.
+struct CutEdge {
+  static constexpr Kind kKind = Kind::cut_edge;
+  std::uint64_t edge = 0;
+  std::string reason;
+};
+/// Asks for Glanced.
+struct Glance {
+  static constexpr Kind kKind = Kind::glance;
+};
+
+using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
+                           Resume, SetParams, RenewEdge, CutEdge, Glance>;
+
+// ---- Reports, from a host process to the supervisor.
+
+/// The answer to the order whose number the message repeats.
+struct Answer {
+  static constexpr Kind kKind = Kind::answer;
+  Status outcome;
+};
+/// The robots of the process, before anything moves.
+struct Built {
+  static constexpr Kind kKind = Kind::built;
+  Pairs robots;  ///< Hardware and the name of its robot.
+};
+/// The state of a component or of hardware, whenever it changes.
+struct StateChange {
+  static constexpr Kind kKind = Kind::state_change;
+  std::string component;
+  std::string state;         ///< "WORK", "Fault", ...
+  std::string failure;       ///< Why it has failed; empty: it has not.
+  bool has_failed = false;   ///< Whether it is in a failed state.
+  bool ended_badly = false;  ///< Whether its last work ended in WORK_FAILED.
+};
+/// An object that the process reports, encoded as XCDR1.
+template <Kind kind>
+struct ObjectReport {
+  static constexpr Kind kKind = kind;
+  std::vector<std::byte> object;
+};
+using ArrivedReport = ObjectReport<Kind::arrived>;  ///< An idl::Arrived that a component has pushed.
+using GoalFailedReport =
+    ObjectReport<Kind::goal_failed>;                ///< An idl::GoalFailed that a component has pushed.
+using ContactReport = ObjectReport<Kind::contact>;  ///< An idl::Contact of a robot.
+using AlarmReport = ObjectReport<Kind::alarm>;      ///< An idl::Alarm.
+/// A line of the log.
+struct Logged {
+  static constexpr Kind kKind = Kind::logged;
+  log::Level level = log::Level::info;
+  std::string who;
+  std::string text;
+};
+/// What the process is like at the moment, for people.
+struct Glanced {
+  static constexpr Kind kKind = Kind::glanced;
+  Duration time{0};           ///< Since its gates opened [s].
+  std::uint64_t working = 0;  ///< Number of components in WORK.
+  Pairs unwell;               ///< Components and hardware that do not work as they should, and their states.
+  std::vector<std::pair<std::string, double>>
+      goals;               ///< Names and distances [m] of the goals being driven to.
+  std::string last_alarm;  ///< Empty: none yet.
+};
+/// The last report of a process that was taken down.
+struct Ended {
+  static constexpr Kind kKind = Kind::ended;
+  std::vector<std::byte> counters;  ///< Of its connections, as the host encodes them.
+};
+/// What a process says when it crashes.
+struct LastWordsReport {
+  static constexpr Kind kKind = Kind::last_words;
+  std::string text;
+};
+
+using Report = std::variant<Answer, Built, StateChange, ArrivedReport, GoalFailedReport, ContactReport,
+                            AlarmReport, Logged, Glanced, Ended, LastWordsReport>;
+
+/// Encodes an order or a report.
+/// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.
+/// @pre  its descriptors are open.
+/// @thread  any.
+[[nodiscard]] Message encode(Order order, std::uint64_t request = 0);
+[[nodiscard]] Message encode(Report report, std::uint64_t request = 0);
+
+/// Decodes a message that came from the supervisor, or from a host process. The sender is not trusted.
+/// @errors  data_loss if it is no such message, if a field is missing or impossible, or if something is left over.
+/// @thread  any.
+[[nodiscard]] Result<Order> decode_order(Message message);
+[[nodiscard]] Result<Report> decode_report(Message message);
+
+}  // namespace orca::supervisor

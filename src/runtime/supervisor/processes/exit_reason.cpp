@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/supervisor/exit_reason.hpp"
+
+#include <csignal>
+#include <cstring>
+
+namespace orca::supervisor {
+namespace {
+
+std::string name_of(int signal) {
+  if (signal >= SIGRTMIN) return "SIGRTMIN+" + std::to_string(signal - SIGRTMIN);
+  const char* const name = sigabbrev_np(signal);
+  return name == nullptr ? "signal " + std::to_string(signal) : "SIG" + std::string(name);
+}
+
+}  // namespace
+
+std::string ExitReason::text() const {
+  switch (force) {
+    case Force::hang: return "hung and was killed";
+    case Force::memory: return "used more memory than the graph allows and was killed";
+    case Force::overdue: return "did not end when asked to and was killed";
+    case Force::none: break;
+  }
+  if (signal == 0) return "exited with status " + std::to_string(status);
+  std::string text = "was ended by " + name_of(signal);
+  if (dumped_core) text += " (core dumped)";
+  if (out_of_memory) text += " (the system has probably run out of memory)";
+  return text;
+}
+
+}  // namespace orca::supervisor

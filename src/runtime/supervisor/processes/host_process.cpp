@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/supervisor/host_process.hpp"
+
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "orca/supervisor/vocabulary.hpp"
+#include "processes/launch.hpp"
+#include "processes/line_splitter.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+constexpr std::size_t kReadAtOnce = 64 * 1024;  // [bytes]
+
+// Returns how many processes the system has killed since it started because memory ran out; 0 if it does not tell.
+std::uint64_t oom_kills() {
+  std::ifstream statistics("/proc/vmstat");
+  std::string name;
+  std::uint64_t count = 0;
+  while (statistics >> name >> count)
+    if (name == "oom_kill") return count;
+  return 0;
+}
+
+}  // namespace
+
+struct HostProcess::Parts {
+  std::string name;
+  Launched launched;
+  Descriptor channel;
+};
+
+Result<std::unique_ptr<HostProcess>> HostProcess::start(const HostStart& start) {
+  auto sockets = make_socket_pair();
+  if (!sockets) return sockets.error();
+  auto launched = launch(start, sockets->host);
+  if (!launched) return launched.error();
+  Parts parts{start.name, std::move(*launched), std::move(sockets->supervisor)};
+  return std::unique_ptr<HostProcess>(new HostProcess(std::move(parts)));
+}
+
+HostProcess::HostProcess(Parts parts)
+    : name_(std::move(parts.name)),
+      pid_(parts.launched.pid),
+      pidfd_(std::move(parts.launched.pidfd)),
+      output_(std::move(parts.launched.output)),
+      channel_(std::move(parts.channel)),
+      warnings_(std::move(parts.launched.warnings)),
+      lines_(std::make_unique<LineSplitter>()),
+      oom_kills_before_(oom_kills()) {}
+
+HostProcess::~HostProcess() {
+  if (exit()) return;
+  send(SIGKILL);
+  waitpid(pid_, nullptr, 0);
+}
+
+void HostProcess::send(int signal) const {
+  if (!exit_) syscall(SYS_pidfd_send_signal, pidfd_.number(), signal, nullptr, 0);
+}
+
+std::vector<std::string> HostProcess::take_output() {
+  std::array<char, kReadAtOnce> buffer;
+  const ssize_t size = output_ ? read(output_.number(), buffer.data(), buffer.size()) : -1;
+  if (size > 0) return lines_->add(std::string_view(buffer.data(), static_cast<std::size_t>(size)));
+  // A child of the process may keep the pipe open for ever.
+  const bool is_over = size == 0 || (output_ && errno == EAGAIN && exit());
+  if (!is_over) return {};
+  output_.reset();
+  return lines_->finish();
+}
+
+void HostProcess::end(Moment now, const EndLimits& limits, std::uint64_t request) {
+  if (exit_ || kill_at_) return;
+  term_at_ = now + limits.when_asked;
+  kill_at_ = *term_at_ + limits.when_terminated;
+  // A process that takes no order gets the signal at once.
+  if (!channel_.post(encode(TakeDown{}, request)).ok()) term_at_ = now;
+  look(now);
+}
+
+void HostProcess::end_by_force(Force reason, Moment now, Duration grace) {
+  if (exit_ || force_ != Force::none) return;
+  force_ = reason;
+  term_at_ = now;
+  kill_at_ = now + grace;
+  look(now);
+}
+
+void HostProcess::look(Moment now) {
+  if (exit_) return;
+  if (term_at_ && now >= *term_at_) {
+    send(SIGTERM);
+    term_at_.reset();
+  }
+  if (kill_at_ && now >= *kill_at_) {
+    if (force_ == Force::none) force_ = Force::overdue;
+    send(SIGKILL);
+    kill_at_ = Moment::max();  // it is still being ended
+  }
+}
+
+std::optional<Moment> HostProcess::due() const {
+  if (exit_) return std::nullopt;
+  if (term_at_) return term_at_;
+  return kill_at_ == Moment::max() ? std::nullopt : kill_at_;
+}
+
+const std::optional<ExitReason>& HostProcess::exit() {
+  if (exit_) return exit_;
+  siginfo_t end{};
+  if (waitid(P_PID, static_cast<id_t>(pid_), &end, WEXITED | WNOHANG) != 0 || end.si_pid == 0) return exit_;
+  ExitReason reason;
+  reason.force = force_;
+  const bool was_terminated = kill_at_ && !term_at_;
+  if (end.si_code != CLD_EXITED && end.si_status == SIGTERM && was_terminated && force_ == Force::none)
+    reason.force = Force::overdue;
+  if (end.si_code == CLD_EXITED) {
+    reason.status = end.si_status;
+  } else {
+    reason.signal = end.si_status;
+    reason.dumped_core = end.si_code == CLD_DUMPED;
+    reason.out_of_memory =
+        reason.signal == SIGKILL && force_ == Force::none && oom_kills() > oom_kills_before_;
+  }
+  exit_ = reason;
+  return exit_;
+}
+
+std::optional<std::uint64_t> HostProcess::memory() const {
+  std::ifstream statistics("/proc/" + std::to_string(pid_) + "/statm");
+  std::uint64_t total = 0, resident = 0, shared = 0;
+  if (!(statistics >> total >> resident >> shared) || resident == 0) return std::nullopt;
+  return (resident - std::min(resident, shared)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace orca::supervisor

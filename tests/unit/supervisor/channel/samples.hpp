@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <fcntl.h>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "orca/supervisor/vocabulary.hpp"
+
+namespace orca::test {
+
+/// Returns a descriptor of a file that everybody knows.
+inline Descriptor null_device() { return Descriptor(open("/dev/null", O_RDWR | O_CLOEXEC)); }
+
+inline std::vector<std::byte> some_bytes() { return {std::byte{1}, std::byte{0}, std::byte{255}}; }
+
+inline supervisor::Setup setup() {
+  supervisor::Setup setup{"base", "<graph/>", {{"seed", "7"}, {"profile", "sim"}}, null_device(), {}};
+  setup.edges.push_back({3, null_device()});
+  setup.edges.push_back({12, null_device()});
+  return setup;
+}
+
+template <class Words, class... Word>
+std::vector<Words> list_of(Word... word) {
+  std::vector<Words> words;
+  (words.emplace_back(std::move(word)), ...);
+  return words;
+}
+
+/// Returns one of each order.
+inline std::vector<supervisor::Order> all_orders() {
+  using namespace supervisor;
+  return list_of<Order>(setup(), Build{}, OpenHardware{}, Configure{"avoid"}, OpenGates{}, TakeDown{},
+                        StopMotors{"estop"}, Suspend{"avoid"}, Resume{"avoid"},
+                        SetParams{"avoid", {{"stop_distance", "0.5 m"}}}, RenewEdge{{4, null_device()}},
+                        CutEdge{4, "process \"base\" has crashed"}, Glance{});
+}
+
+/// Returns at least one of each report.
+inline std::vector<supervisor::Report> all_reports() {
+  using namespace supervisor;
+  return list_of<Report>(
+      Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
+      Built{{{"hardware", "scout"}}}, StateChange{"avoid", "WORK_FAILED", "no echo", true, true},
+      ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()}, ContactReport{{}},
+      AlarmReport{some_bytes()}, Logged{log::Level::warning, "avoid", "text"},
+      Glanced{1500ms, 3, {{"avoid", "SUSPENDED"}}, {{"kitchen", 2.5}, {"door", 0.0}}, "avoid FAILED: text"},
+      Ended{some_bytes()}, LastWordsReport{"SIGSEGV"});
+}
+
+}  // namespace orca::test
