@@ -3,9 +3,9 @@
 #include "actions.hpp"
 
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 
+#include "codes.hpp"
 #include "console.hpp"
 #include "describe.hpp"
 #include "orca/graph/diff.hpp"
@@ -16,6 +16,7 @@
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/graph/schema.hpp"
+#include "processes.hpp"
 #include "progress.hpp"
 #include "streams.hpp"
 #include "types.hpp"
@@ -23,7 +24,6 @@
 namespace orca::deployer {
 namespace {
 
-namespace fs = std::filesystem;
 using Action = Options::Action;
 
 ExitCode show(const std::string& text) {
@@ -31,17 +31,7 @@ ExitCode show(const std::string& text) {
   return ExitCode::finished;
 }
 
-// Returns the folder of Orca's own plugins, beside the program. The graph may name more; no environment
-// variable does.
-std::string plugin_folder() {
-  return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "plugins").string();
-}
-
-plugin::PluginIndex index_of(const Options& options) {
-  plugin::PluginIndex index({plugin_folder()});
-  index.add(options.plugin_folders);
-  return index;
-}
+plugin::PluginIndex index_of(const Options& options) { return plugin::PluginIndex(plugin_folders(options)); }
 
 // A graph, and the catalogue that has checked it.
 struct Loaded {
@@ -126,6 +116,13 @@ ExitCode show_graph(const Options& options) {
   return show(options.json ? graph::ports_json(ports) : graph::ports_text(ports));
 }
 
+ExitCode refuse_for_processes(const Error& error) {
+  xml::Diagnostics diagnostics;
+  diagnostics.error(codes::kExcluding, {"command line", 0, 0}, error.message);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  return ExitCode::bad_input;
+}
+
 ExitCode run(const Options& options) {
   // First of all, so that a signal at any moment ends the run properly, and never destroyed, so that it also does
   // while the last destructors and atexit handlers run.
@@ -138,6 +135,11 @@ ExitCode run(const Options& options) {
   host::RunOptions run = options.run;
   run.looks_on = options.progress.value_or(stderr_can_live());
   Console console(options.stats, run.looks_on);
+  if (has_host_processes(*loaded.graph, options)) {
+    if (const Status fits = check_for_processes(options); !fits.ok())
+      return refuse_for_processes(fits.error());
+    return exit_code_of(run_in_processes(*loaded.graph, options, stop, console).outcome);
+  }
   return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, run, stop, console).outcome);
 }
 

@@ -24,6 +24,8 @@ What to run
 How to run it
   --clock KIND          steady: real time (default); virtual: simulated time, bit-identical for the same seed
   --executor KIND       thread (default of steady), fiber (default of virtual) or baton
+  --in-process          everything in this process, for a debugger, whatever processes the graph declares; the virtual
+                        clock always does so
 
 What to write
   --trace FILE          one line per delivery, connection and change of state

@@ -4,6 +4,7 @@
 #include "arithmetic.hpp"
 #include "options.hpp"
 #include "orca/host/last_words.hpp"
+#include "processes.hpp"
 #include "streams.hpp"
 
 using orca::deployer::ExitCode;
@@ -24,6 +25,7 @@ bool runs_in_virtual_time(const orca::deployer::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (orca::deployer::is_host_process(argc, argv)) return orca::deployer::be_host_process(argc, argv);
   const orca::deployer::Options options = orca::deployer::parse_options({argv + 1, argv + argc});
   if (runs_in_virtual_time(options)) orca::deployer::choose_portable_arithmetic(argv);
   orca::deployer::prepare_streams();

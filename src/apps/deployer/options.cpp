@@ -186,6 +186,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--version", action(Action::version)},
       {"--strict", flag(&Options::strict)},
       {"--json", flag(&Options::json)},
+      {"--in-process", flag(&Options::in_process)},
       {"--stats", flag(&Options::stats)},
       {"--progress", progress(true)},
       {"--no-progress", progress(false)},

@@ -35,6 +35,7 @@ struct Options {
   bool strict = false;                      ///< Warnings are errors.
   bool json = false;                        ///< Output for programs.
   bool stats = false;                       ///< Write what the connections of a run carried.
+  bool in_process = false;                  ///< No host processes, whatever the graph says.
   std::optional<bool> progress;             ///< Show how a run is going; nothing: if stderr is a terminal.
   std::vector<std::string> plugin_folders;  ///< Searched after Orca's own.
   std::vector<std::string> profiles;

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <utility>
 
-#include "steady_time.hpp"
+#include "orca/base/steady_clock.hpp"
 #include "task_thread.hpp"
 #include "thread_state.hpp"
 

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <ctime>
 
+#include "orca/base/steady_clock.hpp"
 #include "sanitizer.hpp"
-#include "steady_time.hpp"
 #include "thread_watch.hpp"
 
 namespace orca::detail {

@@ -11,7 +11,9 @@ namespace orca {
 Strand::Strand(Executive& executive, TaskOptions options)
     : executive_(executive), options_(std::move(options)), event_(executive.make_event()) {}
 
-bool Strand::is_taking_in_here() const { return t_awake == this; }
+void Strand::wake() {
+  if (t_awake != this) event_->notify();
+}
 
 void Strand::set_doorbell(DoorbellWord& own) {
   event_ = executive_.make_doorbell_event(own);

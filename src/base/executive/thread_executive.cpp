@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "futex_event.hpp"
-#include "steady_time.hpp"
+#include "orca/base/steady_clock.hpp"
 #include "task_thread.hpp"
 
 namespace orca::detail {

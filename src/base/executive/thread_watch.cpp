@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "thread_watch.hpp"
 
-#include "steady_time.hpp"
+#include "orca/base/steady_clock.hpp"
 
 namespace orca::detail {
 

@@ -27,7 +27,6 @@ std::string described(const QueuePolicy& policy) {
 
 PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy)
     : client_(client),
-      strand_(client.home().strand),
       source_(source),
       policy_(policy),
       mutex_(client.home().strand.executive()),
@@ -104,7 +103,7 @@ std::optional<Duration> PushEdge::deliver(ObjectRef&& object) {
   if (drops > 0) report_drops(drops);
   if (!taken) return std::nullopt;
   if (seen) client_.observe(seen);
-  strand_.wake();
+  client_.home().strand.wake();
   return std::nullopt;
 }
 
@@ -217,9 +216,9 @@ void PushEdge::lost(std::uint64_t objects) {
 
 ObjectRef PushEdge::take() {
   if (!has_new()) return {};
-  strand_.note_activity();
+  client_.home().strand.note_activity();
   ObjectRef object = pop();
-  strand_.note_activity();
+  client_.home().strand.note_activity();
   return object;
 }
 

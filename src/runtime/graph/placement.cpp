@@ -81,6 +81,18 @@ ProcessPart part_of(const Graph& graph, const std::string& process) {
   return part;
 }
 
+Graph subgraph(const Graph& graph, const std::string& process) {
+  Graph part = graph;
+  const auto elsewhere = [&](const auto& node) { return node.process != process; };
+  std::erase_if(part.hardware, elsewhere);
+  std::erase_if(part.components, elsewhere);
+  std::erase_if(part.edges, [&](const Edge& edge) {
+    return part.find_component(edge.from.component) == nullptr ||
+           part.find_component(edge.to.component) == nullptr;
+  });
+  return part;
+}
+
 std::vector<std::string> start_order(const Graph& graph) { return StartOrder(graph).run(); }
 
 }  // namespace orca::graph

@@ -154,3 +154,24 @@ TEST_CASE("of all components that could be next, the first of the graph is", "[g
     REQUIRE(up.size() == count);
   }
 }
+
+TEST_CASE("a subgraph has what runs in one process, and the edges within it", "[graph][placement]") {
+  Graph graph = robot();
+  graph.edges.push_back(edge("avoid", "goto"));
+  const Graph part = subgraph(graph, "behaviours");
+  REQUIRE(part.components.size() == 2);
+  CHECK(part.components[0].name == "goto");
+  CHECK(part.components[1].name == "avoid");
+  CHECK(part.hardware.empty());
+  REQUIRE(part.edges.size() == 2);
+  CHECK(part.edges[0].to.component == "avoid");
+  CHECK(part.edges[1].to.component == "goto");
+  CHECK(part.processes == graph.processes);
+}
+
+TEST_CASE("the subgraph of a process in which nothing runs is empty", "[graph][placement]") {
+  const Graph part = subgraph(robot(), "empty");
+  CHECK(part.components.empty());
+  CHECK(part.hardware.empty());
+  CHECK(part.edges.empty());
+}

@@ -13,13 +13,15 @@ namespace {
 constexpr auto kNames = std::to_array<const char*>(
     {"FAILED", "HARDWARE_FAULT", "STALLED", "PLUGIN_PINNED", "FORK", "FOREIGN_THREAD", "FLOATING_POINT",
      "LOCALE", "TERMINATE_HANDLER", "SIGNAL_MASK", "SIGNAL_HANDLER", "WORKING_FOLDER", "UMASK",
-     "RESOURCE_LIMIT", "REDIRECTION", "DESCRIPTORS"});
-static_assert(kNames.size() == static_cast<std::size_t>(AlarmKind::descriptors) + 1);
+     "RESOURCE_LIMIT", "REDIRECTION", "DESCRIPTORS", "PROCESS_ENDED", "GAVE_UP"});
+static_assert(kNames.size() == static_cast<std::size_t>(AlarmKind::gave_up) + 1);
 
 idl::AlarmSeverity severity_of(AlarmKind kind) {
   switch (kind) {
-    case AlarmKind::hardware_fault: return idl::ALARM_CRITICAL;
+    case AlarmKind::hardware_fault:
+    case AlarmKind::gave_up: return idl::ALARM_CRITICAL;
     case AlarmKind::failed:
+    case AlarmKind::process_ended:
     case AlarmKind::stalled:
     case AlarmKind::foreign_thread:
     case AlarmKind::descriptors: return idl::ALARM_WARNING;
@@ -41,6 +43,10 @@ idl::Alarm make_alarm(AlarmKind kind, const std::string& component, const std::s
   alarm.active(true);
   alarm.text() = text;
   return alarm;
+}
+
+std::string alarm_text(const idl::Alarm& alarm) {
+  return (alarm.source().empty() ? "" : alarm.source() + " ") + alarm.kind() + ": " + alarm.text();
 }
 
 void log_alarm(const idl::Alarm& alarm, const std::string& log_name) {

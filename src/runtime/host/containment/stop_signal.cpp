@@ -73,13 +73,13 @@ bool would_end_process(int signal) {
 
 }  // namespace
 
-StopSignal::StopSignal(int stopped_status, int failed_status)
+StopSignal::StopSignal(int stopped_status, int failed_status, Terminal terminal)
     : stopped_status_(stopped_status), failed_status_(failed_status) {
   g_wake_fd.store(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   if (g_wake_fd.load() < 0) throw_if_exhausted(errno);
   g_process.store(getpid());
   g_signal.store(0);
-  block_requests();
+  block_requests(terminal);
   handle_others();
   watcher_ = std::thread([this] { watch(); });
 }
@@ -92,11 +92,13 @@ StopSignal::~StopSignal() {
   close(g_wake_fd.exchange(-1));
 }
 
-void StopSignal::block_requests() {
+void StopSignal::block_requests(Terminal terminal) {
   sigset_t set;
   sigemptyset(&set);
+  const bool heeded = terminal == Terminal::heeded;
   for (const int signal : kRequests)
-    if (signal == SIGINT || signal == SIGTERM || would_end_process(signal)) sigaddset(&set, signal);
+    if (signal == SIGTERM || (heeded && (signal == SIGINT || would_end_process(signal))))
+      sigaddset(&set, signal);
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   signal_fd_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
   if (signal_fd_ < 0) throw_if_exhausted(errno);

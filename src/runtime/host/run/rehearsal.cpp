@@ -131,7 +131,9 @@ class Rehearsal {
   Trace trace_{executive_};
   Reporter reporter_{executive_, trace_, nobody_, "trial"};
   const std::unique_ptr<Event> changed_ = executive_.make_event();
-  RunContext context_{executive_, trace_, reporter_, graph_.seed.value_or(1), [this] { changed_->notify(); }};
+  std::atomic<std::uint64_t> missions_{0};
+  RunContext context_{executive_, trace_, reporter_, graph_.seed.value_or(1), [this] { changed_->notify(); },
+                      missions_};
   std::map<std::string, std::unique_ptr<ComponentInstance>> components_;
   std::map<std::string, std::vector<std::string>> start_after_;
   std::set<std::string> up_;

@@ -144,9 +144,7 @@ void Reporter::draw(Scene& scene) const {
 
 std::string Reporter::last_alarm() const {
   const std::lock_guard lock(mutex_);
-  if (alarms_.empty()) return {};
-  const idl::Alarm& last = alarms_.back();
-  return (last.source().empty() ? "" : last.source() + " ") + last.kind() + ": " + last.text();
+  return alarms_.empty() ? std::string() : alarm_text(alarms_.back());
 }
 
 void Reporter::fill(RunResult& result) const {

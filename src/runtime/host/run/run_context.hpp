@@ -4,8 +4,10 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
+#include "orca/base/doorbell.hpp"
 #include "orca/base/executive.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "reporter.hpp"
@@ -22,12 +24,14 @@ struct RunContext {
   std::uint64_t seed;
   /// Called whenever an instance has changed its state, on any strand.
   std::function<void()> changed;
+  /// Number of missions begun so far; the last one has it as its id.
+  std::atomic<std::uint64_t>& missions;
   /// Whether a picture is to be drawn at the end.
   bool wants_scene = false;
   /// What is to fail on purpose.
   std::vector<PlannedFailure> failures{};
-  /// Number of missions begun so far; the last one has it as its id.
-  std::atomic<std::uint64_t> missions{0};
+  /// Returns the word by which other processes wake a component; empty: there are no others.
+  std::function<DoorbellWord*(const std::string& component)> doorbell{};
 };
 
 }  // namespace orca::host

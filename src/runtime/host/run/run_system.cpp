@@ -9,19 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "containment/environment.hpp"
-#include "containment/stall_monitor.hpp"
 #include "counters.hpp"
-#include "idleness.hpp"
+#include "judging/idleness.hpp"
 #include "live_view.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/host/last_words.hpp"
+#include "orca/host/robot_finder.hpp"
+#include "orca/host/verdict.hpp"
 #include "recording/run_files.hpp"
-#include "reporter.hpp"
-#include "robot_finder.hpp"
-#include "system.hpp"
+#include "watched_system.hpp"
 
 namespace orca::host {
 namespace {
@@ -29,7 +27,6 @@ namespace {
 constexpr Duration kStartLimit = 10s;
 constexpr Duration kRestLimit = 1s;
 constexpr Duration kTakeDownLimit = 1500ms;
-constexpr Duration kMotorLimit = 150ms;
 constexpr Duration kShortRun = 1s;  // it ends before everybody has had something to do
 
 std::string restless_text(const std::vector<std::string>& names, Duration instant) {
@@ -53,12 +50,8 @@ class Run {
         stop_(stop),
         listener_(listener),
         files_(executive),
-        reporter_(executive, files_.trace(), listener, options.log_name),
-        environment_(executive.tasks_overlap(), [this](const idl::Alarm& alarm) { raise(alarm); }) {
-    catalogue_.on_alarm([this](const idl::Alarm& alarm) { reporter_.raise(alarm); });
-  }
-
-  ~Run() { catalogue_.on_alarm(nullptr); }
+        watched_(graph, {catalogue, executive, files_.trace(), listener}, wishes(),
+                 [this] { return stop_.requested(); }) {}
 
   /// Runs, reports the end, and destroys all instances.
   RunResult execute() {
@@ -66,8 +59,8 @@ class Run {
     close_outputs();
     RunResult result = this->result();
     listener_.ended(result);  // before the destructors of plugins, which may end the process
-    system_.reset();
-    reporter_.fill(result);
+    watched_.destroy();
+    reporter().fill(result);
     return result;
   }
 
@@ -77,18 +70,14 @@ class Run {
                                                    : graph::list_ports(graph_, catalogue_);
     if (const Status opened = files_.open(options_, ports); !opened.ok())
       return refuse_output(opened.error());
-    if (options_.looks_on) reporter_.look_on(sightings_);
-    if (!options_.recordings.empty()) reporter_.record(files_.recorder());
-    if (const Status built = system_->build(catalogue_); !built.ok()) return refuse(built.error());
-    reporter_.introduce(find_robots(graph_, system_->robots()));
+    if (options_.looks_on) reporter().look_on(sightings_);
+    if (!options_.recordings.empty()) reporter().record(files_.recorder());
+    if (const Status built = watched_.build(); !built.ok()) return refuse(built.error());
+    reporter().introduce(find_robots(graph_, system().robots()));
     if (options_.looks_on)
-      listener_.built(view_.emplace(executive_, start_, *system_, reporter_, sightings_));
-    {
-      const StallMonitor monitor(
-          executive_, [this](const idl::Alarm& alarm) { reporter_.raise(alarm); },
-          [this](const std::string& component, const std::string& text) { stand_still(component, text); });
-      executive_.run([this] { main(); });
-    }
+      listener_.built(view_.emplace(executive_, start_, system(), reporter(), sightings_));
+    watched_.run([this] { main(); }, [this](const std::string& component,
+                                            const std::string& text) { stand_still(component, text); });
     if (!options_.picture.file.empty()) draw();
   }
 
@@ -103,7 +92,7 @@ class Run {
 
   // What people asked for is not there, so the run has failed, however well it went.
   void fail_output(const Error& error) {
-    reporter_.log_error(error.text());
+    reporter().log_error(error.text());
     if (!error_) conclude(RunOutcome::failed, error);
   }
 
@@ -111,13 +100,13 @@ class Run {
 
   // A component that has failed has said itself why.
   void refuse_start(const Error& error) {
-    const ComponentInstance* const component = system_->component(error.where);
-    if (component == nullptr || !component->has_failed()) reporter_.log_error(error.text());
+    const ComponentInstance* const component = system().component(error.where);
+    if (component == nullptr || !component->has_failed()) reporter().log_error(error.text());
     conclude(RunOutcome::not_started, error);
   }
 
   void fail_with(RunOutcome outcome, const Error& error) {
-    reporter_.log_error(error.text());
+    reporter().log_error(error.text());
     conclude(outcome, error);
   }
 
@@ -132,19 +121,18 @@ class Run {
   }
 
   void main() {
-    runs_.store(true);
-    stop_.on_request([this] { changed_->notify(); });
+    stop_.on_request([this] { watched_.changed().notify(); });
     stop_.on_crash([this] { stop_motors(); });
     const Status up = bring_up();
     if (!up.ok() && !stop_.requested()) {
       refuse_start(up.error());
-      reporter_.log_error("not everything came up; taking all down again");
+      reporter().log_error("not everything came up; taking all down again");
     } else {
       // After a request to stop, some components may not be up, and others would fail for want of them.
       LastWords::catch_exit();
       const bool opens = up.ok() && !stop_.requested();
       if (opens) came_up_.store(true);
-      if (opens) system_->open_gates();
+      if (opens) system().open_gates();
       supervise();
       if (has_ended() && !stop_.requested()) wait_for_rest();
       if (opens) sum_up();
@@ -152,12 +140,11 @@ class Run {
     take_down();
     stop_.on_request(nullptr);
     stop_.on_crash(nullptr);
-    runs_.store(false);
   }
 
   Status bring_up() {
     try {
-      return system_->bring_up(*changed_, executive_.now() + kStartLimit);
+      return system().bring_up(watched_.changed(), executive_.now() + kStartLimit);
     } catch (...) {
       const char* const text = exhaustion_text(std::current_exception());
       if (text == nullptr) throw;
@@ -165,10 +152,9 @@ class Run {
     }
   }
 
-  // Stops the motors while another thread is about to end the process. If all strands share that thread, only the
-  // watchdogs of the devices can.
+  // Another thread is about to end the process.
   void stop_motors() {
-    if (executive_.tasks_overlap()) system_->stop_hardware(kMotorLimit);
+    watched_.stop_motors();
     files_.close_at_once();
   }
 
@@ -176,7 +162,7 @@ class Run {
     const TimePoint end = options_.until ? executive_.now() + *options_.until : kForever;
     bool all_wait = false;
     while (!stop_.requested() && executive_.now() < end && !has_ended() && !report_standstill(all_wait))
-      all_wait = !changed_->wait_until(end) && end == kForever && executive_.is_virtual();
+      all_wait = !watched_.changed().wait_until(end) && end == kForever && executive_.is_virtual();
     if (error_ || has_ended()) return;
     outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
     if (outcome_ == RunOutcome::time_is_up && !graph_.ends.empty()) report_time_limit();
@@ -200,79 +186,53 @@ class Run {
     return all_wait || !restless.empty();
   }
 
-  // Returns whether the components that the graph names in `ends` have come to an end. Keeps the reason if
-  // one has failed that may not.
+  // Returns whether the run has come to its end. Keeps the reason if a component has failed that may not.
   bool has_ended() {
-    bool all_done = !graph_.ends.empty();
-    for (const std::string& name : graph_.ends) {
-      const ComponentInstance& component = *system_->component(name);
-      if (component.has_failed() && !graph_.find_component(name)->may_fail) {
-        conclude(RunOutcome::failed, fail(Code::failed_precondition, component.failure(), name));
-        return true;
-      }
-      all_done = all_done && is_at_end(component);
-    }
-    return all_done;
+    const std::optional<Status> end = ending(graph_, reports_);
+    if (end && !end->ok()) conclude(RunOutcome::failed, end->error());
+    return end.has_value();
   }
 
   // Says what the time limit has cut short.
   void report_time_limit() {
-    std::vector<std::string> left;
-    for (const std::string& name : graph_.ends)
-      if (const ComponentInstance& component = *system_->component(name); !is_at_end(component))
-        left.push_back(name + " (" + to_string(component.state()) + ")");
-    reporter_.log_info("the time limit has ended the run before these were done: " + listed(left));
-  }
-
-  static bool is_at_end(const ComponentInstance& component) {
-    return component.has_failed() || component.state() == ComponentState::work_done;
+    reporter().log_info("the time limit has ended the run before these were done: " +
+                        listed(unfinished(graph_, reports_)));
   }
 
   // Says what did not happen, and decides whether the run has failed. To be called before it is taken down, which
   // makes other components fail.
   void sum_up() {
-    counters_ = collect_counters(graph_, *system_);
+    counters_ = collect_counters(graph_, system());
     if (stands_still_ || (!error_ && executive_.now() - start_ >= kShortRun))
-      report_idleness(graph_, *system_, *counters_, reporter_);
+      report_idleness(graph_, system(), *counters_, reporter());
     judge();
   }
 
   // Makes the run a failure if a component has ended in WORK_FAILED that the graph does not allow to.
   void judge() {
     if (error_) return;
-    std::vector<std::string> failed;
-    for (const graph::ComponentNode& node : graph_.components) {
-      if (node.may_fail || !system_->component(node.name)->ended_badly()) continue;
-      failed.push_back(node.name);
-      reporter_.log(log::Level::error, node.name,
-                    "ended in WORK_FAILED, so the run has failed; if it may, say so in the graph with "
-                    "may_fail=\"true\"");
-    }
-    if (failed.empty()) return;
-    const bool one = failed.size() == 1;
-    conclude(
-        RunOutcome::failed,
-        one ? fail(Code::failed_precondition, system_->component(failed.front())->failure(), failed.front())
-            : fail(Code::failed_precondition, listed(failed) + " ended in WORK_FAILED"));
+    const std::vector<std::string> failed = failed_components(graph_, reports_);
+    for (const std::string& name : failed) reporter().log(log::Level::error, name, kMayFailHint);
+    if (!failed.empty()) conclude(RunOutcome::failed, failure_of(failed, reports_));
   }
 
   // Waits for the closing phase: the last client has gone, and connections close down to the hardware.
   void wait_for_rest() {
     const TimePoint limit = executive_.now() + kRestLimit;
-    while (!system_->at_rest() && executive_.now() < limit && !stop_.requested() &&
+    while (!system().at_rest() && executive_.now() < limit && !stop_.requested() &&
            executive_.restless_tasks().empty())
-      changed_->wait_until(limit);
+      watched_.changed().wait_until(limit);
   }
 
   // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.
   void take_down() {
     end_ = executive_.now();
-    reporter_.ignore_trouble();
-    if (!counters_) counters_ = collect_counters(graph_, *system_);
-    const std::vector<std::string> stuck = system_->take_down(executive_.now() + kTakeDownLimit);
+    reporter().ignore_trouble();
+    if (!counters_) counters_ = collect_counters(graph_, system());
+    const std::vector<std::string> stuck = system().take_down(executive_.now() + kTakeDownLimit);
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
-      reporter_.log_error(name + " does not end; the process is ended without it");
+      reporter().log_error(name + " does not end; the process is ended without it");
     conclude(failed_outcome(), fail(Code::deadline_exceeded,
                                     listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
     close_outputs();
@@ -285,11 +245,8 @@ class Run {
   }
 
   // Reports a standstill. It runs on the monitor's own thread, because no strand can run.
-  void stand_still(const std::string& component, const std::string& what) {
-    const ComponentInstance* const culprit = system_->component(component);
-    const std::string hook = culprit != nullptr ? culprit->current_hook() : "";
-    const std::string text = hook + (hook.empty() ? "" : " ") + what;
-    reporter_.log(log::Level::error, component, text);
+  void stand_still(const std::string& component, const std::string& text) {
+    reporter().log(log::Level::error, component, text);
     RunResult ended = result();
     ended.outcome = failed_outcome();
     ended.culprit = component;
@@ -299,22 +256,21 @@ class Run {
     listener_.abandon(ended);
   }
 
-  // Raises an alarm. Alarms of the environment about a single component come on its strand.
-  void raise(idl::Alarm alarm) {
-    const Activity* const activity = Activity::current();
-    if (runs_.load() && activity != nullptr && alarm.source() == activity->who())
-      if (const ComponentInstance* component = system_->component(alarm.source())) component->stamp(alarm);
-    reporter_.raise(std::move(alarm));
-  }
-
   void draw() {
     Scene scene;
     scene.start = start_;
-    system_->draw(scene);
-    reporter_.draw(scene);
+    system().draw(scene);
+    reporter().draw(scene);
     if (const Status drawn = write_picture(scene, options_.picture, files_.picture()); !drawn.ok())
       fail_output(drawn.error());
   }
+
+  [[nodiscard]] SystemOptions wishes() const {
+    return {options_.seed.value_or(graph_.seed.value_or(1)), !options_.picture.file.empty(),
+            options_.planned_failures, options_.log_name};
+  }
+  [[nodiscard]] System& system() { return watched_.system(); }
+  [[nodiscard]] Reporter& reporter() { return watched_.reporter(); }
 
   [[nodiscard]] RunResult result() const {
     RunResult result;
@@ -324,10 +280,10 @@ class Run {
     // Without a start there is nothing to compare.
     const bool ran = outcome_ != RunOutcome::not_started && outcome_ != RunOutcome::bad_options;
     if (ran && executive_.is_virtual()) result.trace_hash = files_.trace().hash();
-    reporter_.fill(result);
+    watched_.reporter().fill(result);
     result.end = end_.value_or(executive_.now());
     result.ways = sightings_.ways();
-    if (ran) result.counters = counters_ ? *counters_ : collect_counters(graph_, *system_);
+    if (ran) result.counters = counters_ ? *counters_ : collect_counters(graph_, watched_.system());
     return result;
   }
 
@@ -339,21 +295,11 @@ class Run {
   RunListener& listener_;
   RunFiles files_;
   Sightings sightings_;
-  Reporter reporter_;
-  std::atomic<bool> runs_{false};      // whether there are strands
-  std::atomic<bool> came_up_{false};   // whether the whole system has been up
-  const KeptEnvironment environment_;  // lives longer than all that runs a plugin's code
-  const TimePoint start_ = executive_.now();
-  std::unique_ptr<Event> changed_ = executive_.make_event();
-  RunContext context_{executive_,
-                      files_.trace(),
-                      reporter_,
-                      options_.seed.value_or(graph_.seed.value_or(1)),
-                      [this] { changed_->notify(); },
-                      !options_.picture.file.empty(),
-                      options_.planned_failures};
-  std::optional<System> system_{std::in_place, graph_, context_, [this] { return stop_.requested(); }};
-  std::optional<LiveView> view_;         // of system_
+  std::atomic<bool> came_up_{false};  // whether the whole system has been up
+  WatchedSystem watched_;
+  const TimePoint start_ = watched_.start();
+  const Reports reports_ = [this](const std::string& name) { return system().component(name)->report(); };
+  std::optional<LiveView> view_;         // of the system
   std::optional<TimePoint> end_;         // when the taking down began
   std::optional<RunCounters> counters_;  // of the run until it was taken down
   RunOutcome outcome_ = RunOutcome::finished;

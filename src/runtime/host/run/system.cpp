@@ -41,6 +41,7 @@ Status System::build_components(PluginCatalogue& catalogue) {
         [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
         [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
         container(node.hardware));
+    if (run_.doorbell) instance->set_doorbell(*run_.doorbell(node.name));
     const Status made = node.on_demand ? declare(node, *instance, catalogue) : instance->load();
     if (!made.ok()) return made;
     components_.push_back(std::move(instance));
@@ -81,6 +82,11 @@ Status System::open_hardware(Event& changed, TimePoint deadline) {
       return fail(Code::deadline_exceeded, "the hardware did not open in time", hardware->name());
   }
   return ok();
+}
+
+Status System::configure(const std::string& name, Event& changed, TimePoint deadline) {
+  ComponentInstance* const component = find(name);
+  return component == nullptr ? Status(no_such(name)) : configure(*component, changed, deadline);
 }
 
 Status System::configure(ComponentInstance& component, Event& changed, TimePoint deadline) {
@@ -127,6 +133,11 @@ void System::stop_hardware(Duration limit) {
   const auto end = std::chrono::steady_clock::now() + limit;
   while (!std::ranges::all_of(hardware_, closed) && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(1ms);
+}
+
+Endpoint* System::endpoint(const graph::PortRef& port) const {
+  const ComponentInstance* const owner = find(port.component);
+  return owner == nullptr ? nullptr : owner->endpoint(port.port);
 }
 
 ComponentInstance* System::find(const std::string& name) const {
@@ -191,10 +202,9 @@ std::vector<RunGlance::Unwell> System::unwell() const {
   std::vector<RunGlance::Unwell> unwell;
   for (const auto& component : components_) {
     const ComponentState state = component->state();
-    const bool comes_up = state == ComponentState::init || state == ComponentState::connect;
     if (component->ended_badly()) {
       unwell.push_back({component->name(), to_string(ComponentState::work_failed)});
-    } else if (comes_up || is_suspended(state)) {
+    } else if (is_unsettled(state)) {
       unwell.push_back({component->name(), to_string(state)});
     }
   }

@@ -37,6 +37,13 @@ class System {
   /// @errors  with the culprit's name and reason.
   Status bring_up(Event& changed, TimePoint deadline);
 
+  /// Opens the hardware.
+  /// @errors  as bring_up().
+  Status open_hardware(Event& changed, TimePoint deadline);
+  /// Configures a component.
+  /// @errors  as bring_up(); not_found.
+  Status configure(const std::string& component, Event& changed, TimePoint deadline);
+
   /// Lets the components work.
   void open_gates();
 
@@ -65,6 +72,8 @@ class System {
   Status set_params(const std::string& component, const std::map<std::string, std::string>& texts,
                     Event& changed, TimePoint deadline);
 
+  /// Returns the endpoint of a port; null if there is none.
+  [[nodiscard]] Endpoint* endpoint(const graph::PortRef& port) const;
   [[nodiscard]] const ComponentInstance* component(const std::string& name) const;
   [[nodiscard]] const std::vector<std::unique_ptr<ComponentInstance>>& components() const {
     return components_;
@@ -81,7 +90,6 @@ class System {
   Status build_hardware(PluginCatalogue& catalogue);
   Status build_components(PluginCatalogue& catalogue);
   Status declare(const graph::ComponentNode& node, ComponentInstance& instance, PluginCatalogue& catalogue);
-  Status open_hardware(Event& changed, TimePoint deadline);
   Status configure(ComponentInstance& component, Event& changed, TimePoint deadline);
   Status carry_out(const std::string& name, Event& changed, TimePoint deadline,
                    const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make);

@@ -94,8 +94,9 @@ void fields(auto& /*archive*/, Glance& /*m*/) {}
 void fields(auto& archive, Answer& m) { transfer(archive, m.outcome); }
 void fields(auto& archive, Built& m) { transfer(archive, m.robots); }
 void fields(auto& archive, StateChange& m) {
-  transfer_all(archive, m.component, m.state, m.failure, m.has_failed, m.ended_badly);
+  transfer_all(archive, m.component, m.state, m.failure, m.has_worked, m.has_failed, m.ended_badly);
 }
+void fields(auto& archive, RestChange& m) { transfer(archive, m.at_rest); }
 template <Kind kind>
 void fields(auto& archive, ObjectReport<kind>& m) {
   transfer(archive, m.object);

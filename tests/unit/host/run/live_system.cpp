@@ -43,7 +43,8 @@ void LiveSystem::with(Executive& executive, const std::function<void(LiveSystem&
   Trace trace(executive);
   DiaryListener listener(diary);
   Reporter reporter(executive, trace, listener, "live");
-  RunContext context{executive, trace, reporter, 1, [this] { changed_->notify(); }};
+  std::atomic<std::uint64_t> missions{0};
+  RunContext context{executive, trace, reporter, 1, [this] { changed_->notify(); }, missions};
   System system(*graph, context, [] { return false; });
   system_ = &system;
   const Status built = system.build(catalogue);

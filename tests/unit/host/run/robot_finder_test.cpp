@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which component serves which robot.
-#include "run/robot_finder.hpp"
+#include "orca/host/robot_finder.hpp"
 
 #include <catch2/catch.hpp>
 

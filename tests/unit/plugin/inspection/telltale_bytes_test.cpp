@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <cstring>
+#include <cstddef>
 #include <initializer_list>
 #include <string>
 
@@ -13,9 +13,8 @@ using Found = std::vector<std::string_view>;
 namespace {
 
 std::vector<std::byte> bytes(const std::string& text) {
-  std::vector<std::byte> made(text.size());
-  std::memcpy(made.data(), text.data(), text.size());
-  return made;
+  const auto* const first = reinterpret_cast<const std::byte*>(text.data());
+  return {first, first + text.size()};
 }
 
 const std::string kNothing(8, '\x90');

@@ -45,7 +45,7 @@ inline std::vector<supervisor::Report> all_reports() {
   using namespace supervisor;
   return list_of<Report>(
       Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
-      Built{{{"hardware", "scout"}}}, StateChange{"avoid", "WORK_FAILED", "no echo", true, true},
+      Built{{{"hardware", "scout"}}}, StateChange{"avoid", 6, "no echo", true, true, true}, RestChange{true},
       ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()}, ContactReport{{}},
       AlarmReport{some_bytes()}, Logged{log::Level::warning, "avoid", "text"},
       Glanced{1500ms, 3, {{"avoid", "SUSPENDED"}}, {{"kitchen", 2.5}, {"door", 0.0}}, "avoid FAILED: text"},

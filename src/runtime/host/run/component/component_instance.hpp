@@ -9,6 +9,7 @@
 #include "component_loop.hpp"
 #include "component_parts.hpp"
 #include "lifecycle.hpp"
+#include "orca/host/component_report.hpp"
 #include "residency.hpp"
 
 namespace orca::host {
@@ -36,6 +37,9 @@ class ComponentInstance final {
   /// Returns the endpoint of a declared port, or null.
   [[nodiscard]] Endpoint* endpoint(const std::string& port) const { return parts_.ports.find(port); }
 
+  /// Lets other processes wake its strand.
+  /// @pre  it has not been loaded or declared yet.
+  void set_doorbell(DoorbellWord& word) { parts_.strand.set_doorbell(word); }
   void start();
   /// Lets the component leave IDLE: the whole system is up.
   void open_gate() { loop_.open_gate(); }
@@ -65,6 +69,10 @@ class ComponentInstance final {
   [[nodiscard]] std::string failure() const { return life_.failure(); }
   /// Returns why it could not be configured; nothing if it could.
   [[nodiscard]] std::optional<Error> refusal() const { return life_.refusal(); }
+  /// Returns all of this about its state as one value.
+  [[nodiscard]] ComponentReport report() const {
+    return {state(), has_worked(), has_failed(), ended_badly(), failure()};
+  }
   /// Returns the hook that the strand is in now, for people: "work()"; for a handler its port; else "".
   [[nodiscard]] const char* current_hook() const { return parts_.hooks.current(); }
   /// Fills in the mission and cause of what the component works on. To be called on its strand.

@@ -27,6 +27,9 @@ struct ProcessPart {
 /// Returns what runs in the process of that name, and the edges at its components.
 [[nodiscard]] ProcessPart part_of(const Graph& graph, const std::string& process);
 
+/// Returns the graph with only what runs in the process of that name, and the edges within it.
+[[nodiscard]] Graph subgraph(const Graph& graph, const std::string& process);
+
 /// Returns the names of all components in the order in which they come up: each after those that its start_after
 /// names, otherwise as in the graph.
 /// @pre  the graph was checked: start_after names components and goes in no circle.

@@ -25,8 +25,10 @@ enum class AlarmKind {
   working_folder,
   umask,
   resource_limit,
-  redirection,  ///< Of stdin, stdout or stderr.
-  descriptors   ///< Descriptors were left open, or none are left.
+  redirection,    ///< Of stdin, stdout or stderr.
+  descriptors,    ///< Descriptors were left open, or none are left.
+  process_ended,  ///< A host process has ended although nobody asked it to, or hangs and was ended.
+  gave_up         ///< Processes were restarted too often; the run ends.
 };
 
 /// Returns the kind in capitals, as in idl::Alarm: "SIGNAL_MASK".
@@ -42,6 +44,9 @@ using AlarmSink = std::function<void(const idl::Alarm&)>;
 /// @param hook       as returned by to_string(Hook) or hook_text(); empty: outside any hook.
 [[nodiscard]] idl::Alarm make_alarm(AlarmKind kind, const std::string& component, const std::string& hook,
                                     const std::string& text);
+
+/// Returns an alarm for people: "avoid FAILED: work() threw 7".
+[[nodiscard]] std::string alarm_text(const idl::Alarm& alarm);
 
 /// Writes an alarm to the log, under the name of its component: "alarm SIGNAL_MASK: work() has blocked
 /// SIGUSR1".

@@ -27,10 +27,17 @@ namespace orca::host {
 /// from anywhere.
 class StopSignal {
  public:
+  /// Who decides about signals that a terminal sends to all processes that it started.
+  enum class Terminal {
+    heeded,   ///< They are requests as any other.
+    ignored,  ///< Another process of the group decides; SIGTERM alone is a request.
+  };
+
   /// @param stopped_status  status of a process that is ended when nothing runs yet, or by the second signal.
   /// @param failed_status   status of a process that does not end by itself.
   /// @errors  throws std::system_error if there is no descriptor or thread left.
-  explicit StopSignal(int stopped_status, int failed_status = EXIT_FAILURE);
+  explicit StopSignal(int stopped_status, int failed_status = EXIT_FAILURE,
+                      Terminal terminal = Terminal::heeded);
   ~StopSignal();
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
@@ -57,7 +64,7 @@ class StopSignal {
   enum class Wake { signal, crash, end, timeout };
   using Clock = std::chrono::steady_clock;
 
-  void block_requests();
+  void block_requests(Terminal terminal);
   void handle_others();
   void watch();
   [[nodiscard]] Wake next();

@@ -37,6 +37,7 @@ enum class Kind : std::uint16_t {
   glanced,
   ended,
   last_words,
+  rest_change,
 };
 
 /// One message of a control channel, encoded. orca/supervisor/vocabulary.hpp gives it a meaning.

@@ -112,14 +112,20 @@ struct Built {
   static constexpr Kind kKind = Kind::built;
   Pairs robots;  ///< Hardware and the name of its robot.
 };
-/// The state of a component or of hardware, whenever it changes.
+/// What has become of a component, whenever it changes.
 struct StateChange {
   static constexpr Kind kKind = Kind::state_change;
   std::string component;
-  std::string state;         ///< "WORK", "Fault", ...
+  std::uint64_t state = 0;   ///< Number of its state; which one it is is agreed elsewhere.
   std::string failure;       ///< Why it has failed; empty: it has not.
-  bool has_failed = false;   ///< Whether it is in a failed state.
+  bool has_worked = false;   ///< Whether it has worked at some time.
+  bool has_failed = false;   ///< Whether it has failed at some time.
   bool ended_badly = false;  ///< Whether its last work ended in WORK_FAILED.
+};
+/// Whether nothing in the process is in use any more, whenever it changes.
+struct RestChange {
+  static constexpr Kind kKind = Kind::rest_change;
+  bool at_rest = true;
 };
 /// An object that the process reports, encoded as XCDR1.
 template <Kind kind>
@@ -160,8 +166,8 @@ struct LastWordsReport {
   std::string text;
 };
 
-using Report = std::variant<Answer, Built, StateChange, ArrivedReport, GoalFailedReport, ContactReport,
-                            AlarmReport, Logged, Glanced, Ended, LastWordsReport>;
+using Report = std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport,
+                            ContactReport, AlarmReport, Logged, Glanced, Ended, LastWordsReport>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.

@@ -3,8 +3,8 @@
 
 #include "orca/graph/graph.hpp"
 #include "orca/host/run_result.hpp"
-#include "reporter.hpp"
-#include "system.hpp"
+#include "run/reporter.hpp"
+#include "run/system.hpp"
 
 namespace orca::host {
 

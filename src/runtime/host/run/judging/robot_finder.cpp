@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "robot_finder.hpp"
+#include "orca/host/robot_finder.hpp"
 
 #include <set>
 

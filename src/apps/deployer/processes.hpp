@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+#include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/host/run_listener.hpp"
+#include "orca/host/run_result.hpp"
+#include "orca/host/stop_signal.hpp"
+
+namespace orca::deployer {
+
+/// Returns the folders that are searched for plugins: that of Orca's own, beside the program, and those of the command
+/// line. The graph may name more; no environment variable does.
+[[nodiscard]] std::vector<std::string> plugin_folders(const Options& options);
+
+/// Returns whether the graph runs in host processes below this one.
+[[nodiscard]] bool has_host_processes(const graph::Graph& graph, const Options& options);
+
+/// Checks that the options fit a run in host processes.
+/// @errors  invalid_argument with those that need all parts in one process.
+[[nodiscard]] Status check_for_processes(const Options& options);
+
+/// Runs a graph in host processes. This process only supervises them.
+/// @thread  the main thread.
+[[nodiscard]] host::RunResult run_in_processes(const graph::Graph& graph, const Options& options,
+                                               host::StopSignal& stop, host::RunListener& listener);
+
+/// Returns whether this process was started by another deployer as a host process.
+[[nodiscard]] bool is_host_process(int argc, char** argv);
+
+/// Lives the life of a host process.
+/// @return the program's exit status.
+/// @thread  the main thread, before anything else.
+[[nodiscard]] int be_host_process(int argc, char** argv);
+
+}  // namespace orca::deployer

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "orca/base/descriptor.hpp"
+#include "orca/base/doorbell.hpp"
+#include "orca/base/executive.hpp"
+#include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/host/catalogue.hpp"
+#include "orca/host/component_report.hpp"
+#include "orca/host/planned_failure.hpp"
+#include "orca/host/run_listener.hpp"
+#include "orca/host/run_result.hpp"
+
+namespace orca::host {
+
+/// An order for the part of a system that one process runs.
+struct PartOrder {
+  enum class Kind {
+    open_hardware,  ///< Opens all hardware.
+    configure,      ///< Configures a component.
+    open_gates,     ///< Lets all components work.
+    take_down,      ///< Stops the motors and ends all strands. The last order.
+    suspend,        ///< Pauses a component between two laps.
+    resume,         ///< Resumes a component.
+    set_params,     ///< Gives a component new parameter values, all or none.
+  };
+  /// Takes the outcome, on the part's main task. It must not block.
+  using Done = std::function<void(const Status&)>;
+
+  Kind kind = Kind::open_hardware;
+  std::string component{};                      ///< Of the orders that concern one.
+  std::map<std::string, std::string> params{};  ///< Values as written in a graph, with units.
+  Done done{};
+};
+
+/// The observer of a part.
+///
+/// Thread contract: as RunListener.
+class PartListener : public RunListener {
+ public:
+  /// Reports what has become of a component, each time that it has changed.
+  /// @thread  the part's main task.
+  virtual void component_changed(const std::string& component, const ComponentReport& report) = 0;
+  /// Reports whether nothing is in use any more, components and hardware, each time that this has changed.
+  /// @thread  the part's main task.
+  virtual void rest_changed(bool at_rest) = 0;
+};
+
+/// The options of a part.
+struct PartOptions {
+  std::uint64_t seed = 1;
+  std::vector<PlannedFailure> failures{};
+  std::string log_name = "orca";                   ///< Name in the log for what concerns no single component.
+  std::atomic<std::uint64_t>* missions = nullptr;  ///< Number of missions begun so far, in all parts.
+  /// Returns the word by which other processes wake a component of the graph, in whatever process it is.
+  std::function<DoorbellWord*(const std::string& component)> doorbell{};
+};
+
+/// What a part needs of its surroundings. All of it outlives the part.
+struct PartPlace {
+  PluginCatalogue& catalogue;
+  Executive& executive;
+  PartListener& listener;
+};
+
+/// The part of a system that this process runs. It does nothing by itself, but obeys orders.
+///
+/// Thread contract: order(), stop_motors(), cut_edge() and renew_edge() from any thread once it is built, the rest from
+/// one.
+class HostedPart {
+ public:
+  /// @param whole    the graph of all processes. Outlives the object, as catalogue, executive and listener do.
+  /// @param process  the one that this process is.
+  HostedPart(const graph::Graph& whole, const std::string& process, const PartPlace& place,
+             const PartOptions& options);
+  ~HostedPart();
+  HostedPart(const HostedPart&) = delete;
+  HostedPart& operator=(const HostedPart&) = delete;
+
+  /// Constructs everything and connects all edges.
+  /// @param memory  of each edge between this process and others, by its index in the graph.
+  /// @errors  with the name of what cannot be constructed.
+  Status build(std::map<std::size_t, Descriptor> memory);
+  /// Returns the names of the robots, by their hardware.
+  /// @pre  build() has succeeded.
+  [[nodiscard]] std::map<std::string, std::string> robots() const;
+
+  /// Obeys orders until everything has been taken down.
+  void run();
+
+  /// Gives an order. Orders are carried out one after the other. One that comes after take_down is refused.
+  void order(PartOrder order);
+
+  /// Stops the motors and closes the hardware, while this process is about to end; waits for it, but not for long.
+  void stop_motors();
+
+  /// Cuts an edge to another process, because that is gone: whoever waits for an answer gets an error that says why.
+  void cut_edge(std::size_t edge, const Error& reason);
+  /// Gives an edge new memory, because the process at its other end has been started again. Subscriptions stand again
+  /// without the components' doing.
+  /// @errors  not_found; invalid_argument if it is no memory for an edge.
+  Status renew_edge(std::size_t edge, const Descriptor& memory);
+
+  /// Returns what the inner edges carried until the part was taken down.
+  [[nodiscard]] RunCounters counters() const;
+
+ private:
+  class Inside;
+  const std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace orca::host

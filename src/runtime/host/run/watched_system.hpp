@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "containment/environment.hpp"
+#include "orca/base/executive.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/host/catalogue.hpp"
+#include "orca/host/planned_failure.hpp"
+#include "orca/host/run_listener.hpp"
+#include "reporter.hpp"
+#include "run_context.hpp"
+#include "system.hpp"
+#include "trace.hpp"
+
+namespace orca::host {
+
+/// What a watched system needs of its surroundings. All of it outlives the system.
+struct SystemPlace {
+  PluginCatalogue& catalogue;
+  Executive& executive;
+  Trace& trace;
+  RunListener& listener;
+};
+
+/// The options of a watched system.
+struct SystemOptions {
+  std::uint64_t seed = 1;
+  bool wants_scene = false;  ///< A picture is to be drawn at the end.
+  std::vector<PlannedFailure> failures{};
+  std::string log_name = "orca";  ///< Name in the log for what concerns no single component.
+  /// Number of missions begun so far, which processes may share; null: the system has its own.
+  std::atomic<std::uint64_t>* missions = nullptr;
+  /// Returns the word by which other processes wake a component; empty: there are no others.
+  std::function<DoorbellWord*(const std::string& component)> doorbell{};
+};
+
+/// The instances of a graph in this process together with what watches over them: the reporter, the process's
+/// environment, the monitor of stalls.
+///
+/// Thread contract: one thread, which becomes the executive's main task; members that are passed on have their own.
+class WatchedSystem {
+ public:
+  /// Handles a component that holds up all others, on the monitor's own thread. It must end the process.
+  /// @param text  what is wrong, with the hook.
+  using Standstill = std::function<void(const std::string& component, const std::string& text)>;
+
+  /// @param give_up  called while the system comes up; true ends the waiting.
+  WatchedSystem(const graph::Graph& graph, const SystemPlace& place, const SystemOptions& options,
+                std::function<bool()> give_up);
+  ~WatchedSystem();
+  WatchedSystem(const WatchedSystem&) = delete;
+  WatchedSystem& operator=(const WatchedSystem&) = delete;
+
+  /// Constructs everything.
+  /// @errors  as System::build().
+  Status build() { return system_->build(place_.catalogue); }
+
+  /// Runs `main` as the executive's main task, under the eyes of the monitor.
+  void run(std::function<void()> main, const Standstill& standstill);
+
+  /// Stops the motors while another thread is about to end the process. If all strands share that thread, only the
+  /// watchdogs of the devices can.
+  /// @thread  any, while the strands run.
+  void stop_motors();
+
+  /// Destroys all instances.
+  void destroy() { system_.reset(); }
+
+  [[nodiscard]] System& system() { return *system_; }
+  [[nodiscard]] const System& system() const { return *system_; }
+  [[nodiscard]] Reporter& reporter() { return reporter_; }
+  [[nodiscard]] const Reporter& reporter() const { return reporter_; }
+  /// Returns the event that is notified whenever an instance has changed its state.
+  [[nodiscard]] Event& changed() { return *changed_; }
+  [[nodiscard]] TimePoint start() const { return start_; }
+
+ private:
+  void raise(idl::Alarm alarm);
+
+  const SystemPlace place_;
+  Reporter reporter_;
+  std::atomic<bool> runs_{false};      // whether there are strands
+  const KeptEnvironment environment_;  // lives longer than all that runs a plugin's code
+  const TimePoint start_ = place_.executive.now();
+  std::unique_ptr<Event> changed_ = place_.executive.make_event();
+  std::atomic<std::uint64_t> missions_{0};  // unless the options bring their own
+  RunContext context_;
+  std::optional<System> system_;
+};
+
+}  // namespace orca::host

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/supervisor/host_process_main.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "orca/base/log.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "orca/graph/loader.hpp"
+#include "orca/graph/placement.hpp"
+#include "orca/host/hosted_part.hpp"
+#include "orca/host/stop_signal.hpp"
+#include "orca/plugin/index.hpp"
+#include "orca/supervisor/channel.hpp"
+#include "orca/supervisor/own_process.hpp"
+#include "orca/supervisor/run_page.hpp"
+#include "order_desk.hpp"
+#include "report_sender.hpp"
+#include "run_wishes.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+constexpr Duration kOrderLimit = 10s;
+constexpr Duration kLastLimit = 1s;
+
+// An order together with the number that its answer repeats.
+struct Numbered {
+  Order order;
+  std::uint64_t request = 0;
+};
+
+Result<Numbered> next_order(Channel& channel) {
+  Result<Message> message = channel.wait_for_message(kOrderLimit);
+  if (!message) return message.error();
+  const std::uint64_t request = message->request;
+  Result<Order> order = decode_order(std::move(message).value());
+  if (!order) return order.error();
+  return Numbered{std::move(order).value(), request};
+}
+
+// Waits for an order of a certain kind, which is the only one that can come now.
+template <class Wanted>
+Result<std::pair<Wanted, std::uint64_t>> await(Channel& channel) {
+  Result<Numbered> next = next_order(channel);
+  if (!next) return next.error();
+  auto* const order = std::get_if<Wanted>(&next->order);
+  if (order == nullptr) return fail(Code::data_loss, "the supervisor's orders come in a wrong sequence");
+  return std::pair(std::move(*order), next->request);
+}
+
+std::map<std::size_t, Descriptor> memory_of(std::vector<EdgeMemory>& edges) {
+  std::map<std::size_t, Descriptor> memory;
+  for (EdgeMemory& edge : edges) memory.emplace(edge.edge, std::move(edge.memory));
+  return memory;
+}
+
+// The life of a host process, step by step.
+class Life {
+ public:
+  Life(Channel& channel, const std::vector<std::string>& plugin_folders)
+      : channel_(channel), catalogue_(plugin::PluginIndex(plugin_folders)) {}
+
+  Status live() {
+    auto setup = await<Setup>(channel_);
+    if (!setup) return setup.error();
+    Status made = prepare(setup->first);
+    reports_->send(Answer{made}, setup->second);
+    if (!made.ok()) return made;
+    const auto build = await<Build>(channel_);
+    if (!build) return build.error();
+    made = part_->build(memory_of(setup->first.edges));
+    if (made.ok()) reports_->send(Built{robots()});
+    reports_->send(Answer{made}, build->second);
+    if (!made.ok()) return made;
+    work();
+    return ok();
+  }
+
+ private:
+  Status prepare(Setup& setup) {
+    const Result<RunWishes> wishes = read_wishes(setup.options);
+    if (!wishes) return wishes.error();
+    set_steady_epoch(wishes->epoch);
+    log::set_level(log::Level::off);  // the supervisor writes the log
+    reports_.emplace(channel_, wishes->log_level);
+    if (Status loaded = load(setup); !loaded.ok()) return loaded;
+    Result<RunPage> page = RunPage::map(std::move(setup.run_page), graph::processes_of(*whole_).size(),
+                                        whole_->components.size());
+    if (!page) return page.error();
+    page_.emplace(std::move(page).value());
+    return make_part(setup.process, *wishes);
+  }
+
+  Status load(const Setup& setup) {
+    xml::Diagnostics diagnostics;
+    whole_ = graph::load_text(setup.graph, "the system's graph", {}, catalogue_, diagnostics);
+    if (!whole_)
+      return fail(Code::failed_precondition,
+                  "the plugins have changed since the system was checked:\n" + diagnostics.text());
+    return ok();
+  }
+
+  Status make_part(const std::string& process, const RunWishes& wishes) {
+    const std::vector<graph::ProcessNode> processes = graph::processes_of(*whole_);
+    const auto node = std::ranges::find(processes, process, &graph::ProcessNode::name);
+    if (node == processes.end()) return fail(Code::data_loss, "nothing runs in process \"" + process + "\"");
+    index_ = static_cast<std::size_t>(node - processes.begin());
+    set_process_name(process);
+    if (node->lock_memory)
+      if (const auto refused = lock_memory()) log::warning(process, *refused);
+    Result<std::unique_ptr<Executive>> executive = make_executive(executive_options(*node));
+    if (!executive) return executive.error();
+    executive_ = std::move(executive).value();
+    host::PartOptions options{wishes.seed, wishes.failures, process, &page_->missions(),
+                              [this](const std::string& component) { return &doorbell(component); }};
+    part_.emplace(*whole_, process, host::PartPlace{catalogue_, *executive_, *reports_}, options);
+    return ok();
+  }
+
+  ExecutiveOptions executive_options(const graph::ProcessNode& node) {
+    ExecutiveOptions options{ClockKind::steady, node.executor, node.spin};
+    if (node.executor == Backend::fiber) options.doorbell = &page_->process_doorbell(index_);
+    return options;
+  }
+
+  // Returns the word that wakes a component, in whatever process it is. Fibers have one word together.
+  DoorbellWord& doorbell(const std::string& name) {
+    const auto component = std::ranges::find(whole_->components, name, &graph::ComponentNode::name);
+    const std::vector<graph::ProcessNode> processes = graph::processes_of(*whole_);
+    const auto process = std::ranges::find(processes, component->process, &graph::ProcessNode::name);
+    if (process->executor == Backend::fiber)
+      return page_->process_doorbell(static_cast<std::size_t>(process - processes.begin()));
+    return page_->doorbell(static_cast<std::size_t>(component - whole_->components.begin()));
+  }
+
+  [[nodiscard]] Pairs robots() const {
+    const auto robots = part_->robots();
+    return {robots.begin(), robots.end()};
+  }
+
+  void work() {
+    stop_.on_crash([this] { part_->stop_motors(); });
+    stop_.on_request([this] { part_->order({.kind = host::PartOrder::Kind::take_down}); });
+    {
+      const OrderDesk desk(channel_, *part_, *reports_, page_->heartbeat(index_));
+      part_->run();
+    }
+    stop_.on_request(nullptr);
+    stop_.on_crash(nullptr);
+    (void)channel_.send(encode(Report(Ended{})), kLastLimit);
+  }
+
+  // First of all, since all threads inherit the signals that it blocks.
+  host::StopSignal stop_{EXIT_SUCCESS, EXIT_FAILURE, host::StopSignal::Terminal::ignored};
+  Channel& channel_;
+  host::PluginCatalogue catalogue_;
+  std::optional<ReportSender> reports_;
+  std::optional<graph::Graph> whole_;
+  std::optional<RunPage> page_;
+  std::size_t index_ = 0;  // of this process, among processes_of()
+  std::unique_ptr<Executive> executive_;
+  std::optional<host::HostedPart> part_;
+};
+
+}  // namespace
+
+int host_process_main(Descriptor socket, const std::vector<std::string>& plugin_folders) {
+  Channel channel(std::move(socket));
+  const Status lived = Life(channel, plugin_folders).live();
+  return lived.ok() ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace orca::supervisor

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "order_desk.hpp"
+
+#include <poll.h>
+#include <pthread.h>
+#include <sys/eventfd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "orca/base/exhaustion.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+constexpr int kBeatMs = 20;
+
+Descriptor make_wake() {
+  Descriptor wake(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  if (!wake) throw_if_exhausted(errno);
+  return wake;
+}
+
+host::PartOrder about(host::PartOrder::Kind kind, std::string component = {}) {
+  return {kind, std::move(component)};
+}
+
+// Returns the order for the part, if it is one. Others are the desk's own.
+std::optional<host::PartOrder> part_order(const Order& order) {
+  using Kind = host::PartOrder::Kind;
+  if (std::holds_alternative<OpenHardware>(order)) return about(Kind::open_hardware);
+  if (std::holds_alternative<OpenGates>(order)) return about(Kind::open_gates);
+  if (std::holds_alternative<TakeDown>(order)) return about(Kind::take_down);
+  if (const auto* configure = std::get_if<Configure>(&order))
+    return about(Kind::configure, configure->component);
+  if (const auto* suspend = std::get_if<Suspend>(&order)) return about(Kind::suspend, suspend->component);
+  if (const auto* resume = std::get_if<Resume>(&order)) return about(Kind::resume, resume->component);
+  if (const auto* set = std::get_if<SetParams>(&order))
+    return host::PartOrder{Kind::set_params, set->component, {set->values.begin(), set->values.end()}};
+  return std::nullopt;
+}
+
+}  // namespace
+
+OrderDesk::OrderDesk(Channel& channel, host::HostedPart& part, ReportSender& reports,
+                     std::atomic<std::uint32_t>& heartbeat)
+    : channel_(channel),
+      part_(part),
+      reports_(reports),
+      heartbeat_(heartbeat),
+      wake_(make_wake()),
+      thread_([this] {
+        pthread_setname_np(pthread_self(), "orders");
+        work();
+      }) {}
+
+OrderDesk::~OrderDesk() {
+  ending_.store(true);
+  eventfd_write(wake_.number(), 1);
+  thread_.join();
+}
+
+void OrderDesk::work() {
+  while (!ending_.load()) {
+    heartbeat_.fetch_add(1, std::memory_order_relaxed);
+    wait();
+    (void)channel_.flush();  // its error comes back from receive()
+    receive();
+  }
+}
+
+void OrderDesk::wait() const {
+  const short events = channel_.has_unsent() ? POLLIN | POLLOUT : POLLIN;
+  pollfd fds[] = {{channel_.descriptor(), events, 0}, {wake_.number(), POLLIN, 0}};
+  poll(fds, 2, kBeatMs);
+}
+
+void OrderDesk::receive() {
+  for (;;) {
+    Result<std::optional<Message>> message = channel_.receive();
+    if (!message) leave(message.error());
+    if (!message->has_value()) return;
+    const std::uint64_t request = (*message)->request;
+    Result<Order> order = decode_order(std::move(**message));
+    if (!order) leave(order.error());
+    carry_out(std::move(order).value(), request);
+  }
+}
+
+void OrderDesk::carry_out(Order order, std::uint64_t request) {
+  if (std::optional<host::PartOrder> for_part = part_order(order))
+    return pass_on(std::move(*for_part), request);
+  if (std::holds_alternative<StopMotors>(order)) {
+    part_.stop_motors();
+    return reports_.send(Answer{ok()}, request);
+  }
+  if (const auto* cut = std::get_if<CutEdge>(&order))
+    return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
+  if (auto* renew = std::get_if<RenewEdge>(&order)) {
+    const Status renewed = part_.renew_edge(renew->edge.edge, std::move(renew->edge.memory));
+    return reports_.send(Answer{renewed}, request);
+  }
+  reports_.send(Answer{fail(Code::failed_precondition, "this order comes too late")}, request);
+}
+
+void OrderDesk::pass_on(host::PartOrder order, std::uint64_t request) {
+  order.done = [this, request](const Status& outcome) { reports_.send(Answer{outcome}, request); };
+  part_.order(std::move(order));
+}
+
+// Nobody is left who could stop this process, so it stops itself: the motors first.
+void OrderDesk::leave(const Error& reason) {
+  part_.stop_motors();
+  log::error("supervisor", reason.message + "; the robot is stopped and this process ends");
+  std::_Exit(EXIT_FAILURE);
+}
+
+}  // namespace orca::supervisor

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "report_sender.hpp"
+
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "orca/idl/object_type.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+constexpr Duration kLastLimit = 200ms;
+
+template <class T>
+std::vector<std::byte> bytes_of(const T& object) {
+  std::vector<std::byte> bytes;
+  object_type<T>().serialize(&object, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+ReportSender::ReportSender(Channel& channel, log::Level level)
+    : channel_(channel), log_([this, level](const log::Line& line) {
+        if (line.level < level) return;
+        send(Logged{line.level, std::string(line.who), std::string(line.text)});
+      }) {}
+
+void ReportSender::send(Report report, std::uint64_t request) {
+  (void)channel_.post(encode(std::move(report), request));  // without the supervisor nobody is left to tell
+}
+
+void ReportSender::component_changed(const std::string& component, const host::ComponentReport& report) {
+  send(StateChange{component, static_cast<std::uint64_t>(report.state), report.failure, report.has_worked,
+                   report.has_failed, report.ended_badly});
+}
+
+void ReportSender::rest_changed(bool at_rest) { send(RestChange{at_rest}); }
+
+void ReportSender::arrived(const idl::Arrived& arrived) { send(ArrivedReport{bytes_of(arrived)}); }
+
+void ReportSender::goal_failed(const idl::GoalFailed& failed) { send(GoalFailedReport{bytes_of(failed)}); }
+
+void ReportSender::contact(const idl::Contact& contact) { send(ContactReport{bytes_of(contact)}); }
+
+void ReportSender::alarm(const idl::Alarm& alarm) { send(AlarmReport{bytes_of(alarm)}); }
+
+void ReportSender::abandon(const host::RunResult& result) {
+  (void)channel_.send(encode(Report(LastWordsReport{result.error ? result.error->text() : ""})), kLastLimit);
+  std::_Exit(EXIT_FAILURE);
+}
+
+}  // namespace orca::supervisor

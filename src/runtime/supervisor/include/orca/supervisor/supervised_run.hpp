@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/base/log.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/host/planned_failure.hpp"
+#include "orca/host/run_listener.hpp"
+#include "orca/host/run_result.hpp"
+#include "orca/host/stop_signal.hpp"
+
+namespace orca::supervisor {
+
+/// The options of a run in host processes.
+struct SupervisedOptions {
+  std::string program;                 ///< Path of the program of a host process.
+  std::vector<std::string> arguments;  ///< What its main() gets, from argv[0] on.
+  std::optional<std::uint64_t> seed;   ///< None: the graph's seed, or 1 if it has none.
+  std::optional<Duration> until;       ///< Time limit [s]; none: no limit.
+  std::vector<host::PlannedFailure> planned_failures;
+  log::Level log_level = log::Level::info;
+  bool looks_on = false;  ///< The listener is offered a RunView.
+};
+
+/// Runs a checked graph in host processes: starts them, brings everything up, watches, starts again what has died,
+/// stops the robot and takes everything down. This process runs no plugin code.
+///
+/// @param stop      a request ends the run.
+/// @param listener  is called during the run, on the calling thread.
+/// @thread  the main thread.
+[[nodiscard]] host::RunResult run_supervised(const graph::Graph& graph, const SupervisedOptions& options,
+                                             host::StopSignal& stop, host::RunListener& listener);
+
+}  // namespace orca::supervisor

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "ledger.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "orca/base/log.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "orca/host/alarm.hpp"
+#include "orca/host/robot_finder.hpp"
+#include "orca/idl/object_type.hpp"
+#include "orca/idl/time.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+// Reads an object that a host process has reported.
+template <class T, Kind kind>
+Result<T> read(const ObjectReport<kind>& report) {
+  T object;
+  if (Status read = object_type<T>().deserialize(report.object, &object); !read.ok()) return read.error();
+  return object;
+}
+
+}  // namespace
+
+Ledger::Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start)
+    : graph_(graph), listener_(listener), start_(start) {
+  for (const graph::ComponentNode& node : graph.components) components_[node.name] = {};
+  so_far_.start = start;
+  listener_.started(start);
+}
+
+Status Ledger::take(const Report& report, const std::string& process) {
+  if (const auto* built = std::get_if<Built>(&report)) {
+    robots_by_hardware_.insert(built->robots.begin(), built->robots.end());
+    return ok();
+  }
+  if (const auto* line = std::get_if<Logged>(&report)) {
+    log::write(line->level, line->who, line->text);
+    listener_.logged(line->level, line->who, line->text);
+    return ok();
+  }
+  if (const auto* words = std::get_if<LastWordsReport>(&report)) {
+    log::error(process, words->text);
+    return ok();
+  }
+  if (const auto* rest = std::get_if<RestChange>(&report)) {
+    if (rest->at_rest)
+      restless_.erase(process);
+    else
+      restless_.insert(process);
+    return ok();
+  }
+  if (const auto* change = std::get_if<StateChange>(&report)) return take_change(*change);
+  return take_object(report);
+}
+
+Status Ledger::take_change(const StateChange& change) {
+  const std::lock_guard lock(mutex_);
+  const auto known = components_.find(change.component);
+  if (known == components_.end() || change.state > static_cast<std::uint64_t>(host::ComponentState::exit))
+    return fail(Code::data_loss, "it reports an impossible state of \"" + change.component + "\"");
+  known->second = {static_cast<host::ComponentState>(change.state), change.has_worked, change.has_failed,
+                   change.ended_badly, change.failure};
+  return ok();
+}
+
+Status Ledger::take_object(const Report& report) {
+  if (const auto* arrived = std::get_if<ArrivedReport>(&report)) {
+    Result<idl::Arrived> object = read<idl::Arrived>(*arrived);
+    if (!object) return object.error();
+    listener_.arrived(*object);
+    so_far_.arrivals.push_back(std::move(object).value());
+  } else if (const auto* failed = std::get_if<GoalFailedReport>(&report)) {
+    Result<idl::GoalFailed> object = read<idl::GoalFailed>(*failed);
+    if (!object) return object.error();
+    listener_.goal_failed(*object);
+    so_far_.failures.push_back(std::move(object).value());
+  } else if (const auto* contact = std::get_if<ContactReport>(&report)) {
+    Result<idl::Contact> object = read<idl::Contact>(*contact);
+    if (!object) return object.error();
+    listener_.contact(*object);
+    so_far_.contacts.push_back(std::move(object).value());
+  } else if (const auto* alarm = std::get_if<AlarmReport>(&report)) {
+    Result<idl::Alarm> object = read<idl::Alarm>(*alarm);
+    if (!object) return object.error();
+    note(std::move(object).value());
+  }
+  return ok();
+}
+
+void Ledger::note(idl::Alarm alarm) {
+  listener_.alarm(alarm);
+  const std::lock_guard lock(mutex_);
+  so_far_.alarms.push_back(std::move(alarm));
+}
+
+void Ledger::raise(host::AlarmKind kind, const std::string& component, const std::string& text) {
+  idl::Alarm alarm = host::make_alarm(kind, component, "", text);
+  alarm.creation_time(to_time_value(steady_now()));
+  alarm.stamp(alarm.creation_time());
+  host::log_alarm(alarm, "supervisor");
+  note(std::move(alarm));
+}
+
+void Ledger::lose(const std::string& process, const std::string& why) {
+  restless_.erase(process);
+  const std::lock_guard lock(mutex_);
+  for (const graph::ComponentNode& node : graph_.components) {
+    if (node.process != process) continue;
+    host::ComponentReport& report = components_[node.name];
+    report.state = host::ComponentState::unloaded;
+    report.failure = why;
+  }
+}
+
+void Ledger::introduce() {
+  robots_ = host::find_robots(graph_, robots_by_hardware_);
+  listener_.robots(robots_);
+}
+
+host::Reports Ledger::reports() const {
+  return [this](const std::string& component) {
+    const std::lock_guard lock(mutex_);
+    return components_.at(component);
+  };
+}
+
+host::RunGlance Ledger::look() const {
+  host::RunGlance glance;
+  glance.time = steady_now() - start_;
+  const std::lock_guard lock(mutex_);
+  for (const graph::ComponentNode& node : graph_.components) {
+    const host::ComponentReport& report = components_.at(node.name);
+    if (report.state == host::ComponentState::work) ++glance.working;
+    if (report.ended_badly || host::is_unsettled(report.state))
+      glance.unwell.push_back({node.name, host::to_string(report.state)});
+  }
+  if (!so_far_.alarms.empty()) glance.last_alarm = host::alarm_text(so_far_.alarms.back());
+  return glance;
+}
+
+void Ledger::fill(host::RunResult& result) const {
+  const std::lock_guard lock(mutex_);
+  result.start = start_;
+  result.arrivals = so_far_.arrivals;
+  result.failures = so_far_.failures;
+  result.contacts = so_far_.contacts;
+  result.alarms = so_far_.alarms;
+  result.robots = robots_;
+}
+
+}  // namespace orca::supervisor

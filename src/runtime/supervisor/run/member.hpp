@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "orca/base/result.hpp"
+#include "orca/graph/process.hpp"
+#include "orca/supervisor/channel.hpp"
+#include "orca/supervisor/host_process.hpp"
+#include "orca/supervisor/vocabulary.hpp"
+
+namespace orca::supervisor {
+
+/// One process of the graph, as the supervisor sees it: the host process that runs it at present, if any, and the orders
+/// that it has not answered yet.
+///
+/// Thread contract: the supervisor's thread.
+class Member {
+ public:
+  enum class Phase {
+    absent,      ///< It does not run.
+    coming_up,   ///< It loads, constructs, configures.
+    up,          ///< Its components work.
+    going_down,  ///< It has been told to end.
+  };
+  /// Takes the answer to an order.
+  using Answered = std::function<void(const Status&)>;
+
+  Member(graph::ProcessNode node, std::size_t index) : node_(std::move(node)), index_(index) {}
+
+  /// Starts a host process.
+  /// @errors  as HostProcess::start().
+  Status start(const HostStart& start);
+
+  /// Sends an order. `answered` is called when the answer is there, unless the process ends before.
+  void ask(Order order, Answered answered);
+  /// Sends an order that nobody waits for.
+  void tell(Order order);
+  /// Orders the process to end, and sees to it that it does.
+  void end(Moment now, Answered answered);
+  /// Takes the answer to an order.
+  void take_answer(std::uint64_t request, const Status& outcome);
+
+  /// Forgets the process, which has ended.
+  void forget();
+
+  [[nodiscard]] const graph::ProcessNode& node() const { return node_; }
+  [[nodiscard]] const std::string& name() const { return node_.name; }
+  /// Returns its place in the order of graph::processes_of().
+  [[nodiscard]] std::size_t index() const { return index_; }
+  [[nodiscard]] HostProcess* process() const { return process_.get(); }
+  [[nodiscard]] Phase phase() const { return phase_; }
+  void enter(Phase phase) { phase_ = phase; }
+
+ private:
+  const graph::ProcessNode node_;
+  const std::size_t index_;
+  Phase phase_ = Phase::absent;
+  std::unique_ptr<HostProcess> process_;
+  std::map<std::uint64_t, Answered> open_;
+  std::uint64_t last_request_ = 0;
+};
+
+}  // namespace orca::supervisor

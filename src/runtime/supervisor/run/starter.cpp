@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "starter.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "hosted/run_wishes.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "orca/graph/placement.hpp"
+#include "orca/graph/print.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+constexpr std::uint64_t kReserved = std::uint64_t{1} << 30;  // [bytes] of stacks and the like
+
+}  // namespace
+
+Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunPage& page,
+                 const Members& all)
+    : graph_(graph),
+      options_(options),
+      page_(page),
+      all_(all),
+      graph_text_(graph::print(graph)),
+      wiring_(graph) {}
+
+Result<std::vector<Setup>> Starter::start(const Members& members) {
+  std::set<std::string> names;
+  for (const Member* member : members) names.insert(member->name());
+  Result<Wiring::Lots> lots = wiring_.deal(names);
+  if (!lots) return lots.error();
+  std::vector<Setup> setups;
+  for (Member* const member : members) {
+    if (const Status started = member->start(host_start(*member)); !started.ok()) return started.error();
+    setups.push_back(setup(*member, std::move(lots->by_process[member->name()])));
+  }
+  renew_others(members, *lots);
+  return setups;
+}
+
+// The supervisor itself sees to the limit of memory. The system counts what is reserved as well, such as stacks: its
+// limit only keeps a process that grows within moments from taking the memory of all others.
+HostStart Starter::host_start(const Member& member) const {
+  const std::optional<std::uint64_t> memory = member.node().memory;
+  return {member.name(),
+          options_.program,
+          options_.arguments,
+          memory ? std::optional(2 * *memory + kReserved) : std::nullopt,
+          member.node().processors,
+          member.node().priority.value_or(0)};
+}
+
+Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) const {
+  const RunWishes wishes{options_.seed.value_or(graph_.seed.value_or(1)), options_.log_level, steady_epoch(),
+                         options_.planned_failures};
+  return {member.name(), graph_text_, to_pairs(wishes), page_.descriptor(), std::move(edges)};
+}
+
+// Gives the processes that run already the other end of the new edges.
+void Starter::renew_others(const Members& started, Wiring::Lots& lots) {
+  for (Member* const member : all_) {
+    const auto lot = lots.by_process.find(member->name());
+    const bool is_new = std::ranges::find(started, member) != started.end();
+    if (is_new || lot == lots.by_process.end()) continue;
+    for (EdgeMemory& edge : lot->second) member->tell(RenewEdge{std::move(edge)});
+  }
+}
+
+BringUp::Plan Starter::plan(const Members& members) const {
+  BringUp::Plan plan{members, {}};
+  for (const std::string& component : graph::start_order(graph_)) {
+    const std::string& process = graph_.find_component(component)->process;
+    const auto member = std::ranges::find(members, process, [](const Member* m) { return m->name(); });
+    if (member != members.end()) plan.components.emplace_back(*member, component);
+  }
+  return plan;
+}
+
+}  // namespace orca::supervisor

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bring_up.hpp"
+#include "member.hpp"
+#include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/supervisor/run_page.hpp"
+#include "orca/supervisor/supervised_run.hpp"
+#include "wiring.hpp"
+
+namespace orca::supervisor {
+
+using Members = std::vector<Member*>;
+
+/// Starts host processes and gives them what they need: the graph, the run page, the memory of their edges.
+///
+/// Thread contract: the supervisor's thread.
+class Starter {
+ public:
+  /// All of these outlive the object.
+  Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunPage& page,
+          const Members& all);
+
+  /// Starts processes that do not run, all together, and renews the edges to those that do. The bring-up begins when
+  /// the caller calls begin() with the returned setups.
+  /// @errors  as HostProcess::start() and RingSegment::create(); the processes that were started then run on.
+  Result<std::vector<Setup>> start(const Members& members);
+
+  /// Returns the plan by which these processes come up.
+  [[nodiscard]] BringUp::Plan plan(const Members& members) const;
+
+  [[nodiscard]] const Wiring& wiring() const { return wiring_; }
+
+ private:
+  [[nodiscard]] HostStart host_start(const Member& member) const;
+  [[nodiscard]] Setup setup(const Member& member, std::vector<EdgeMemory> edges) const;
+  void renew_others(const Members& started, Wiring::Lots& lots);
+
+  const graph::Graph& graph_;
+  const SupervisedOptions& options_;
+  const RunPage& page_;
+  const Members& all_;
+  const std::string graph_text_;
+  const Wiring wiring_;
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/supervisor/supervised_run.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "bring_up.hpp"
+#include "ledger.hpp"
+#include "member.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "orca/base/text.hpp"
+#include "orca/graph/placement.hpp"
+#include "orca/host/alarm.hpp"
+#include "orca/host/verdict.hpp"
+#include "orca/supervisor/heartbeats.hpp"
+#include "orca/supervisor/restart_policy.hpp"
+#include "orca/supervisor/run_page.hpp"
+#include "poller.hpp"
+#include "starter.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+using host::RunOutcome;
+using Phase = Member::Phase;
+
+constexpr Duration kStartLimit = 15s;
+constexpr Duration kRestLimit = 1s;
+constexpr Duration kLook = 50ms;  // between two looks at the heartbeats
+
+std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph) {
+  std::vector<std::unique_ptr<Member>> members;
+  for (graph::ProcessNode& node : graph::processes_of(graph))
+    members.push_back(std::make_unique<Member>(std::move(node), members.size()));
+  return members;
+}
+
+Members pointers_to(const std::vector<std::unique_ptr<Member>>& members) {
+  Members pointers;
+  for (const auto& member : members) pointers.push_back(member.get());
+  return pointers;
+}
+
+std::vector<graph::ProcessNode> nodes_of(const std::vector<std::unique_ptr<Member>>& members) {
+  std::vector<graph::ProcessNode> nodes;
+  for (const auto& member : members) nodes.push_back(member->node());
+  return nodes;
+}
+
+// One run, from the first process to the last.
+class SupervisedRun {
+ public:
+  SupervisedRun(const graph::Graph& graph, const SupervisedOptions& options, RunPage page,
+                host::StopSignal& stop, host::RunListener& listener)
+      : graph_(graph),
+        options_(options),
+        stop_(stop),
+        listener_(listener),
+        start_(steady_now()),
+        page_(std::move(page)),
+        members_(make_members(graph)),
+        all_(pointers_to(members_)),
+        starter_(graph, options, page_, all_),
+        ledger_(graph, listener, start_),
+        policy_(nodes_of(members_), graph.supervision) {}
+
+  host::RunResult execute() {
+    stop_.on_request([this] { poller_.wake(); });
+    if (options_.looks_on) listener_.built(ledger_);
+    start(all_);
+    while (!is_over()) turn(next_time());
+    if (ends_well()) wait_for_rest();
+    judge();
+    take_down();
+    stop_.on_request(nullptr);
+    host::RunResult result = this->result();
+    listener_.ended(result);
+    return result;
+  }
+
+ private:
+  // ---- Starting
+
+  // Starts processes that do not run, all together.
+  void start(const Members& members) {
+    Result<std::vector<Setup>> setups = starter_.start(members);
+    if (!setups) return fail_start(setups.error());
+    for (const Member* member : members) {
+      for (const std::string& warning : member->process()->warnings()) log::warning(member->name(), warning);
+      beats_.watch(member->index(), member->node().hang_limit);
+    }
+    began_.push_back(std::make_unique<BringUp>(
+        starter_.plan(members), [this] { built(); },
+        [this](const Status& outcome, const Member* culprit) { came_up(outcome, culprit); }));
+    began_.back()->begin(std::move(setups).value());
+  }
+
+  void built() {
+    if (!came_up_) ledger_.introduce();
+  }
+
+  void came_up(const Status& outcome, const Member* culprit) {
+    if (outcome.ok()) {
+      came_up_ = true;
+      return;
+    }
+    const Error& error = outcome.error();
+    if (!came_up_) {
+      log::error("supervisor", error.text());
+      return fail_start(error);
+    }
+    log::error(culprit->name(), "the process does not come up again: " + error.text());
+    find(culprit->name()).process()->end_by_force(Force::overdue, now());
+  }
+
+  void fail_start(const Error& error) { conclude(RunOutcome::not_started, error); }
+
+  // ---- Watching
+
+  void turn(Moment until) {
+    for (const auto& member : members_)
+      if (member->process() != nullptr) until = std::min(until, member->process()->due().value_or(until));
+    poller_.wait(members_, until);
+    for (const auto& member : members_) look_after(*member);
+    for (const std::size_t process : beats_.look(now())) {
+      if (members_[process]->process() != nullptr)
+        members_[process]->process()->end_by_force(Force::hang, now());
+    }
+    std::erase_if(began_, [](const auto& bring_up) { return bring_up->is_over(); });
+    if (!is_over_) start_due();
+  }
+
+  void look_after(Member& member) {
+    HostProcess* const process = member.process();
+    if (process == nullptr) return;
+    for (const std::string& line : process->take_output()) log::info(member.name(), line);
+    receive(member);
+    process->look(now());
+    look_at_memory(member);
+    if (const std::optional<ExitReason>& exit = process->exit()) return ended(member, *exit);
+  }
+
+  static void look_at_memory(const Member& member) {
+    const std::optional<std::uint64_t> limit = member.node().memory;
+    if (limit && member.phase() != Phase::going_down && member.process()->memory().value_or(0) > *limit)
+      member.process()->end_by_force(Force::memory, now());
+  }
+
+  void receive(Member& member) {
+    Channel& channel = member.process()->channel();
+    (void)channel.flush();
+    for (;;) {
+      Result<std::optional<Message>> message = channel.receive();
+      if (!message || !message->has_value()) return;  // the end of the process is seen elsewhere
+      const std::uint64_t request = (*message)->request;
+      Result<Report> report = decode_report(std::move(**message));
+      const Status taken = report ? take(member, *report, request) : Status(report.error());
+      if (taken.ok()) continue;
+      member.process()->end_by_force(Force::hang, now());
+      return log::error(member.name(), "the process talks nonsense and is ended: " + taken.error().message);
+    }
+  }
+
+  Status take(Member& member, const Report& report, std::uint64_t request) {
+    if (const auto* answer = std::get_if<Answer>(&report)) {
+      member.take_answer(request, answer->outcome);
+      return ok();
+    }
+    return ledger_.take(report, member.name());
+  }
+
+  // ---- Losing processes
+
+  void ended(Member& member, const ExitReason& reason) {
+    const bool unasked = member.phase() != Phase::going_down;
+    const std::string how = reason.text();
+    const bool is_normal = reason.is_normal();
+    beats_.forget(member.index());
+    member.forget();
+    for (const auto& bring_up : began_) bring_up->lose(member);
+    ledger_.lose(member.name(), "its process " + how);
+    for (const Wiring::Outer& outer : starter_.wiring().edges_at(member.name())) cut(outer, member, how);
+    if (is_over_) return;
+    const std::string text = "process " + member.name() + " " + how;
+    if (unasked) ledger_.raise(host::AlarmKind::process_ended, "", text);
+    if (!came_up_) return fail_start(fail(Code::unavailable, text));
+    obey(policy_.ended(member.index(), is_normal, now()), text);
+  }
+
+  void cut(const Wiring::Outer& outer, const Member& lost, const std::string& how) {
+    Member& other = find(outer.from == lost.name() ? outer.to : outer.from);
+    other.tell(CutEdge{outer.edge, "process " + lost.name() + " " + how});
+  }
+
+  void obey(const RestartDecision& decision, const std::string& text) {
+    if (decision.gives_up) {
+      ledger_.raise(host::AlarmKind::gave_up, "", text + "; there were too many restarts, so the run ends");
+      return conclude(RunOutcome::failed, fail(Code::unavailable, text));
+    }
+    for (const std::size_t index : decision.end) end_for_restart(*members_[index]);
+  }
+
+  // Ends a process that is to start anew together with another one.
+  void end_for_restart(Member& member) {
+    if (member.process() == nullptr) return;
+    beats_.forget(member.index());
+    member.end(now(), [](const Status&) {});
+  }
+
+  void start_due() {
+    Members due;
+    for (const std::size_t index : policy_.take_due(now())) due.push_back(members_[index].get());
+    if (!due.empty()) start(due);
+  }
+
+  // ---- Ending
+
+  bool is_over() {
+    if (is_over_) return true;
+    if (stop_.requested()) return conclude_stop(), true;
+    if (options_.until && came_up_ && steady_now() >= start_ + *options_.until) return conclude_time(), true;
+    if (!came_up_ && steady_now() >= start_ + kStartLimit)
+      return fail_start(fail(Code::deadline_exceeded, "not everything came up in time")), true;
+    const std::optional<Status> end = came_up_ ? host::ending(graph_, reports_) : std::nullopt;
+    if (end) conclude(end->ok() ? RunOutcome::finished : RunOutcome::failed, *end);
+    return end.has_value();
+  }
+
+  void conclude_stop() {
+    conclude(RunOutcome::stopped, ok());
+    if (const std::string signal = stop_.failure(); !signal.empty())
+      conclude(RunOutcome::failed,
+               fail(Code::failed_precondition, "the signal " + signal + " ended the run"));
+  }
+
+  void conclude_time() {
+    conclude(RunOutcome::time_is_up, ok());
+    if (!graph_.ends.empty())
+      log::info("supervisor", "the time limit has ended the run before these were done: " +
+                                  listed(host::unfinished(graph_, reports_)));
+  }
+
+  void conclude(RunOutcome outcome, const Status& status) {
+    is_over_ = true;
+    outcome_ = outcome;
+    if (!status.ok()) error_ = status.error();
+  }
+
+  [[nodiscard]] bool ends_well() const { return outcome_ == RunOutcome::finished; }
+
+  void wait_for_rest() {
+    const Moment limit = now() + kRestLimit;
+    while (!ledger_.at_rest() && now() < limit && !stop_.requested()) turn(limit);
+  }
+
+  // Makes the run a failure if a component has ended in WORK_FAILED that the graph does not allow to.
+  void judge() {
+    if (error_) return;
+    const std::vector<std::string> failed = host::failed_components(graph_, reports_);
+    for (const std::string& name : failed) log::error(name, host::kMayFailHint);
+    if (!failed.empty()) conclude(RunOutcome::failed, host::failure_of(failed, reports_));
+  }
+
+  void take_down() {
+    end_ = steady_now();
+    for (const auto& member : members_) {
+      beats_.forget(member->index());
+      member->end(now(), [name = member->name()](const Status& outcome) {
+        if (!outcome.ok()) log::error(name, outcome.error().text() + "; the process is ended without it");
+      });
+    }
+    const auto is_gone = [](const auto& member) { return member->process() == nullptr; };
+    while (!std::ranges::all_of(members_, is_gone)) turn(now() + kLook);
+  }
+
+  // Returns when there is something to do although nothing happens.
+  [[nodiscard]] Moment next_time() const {
+    Moment next = now() + kLook;
+    if (options_.until) next = std::min(next, to_steady(start_ + *options_.until));
+    return std::min(next, policy_.due().value_or(next));
+  }
+
+  [[nodiscard]] static Moment now() { return Moment::clock::now(); }
+
+  [[nodiscard]] host::RunResult result() const {
+    host::RunResult result;
+    result.outcome = outcome_;
+    result.error = error_;
+    if (error_ && (graph_.find_component(error_->where) || graph_.find_hardware(error_->where)))
+      result.culprit = error_->where;
+    ledger_.fill(result);
+    result.end = end_;
+    return result;
+  }
+
+  [[nodiscard]] Member& find(const std::string& name) const {
+    return **std::ranges::find(members_, name, [](const auto& member) { return member->name(); });
+  }
+
+  const graph::Graph& graph_;
+  const SupervisedOptions& options_;
+  host::StopSignal& stop_;
+  host::RunListener& listener_;
+  const TimePoint start_;
+  RunPage page_;
+  const std::vector<std::unique_ptr<Member>> members_;
+  const Members all_;
+  Starter starter_;
+  Ledger ledger_;
+  const host::Reports reports_ = ledger_.reports();
+  RestartPolicy policy_;
+  Poller poller_;
+  Heartbeats beats_{page_};
+  std::vector<std::unique_ptr<BringUp>> began_;
+  bool came_up_ = false;
+  bool is_over_ = false;
+  TimePoint end_ = start_;
+  RunOutcome outcome_ = RunOutcome::finished;
+  std::optional<Error> error_;
+};
+
+}  // namespace
+
+host::RunResult run_supervised(const graph::Graph& graph, const SupervisedOptions& options,
+                               host::StopSignal& stop, host::RunListener& listener) {
+  Result<RunPage> page = RunPage::create(graph::processes_of(graph).size(), graph.components.size());
+  if (!page) {
+    host::RunResult result;
+    result.outcome = RunOutcome::not_started;
+    result.error = page.error();
+    return result;
+  }
+  return SupervisedRun(graph, options, std::move(page).value(), stop, listener).execute();
+}
+
+}  // namespace orca::supervisor

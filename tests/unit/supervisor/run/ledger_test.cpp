@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/ledger.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "orca/idl/object_type.hpp"
+
+using namespace orca;
+using namespace orca::supervisor;
+
+namespace {
+
+// Keeps what it hears.
+class Hearing final : public host::RunListener {
+ public:
+  void arrived(const idl::Arrived& arrived) override { names.push_back(arrived.name()); }
+  void alarm(const idl::Alarm& alarm) override { alarms.push_back(alarm.kind()); }
+  void robots(const host::RobotNames& robots) override { known = robots; }
+  [[noreturn]] void abandon(const host::RunResult& /*result*/) override { std::abort(); }
+
+  std::vector<std::string> names;
+  std::vector<std::string> alarms;
+  host::RobotNames known;
+};
+
+graph::Graph system() {
+  graph::Graph graph;
+  for (const auto& [name, process] : {std::pair("goto", "behaviours"), {"base", "base"}}) {
+    graph::ComponentNode node;
+    node.name = name;
+    node.process = process;
+    graph.components.push_back(node);
+  }
+  graph.components[1].hardware = "scout";
+  graph.hardware.emplace_back().name = "scout";
+  return graph;
+}
+
+StateChange works(const std::string& component) {
+  return {component, static_cast<std::uint64_t>(host::ComponentState::work), "", true, false, false};
+}
+
+template <class T>
+std::vector<std::byte> bytes_of(const T& object) {
+  std::vector<std::byte> bytes;
+  object_type<T>().serialize(&object, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("what the processes report on their components is known together", "[supervisor][ledger]") {
+  const graph::Graph graph = system();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  REQUIRE(ledger.take(works("goto"), "behaviours").ok());
+  CHECK(ledger.reports()("goto").state == host::ComponentState::work);
+  CHECK(ledger.reports()("goto").has_worked);
+  CHECK(ledger.reports()("base").state == host::ComponentState::init);
+  CHECK(ledger.look().working == 1);
+}
+
+TEST_CASE("what is said of a component that the graph does not have, or of no state, is not believed",
+          "[supervisor][ledger]") {
+  const graph::Graph graph = system();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  CHECK(ledger.take(works("ghost"), "behaviours").error().code == Code::data_loss);
+  StateChange change = works("goto");
+  change.state = static_cast<std::uint64_t>(host::ComponentState::exit) + 1;
+  CHECK(ledger.take(change, "behaviours").error().code == Code::data_loss);
+  CHECK(ledger.take(ArrivedReport{{std::byte{1}}}, "behaviours").error().code == Code::data_loss);
+  CHECK(hearing.names.empty());
+}
+
+TEST_CASE("arrivals and alarms of all processes reach the listener and the result", "[supervisor][ledger]") {
+  const graph::Graph graph = system();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  idl::Arrived arrived;
+  arrived.name() = "kitchen";
+  REQUIRE(ledger.take(ArrivedReport{bytes_of(arrived)}, "behaviours").ok());
+  ledger.raise(host::AlarmKind::process_ended, "", "process base was ended by SIGKILL");
+  CHECK(hearing.names == std::vector<std::string>{"kitchen"});
+  CHECK(hearing.alarms == std::vector<std::string>{"PROCESS_ENDED"});
+  host::RunResult result;
+  ledger.fill(result);
+  REQUIRE(result.arrivals.size() == 1);
+  CHECK(result.arrivals[0].name() == "kitchen");
+  REQUIRE(result.alarms.size() == 1);
+  CHECK(result.alarms[0].text() == "process base was ended by SIGKILL");
+  CHECK(ledger.look().last_alarm == "PROCESS_ENDED: process base was ended by SIGKILL");
+}
+
+TEST_CASE("the components of a process that is lost are gone, and nothing waits for its rest",
+          "[supervisor][ledger]") {
+  const graph::Graph graph = system();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  REQUIRE(ledger.take(works("goto"), "behaviours").ok());
+  REQUIRE(ledger.take(RestChange{false}, "behaviours").ok());
+  CHECK_FALSE(ledger.at_rest());
+  ledger.lose("behaviours", "its process was ended by SIGKILL");
+  CHECK(ledger.at_rest());
+  CHECK(ledger.reports()("goto").state == host::ComponentState::unloaded);
+  CHECK(ledger.reports()("goto").failure == "its process was ended by SIGKILL");
+}
+
+TEST_CASE("robots are introduced by the hardware of all processes", "[supervisor][ledger]") {
+  const graph::Graph graph = system();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  REQUIRE(ledger.take(Built{{{"scout", "Dewey"}}}, "base").ok());
+  ledger.introduce();
+  CHECK(hearing.known.robots == std::vector<std::string>{"Dewey"});
+  CHECK(hearing.known.of("base") == "Dewey");
+}
