@@ -39,6 +39,10 @@ bool QueryProxyHandle::connected() const { return endpoint().connected(); }
 
 RequestCounters QueryProxyHandle::counters() const { return endpoint().counters(); }
 
+std::optional<std::uint64_t> QueryProxyHandle::server_restarts() const {
+  return endpoint().server_restarts();
+}
+
 Result<ObjectRef> QueryProxyHandle::ask_loan(ObjectLoan loan, Duration timeout) {
   return endpoint().ask(std::move(loan), &endpoint().home().provenance, timeout);
 }

@@ -35,6 +35,8 @@ bool SendProxyHandle::connected() const { return endpoint().connected(); }
 
 RequestCounters SendProxyHandle::counters() const { return endpoint().counters(); }
 
+std::optional<std::uint64_t> SendProxyHandle::server_restarts() const { return endpoint().server_restarts(); }
+
 std::optional<Status> SendProxyHandle::send_receive(SendId id) { return endpoint().receive(id); }
 
 Status SendProxyHandle::send_loan(ObjectLoan loan) {

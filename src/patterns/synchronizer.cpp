@@ -34,6 +34,12 @@ PushSubject& Synchronizer::wait() { return *wait_any_until(kForever); }
 
 PushSubject* Synchronizer::wait(Duration limit) { return wait_any_until(deadline_in(limit)); }
 
+PushSubject* Synchronizer::wait(Duration limit, const std::function<bool()>& unless) {
+  PushSubject* found = nullptr;
+  strand().wait_for(deadline_in(limit), [&] { return (found = first_new()) != nullptr || unless(); });
+  return found;
+}
+
 PushSubject* Synchronizer::wait_any_until(TimePoint deadline) {
   PushSubject* found = nullptr;
   strand().wait_for(deadline, [&] { return (found = first_new()) != nullptr; });

@@ -15,6 +15,7 @@
 #include "orca/graph/dot.hpp"
 #include "orca/graph/json.hpp"
 #include "orca/graph/mermaid.hpp"
+#include "orca/graph/placement.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
 
@@ -58,10 +59,21 @@ std::optional<orca::graph::Graph> load(const Files& files, FakeCatalogue& catalo
     if (found == files.end()) return orca::fail(orca::Code::not_found, "No such file or directory");
     return found->second;
   };
-  auto graph = orca::graph::load_text(files.at("/main.xml"), "/main.xml", {}, catalogue, diagnostics, read);
+  const orca::graph::LoadOptions options{.any_link = true};
+  auto graph =
+      orca::graph::load_text(files.at("/main.xml"), "/main.xml", options, catalogue, diagnostics, read);
   errors = diagnostics.has_errors();
   check_texts(diagnostics);
   return graph;
+}
+
+// Checks that each component is in one process and comes up once.
+void check_placement(const orca::graph::Graph& graph) {
+  std::size_t placed = 0;
+  for (const orca::graph::ProcessNode& process : orca::graph::processes_of(graph))
+    placed += orca::graph::part_of(graph, process.name).components.size();
+  if (placed != graph.components.size()) std::abort();
+  if (orca::graph::start_order(graph).size() != graph.components.size()) std::abort();
 }
 
 }  // namespace
@@ -73,6 +85,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto graph = load(files, catalogue, errors);
   if (graph.has_value() == errors) std::abort();
   if (!graph) return 0;
+  check_placement(*graph);
   const auto again = load({{"/main.xml", orca::graph::print(*graph)}}, catalogue, errors);
   if (!again || !(*again == *graph) || !orca::graph::diff(*graph, *again).empty()) std::abort();
   const bool shown = !orca::graph::dot(*graph, "").empty() && !orca::graph::mermaid(*graph, "").empty() &&

@@ -46,6 +46,9 @@ class Subprocess {
   /// Waits until its stdout or stderr contains `text`; false if `limit` passes or the program ends before.
   bool wait_for_output(const std::string& text, Seconds limit);
 
+  /// Returns its process id, for a look at its children.
+  [[nodiscard]] pid_t pid() const { return pid_; }
+
   /// Sends a signal to the program alone. A terminal signals the whole group, as send_to_group() does.
   void send(int signal) const;
   void send_to_group(int signal) const;

@@ -11,9 +11,7 @@ namespace orca {
 Strand::Strand(Executive& executive, TaskOptions options)
     : executive_(executive), options_(std::move(options)), event_(executive.make_event()) {}
 
-void Strand::wake() {
-  if (t_awake != this) event_->notify();
-}
+bool Strand::is_taking_in_here() const { return t_awake == this; }
 
 void Strand::set_doorbell(DoorbellWord& own) {
   event_ = executive_.make_doorbell_event(own);

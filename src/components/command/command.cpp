@@ -2,6 +2,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -20,18 +21,22 @@
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/patterns/synchronizer.hpp"
+#include "outbox.hpp"
 
 namespace {
 
+using orca::command::Outbox;
 using orca::command::Route;
 
-constexpr std::size_t kMaxBytes = 1'000'000;                    // of a file of goals
-constexpr orca::Duration kRoomLimit = std::chrono::seconds(5);  // for Goto to take a point
-constexpr orca::Duration kGrace = std::chrono::seconds(2);      // for Goto to say that the time is up
+constexpr std::size_t kMaxBytes = 1'000'000;                            // of a file of goals
+constexpr orca::Duration kRoomLimit = std::chrono::seconds(5);          // for Goto to take a point
+constexpr orca::Duration kGrace = std::chrono::seconds(2);              // for Goto to say that the time is up
+constexpr orca::Duration kRetryAfter = std::chrono::milliseconds(200);  // for receivers that come up
 
 /// A component that sends the robot to one goal after the other, taken from a parameter, a file or a prompt
 /// (thesis 11.1). For each goal it begins a mission, subscribes to its results, sends the coordinates to Goto
 /// and the list of behaviours to the fuser, and waits. After the result it unsubscribes and clears the list.
+/// If Goto or the fuser is in another process that is started again meanwhile, it gets what it needs once more.
 /// When there are no more goals it is done, or has failed if one was not reached.
 class Command final : public orca::Component {
  public:
@@ -42,6 +47,7 @@ class Command final : public orca::Component {
     stay_active(true);
     results_.add(arrived_);
     results_.add(failed_);
+    results_.add(path_);
     for (const std::string& text : *goals_)
       if (const orca::Status added = add(text); !added.ok()) return goals_.refuse(added.error());
     if (!goals_file_->empty())
@@ -83,35 +89,100 @@ class Command final : public orca::Component {
     ++tried_;
     arrived_.subscribe();
     failed_.subscribe();
-    const orca::Status sent = send_route(route);
-    if (!sent.ok()) give_up(route, orca::idl::GOAL_REFUSED, "refused: " + sent.error().text());
-    if (!sent.ok() || !wait_for_result(route, mission)) unreached_.push_back(route.name);
+    if (goto_.server_restarts()) path_.subscribe();  // in another process: it may forget the route
+    Outbox outbox(route.via.size() + 1);
+    const orca::Status sent = send_due(outbox, route, *goal_timeout_);
+    const bool refused = !sent.ok() && !may_come_back();
+    if (refused) give_up(route, orca::idl::GOAL_REFUSED, "refused: " + sent.error().text());
+    if (refused || !wait_for_result(outbox, route, mission)) unreached_.push_back(route.name);
     arrived_.unsubscribe();
     failed_.unsubscribe();
+    path_.unsubscribe();
   }
 
-  orca::Status send_route(const Route& route) {
-    for (const orca::command::Place& via : route.via)
-      if (orca::Status sent = send_point(route, via, true); !sent.ok()) return sent;
-    if (orca::Status sent = send_point(route, route.goal, false); !sent.ok()) return sent;
-    return send_clients(*behaviours_);
+  // Returns whether Goto or the fuser is in a process that may be started again.
+  [[nodiscard]] bool may_come_back() const {
+    return goto_.server_restarts().has_value() || clients_.server_restarts().has_value();
   }
 
-  // Returns whether the goal was reached. Results of other missions are late: their goals have been given up.
-  bool wait_for_result(const Route& route, std::uint64_t mission) {
-    const orca::TimePoint end = now() + orca::from_seconds(*goal_timeout_) + grace();
-    while (const orca::PushSubject* port = results_.wait(end - now())) {
-      if (port == &arrived_) {
-        if (is_of(*arrived_.get_update(), mission)) return true;
-      } else if (const auto failed = failed_.get_update(); is_of(*failed, mission)) {
-        log_failure(route, failed->reason());
-        return false;
+  // Sends what Goto and the fuser need and do not have.
+  // @param time_limit  [s] for Goto to reach the goal.
+  orca::Status send_due(Outbox& outbox, const Route& route, double time_limit) {
+    outbox.note_restarts(goto_.server_restarts(), clients_.server_restarts());
+    while (const std::optional<std::size_t> next = outbox.next_point()) {
+      const bool via = *next < route.via.size();
+      const orca::command::Place& place = via ? route.via[*next] : route.goal;
+      if (orca::Status sent = send_point(route, place, via, time_limit); !sent.ok()) return sent;
+      outbox.point_sent();
+      outbox.note_restarts(goto_.server_restarts(), clients_.server_restarts());
+    }
+    if (!outbox.list_is_due()) return orca::ok();
+    if (orca::Status sent = send_clients(*behaviours_); !sent.ok()) return sent;
+    outbox.list_sent();
+    return orca::ok();
+  }
+
+  // Returns whether the goal was reached.
+  bool wait_for_result(Outbox& outbox, const Route& route, std::uint64_t mission) {
+    const orca::TimePoint limit = now() + orca::from_seconds(*goal_timeout_);
+    const orca::TimePoint end = limit + grace();
+    for (;;) {
+      if (const orca::PushSubject* const port = next_result(outbox, end)) {
+        if (const auto reached = take_result(*port, outbox, route, mission)) return *reached;
+      } else if (now() < end) {
+        send_again(outbox, route, orca::to_seconds(limit - now()));
+      } else {
+        break;
       }
     }
-    char limit[32];
-    std::snprintf(limit, sizeof limit, "%g s", *goal_timeout_);
-    give_up(route, orca::idl::GOAL_UNANSWERED, std::string("unanswered: no arrival within ") + limit);
+    char text[32];
+    std::snprintf(text, sizeof text, "%g s", *goal_timeout_);
+    give_up(route, orca::idl::GOAL_UNANSWERED, std::string("unanswered: no arrival within ") + text);
     return false;
+  }
+
+  // Returns whether the goal was reached; nothing if that is still open. Objects of other missions are late: their
+  // goals have been given up.
+  std::optional<bool> take_result(const orca::PushSubject& port, Outbox& outbox, const Route& route,
+                                  std::uint64_t mission) {
+    if (&port == &arrived_) {
+      if (is_of(*arrived_.get_update(), mission)) return true;
+    } else if (&port == &failed_) {
+      const auto failed = failed_.get_update();
+      if (!is_of(*failed, mission)) return std::nullopt;
+      log_failure(route, failed->reason());
+      return false;
+    } else if (const auto path = path_.get_update(); is_of(*path, mission)) {
+      note_way(outbox, route, *path);
+    }
+    return std::nullopt;
+  }
+
+  // Waits for a result, or until something is to be sent again; then it returns null, as it does at `end`.
+  orca::PushSubject* next_result(const Outbox& outbox, orca::TimePoint end) {
+    const orca::Duration left = end - now();
+    return results_.wait(outbox.is_empty() ? left : std::min(left, kRetryAfter), [&] {
+      return outbox.is_outdated(goto_.server_restarts(), clients_.server_restarts());
+    });
+  }
+
+  // Learns from the way that is left to Goto which points the robot has passed. A way that does not lead to the
+  // goal was pushed before Goto had the whole route.
+  static void note_way(Outbox& outbox, const Route& route, const orca::idl::Path& path) {
+    if (path.poses().empty()) return;
+    const auto& last = path.poses().back().position();
+    if (last.x() == route.goal.x && last.y() == route.goal.y) outbox.note_left(path.poses().size() - 1);
+  }
+
+  void send_again(Outbox& outbox, const Route& route, double time_left) {
+    const orca::Status sent = send_due(outbox, route, std::max(time_left, 0.1));
+    if (sent.ok()) {
+      log_info("Goto or the fuser was started again, and has been sent what it needs for \"" + route.name +
+               "\": " + std::to_string(outbox.points_left()) + " of " + std::to_string(route.via.size() + 1) +
+               " points are left");
+    } else {
+      log_debug("cannot send again yet: " + sent.error().text());
+    }
   }
 
   static bool is_of(const orca::idl::OrcaObject& result, std::uint64_t mission) {
@@ -140,7 +211,8 @@ class Command final : public orca::Component {
     if (const orca::Status sent = send_clients({}); !sent.ok()) log_debug(sent.error().text());
   }
 
-  orca::Status send_point(const Route& route, const orca::command::Place& place, bool via) {
+  orca::Status send_point(const Route& route, const orca::command::Place& place, bool via,
+                          double time_limit) {
     orca::Loan<orca::idl::GoalPoint> point = point_at(place);
     point->name() = route.name;
     point->coordinate().point().x(place.x);
@@ -151,7 +223,7 @@ class Command final : public orca::Component {
     point->use_orientation(!via && route.use_orientation);
     if (!place.door) point->orientation().orientation().yaw(route.orientation);
     point->reach_angle(*reach_angle_);
-    point->time_limit(*goal_timeout_);
+    point->time_limit(time_limit);
     return goto_.send_wait_max(std::move(point), kRoomLimit);
   }
 
@@ -285,6 +357,13 @@ class Command final : public orca::Component {
       *this,
       "failed",
       {.text = "Reports that a goal is given up, and why.", .optional = true, .manual = true, .depth = 16}};
+  orca::PushProxy<orca::idl::Path> path_{
+      *this,
+      "path",
+      {.text = "The way that is left to Goto. Used where its process can be started again.",
+       .optional = true,
+       .manual = true,
+       .depth = 16}};
   orca::PushServer<orca::idl::GoalFailed> given_up_{
       *this,
       "GoalFailedPush",

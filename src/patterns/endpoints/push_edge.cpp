@@ -27,6 +27,7 @@ std::string described(const QueuePolicy& policy) {
 
 PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy)
     : client_(client),
+      strand_(client.home().strand),
       source_(source),
       policy_(policy),
       mutex_(client.home().strand.executive()),
@@ -103,7 +104,7 @@ std::optional<Duration> PushEdge::deliver(ObjectRef&& object) {
   if (drops > 0) report_drops(drops);
   if (!taken) return std::nullopt;
   if (seen) client_.observe(seen);
-  client_.home().strand.wake();
+  strand_.wake();
   return std::nullopt;
 }
 
@@ -216,9 +217,9 @@ void PushEdge::lost(std::uint64_t objects) {
 
 ObjectRef PushEdge::take() {
   if (!has_new()) return {};
-  client_.home().strand.note_activity();
+  strand_.note_activity();
   ObjectRef object = pop();
-  client_.home().strand.note_activity();
+  strand_.note_activity();
   return object;
 }
 

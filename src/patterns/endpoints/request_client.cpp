@@ -92,6 +92,13 @@ void RequestClient<Answer>::withdraw(RequestId id) {
 }
 
 template <class Answer>
+std::optional<std::uint64_t> RequestClient<Answer>::server_restarts() const {
+  if (target_ == nullptr) return std::nullopt;
+  home().strand.take_in();
+  return target_->renewals();
+}
+
+template <class Answer>
 void RequestClient<Answer>::reply(RequestId id, Answer answer) {
   const ObjectRef object = object_of(answer);
   if (!pending_.answer(id, std::move(answer))) return;  // the client gave up waiting

@@ -148,8 +148,11 @@ void TargetOverFrames<Answer>::close(const Error& reason) {
 
 template <class Answer>
 void TargetOverFrames<Answer>::open_again() {
-  const std::lock_guard lock(mutex_);
-  closed_.reset();
+  {
+    const std::lock_guard lock(mutex_);
+    closed_.reset();
+  }
+  ++renewals_;
 }
 
 template <class Answer>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -41,6 +42,7 @@ class TargetOverFrames final : public RequestTarget<Answer>, public LinkEnd {
   void withdraw(RequestId id) override;
   [[nodiscard]] Duration patience() const override { return patience_; }
   [[nodiscard]] std::string path() const override { return path_; }
+  [[nodiscard]] std::optional<std::uint64_t> renewals() const override { return renewals_; }
 
  private:
   struct Open {
@@ -59,6 +61,7 @@ class TargetOverFrames final : public RequestTarget<Answer>, public LinkEnd {
   const RequestTypes types_;
   const std::string path_;
   const Duration patience_;
+  std::atomic<std::uint64_t> renewals_{0};
 
   mutable std::mutex mutex_;
   // Below: guarded by mutex_.

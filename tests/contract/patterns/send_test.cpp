@@ -20,6 +20,17 @@ TEMPLATE_LIST_TEST_CASE("send returns when the server has accepted the object, w
   });
 }
 
+TEMPLATE_LIST_TEST_CASE("a client knows whether its server can be replaced, and that it was not",
+                        "[contract][send]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Line line(kit);
+    const bool apart = !std::is_same_v<TestType, LocalKit>;
+    CHECK(line.sender.out.server_restarts().has_value() == apart);
+    CHECK(line.sender.out.server_restarts().value_or(0) == 0);
+    CHECK_FALSE(Sender(kit.executive, "alone").out.server_restarts());
+  });
+}
+
 TEMPLATE_LIST_TEST_CASE("a value is sent as a copy of it", "[contract][send]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Line line(kit);

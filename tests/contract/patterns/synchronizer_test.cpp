@@ -77,6 +77,24 @@ TEMPLATE_LIST_TEST_CASE(
   });
 }
 
+TEMPLATE_LIST_TEST_CASE("wait for any subject can end by a condition, which new data precede",
+                        "[contract][synchronizer]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Behaviours robot(kit);
+    std::atomic<bool> enough = false;
+    std::atomic<PushSubject*> found{&robot.fuser.goto_};
+    Script script(robot.fuser, [&] { found = robot.fuser.both.wait(1h, [&] { return enough.load(); }); });
+    CHECK_FALSE(script.ends_within(20ms));
+    enough = true;
+    robot.fuser.strand().wake();
+    REQUIRE(script.ends_within(5s));
+    CHECK(found == nullptr);
+    robot.wish_avoid(1);
+    CHECK(robot.fuser.both.wait(1h, [] { return true; }) == &robot.fuser.avoid);
+    CHECK(robot.fuser.both.wait(Duration{0}, [] { return false; }) == &robot.fuser.avoid);
+  });
+}
+
 TEMPLATE_LIST_TEST_CASE("wait_all ends when all subjects have new data", "[contract][synchronizer]",
                         LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {

@@ -118,6 +118,10 @@ const Deeds& deeds() {
       {"handler", [] { signal(SIGTERM, SIG_IGN); }},
       {"leak", [] { open_many(1); }},
       {"leak_all", [] { open_many(1000000); }},
+      {"hoard",
+       [] {
+         for (;;) take_memory();
+       }},
       {"limit", lower_limit},
       {"locale", [] { std::setlocale(LC_ALL, "C.UTF-8"); }},
       {"mask", block_signal},

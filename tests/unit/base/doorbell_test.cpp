@@ -218,22 +218,20 @@ struct Waking final : Intake {
 
 TEST_CASE("what a look takes in still ends the next wait, and what a wait takes in ends that wait alone",
           "[base][strand]") {
-  for (const ExecutiveOptions& options : virtual_kinds()) {
-    const auto executive = make(options);
-    executive->run([&] {
-      Strand strand(*executive, {"strand", 0});
-      Waking intake(strand);
-      strand.add_intake(intake);
-      intake.arrived = true;
-      CHECK(strand.take_in());
-      strand.pause_until(executive->now() + 1h);
-      CHECK(executive->now() == TimePoint{});
-      intake.arrived = true;
-      strand.pause_until(executive->now() + 1h);
-      CHECK(executive->now() == TimePoint{});
-      strand.pause_until(executive->now() + 1h);
-      CHECK(executive->now() == TimePoint{} + 1h);
-      strand.remove_intake(intake);
-    });
-  }
+  DoorbellWord bell{0};
+  with_bell(bell, [](Executive& executive, Strand& strand) {
+    Waking intake(strand);
+    strand.add_intake(intake);
+    const TimePoint start = executive.now();
+    intake.arrived = true;
+    CHECK(strand.take_in());
+    strand.pause_until(start + 10s);
+    intake.arrived = true;
+    strand.pause_until(start + 10s);
+    const TimePoint woken = executive.now();
+    CHECK(woken < start + 5s);
+    strand.pause_until(woken + 20ms);
+    CHECK(executive.now() >= woken + 20ms);
+    strand.remove_intake(intake);
+  });
 }

@@ -40,7 +40,8 @@ void WatchedSystem::run(std::function<void()> main, const Standstill& standstill
         const ComponentInstance* const culprit = system_->component(component);
         const std::string hook = culprit != nullptr ? culprit->current_hook() : "";
         standstill(component, hook + (hook.empty() ? "" : " ") + what);
-      });
+      },
+      hang_limit_);
   place_.executive.run([this, &main] {
     runs_.store(true);
     main();

@@ -66,6 +66,11 @@ class WatchedSystem {
   /// Runs `main` as the executive's main task, under the eyes of the monitor.
   void run(std::function<void()> main, const Standstill& standstill);
 
+  /// Chooses whether from now on a component that stalls for this long is a standstill, whatever it holds up; 0 s: it is
+  /// not.
+  /// @thread  any.
+  void set_hang_limit(Duration limit) { hang_limit_.store(limit); }
+
   /// Stops the motors while another thread is about to end the process. If all strands share that thread, only the
   /// watchdogs of the devices can.
   /// @thread  any, while the strands run.
@@ -87,6 +92,7 @@ class WatchedSystem {
 
   const SystemPlace place_;
   Reporter reporter_;
+  std::atomic<Duration> hang_limit_{Duration{0}};
   std::atomic<bool> runs_{false};      // whether there are strands
   const KeptEnvironment environment_;  // lives longer than all that runs a plugin's code
   const TimePoint start_ = place_.executive.now();

@@ -43,20 +43,37 @@ Result<Numbered> next_order(Channel& channel) {
   return Numbered{std::move(order).value(), request};
 }
 
-// Waits for an order of a certain kind, which is the only one that can come now.
-template <class Wanted>
-Result<std::pair<Wanted, std::uint64_t>> await(Channel& channel) {
+Error wrong_sequence() { return fail(Code::data_loss, "the supervisor's orders come in a wrong sequence"); }
+
+// Waits for the first order.
+Result<std::pair<Setup, std::uint64_t>> await_setup(Channel& channel) {
   Result<Numbered> next = next_order(channel);
   if (!next) return next.error();
-  auto* const order = std::get_if<Wanted>(&next->order);
-  if (order == nullptr) return fail(Code::data_loss, "the supervisor's orders come in a wrong sequence");
+  auto* const order = std::get_if<Setup>(&next->order);
+  if (order == nullptr) return wrong_sequence();
   return std::pair(std::move(*order), next->request);
 }
 
-std::map<std::size_t, Descriptor> memory_of(std::vector<EdgeMemory>& edges) {
-  std::map<std::size_t, Descriptor> memory;
+using Memory = std::map<std::size_t, Descriptor>;
+
+Memory memory_of(std::vector<EdgeMemory>& edges) {
+  Memory memory;
   for (EdgeMemory& edge : edges) memory.emplace(edge.edge, std::move(edge.memory));
   return memory;
+}
+
+// Waits for the order to build, and returns its number. Meanwhile peers may end and be started again, which changes the
+// memory of edges.
+Result<std::uint64_t> await_build(Channel& channel, Memory& memory) {
+  for (;;) {
+    Result<Numbered> next = next_order(channel);
+    if (!next) return next.error();
+    if (std::holds_alternative<Build>(next->order)) return next->request;
+    if (std::holds_alternative<CutEdge>(next->order)) continue;  // new memory will come
+    auto* const renew = std::get_if<RenewEdge>(&next->order);
+    if (renew == nullptr) return wrong_sequence();
+    memory.insert_or_assign(renew->edge.edge, std::move(renew->edge.memory));
+  }
 }
 
 // The life of a host process, step by step.
@@ -66,16 +83,18 @@ class Life {
       : channel_(channel), catalogue_(plugin::PluginIndex(plugin_folders)) {}
 
   Status live() {
-    auto setup = await<Setup>(channel_);
+    die_with_supervisor(true);
+    auto setup = await_setup(channel_);
     if (!setup) return setup.error();
     Status made = prepare(setup->first);
     reports_->send(Answer{made}, setup->second);
     if (!made.ok()) return made;
-    const auto build = await<Build>(channel_);
+    Memory memory = memory_of(setup->first.edges);
+    const Result<std::uint64_t> build = await_build(channel_, memory);
     if (!build) return build.error();
-    made = part_->build(memory_of(setup->first.edges));
+    made = part_->build(std::move(memory));
     if (made.ok()) reports_->send(Built{robots()});
-    reports_->send(Answer{made}, build->second);
+    reports_->send(Answer{made}, *build);
     if (!made.ok()) return made;
     work();
     return ok();
@@ -85,6 +104,7 @@ class Life {
   Status prepare(Setup& setup) {
     const Result<RunWishes> wishes = read_wishes(setup.options);
     if (!wishes) return wishes.error();
+    set_process_name(setup.process);
     set_steady_epoch(wishes->epoch);
     log::set_level(log::Level::off);  // the supervisor writes the log
     reports_.emplace(channel_, wishes->log_level);
@@ -116,7 +136,11 @@ class Life {
     Result<std::unique_ptr<Executive>> executive = make_executive(executive_options(*node));
     if (!executive) return executive.error();
     executive_ = std::move(executive).value();
-    host::PartOptions options{wishes.seed, wishes.failures, process, &page_->missions(),
+    host::PartOptions options{wishes.seed,
+                              wishes.failures,
+                              process,
+                              node->hang_limit,
+                              &page_->missions(),
                               [this](const std::string& component) { return &doorbell(component); }};
     part_.emplace(*whole_, process, host::PartPlace{catalogue_, *executive_, *reports_}, options);
     return ok();
@@ -148,7 +172,9 @@ class Life {
     stop_.on_request([this] { part_->order({.kind = host::PartOrder::Kind::take_down}); });
     {
       const OrderDesk desk(channel_, *part_, *reports_, page_->heartbeat(index_));
+      die_with_supervisor(false);  // the desk sees its end, and stops the motors first
       part_->run();
+      die_with_supervisor(true);
     }
     stop_.on_request(nullptr);
     stop_.on_crash(nullptr);

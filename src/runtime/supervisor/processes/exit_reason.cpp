@@ -18,6 +18,7 @@ std::string name_of(int signal) {
 std::string ExitReason::text() const {
   switch (force) {
     case Force::hang: return "hung and was killed";
+    case Force::channel: return "broke its control channel and was killed";
     case Force::memory: return "used more memory than the graph allows and was killed";
     case Force::overdue: return "did not end when asked to and was killed";
     case Force::none: break;

@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 
 #include "processes/launch.hpp"
@@ -36,6 +37,8 @@ Result<Descriptor> take_channel() {
 }
 
 void set_process_name(const std::string& name) { prctl(PR_SET_NAME, name.c_str()); }
+
+void die_with_supervisor(bool dies) { prctl(PR_SET_PDEATHSIG, dies ? SIGKILL : 0); }
 
 std::optional<std::string> lock_memory() {
   if (!may_lock_without_limit())

@@ -41,10 +41,6 @@ Status Ledger::take(const Report& report, const std::string& process) {
     listener_.logged(line->level, line->who, line->text);
     return ok();
   }
-  if (const auto* words = std::get_if<LastWordsReport>(&report)) {
-    log::error(process, words->text);
-    return ok();
-  }
   if (const auto* rest = std::get_if<RestChange>(&report)) {
     if (rest->at_rest)
       restless_.erase(process);

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "member.hpp"
 
+#include <string_view>
+
 namespace orca::supervisor {
+namespace {
+
+constexpr std::string_view kLastWordsMark = "error: ";  // as host::LastWords writes them
+constexpr Duration kDeafLimit = 200ms;  // from the loss of the channel to the end of a process
+constexpr Duration kJustBefore = 1s;    // older words tell of something else
+
+}  // namespace
 
 Status Member::start(const HostStart& start) {
   Result<std::unique_ptr<HostProcess>> started = HostProcess::start(start);
@@ -33,9 +42,34 @@ void Member::take_answer(std::uint64_t request, const Status& outcome) {
   if (!found.empty()) found.mapped()(outcome);
 }
 
+void Member::heard(const std::string& line, Moment now) {
+  if (line.starts_with(kLastWordsMark)) heard_last_words(line.substr(kLastWordsMark.size()), now);
+}
+
+void Member::heard_last_words(const std::string& words, Moment now) {
+  words_ = words;
+  words_at_ = now;
+}
+
+void Member::look(Moment now) {
+  if (process_ == nullptr) return;
+  const bool is_big = node_.memory && process_->memory().value_or(0) > *node_.memory;
+  if (is_big && phase_ != Phase::going_down) process_->end_by_force(Force::memory, now);
+  if (deaf_since_ && now >= *deaf_since_ + kDeafLimit) process_->end_by_force(Force::channel, now);
+  process_->look(now);
+}
+
+std::string Member::last_words(Moment now) const { return now - words_at_ < kJustBefore ? words_ : ""; }
+
+void Member::lose_channel(Moment now) {
+  if (!deaf_since_) deaf_since_ = now;
+}
+
 void Member::forget() {
   process_.reset();
   open_.clear();
+  words_.clear();
+  deaf_since_.reset();
   phase_ = Phase::absent;
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -46,6 +47,20 @@ class Member {
   /// Takes the answer to an order.
   void take_answer(std::uint64_t request, const Status& outcome);
 
+  /// Notes a line that the process has printed. A line of host::LastWords tells why it ends.
+  void heard(const std::string& line, Moment now);
+  /// Notes that the process has said why it ends.
+  void heard_last_words(const std::string& words, Moment now);
+  /// Returns why the process has ended by its own words, which it said just before; empty: it said nothing.
+  [[nodiscard]] std::string last_words(Moment now) const;
+
+  /// Notes that nothing can be received from the process any more.
+  void lose_channel(Moment now);
+  [[nodiscard]] bool is_deaf() const { return deaf_since_.has_value(); }
+  /// Ends a process that uses more memory than the graph allows, or that lives on without its channel, and sends the
+  /// signals that are due.
+  void look(Moment now);
+
   /// Forgets the process, which has ended.
   void forget();
 
@@ -64,6 +79,9 @@ class Member {
   std::unique_ptr<HostProcess> process_;
   std::map<std::uint64_t, Answered> open_;
   std::uint64_t last_request_ = 0;
+  std::string words_;  // the last that sounded like last words
+  Moment words_at_{};
+  std::optional<Moment> deaf_since_;
 };
 
 }  // namespace orca::supervisor

@@ -33,8 +33,8 @@ void Poller::wait(const std::vector<std::unique_ptr<Member>>& members, Moment un
     HostProcess* const process = member->process();
     if (process == nullptr) continue;
     const bool unsent = process->channel().has_unsent();
-    all.push_back(
-        {process->channel().descriptor(), static_cast<short>(unsent ? POLLIN | POLLOUT : POLLIN), 0});
+    const int channel = member->is_deaf() ? -1 : process->channel().descriptor();
+    all.push_back({channel, static_cast<short>(unsent ? POLLIN | POLLOUT : POLLIN), 0});
     all.push_back({process->end_descriptor(), POLLIN, 0});
     all.push_back({process->output_descriptor(), POLLIN, 0});
   }

@@ -78,4 +78,11 @@ BringUp::Plan Starter::plan(const Members& members) const {
   return plan;
 }
 
+std::vector<std::string> Starter::components_of(const Member& member) const {
+  std::vector<std::string> names;
+  for (const graph::ComponentNode& node : graph_.components)
+    if (node.process == member.name()) names.push_back(node.name);
+  return names;
+}
+
 }  // namespace orca::supervisor

@@ -34,6 +34,9 @@ class Starter {
   /// Returns the plan by which these processes come up.
   [[nodiscard]] BringUp::Plan plan(const Members& members) const;
 
+  /// Returns the names of the components that run in a process.
+  [[nodiscard]] std::vector<std::string> components_of(const Member& member) const;
+
   [[nodiscard]] const Wiring& wiring() const { return wiring_; }
 
  private:

@@ -29,7 +29,9 @@ using Phase = Member::Phase;
 
 constexpr Duration kStartLimit = 15s;
 constexpr Duration kRestLimit = 1s;
-constexpr Duration kLook = 50ms;  // between two looks at the heartbeats
+constexpr Duration kLook = 50ms;     // between two looks at everything
+constexpr int kMostReads = 32;       // of what a process has printed, after its end
+constexpr int kMostMessages = 1000;  // of one process at a time
 
 std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph) {
   std::vector<std::unique_ptr<Member>> members;
@@ -94,7 +96,9 @@ class SupervisedRun {
     }
     began_.push_back(std::make_unique<BringUp>(
         starter_.plan(members), [this] { built(); },
-        [this](const Status& outcome, const Member* culprit) { came_up(outcome, culprit); }));
+        [this, members](const Status& outcome, const Member* culprit) {
+          outcome.ok() ? came_up(members) : did_not_come_up(outcome.error(), *culprit);
+        }));
     began_.back()->begin(std::move(setups).value());
   }
 
@@ -102,18 +106,21 @@ class SupervisedRun {
     if (!came_up_) ledger_.introduce();
   }
 
-  void came_up(const Status& outcome, const Member* culprit) {
-    if (outcome.ok()) {
-      came_up_ = true;
-      return;
-    }
-    const Error& error = outcome.error();
+  void came_up(const Members& members) {
+    for (const Member* member : members)
+      if (came_up_ && member->phase() == Phase::up)
+        log::info("supervisor", "process " + member->name() + " is back");
+    came_up_ = true;
+  }
+
+  void did_not_come_up(const Error& error, const Member& culprit) {
+    if (is_over_) return;
     if (!came_up_) {
       log::error("supervisor", error.text());
       return fail_start(error);
     }
-    log::error(culprit->name(), "the process does not come up again: " + error.text());
-    find(culprit->name()).process()->end_by_force(Force::overdue, now());
+    log::error(culprit.name(), "the process does not come up again: " + error.text());
+    culprit.process()->end_by_force(Force::overdue, now());
   }
 
   void fail_start(const Error& error) { conclude(RunOutcome::not_started, error); }
@@ -136,30 +143,37 @@ class SupervisedRun {
   void look_after(Member& member) {
     HostProcess* const process = member.process();
     if (process == nullptr) return;
-    for (const std::string& line : process->take_output()) log::info(member.name(), line);
-    receive(member);
-    process->look(now());
-    look_at_memory(member);
-    if (const std::optional<ExitReason>& exit = process->exit()) return ended(member, *exit);
+    hear(member);
+    member.look(now());
+    const std::optional<ExitReason> exit = process->exit();
+    if (!exit) return;
+    for (int i = 0; i < kMostReads && hear(member); ++i) continue;  // it may have said why
+    ended(member, *exit);
   }
 
-  static void look_at_memory(const Member& member) {
-    const std::optional<std::uint64_t> limit = member.node().memory;
-    if (limit && member.phase() != Phase::going_down && member.process()->memory().value_or(0) > *limit)
-      member.process()->end_by_force(Force::memory, now());
+  // Takes what a process has said and printed. Returns whether it had printed something.
+  bool hear(Member& member) {
+    const std::vector<std::string> lines = member.process()->take_output();
+    for (const std::string& line : lines) {
+      log::info(member.name(), line);
+      member.heard(line, now());
+    }
+    receive(member);
+    return !lines.empty();
   }
 
   void receive(Member& member) {
     Channel& channel = member.process()->channel();
     (void)channel.flush();
-    for (;;) {
+    for (int i = 0; i < kMostMessages; ++i) {  // the others want to be heard, too
       Result<std::optional<Message>> message = channel.receive();
-      if (!message || !message->has_value()) return;  // the end of the process is seen elsewhere
+      if (!message) return member.lose_channel(now());  // as a rule because the process is just ending
+      if (!message->has_value()) return;
       const std::uint64_t request = (*message)->request;
       Result<Report> report = decode_report(std::move(**message));
       const Status taken = report ? take(member, *report, request) : Status(report.error());
       if (taken.ok()) continue;
-      member.process()->end_by_force(Force::hang, now());
+      member.process()->end_by_force(Force::channel, now());
       return log::error(member.name(), "the process talks nonsense and is ended: " + taken.error().message);
     }
   }
@@ -169,6 +183,8 @@ class SupervisedRun {
       member.take_answer(request, answer->outcome);
       return ok();
     }
+    if (const auto* words = std::get_if<LastWordsReport>(&report))
+      return member.heard_last_words(words->text, now()), ok();
     return ledger_.take(report, member.name());
   }
 
@@ -176,7 +192,9 @@ class SupervisedRun {
 
   void ended(Member& member, const ExitReason& reason) {
     const bool unasked = member.phase() != Phase::going_down;
-    const std::string how = reason.text();
+    const std::string words = member.last_words(now());
+    const std::string how =
+        reason.text() + (words.empty() ? "; it ran " + listed(starter_.components_of(member)) : ": " + words);
     const bool is_normal = reason.is_normal();
     beats_.forget(member.index());
     member.forget();
@@ -187,7 +205,17 @@ class SupervisedRun {
     const std::string text = "process " + member.name() + " " + how;
     if (unasked) ledger_.raise(host::AlarmKind::process_ended, "", text);
     if (!came_up_) return fail_start(fail(Code::unavailable, text));
-    obey(policy_.ended(member.index(), is_normal, now()), text);
+    const RestartDecision decision = policy_.ended(member.index(), is_normal, now());
+    if (!decision.restarts && !decision.gives_up && runs_an_end(member))
+      return conclude(RunOutcome::failed, fail(Code::unavailable, text));
+    obey(decision, text);
+  }
+
+  // Returns whether the end of the run waits for a component of the process.
+  [[nodiscard]] bool runs_an_end(const Member& member) const {
+    return std::ranges::any_of(graph_.ends, [&](const std::string& name) {
+      return graph_.find_component(name)->process == member.name();
+    });
   }
 
   void cut(const Wiring::Outer& outer, const Member& lost, const std::string& how) {
@@ -280,6 +308,7 @@ class SupervisedRun {
   [[nodiscard]] Moment next_time() const {
     Moment next = now() + kLook;
     if (options_.until) next = std::min(next, to_steady(start_ + *options_.until));
+    next = std::min(next, beats_.due().value_or(next));
     return std::min(next, policy_.due().value_or(next));
   }
 

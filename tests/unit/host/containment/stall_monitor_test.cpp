@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <atomic>
 #include <future>
 
 using namespace orca;
@@ -26,17 +27,22 @@ class StuckExecutive final : public Executive {
     return nullptr;
   }
   void run(std::function<void()> /*main*/) override {}
-  [[nodiscard]] std::optional<StuckTask> stuck_task(Duration /*limit*/) override {
+  [[nodiscard]] std::optional<StuckTask> stuck_task(Duration limit) override {
+    limit_ = limit;
     if (++asked_ == 3) asked_thrice_.set_value();
     return task_;
   }
   void wait_until_asked_thrice() { asked_thrice_.get_future().wait(); }
+  [[nodiscard]] Duration limit() const { return limit_; }  // asked for last
 
  private:
   StuckTask task_;
   int asked_ = 0;
+  std::atomic<Duration> limit_{Duration{0}};
   std::promise<void> asked_thrice_;
 };
+
+const std::atomic<Duration> kNone{Duration{0}};
 
 }  // namespace
 
@@ -47,7 +53,7 @@ TEST_CASE("a component that is stuck in a thread of its own raises one alarm", "
   {
     const StallMonitor monitor(
         executive, [&](const idl::Alarm& alarm) { alarms.push_back(alarm); },
-        [&](const auto& /*component*/, const auto& /*text*/) { ++standstills; });
+        [&](const auto& /*component*/, const auto& /*text*/) { ++standstills; }, kNone);
     executive.wait_until_asked_thrice();
   }
   CHECK(standstills == 0);
@@ -64,9 +70,26 @@ TEST_CASE("a component that holds up all others is a standstill, and no alarm", 
   {
     const StallMonitor monitor(
         executive, [&](const idl::Alarm& /*alarm*/) { ++alarms; },
-        [&](const std::string& component, const std::string& text) { said = component + " " + text; });
+        [&](const std::string& component, const std::string& text) { said = component + " " + text; }, kNone);
     executive.wait_until_asked_thrice();
   }
   CHECK(alarms == 0);
   CHECK_THAT(said, Contains("greedy has slept in the system for more than 2 s"));
+}
+
+TEST_CASE("while a hang limit is set, a component that is stuck for so long is a standstill",
+          "[host][stall]") {
+  StuckExecutive executive({"greedy", false, false});
+  const std::atomic<Duration> limit{Duration{500ms}};
+  int alarms = 0;
+  std::string said;
+  {
+    const StallMonitor monitor(
+        executive, [&](const idl::Alarm& /*alarm*/) { ++alarms; },
+        [&](const std::string& component, const std::string& text) { said = component + " " + text; }, limit);
+    executive.wait_until_asked_thrice();
+  }
+  CHECK(executive.limit() == limit.load());
+  CHECK(alarms == 0);
+  CHECK_THAT(said, Contains("greedy has computed or slept for more than 0.5 s"));
 }

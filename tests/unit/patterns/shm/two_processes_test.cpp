@@ -11,6 +11,7 @@
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
+#include "orca/patterns/synchronizer.hpp"
 
 using namespace orca;
 using namespace orca::test;
@@ -64,6 +65,7 @@ struct Pilot : Peer {
   }
   SendProxy<MotionCommand> out{*this, "out"};
   QueryProxy<idl::Ask, MotionCommand> question{*this, "question"};
+  PushProxy<MotionCommand> commands{*this, "commands"};
 };
 
 template <class Port>
@@ -276,6 +278,27 @@ TEST_CASE("a client that is killed is no subscriber any more, and its successor 
       for (int number = 0; number < 3; ++number) laser.push(number);  // does not wait for the dead
       CHECK(executive.now() - start < 5s);
       CHECK(laser.out.subscriber_count() == 0);
+    }
+  });
+}
+
+TEST_CASE("a client counts how often its server was replaced, and a wait ends when it is",
+          "[patterns][shm][processes]") {
+  run_on({}, [](Executive& executive) {
+    Bridge bridge(executive);
+    Pilot& pilot = bridge.pilot;
+    Synchronizer commands;
+    commands.add(pilot.commands);
+    CHECK(pilot.out.server_restarts() == 0);
+    CHECK(pilot.question.server_restarts() == 0);
+    for (std::uint64_t count = 1; count <= 3; ++count) {
+      bridge.replace_base();
+      CHECK(pilot.out.server_restarts() == count - 1);
+      bridge.renew();
+      const TimePoint start = executive.now();
+      CHECK(commands.wait(10s, [&] { return pilot.out.server_restarts() == count; }) == nullptr);
+      CHECK(executive.now() - start < 5s);
+      CHECK(pilot.question.server_restarts() == count);
     }
   });
 }

@@ -49,7 +49,9 @@ class Strand {
   void start(std::function<void()> body);
 
   /// Reports that something has changed that the strand may be waiting for.
-  void wake();
+  void wake() {
+    if (doorbell_ == nullptr || !is_taking_in_here()) event_->notify();
+  }
 
   /// Sets the condition that makes wait_for() throw Interrupted. The strand evaluates it each time it is
   /// woken. Call before start().
@@ -121,6 +123,7 @@ class Strand {
   bool wait_watching(TimePoint deadline);
   bool take_in_all();
   bool take_in_awake();
+  [[nodiscard]] bool is_taking_in_here() const;
   [[noreturn]] void throw_foreign() const;
 
   Executive& executive_;

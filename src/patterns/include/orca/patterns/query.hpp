@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -54,6 +55,14 @@ class QueryProxyHandle {
 
   [[nodiscard]] bool connected() const;
   [[nodiscard]] RequestCounters counters() const;
+  /// Returns how often the server's process was replaced by a new one since this component was built; nothing if
+  /// the server is in this process, or the port is not connected.
+  ///
+  /// A new process knows nothing of what was asked of its predecessor. Read the number before you ask: if it differs later,
+  /// the answer may be its predecessor's. A wait of the component looks at its condition again
+  /// when the number changes, such as Synchronizer::wait(limit, unless).
+  /// @thread  the component's strand.
+  [[nodiscard]] std::optional<std::uint64_t> server_restarts() const;
 
  protected:
   Result<ObjectRef> ask_loan(ObjectLoan loan, Duration timeout);

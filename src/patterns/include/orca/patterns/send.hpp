@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,6 +51,14 @@ class SendProxyHandle {
 
   [[nodiscard]] bool connected() const;
   [[nodiscard]] RequestCounters counters() const;
+  /// Returns how often the server's process was replaced by a new one since this component was built; nothing if
+  /// the server is in this process, or the port is not connected.
+  ///
+  /// A new process knows nothing of what was sent to its predecessor. Read the number before you send: if it differs later,
+  /// the object may be unknown to the server, even if it was accepted. A wait of the component looks at its condition again
+  /// when the number changes, such as Synchronizer::wait(limit, unless).
+  /// @thread  the component's strand.
+  [[nodiscard]] std::optional<std::uint64_t> server_restarts() const;
 
   /// Reports whether an object sent by send_request() was accepted or refused; returns nothing while that is
   /// open.

@@ -43,6 +43,9 @@ class Synchronizer {
   PushSubject& wait();
   /// Does the same, but waits at most `limit`; null when the time has passed.
   PushSubject* wait(Duration limit);
+  /// Does the same, but waits only as long as `unless` is false; null when it is true, or the time has passed. It is
+  /// evaluated whenever something arrives, and when a server's process is replaced.
+  PushSubject* wait(Duration limit, const std::function<bool()>& unless);
 
   /// Blocks until all subjects have new data; arrays, from every server that they are subscribed to.
   void wait_all();

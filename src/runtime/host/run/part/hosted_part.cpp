@@ -34,6 +34,7 @@ class HostedPart::Inside {
          const PartOptions& options)
       : part_(graph::subgraph(whole, process)),
         place_(place),
+        hang_limit_(options.hang_limit),
         trace_(place.executive),
         outer_(whole, options.doorbell),
         watched_(part_, {place.catalogue, place.executive, trace_, place.listener}, system_options(options),
@@ -128,6 +129,7 @@ class HostedPart::Inside {
       case PartOrder::Kind::open_gates:
         LastWords::catch_exit();
         system.open_gates();
+        watched_.set_hang_limit(hang_limit_);
         return ok();
       case PartOrder::Kind::take_down: return take_down();
       case PartOrder::Kind::suspend: return system.suspend(order.component, changed, limit);
@@ -140,6 +142,7 @@ class HostedPart::Inside {
 
   // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.
   Status take_down() {
+    watched_.set_hang_limit(Duration{0});  // it has its own limit
     watched_.reporter().ignore_trouble();
     counters_ = collect_counters(part_, watched_.system());
     const std::vector<std::string> stuck =
@@ -161,8 +164,9 @@ class HostedPart::Inside {
       place_.listener.rest_changed(rests);
   }
 
-  // Where all strands share a thread, nothing can run any more.
+  // A component hangs, and perhaps all others with it.
   void stand_still(const std::string& component, const std::string& text) {
+    watched_.stop_motors();
     watched_.reporter().log(log::Level::error, component, text);
     RunResult result;
     result.outcome = RunOutcome::failed;
@@ -173,6 +177,7 @@ class HostedPart::Inside {
 
   const graph::Graph part_;
   const PartPlace place_;
+  const Duration hang_limit_;
   Trace trace_;
   OuterEdges outer_;
   WatchedSystem watched_;

@@ -84,7 +84,7 @@ class PushEdge final : public PushSink {
     Published<std::uint32_t> high_water;
   };
 
-  void look() const { client_.home().strand.take_in(); }
+  void look() const { strand_.take_in(); }
   [[nodiscard]] ObjectRef pop();
   bool make_room();
   void drop(Published<std::uint64_t>& reason, std::uint64_t objects);
@@ -95,10 +95,11 @@ class PushEdge final : public PushSink {
   void expect_first();
   void arrive(TimePoint time);
   [[nodiscard]] UpdateRate rate() const;
-  [[nodiscard]] TimePoint now() const { return client_.home().strand.executive().now(); }
+  [[nodiscard]] TimePoint now() const { return strand_.executive().now(); }
   [[nodiscard]] std::uint64_t missed_until(TimePoint time) const;
 
   Endpoint& client_;
+  Strand& strand_;  // of the client: each push and each look needs it
   PushSource& source_;
   const QueuePolicy policy_;
   UpdateRate asked_;

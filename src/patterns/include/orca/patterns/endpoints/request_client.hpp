@@ -41,6 +41,9 @@ class RequestClient : public Endpoint, public ReplySink<Answer> {
   /// Withdraws the object. Its answer is discarded, now or when it comes.
   void withdraw(RequestId id);
 
+  /// Takes in what has arrived, and returns RequestTarget::renewals(); nothing if not connected.
+  [[nodiscard]] std::optional<std::uint64_t> server_restarts() const;
+
   void reply(RequestId id, Answer answer) override;
 
   [[nodiscard]] RequestCounters counters() const;

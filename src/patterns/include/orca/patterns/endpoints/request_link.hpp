@@ -48,6 +48,10 @@ class RequestTarget {
   [[nodiscard]] virtual Duration patience() const = 0;
   /// Returns "component.port" of the server.
   [[nodiscard]] virtual std::string path() const = 0;
+  /// Returns how often the server's process was replaced by a new one since the edge was made; nothing if the server
+  /// is in the client's process.
+  /// @thread  any.
+  [[nodiscard]] virtual std::optional<std::uint64_t> renewals() const { return std::nullopt; }
 };
 
 using QueryReplySink = ReplySink<Result<ObjectRef>>;

@@ -59,7 +59,10 @@ class PartListener : public RunListener {
 struct PartOptions {
   std::uint64_t seed = 1;
   std::vector<PlannedFailure> failures{};
-  std::string log_name = "orca";                   ///< Name in the log for what concerns no single component.
+  std::string log_name = "orca";  ///< Name in the log for what concerns no single component.
+  /// A component that works and does not wait for anything of Orca for this long [s] hangs: the motors are stopped, and the
+  /// listener is to abandon the process; 0: it is only reported.
+  Duration hang_limit{0};
   std::atomic<std::uint64_t>* missions = nullptr;  ///< Number of missions begun so far, in all parts.
   /// Returns the word by which other processes wake a component of the graph, in whatever process it is.
   std::function<DoorbellWord*(const std::string& component)> doorbell{};

@@ -9,6 +9,7 @@ namespace orca::supervisor {
 enum class Force {
   none,     ///< It has not.
   hang,     ///< Its heartbeat stood still, or it read no orders.
+  channel,  ///< Its control channel was broken, or carried nonsense.
   memory,   ///< It used more memory than the graph allows.
   overdue,  ///< It had not ended in time after it was asked to.
 };

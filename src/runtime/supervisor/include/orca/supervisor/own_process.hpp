@@ -22,6 +22,12 @@ namespace orca::supervisor {
 /// @thread  the main thread.
 void set_process_name(const std::string& name);
 
+/// Chooses whether the system kills this process when its supervisor dies. Only for times in which it does not listen to
+/// the control channel, and in which no motor can run.
+/// @pre  the supervisor's main thread has started this process.
+/// @thread  any.
+void die_with_supervisor(bool dies);
+
 /// Locks the memory of this process, present and future, as it is touched: no page of it goes to disk.
 /// @return a warning for people if the system refuses; then nothing is locked.
 /// @thread  any.

@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A graph in several host processes: each of them may die at any moment, in any way, and so may the deployer.
+#include <signal.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cstdio>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "deployer.hpp"
+#include "process_table.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr Seconds kMoment{0.001};  // between two looks at what happens
+const std::string kScout = source_file("graphs/scout_goto_processes.xml");
+const std::string kNear = "goals=kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8";
+
+Seconds since_boot() { return Clock::now().time_since_epoch(); }
+
+using Nobody = std::vector<std::string>;
+
+// Waits until something is so; false if it is not in time.
+template <class Condition>
+bool comes_true(const Condition& condition, Seconds limit) {
+  const Seconds end = since_boot() + limit * kSlowdown;
+  while (!condition()) {
+    if (since_boot() > end) return false;
+    std::this_thread::sleep_for(kMoment);
+  }
+  return true;
+}
+
+// A deployer whose host processes are looked at.
+class System {
+ public:
+  explicit System(const Words& words) : program_(deployer(words)) {}
+  ~System() {
+    for (const auto& [name, pid] : known_) kill(pid, SIGKILL);
+  }
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+
+  Subprocess& program() { return program_; }
+
+  // Waits for a host process, another than one that is lost, and returns its number.
+  pid_t process(const std::string& name, pid_t lost = 0) {
+    const auto is_there = [&] {
+      const auto children = this->children();
+      const auto found = children.find(name);
+      if (found == children.end() || found->second == lost) return false;
+      known_[name] = found->second;
+      return true;
+    };
+    REQUIRE(comes_true(is_there, Seconds(5)));
+    return known_[name];
+  }
+
+  std::size_t mark() const { return program_.err().size(); }
+  // Returns when the log came to hold a text behind a mark [since boot]; fails the test if it does not.
+  Seconds when(const std::string& text, std::size_t mark, Seconds limit = Seconds(5)) {
+    const bool came = comes_true([&] { return program_.err().find(text, mark) != std::string::npos; }, limit);
+    INFO(program_.err());
+    INFO(text);
+    REQUIRE(came);
+    return since_boot();
+  }
+
+  // Waits for objects that come through none of the lost processes, and returns when the first of them came.
+  Seconds flows_without(pid_t lost, std::size_t mark, Seconds limit = Seconds(10)) {
+    Seconds at{0};
+    const auto look = [&] {
+      for (const std::string& line : split_lines(program_.err().substr(mark)))
+        if (at = flow_time(line, lost); at > Seconds(0)) return true;
+      return false;
+    };
+    const bool came = comes_true(look, limit);
+    INFO(program_.err());
+    REQUIRE(came);
+    return at;
+  }
+
+  // Returns who of its processes still lives, the deployer too.
+  std::vector<std::string> left() const { return living_in_group(program_.pid()); }
+
+  std::map<std::string, pid_t> children() const { return children_of(program_.pid()); }
+
+ private:
+  // Reads a line "flow SOURCE RELAY SINK at SECONDS" in which a process has no part; 0 if it is none.
+  static Seconds flow_time(const std::string& line, pid_t lost) {
+    const std::size_t begin = line.find("flow ");
+    if (begin == std::string::npos) return Seconds(0);
+    std::istringstream words(line.substr(begin));
+    std::string word;
+    pid_t source = 0, relay = 0, sink = 0;
+    double at = 0.0;
+    words >> word >> source >> relay >> sink >> word >> at;
+    const bool complete = !words.fail();
+    return complete && source != lost && relay != lost && sink != lost ? Seconds(at) : Seconds(0);
+  }
+
+  Subprocess program_;
+  std::map<std::string, pid_t> known_;  // killed at the end, if they have outlived the deployer
+};
+
+Words flow() { return Words{system_graph("flow.xml")} + with_test_plugins(); }
+
+Words hooligan(const Words& settings) {
+  Words words = Words{system_graph("hooligan_process.xml")} + with_test_plugins();
+  for (const std::string& setting : settings) words = words + Words{"--set", setting};
+  return words;
+}
+
+// Ends a system by SIGTERM and checks that it ends well.
+Run stop(System& system) {
+  system.program().send(SIGTERM);
+  const Run run = finish(system.program(), Seconds(5));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(system.left() == Nobody{});
+  return run;
+}
+
+struct Outage {
+  Seconds detected{0};
+  Seconds back{0};
+  Seconds flows{0};
+};
+
+// Kills a process of the flow and waits until objects come again. Times are counted from the kill.
+Outage kill_one(System& system, const std::string& name) {
+  const pid_t lost = system.process(name);
+  const std::size_t mark = system.mark();
+  const Seconds killed = since_boot();
+  REQUIRE(kill(lost, SIGKILL) == 0);
+  Outage outage;
+  outage.detected = system.when("process " + name + " was ended by SIGKILL", mark) - killed;
+  outage.back = system.when("process " + name + " is back", mark, Seconds(10)) - killed;
+  outage.flows = system.flows_without(lost, mark) - killed;
+  CHECK(system.process(name) != lost);
+  return outage;
+}
+
+double percentile(std::vector<double> values, double share) {
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+void print(const char* what, const std::vector<double>& values) {
+  std::printf("%-26s median %6.3f s, p95 %6.3f s, longest %6.3f s\n", what, percentile(values, 0.5),
+              percentile(values, 0.95), percentile(values, 1.0));
+}
+
+// Kills processes of a flow at random moments and prints what it took.
+void kill_many(int times) {
+  constexpr unsigned kSeed = 20040612;
+  std::mt19937 random(kSeed);
+  const auto dice = [&](double most) { return most * static_cast<double>(random()) / std::mt19937::max(); };
+  const std::vector<std::string> names{"source", "relay", "sink"};
+  std::vector<double> detected, back, flows;
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  for (int i = 0; i < times; ++i) {
+    std::this_thread::sleep_for(Seconds(0.15 + dice(0.5)));
+    CAPTURE(kSeed, i);
+    const Outage outage = kill_one(system, names[random() % names.size()]);
+    detected.push_back(outage.detected.count());
+    back.push_back(outage.back.count());
+    flows.push_back(outage.flows.count());
+  }
+  stop(system);
+  print("kill to alarm", detected);
+  print("kill to process back", back);
+  print("kill to objects again", flows);
+  CHECK(percentile(detected, 1.0) < 0.5);
+  CHECK(percentile(flows, 0.95) < 3.0);
+}
+
+}  // namespace
+
+TEST_CASE("a graph in three processes reaches its goals, and says so as in one", "[system][processes]") {
+  const Run several = run_deployer({kScout, "--set", kNear}, Seconds(60));
+  INFO(several.err);
+  CHECK(several.exit_code() == 0);
+  REQUIRE(several.arrivals().size() == 1);
+  const Run one = run_deployer({kScout, "--set", kNear, "--in-process"}, Seconds(60));
+  INFO(one.err);
+  CHECK(one.exit_code() == 0);
+  REQUIRE(one.arrivals().size() == 1);
+  CHECK(one.arrivals()[0].x == Approx(several.arrivals()[0].x).margin(0.5));
+  CHECK(one.arrivals()[0].y == Approx(several.arrivals()[0].y).margin(0.5));
+}
+
+TEST_CASE("in virtual time the trace hash is that of the graph without processes", "[system][processes]") {
+  const Run several = run_deployer(Words{kScout} + virtual_clock(), Seconds(60));
+  const Run one = run_deployer(Words{source_file("graphs/scout_goto.xml")} + virtual_clock(), Seconds(60));
+  REQUIRE(one.trace_hash());
+  CHECK(several.trace_hash() == one.trace_hash());
+  CHECK(several.arrivals().size() == 3);
+}
+
+TEST_CASE("the loss of each process is seen at once, and objects flow again", "[system][processes]") {
+  const std::vector<std::string> before = kept_by_system();
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  for (const std::string name : {"source", "relay", "sink"}) {
+    CAPTURE(name);
+    const Outage outage = kill_one(system, name);
+    CHECK(outage.detected < Seconds(0.5 * kSlowdown));
+    CHECK(outage.flows < Seconds(3.0 * kSlowdown));
+    std::this_thread::sleep_for(Seconds(0.15));
+  }
+  const Run run = stop(system);
+  CHECK_FALSE(run.says("GAVE_UP"));
+  CHECK(kept_by_system() == before);
+}
+
+TEST_CASE("processes that are lost together come back together", "[system][processes]") {
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  for (int i = 0; i < 5; ++i) {
+    CAPTURE(i);
+    const std::size_t mark = system.mark();
+    const pid_t relay = system.process("relay");
+    kill(relay, SIGKILL);
+    std::this_thread::sleep_for(Seconds(0.02 * i));
+    kill(system.process("sink"), SIGKILL);
+    system.when("process sink is back", mark, Seconds(10));
+    system.flows_without(relay, mark);
+    std::this_thread::sleep_for(Seconds(0.2));
+  }
+  stop(system);
+}
+
+TEST_CASE("a process that is lost while it comes up does not hold up one that comes up with it",
+          "[system][processes]") {
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  const std::size_t mark = system.mark();
+  const pid_t relay = system.process("relay");
+  const pid_t sink = system.process("sink");
+  system.program().send(SIGSTOP);  // so that it sees both losses together
+  kill(relay, SIGKILL);
+  kill(sink, SIGKILL);
+  system.program().send(SIGCONT);
+  kill(system.process("relay", relay), SIGKILL);
+  system.when("process sink is back", mark, Seconds(5));
+  system.flows_without(relay, mark);
+  stop(system);
+}
+
+TEST_CASE("a hundred random kills", "[.][slow][processes]") { kill_many(100); }
+
+TEST_CASE("while the process of the behaviours hangs the base stops the robot", "[system][processes]") {
+  System system({kScout, "--set", kNear});
+  const pid_t behaviours = system.process("behaviours");
+  std::this_thread::sleep_for(Seconds(3));
+  const std::size_t mark = system.mark();
+  const Seconds stopped = since_boot();
+  REQUIRE(kill(behaviours, SIGSTOP) == 0);
+  CHECK(system.when("the base stands: no motion command", mark) - stopped < Seconds(0.6 * kSlowdown));
+  CHECK(system.when("process behaviours hung and was killed", mark) - stopped < Seconds(1.0 * kSlowdown));
+  system.when("process behaviours is back", mark);
+  CHECK_FALSE(is_alive(behaviours));
+  stop(system);
+}
+
+TEST_CASE("nobody is killed because the deployer was stopped for a while", "[system][processes]") {
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  const auto before = system.children();
+  system.program().send(SIGSTOP);
+  std::this_thread::sleep_for(Seconds(2));
+  system.program().send(SIGCONT);
+  std::this_thread::sleep_for(Seconds(1));
+  CHECK(system.children() == before);
+  CHECK_FALSE(stop(system).says("PROCESS_ENDED"));
+}
+
+TEST_CASE("no process outlives a deployer that was killed", "[system][processes]") {
+  const std::vector<std::string> before = kept_by_system();
+  for (const double after : {0.05, 0.1, 0.2, 0.4, 3.0}) {
+    CAPTURE(after);
+    System system({kScout});
+    std::this_thread::sleep_for(Seconds(after));
+    system.program().send(SIGKILL);
+    system.program().wait(Seconds(1));
+    CHECK(comes_true([&] { return system.left().empty(); }, Seconds(1)));
+  }
+  CHECK(kept_by_system() == before);
+}
+
+TEST_CASE("SIGINT to all and SIGTERM to the deployer end everything with 0", "[system][processes]") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (const double after : {0.3, 2.5}) {
+      CAPTURE(signal, after);
+      System system({kScout});
+      std::this_thread::sleep_for(Seconds(after));
+      const Seconds sent = since_boot();
+      signal == SIGINT ? system.program().send_to_group(signal) : system.program().send(signal);
+      const Run run = finish(system.program(), Seconds(10));
+      INFO(run.err);
+      CHECK(run.exit_code() == 0);
+      CHECK(since_boot() - sent < Seconds(3.0 * kSlowdown));
+      CHECK(system.left() == Nobody{});
+      CHECK_FALSE(run.says("alarm"));
+    }
+  }
+}
+
+TEST_CASE("a second SIGTERM ends everything within half a second", "[system][processes]") {
+  System system(hooligan({"where=stop", "deed=hang"}));
+  system.when("flow ", 0, Seconds(10));
+  std::this_thread::sleep_for(Seconds(0.3));
+  system.program().send(SIGTERM);
+  std::this_thread::sleep_for(Seconds(0.1));
+  const Seconds sent = since_boot();
+  system.program().send(SIGTERM);
+  const Run run = finish(system.program(), Seconds(10));
+  INFO(run.err);
+  CHECK(since_boot() - sent < Seconds(0.5 * kSlowdown));
+  CHECK(comes_true([&] { return system.left().empty(); }, Seconds(0.5)));
+}
+
+TEST_CASE("a plugin that ends its process in any way harms no other process", "[system][processes]") {
+  struct Deed {
+    const char* deed;
+    const char* end;    // how the process ends
+    const char* words;  // of the plugin's last ones
+  };
+  const Deed deed = GENERATE(Deed{"segfault", "was ended by SIGSEGV", "hooligan: work() ended the process"},
+                             Deed{"abort", "was ended by SIGABRT", "hooligan: work() ended the process"},
+                             Deed{"exit", "exited with status 1", "hooligan: work() called exit(0)"},
+                             Deed{"overflow", "was ended by SIGSEGV", "its stack has overflowed"},
+                             Deed{"hang", "", "hooligan: work() has computed or slept"},
+                             Deed{"hoard", "used more memory than the graph allows", "hooligan"});
+  const std::vector<std::string> before = kept_by_system();
+  System system(hooligan({"where=later", std::string("deed=") + deed.deed}));
+  CAPTURE(deed.deed);
+  const pid_t bad = system.process("bad");
+  const Seconds began = system.when("flow ", 0, Seconds(10));
+  const std::map<std::string, pid_t> others{{"source", system.process("source")},
+                                            {"sink", system.process("sink")}};
+  system.when(std::string("alarm PROCESS_ENDED: process bad ") + deed.end, 0, Seconds(20));
+  system.when("process bad is back", 0, Seconds(5));
+  CHECK(system.process("bad") != bad);
+  for (const auto& [name, pid] : others) CHECK(system.process(name) == pid);
+  const Run run = stop(system);
+  const Seconds worked = since_boot() - began;
+  INFO(run.err);
+  const std::vector<std::string> lines = split_lines(run.err);
+  const auto alarm = std::ranges::find_if(
+      lines, [](const std::string& line) { return line.find("PROCESS_ENDED") != std::string::npos; });
+  REQUIRE(alarm != lines.end());
+  CHECK_THAT(*alarm, Contains(deed.words));
+  const std::size_t laps = run.err.find("laps ");
+  REQUIRE(laps != std::string::npos);
+  double count = 0.0, longest = 0.0;
+  REQUIRE(std::sscanf(run.err.c_str() + laps, "laps %lf longest %lf", &count, &longest) == 2);
+  CHECK(longest < 0.1 * kSlowdown);
+  CHECK(count > 0.8 * worked.count() / 0.01 / kSlowdown);
+  CHECK(kept_by_system() == before);
+}
+
+TEST_CASE("a process that crashes at once each time is given up", "[system][processes]") {
+  const std::string where = GENERATE("start", "work");
+  CAPTURE(where);
+  System system(hooligan({"where=" + where, "deed=segfault"}));
+  const Run run = finish(system.program(), Seconds(15));
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.says("GAVE_UP"));
+  CHECK(system.left() == Nobody{});
+  std::size_t ends = 0;
+  for (const std::string& line : split_lines(run.err))
+    ends += line.find("PROCESS_ENDED") != std::string::npos;
+  CHECK(ends == 4);
+}
+
+TEST_CASE("a run that waits for a process that is not started again has failed", "[system][processes]") {
+  System system(Words{system_graph("hooligan_once.xml")} + with_test_plugins());
+  const Run run = finish(system.program(), Seconds(15));
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.says("process bad was ended by SIGSEGV"));
+  CHECK(system.left() == Nobody{});
+}
+
+TEST_CASE("a process that never comes up ends the start with 3", "[system][processes]") {
+  System system(hooligan({"where=configure", "deed=hang"}));
+  const Run run = finish(system.program(), Seconds(20));
+  INFO(run.err);
+  CHECK(run.exit_code() == 3);
+  CHECK(run.says("hooligan"));
+  CHECK(system.left() == Nobody{});
+}
+
+TEST_CASE("twenty restarts leave nothing in the deployer", "[system][processes]") {
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  kill_one(system, "relay");
+  const pid_t deployer_pid = system.program().pid();
+  const std::size_t descriptors = descriptors_of(deployer_pid);
+  const std::size_t threads = threads_of(deployer_pid);
+  for (int i = 0; i < 20; ++i) {
+    std::this_thread::sleep_for(Seconds(0.15));
+    kill_one(system, i % 2 == 0 ? "relay" : "source");
+  }
+  CHECK(descriptors_of(deployer_pid) == descriptors);
+  CHECK(threads_of(deployer_pid) == threads);
+  stop(system);
+}
+
+TEST_CASE("the supervisor needs nearly no CPU time", "[system][processes]") {
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  const Seconds before = cpu_time_of(system.program().pid());
+  std::this_thread::sleep_for(Seconds(20));
+  const double share = (cpu_time_of(system.program().pid()) - before) / Seconds(20);
+  std::printf("CPU time of the supervisor: %.2f %%\n", 100.0 * share);
+  CHECK(share < 0.05 * kSlowdown);
+  stop(system);
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Host processes that are killed on the way to a goal, seen from outside.
+#include <signal.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include "deployer.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+// Returns whether a process has loaded a plugin.
+bool holds(pid_t process, const std::string& plugin) {
+  std::ifstream maps("/proc/" + std::to_string(process) + "/maps");
+  const std::string text{std::istreambuf_iterator<char>(maps), {}};
+  return text.find("/" + plugin + ".so") != std::string::npos;
+}
+
+// Returns the child process of `parent` that has loaded a plugin.
+std::optional<pid_t> find_child(pid_t parent, const std::string& plugin) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "stat");
+    pid_t pid = 0;
+    std::string name;
+    char state = 0;
+    pid_t its_parent = 0;
+    if (file >> pid >> name >> state >> its_parent && its_parent == parent && holds(pid, plugin)) return pid;
+  }
+  return std::nullopt;
+}
+
+// Drives to `goal` in real time, and kills the process of the behaviours `kills` times: 5 s after the start of the
+// program, and every 3 s from then on.
+Run drive_and_kill(const std::string& goal, int kills) {
+  Subprocess program(
+      deployer({source_file("graphs/scout_goto_processes.xml"), "--until", "60s", "--set", "goals=" + goal}));
+  std::this_thread::sleep_for(Seconds(5));
+  for (int i = 0; i < kills; ++i) {
+    const std::optional<pid_t> behaviours = find_child(program.pid(), "goto");
+    REQUIRE(behaviours);
+    REQUIRE(kill(*behaviours, SIGKILL) == 0);
+    std::this_thread::sleep_for(Seconds(3));
+  }
+  return finish(program, Seconds(90));
+}
+
+}  // namespace
+
+TEST_CASE("a robot whose behaviours are killed on the way reaches its goal all the same",
+          "[system][resume]") {
+  const int kills = GENERATE(1, 2);
+  const Run run = drive_and_kill("kitchen: 1.5 6 > 3.6 6 > 3.6 7.6 > 4.2 9.8", kills);
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.contacts().empty());
+  CHECK(run.failures().empty());
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(run.arrivals()[0].name == "kitchen");
+  CHECK(std::hypot(run.arrivals()[0].x - 4.2, run.arrivals()[0].y - 9.8) < 0.25);
+  CHECK(run.says("of 4 points are left"));
+  CHECK_FALSE(run.says("4 of 4 points are left"));  // it passed the first one long before
+}
