@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/supervisor/vocabulary.hpp"
 
-#include <bit>
 #include <type_traits>
 
 #include "channel/fields.hpp"
@@ -27,18 +26,6 @@ void transfer_up_to(auto& archive, T& value, T last) {
 
 void transfer(auto& archive, bool& value) { transfer_up_to(archive, value, true); }
 void transfer(auto& archive, log::Level& level) { transfer_up_to(archive, level, log::Level::error); }
-
-void transfer(auto& archive, double& value) {
-  auto bits = std::bit_cast<std::uint64_t>(value);
-  archive.number(bits);
-  value = std::bit_cast<double>(bits);
-}
-
-void transfer(auto& archive, Duration& time) {
-  auto bits = std::bit_cast<std::uint64_t>(time.count());
-  archive.number(bits);
-  time = Duration(std::bit_cast<Duration::rep>(bits));
-}
 
 void transfer(auto& archive, Status& status) {
   bool is_ok = status.ok();
@@ -89,7 +76,6 @@ void fields(auto& archive, Resume& m) { transfer(archive, m.component); }
 void fields(auto& archive, SetParams& m) { transfer_all(archive, m.component, m.values); }
 void fields(auto& archive, RenewEdge& m) { transfer(archive, m.edge); }
 void fields(auto& archive, CutEdge& m) { transfer_all(archive, m.edge, m.reason); }
-void fields(auto& /*archive*/, Glance& /*m*/) {}
 
 void fields(auto& archive, Answer& m) { transfer(archive, m.outcome); }
 void fields(auto& archive, Built& m) { transfer(archive, m.robots); }
@@ -102,10 +88,6 @@ void fields(auto& archive, ObjectReport<kind>& m) {
   transfer(archive, m.object);
 }
 void fields(auto& archive, Logged& m) { transfer_all(archive, m.level, m.who, m.text); }
-void fields(auto& archive, Glanced& m) {
-  transfer_all(archive, m.time, m.working, m.unwell, m.goals, m.last_alarm);
-}
-void fields(auto& archive, Ended& m) { transfer(archive, m.counters); }
 void fields(auto& archive, LastWordsReport& m) { transfer(archive, m.text); }
 
 template <class Words>

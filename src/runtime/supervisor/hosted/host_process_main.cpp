@@ -26,7 +26,6 @@ namespace orca::supervisor {
 namespace {
 
 constexpr Duration kOrderLimit = 10s;
-constexpr Duration kLastLimit = 1s;
 
 // An order together with the number that its answer repeats.
 struct Numbered {
@@ -130,7 +129,6 @@ class Life {
     const auto node = std::ranges::find(processes, process, &graph::ProcessNode::name);
     if (node == processes.end()) return fail(Code::data_loss, "nothing runs in process \"" + process + "\"");
     index_ = static_cast<std::size_t>(node - processes.begin());
-    set_process_name(process);
     if (node->lock_memory)
       if (const auto refused = lock_memory()) log::warning(process, *refused);
     Result<std::unique_ptr<Executive>> executive = make_executive(executive_options(*node));
@@ -178,7 +176,6 @@ class Life {
     }
     stop_.on_request(nullptr);
     stop_.on_crash(nullptr);
-    (void)channel_.send(encode(Report(Ended{})), kLastLimit);
   }
 
   // First of all, since all threads inherit the signals that it blocks.

@@ -123,7 +123,9 @@ class SupervisedRun {
     culprit.process()->end_by_force(Force::overdue, now());
   }
 
-  void fail_start(const Error& error) { conclude(RunOutcome::not_started, error); }
+  void fail_start(const Error& error) {
+    conclude(came_up_ ? RunOutcome::failed : RunOutcome::not_started, error);
+  }
 
   // ---- Watching
 

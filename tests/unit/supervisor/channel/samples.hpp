@@ -37,19 +37,17 @@ inline std::vector<supervisor::Order> all_orders() {
   return list_of<Order>(setup(), Build{}, OpenHardware{}, Configure{"avoid"}, OpenGates{}, TakeDown{},
                         StopMotors{"estop"}, Suspend{"avoid"}, Resume{"avoid"},
                         SetParams{"avoid", {{"stop_distance", "0.5 m"}}}, RenewEdge{{4, null_device()}},
-                        CutEdge{4, "process \"base\" has crashed"}, Glance{});
+                        CutEdge{4, "process \"base\" has crashed"});
 }
 
 /// Returns at least one of each report.
 inline std::vector<supervisor::Report> all_reports() {
   using namespace supervisor;
-  return list_of<Report>(
-      Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
-      Built{{{"hardware", "scout"}}}, StateChange{"avoid", 6, "no echo", true, true, true}, RestChange{true},
-      ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()}, ContactReport{{}},
-      AlarmReport{some_bytes()}, Logged{log::Level::warning, "avoid", "text"},
-      Glanced{1500ms, 3, {{"avoid", "SUSPENDED"}}, {{"kitchen", 2.5}, {"door", 0.0}}, "avoid FAILED: text"},
-      Ended{some_bytes()}, LastWordsReport{"SIGSEGV"});
+  return list_of<Report>(Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
+                         Built{{{"hardware", "scout"}}}, StateChange{"avoid", 6, "no echo", true, true, true},
+                         RestChange{true}, ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()},
+                         ContactReport{{}}, AlarmReport{some_bytes()},
+                         Logged{log::Level::warning, "avoid", "text"}, LastWordsReport{"SIGSEGV"});
 }
 
 }  // namespace orca::test

@@ -99,10 +99,15 @@ TEST_CASE("Fields keep their values", "[supervisor][vocabulary]") {
   CHECK(error.code == Code::deadline_exceeded);
   CHECK(error.text() == "a.xml:1:2: too late");
 
-  const auto glanced = decode_report(encode(Glanced{-1500ms, 3, {}, {{"kitchen", 2.5}}, ""}));
-  REQUIRE(glanced);
-  CHECK(std::get<Glanced>(*glanced).time == -1500ms);
-  CHECK(std::get<Glanced>(*glanced).goals[0] == std::pair<std::string, double>("kitchen", 2.5));
+  const auto change = decode_report(encode(StateChange{"avoid", 6, "no echo", true, false, true}));
+  REQUIRE(change);
+  const auto& state = std::get<StateChange>(*change);
+  CHECK(state.component == "avoid");
+  CHECK(state.state == 6);
+  CHECK(state.failure == "no echo");
+  CHECK(state.has_worked);
+  CHECK_FALSE(state.has_failed);
+  CHECK(state.ended_badly);
 }
 
 TEST_CASE("Damaged messages are refused", "[supervisor][vocabulary]") {

@@ -12,7 +12,6 @@
 #include "orca/graph/placement.hpp"
 #include "orca/host/last_words.hpp"
 #include "outer_edges.hpp"
-#include "run/counters.hpp"
 #include "run/watched_system.hpp"
 
 namespace orca::host {
@@ -64,10 +63,6 @@ class HostedPart::Inside {
       }
     }
     if (order.done) order.done(fail(Code::failed_precondition, "the process is being taken down"));
-  }
-
-  [[nodiscard]] RunCounters counters() const {
-    return counters_ ? *counters_ : collect_counters(part_, watched_.system());
   }
 
  private:
@@ -140,11 +135,10 @@ class HostedPart::Inside {
     return fail(Code::internal, "an unknown order");
   }
 
-  // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.
+  // Whatever the connections refuse from here on is no trouble.
   Status take_down() {
     watched_.set_hang_limit(Duration{0});  // it has its own limit
     watched_.reporter().ignore_trouble();
-    counters_ = collect_counters(part_, watched_.system());
     const std::vector<std::string> stuck =
         watched_.system().take_down(place_.executive.now() + kTakeDownLimit);
     taken_down_ = true;
@@ -184,7 +178,6 @@ class HostedPart::Inside {
   bool taken_down_ = false;
   std::map<std::string, ComponentReport> reported_;
   bool at_rest_ = true;
-  std::optional<RunCounters> counters_;  // until it was taken down
 
   std::mutex mutex_;
   // Below: guarded by mutex_.
@@ -215,7 +208,5 @@ void HostedPart::cut_edge(std::size_t edge, const Error& reason) { inside_->oute
 Status HostedPart::renew_edge(std::size_t edge, const Descriptor& memory) {
   return inside_->outer().renew(edge, memory);
 }
-
-RunCounters HostedPart::counters() const { return inside_->counters(); }
 
 }  // namespace orca::host

@@ -18,7 +18,6 @@
 #include "orca/host/component_report.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/host/run_listener.hpp"
-#include "orca/host/run_result.hpp"
 
 namespace orca::host {
 
@@ -112,9 +111,6 @@ class HostedPart {
   /// without the components' doing.
   /// @errors  not_found; invalid_argument if it is no memory for an edge.
   Status renew_edge(std::size_t edge, const Descriptor& memory);
-
-  /// Returns what the inner edges carried until the part was taken down.
-  [[nodiscard]] RunCounters counters() const;
 
  private:
   class Inside;

@@ -24,7 +24,6 @@ enum class Kind : std::uint16_t {
   set_params,
   renew_edge,
   cut_edge,
-  glance,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,
@@ -34,8 +33,6 @@ enum class Kind : std::uint16_t {
   contact,
   alarm,
   logged,
-  glanced,
-  ended,
   last_words,
   rest_change,
 };

@@ -11,7 +11,6 @@
 #include "orca/base/descriptor.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
-#include "orca/base/time.hpp"
 #include "orca/supervisor/message.hpp"
 
 namespace orca::supervisor {
@@ -56,7 +55,7 @@ struct Configure {
 struct OpenGates {
   static constexpr Kind kKind = Kind::open_gates;
 };
-/// Asks to end: motors first, then everything else. Ended comes last.
+/// Asks to end: motors first, then everything else.
 struct TakeDown {
   static constexpr Kind kKind = Kind::take_down;
 };
@@ -92,13 +91,9 @@ struct CutEdge {
   std::uint64_t edge = 0;
   std::string reason;
 };
-/// Asks for Glanced.
-struct Glance {
-  static constexpr Kind kKind = Kind::glance;
-};
 
 using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
-                           Resume, SetParams, RenewEdge, CutEdge, Glance>;
+                           Resume, SetParams, RenewEdge, CutEdge>;
 
 // ---- Reports, from a host process to the supervisor.
 
@@ -145,21 +140,6 @@ struct Logged {
   std::string who;
   std::string text;
 };
-/// What the process is like at the moment, for people.
-struct Glanced {
-  static constexpr Kind kKind = Kind::glanced;
-  Duration time{0};           ///< Since its gates opened [s].
-  std::uint64_t working = 0;  ///< Number of components in WORK.
-  Pairs unwell;               ///< Components and hardware that do not work as they should, and their states.
-  std::vector<std::pair<std::string, double>>
-      goals;               ///< Names and distances [m] of the goals being driven to.
-  std::string last_alarm;  ///< Empty: none yet.
-};
-/// The last report of a process that was taken down.
-struct Ended {
-  static constexpr Kind kKind = Kind::ended;
-  std::vector<std::byte> counters;  ///< Of its connections, as the host encodes them.
-};
 /// What a process says when it crashes.
 struct LastWordsReport {
   static constexpr Kind kKind = Kind::last_words;
@@ -167,7 +147,7 @@ struct LastWordsReport {
 };
 
 using Report = std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport,
-                            ContactReport, AlarmReport, Logged, Glanced, Ended, LastWordsReport>;
+                            ContactReport, AlarmReport, Logged, LastWordsReport>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.
