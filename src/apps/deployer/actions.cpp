@@ -118,7 +118,8 @@ ExitCode show_graph(const Options& options) {
 
 ExitCode refuse_for_processes(const Error& error) {
   xml::Diagnostics diagnostics;
-  diagnostics.error(codes::kExcluding, {"command line", 0, 0}, error.message);
+  diagnostics.error(codes::kExcluding, {error.where.empty() ? "command line" : error.where, 0, 0},
+                    error.message);
   std::fputs(diagnostics.text().c_str(), stderr);
   return ExitCode::bad_input;
 }
@@ -136,7 +137,7 @@ ExitCode run(const Options& options) {
   run.looks_on = options.progress.value_or(stderr_can_live());
   Console console(options.stats, run.looks_on);
   if (has_host_processes(*loaded.graph, options)) {
-    if (const Status fits = check_for_processes(options); !fits.ok())
+    if (const Status fits = check_for_processes(*loaded.graph, options); !fits.ok())
       return refuse_for_processes(fits.error());
     return exit_code_of(run_in_processes(*loaded.graph, options, stop, console).outcome);
   }

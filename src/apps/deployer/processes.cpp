@@ -37,7 +37,16 @@ bool has_host_processes(const graph::Graph& graph, const Options& options) {
   return options.run.executive.clock == ClockKind::steady && !options.in_process && !graph.processes.empty();
 }
 
-Status check_for_processes(const Options& options) {
+Status check_for_processes(const graph::Graph& graph, const Options& options) {
+  if (graph.machines.size() > 1)
+    return fail(Code::invalid_argument,
+                "several machines cannot be run in real time yet; leave one in the graph", options.file);
+  if (graph.supervision.on_supervisor_loss == graph::OnLoss::go_on)
+    return fail(
+        Code::invalid_argument,
+        "on_supervisor_loss=\"continue\" is not available yet; take it out, and the processes stop the robot "
+        "and end when the deployer is gone",
+        options.file);
   std::vector<std::string> unfit;
   if (!options.run.trace_file.empty()) unfit.emplace_back("--trace");
   if (!options.run.recordings.empty()) unfit.emplace_back("--record");

@@ -21,9 +21,10 @@ namespace orca::deployer {
 /// Returns whether the graph runs in host processes below this one.
 [[nodiscard]] bool has_host_processes(const graph::Graph& graph, const Options& options);
 
-/// Checks that the options fit a run in host processes.
-/// @errors  invalid_argument with those that need all parts in one process.
-[[nodiscard]] Status check_for_processes(const Options& options);
+/// Checks that graph and options fit a run in host processes.
+/// @errors  invalid_argument with the options that need all parts in one process, or with what the graph asks for that
+///          does not exist yet.
+[[nodiscard]] Status check_for_processes(const graph::Graph& graph, const Options& options);
 
 /// Runs a graph in host processes. This process only supervises them.
 /// @thread  the main thread.
