@@ -34,7 +34,7 @@ bool PushServerHandle::push_loan(ObjectLoan loan) {
 ObjectRef PushServerHandle::push_reading(ObjectLoan reading) {
   if (!endpoint().admits_caller()) return {};
   ObjectRef object = endpoint().seal(std::move(reading), nullptr);
-  endpoint().publish(object);
+  endpoint().publish(ObjectRef(object));
   return object;
 }
 

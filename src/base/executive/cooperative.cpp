@@ -112,7 +112,9 @@ void CooperativeExecutive::ReadyQueue::add(Fiber& fiber) {
 
 CooperativeExecutive::Fiber& CooperativeExecutive::ReadyQueue::pop() {
   Fiber& fiber = *first_;
-  remove(fiber);
+  first_ = fiber.after;
+  (first_ == nullptr ? last_ : first_->before) = nullptr;
+  fiber.ready = false;
   return fiber;
 }
 
@@ -195,7 +197,8 @@ void CooperativeExecutive::run(std::function<void()> main) {
 // Waits, or lets virtual time pass, until a task is ready.
 CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
   for (;;) {
-    take_notifications();
+    if (doorbell_ != nullptr && inbox_changed_.take()) notify_rung();
+    if (inbox_filled_.load(std::memory_order_acquire)) take_notifications();
     if (!is_virtual()) fire_timers();
     if (main_is_next_) return main_at_once();
     if (!ready_.empty()) return ready_.pop();
@@ -215,7 +218,7 @@ CooperativeExecutive::Fiber& CooperativeExecutive::main_at_once() {
   return *main_;
 }
 
-void CooperativeExecutive::begin(Fiber& fiber) {
+inline void CooperativeExecutive::begin(Fiber& fiber) {
   if (is_virtual()) count_turn(fiber);
   current_ = &fiber;
   running_.store(&fiber, std::memory_order_release);
@@ -313,8 +316,6 @@ void CooperativeExecutive::forget_notifications(CooperativeEvent& event) {
 }
 
 void CooperativeExecutive::take_notifications() {
-  if (doorbell_ != nullptr && inbox_changed_.take()) notify_rung();
-  if (!inbox_filled_.load(std::memory_order_acquire)) return;
   const std::lock_guard lock(inbox_mutex_);
   for (CooperativeEvent* event : inbox_) {
     event->posted = false;

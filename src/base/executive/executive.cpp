@@ -10,15 +10,12 @@
 
 namespace orca {
 
-// The executive whose tasks run on this thread, or null.
-[[gnu::tls_model("initial-exec")]] static thread_local const Executive* t_executive = nullptr;
+constinit thread_local const Executive* detail::t_executive = nullptr;
 
 detail::TaskThread::TaskThread(const Executive& executive) noexcept
     : outer_(std::exchange(t_executive, &executive)) {}
 
 detail::TaskThread::~TaskThread() { t_executive = outer_; }
-
-bool Executive::runs_here() const noexcept { return t_executive == this; }
 
 void Executive::sleep_until(TimePoint time) {
   const std::unique_ptr<Event> alarm = make_event();

@@ -4,22 +4,19 @@
 namespace orca {
 namespace {
 
-Duration& epoch() {
-  static Duration epoch = std::chrono::system_clock::now().time_since_epoch() -
-                          std::chrono::steady_clock::now().time_since_epoch();
-  return epoch;
-}
+Duration g_epoch =
+    std::chrono::system_clock::now().time_since_epoch() - std::chrono::steady_clock::now().time_since_epoch();
 
 }  // namespace
 
-TimePoint steady_now() { return TimePoint(std::chrono::steady_clock::now().time_since_epoch() + epoch()); }
+TimePoint steady_now() { return TimePoint(std::chrono::steady_clock::now().time_since_epoch() + g_epoch); }
 
 std::chrono::steady_clock::time_point to_steady(TimePoint time) {
-  return std::chrono::steady_clock::time_point(time.time_since_epoch() - epoch());
+  return std::chrono::steady_clock::time_point(time.time_since_epoch() - g_epoch);
 }
 
-Duration steady_epoch() { return epoch(); }
+Duration steady_epoch() { return g_epoch; }
 
-void set_steady_epoch(Duration wanted) { epoch() = wanted; }
+void set_steady_epoch(Duration wanted) { g_epoch = wanted; }
 
 }  // namespace orca

@@ -39,8 +39,11 @@ void Strand::throw_foreign() const {
                       "; only the component's own hooks, laps and handlers may");
 }
 
-// Returns true if woken, false at the deadline.
-bool Strand::wait_watching(TimePoint deadline) {
+// Waits with a look at the intakes and at what the watch guards. Returns true if woken or if something has
+// arrived, false at the deadline.
+bool Strand::wait_looking(TimePoint deadline) {
+  if (!intakes_.empty() && take_in_awake()) return true;
+  if (!watch_) return event_->wait_until(deadline);
   for (;;) {
     const TimePoint next_look = watch_();
     if (next_look >= deadline) return event_->wait_until(deadline);

@@ -36,6 +36,20 @@ class PushServerEndpoint::Edge final : public PushSource {
   TimePoint next_due_{};       // for irregular servers
 };
 
+inline bool PushServerEndpoint::Edge::is_due(const ObjectRef& object) {
+  if (to_skip_ > 0) {
+    --to_skip_;
+    return false;
+  }
+  if (grant_.base_period == Duration{0} && grant_.interval > Duration{0}) {
+    const TimePoint made(Duration(object.header().creation_time().ns()));
+    if (made < next_due_) return false;
+    next_due_ = saturating_add(made, grant_.interval);
+  }
+  to_skip_ = grant_.multiple - 1;
+  return true;
+}
+
 PushServerEndpoint::PushServerEndpoint(PortHome& home, PortContract contract)
     : Endpoint(home, std::move(contract)),
       base_period_(Endpoint::contract().period.count()),
@@ -54,12 +68,12 @@ void PushServerEndpoint::announce(Duration base_period) {
   for (Edge* edge : subscribed_) edge->regrant();
 }
 
-ObjectRef PushServerEndpoint::seal(ObjectLoan loan, const Provenance* provenance) {
+ObjectRef PushServerEndpoint::seal(ObjectLoan&& loan, const Provenance* provenance) {
   stamp(loan, provenance);
   return std::move(loan).seal();
 }
 
-void PushServerEndpoint::publish(ObjectRef object) {
+void PushServerEndpoint::publish(ObjectRef&& object) {
   ++pushed_;
   if (LinkObserver* observer = home().observer) observer->pushed(component(), contract().name, object);
   if (subscriber_count() > 0 && !hand_out(object)) wait_for_room(object);
@@ -123,20 +137,6 @@ TimePoint PushServerEndpoint::next_limit() const {
   for (const Edge* edge : subscribed_)
     if (edge->owed_until) next = std::min(next, *edge->owed_until);
   return next;
-}
-
-bool PushServerEndpoint::Edge::is_due(const ObjectRef& object) {
-  if (to_skip_ > 0) {
-    --to_skip_;
-    return false;
-  }
-  if (grant_.base_period == Duration{0} && grant_.interval > Duration{0}) {
-    const TimePoint made(Duration(object.header().creation_time().ns()));
-    if (made < next_due_) return false;
-    next_due_ = saturating_add(made, grant_.interval);
-  }
-  to_skip_ = grant_.multiple - 1;
-  return true;
 }
 
 void PushServerEndpoint::Edge::regrant() {

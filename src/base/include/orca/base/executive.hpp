@@ -15,6 +15,15 @@
 
 namespace orca {
 
+class Executive;
+
+namespace detail {
+
+/// The executive whose tasks run on this thread, or null. Declared here only because each push looks at it.
+[[gnu::tls_model("initial-exec")]] extern constinit thread_local const Executive* t_executive;
+
+}  // namespace detail
+
 /// A flag that one task waits for. Everything in Orca that blocks is built on it.
 ///
 /// A notification is remembered until it is consumed by a wait; several notifications before that count as
@@ -92,7 +101,7 @@ class Executive {
   /// Returns whether the calling thread runs a task of this executive. A thread that a component or a library
   /// has started does not.
   /// @thread  any; costs one look at a variable of the thread.
-  [[nodiscard]] bool runs_here() const noexcept;
+  [[nodiscard]] bool runs_here() const noexcept { return detail::t_executive == this; }
   [[nodiscard]] virtual std::unique_ptr<Event> make_event() = 0;
 
   /// Returns the word by which other processes wake all tasks of this executive; null: it has none.

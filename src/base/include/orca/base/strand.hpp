@@ -117,10 +117,9 @@ class Strand {
  private:
   bool wait_until(TimePoint deadline) {
     if (!executive_.runs_here()) throw_foreign();
-    if (!intakes_.empty() && take_in_awake()) return true;
-    return watch_ ? wait_watching(deadline) : event_->wait_until(deadline);
+    return intakes_.empty() && !watch_ ? event_->wait_until(deadline) : wait_looking(deadline);
   }
-  bool wait_watching(TimePoint deadline);
+  bool wait_looking(TimePoint deadline);
   bool take_in_all();
   bool take_in_awake();
   [[nodiscard]] bool is_taking_in_here() const;

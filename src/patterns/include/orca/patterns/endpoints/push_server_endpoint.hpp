@@ -33,13 +33,13 @@ class PushServerEndpoint final : public Endpoint {
   /// Stamps an object that is to be published. From now on nobody can change it.
   /// @param provenance  what the object answers; null: nothing.
   /// @thread  the component's strand; any other only if the contract says from_device.
-  [[nodiscard]] ObjectRef seal(ObjectLoan loan, const Provenance* provenance);
+  [[nodiscard]] ObjectRef seal(ObjectLoan&& loan, const Provenance* provenance);
 
   /// Hands a sealed object to all subscribers. Only edges whose policy is `block` can make it wait, after all
   /// others have the object. That wait ends early when the component must leave its lap; the object is then
   /// dropped on those edges.
   /// @thread  as seal(), which it follows.
-  void publish(ObjectRef object);
+  void publish(ObjectRef&& object);
 
   [[nodiscard]] std::size_t subscriber_count() const { return subscribers_.load(std::memory_order_acquire); }
   /// Returns the number of objects pushed so far, with or without subscribers.
