@@ -6,6 +6,11 @@
 #include <utility>
 
 namespace orca {
+namespace {
+
+constexpr Duration kHandlingLimit = 1s;  // of a sender's wait, where the graph gives none
+
+}  // namespace
 
 // One client's part of the intake.
 class SendServerEndpoint::Edge final : public SendTarget {
@@ -17,13 +22,14 @@ class SendServerEndpoint::Edge final : public SendTarget {
                               bool may_wait) override;
   void withdraw(SendId id) override;
   [[nodiscard]] Duration patience() const override {
-    return policy_.overflow == QueuePolicy::Overflow::block ? policy_.block_limit : Duration{0};
+    if (policy_.overflow == QueuePolicy::Overflow::block) return policy_.block_limit;
+    return confirms_handled() ? kHandlingLimit : Duration{0};
   }
   [[nodiscard]] std::string path() const override { return server_.path(); }
 
   // Below: called with the server's lock held.
   void refuse_held(const Error& reason);
-  void handled();
+  void take_next();
   IntakeCounters counters;
 
  private:
@@ -34,7 +40,8 @@ class SendServerEndpoint::Edge final : public SendTarget {
   };
 
   [[nodiscard]] bool full() const { return counters.queued >= policy_.depth; }
-  void take_in(const ObjectRef& object);
+  [[nodiscard]] bool confirms_handled() const { return policy_.confirm == QueuePolicy::Confirm::handled; }
+  void take_in(const Offer& offer);
 
   SendServerEndpoint& server_;
   const std::string client_;
@@ -62,22 +69,29 @@ std::optional<Status> SendServerEndpoint::Edge::offer(const ObjectRef& object, S
                                          " objects from " + client_ +
                                          " wait to be handled; send again later");
     }
-    take_in(object);
+    take_in({object, &reply_to, id});
   }
   server_.home().strand.wake();
+  if (confirms_handled()) return std::nullopt;
   return ok();
 }
 
-void SendServerEndpoint::Edge::take_in(const ObjectRef& object) {
-  server_.waiting_.push_back({object, this});
+void SendServerEndpoint::Edge::take_in(const Offer& offer) {
+  server_.waiting_.push_back({offer.object, this, confirms_handled() ? offer.reply_to : nullptr, offer.id});
   ++counters.accepted;
   counters.high_water = std::max(counters.high_water, ++counters.queued);
-  server_.observe(object);
+  server_.observe(offer.object);
 }
 
 void SendServerEndpoint::Edge::withdraw(SendId id) {
   const std::lock_guard lock(server_.mutex_);
   counters.withdrawn += std::erase_if(held_, [&](const Offer& offer) { return offer.id == id; });
+  if (!confirms_handled()) return;
+  const auto taken_back = std::erase_if(
+      server_.waiting_, [&](const Accepted& accepted) { return accepted.edge == this && accepted.id == id; });
+  counters.accepted -= taken_back;
+  counters.withdrawn += taken_back;
+  for (std::size_t i = 0; i < taken_back; ++i) take_next();
 }
 
 void SendServerEndpoint::Edge::refuse_held(const Error& reason) {
@@ -86,13 +100,14 @@ void SendServerEndpoint::Edge::refuse_held(const Error& reason) {
   held_.clear();
 }
 
-void SendServerEndpoint::Edge::handled() {
+// An object has left the queue: the first one that waits for room takes its place.
+void SendServerEndpoint::Edge::take_next() {
   --counters.queued;
   if (held_.empty()) return;
   const Offer offer = std::move(held_.front());
   held_.pop_front();
-  take_in(offer.object);
-  offer.reply_to->reply(offer.id, ok());
+  take_in(offer);
+  if (!confirms_handled()) offer.reply_to->reply(offer.id, ok());
 }
 
 SendServerEndpoint::SendServerEndpoint(PortHome& home, PortContract contract)
@@ -124,7 +139,7 @@ bool SendServerEndpoint::next(Accepted& accepted, std::shared_ptr<const Handler>
   handler = handler_;
   accepted = std::move(waiting_.front());
   waiting_.pop_front();
-  accepted.edge->handled();
+  accepted.edge->take_next();
   return true;
 }
 
@@ -136,19 +151,19 @@ bool SendServerEndpoint::handle_one(Status& outcome) {
   try {
     outcome = (*handler)(accepted.object);
   } catch (...) {
-    count_failure(*accepted.edge);
+    settle(accepted, fail(Code::internal, path() + " did not come to the end of handling the object"));
     throw;
   }
-  if (!outcome.ok()) {
-    home().provenance.refuse_task();
-    count_failure(*accepted.edge);
-  }
+  if (!outcome.ok()) home().provenance.refuse_task();
+  settle(accepted, outcome);
   return true;
 }
 
-void SendServerEndpoint::count_failure(Edge& edge) {
+// Counts what has become of an object, and tells its sender if that waits for it.
+void SendServerEndpoint::settle(const Accepted& accepted, const Status& outcome) {
   const std::lock_guard lock(mutex_);
-  ++edge.counters.failed;
+  if (!outcome.ok()) ++accepted.edge->counters.failed;
+  if (accepted.reply_to != nullptr) accepted.reply_to->reply(accepted.id, outcome);
 }
 
 bool SendServerEndpoint::has_waiting() const {

@@ -90,7 +90,8 @@ struct PolicyAttribute {
 constexpr std::array kPolicyAttributes{
     PolicyAttribute{"queue", true, true},       PolicyAttribute{"overflow", true, true},
     PolicyAttribute{"block_limit", true, true}, PolicyAttribute{"interval", true, false},
-    PolicyAttribute{"deadline", true, false},   PolicyAttribute{"drop_limit", true, false}};
+    PolicyAttribute{"deadline", true, false},   PolicyAttribute{"drop_limit", true, false},
+    PolicyAttribute{"confirm", false, true}};
 
 // A reader for the policy of an edge.
 class PolicyReader {
@@ -107,6 +108,7 @@ class PolicyReader {
     good = read_time("deadline", edge_.queue.deadline) && good;
     good = check_deadline() && good;
     good = read_drop_limit() && good;
+    good = read_confirm() && good;
     return read_time("block_limit", edge_.queue.block_limit) && good;
   }
 
@@ -190,6 +192,15 @@ class PolicyReader {
     const auto limit = read_value(*text, rule_of("drop_limit"), "drop_limit", report_);
     if (limit) edge_.queue.drop_limit = static_cast<std::uint32_t>(std::get<std::int64_t>(*limit));
     return limit.has_value();
+  }
+
+  bool read_confirm() {
+    const Text* text = connection_.find("confirm");
+    if (text == nullptr) return true;
+    const auto confirm = read_value(*text, rule_of("confirm"), "confirm", report_);
+    if (confirm && std::get<std::string>(*confirm) == to_string(QueuePolicy::Confirm::handled))
+      edge_.queue.confirm = QueuePolicy::Confirm::handled;
+    return confirm.has_value();
   }
 
   [[nodiscard]] const xml::ValueRule& rule_of(const char* attribute) const {

@@ -23,6 +23,7 @@ constexpr std::array<std::string_view, 2> kExecutor{"thread", "fiber"};
 constexpr std::array<std::string_view, 3> kRestart{"permanent", "transient", "temporary"};
 constexpr std::array<std::string_view, 3> kLink{"local", "shm", "dds"};
 constexpr std::array<std::string_view, 4> kOverflow{"drop_oldest", "drop_newest", "block", "refuse"};
+constexpr std::array<std::string_view, 2> kConfirm{"accepted", "handled"};
 
 constexpr double kDay = 86400.0;
 constexpr double kMicrosecond = 1e-6;
@@ -164,6 +165,11 @@ constexpr std::array kConnect{
                   integer(0, 1'000'000'000)},
     AttributeRule{"interval", false, "Time in which at most one object is delivered, for example 1 s.",
                   seconds(0.0)},
+    AttributeRule{
+        "confirm", false,
+        "Send: when an object counts as sent. accepted (if not given): it waits to be handled; "
+        "handled: the receiver's handler has returned, and what it returned is the sender's answer.",
+        one_of(kConfirm)},
     AttributeRule{"link", false,
                   "What carries the objects; if not given: local within a process, shm within a machine, dds "
                   "between machines.",

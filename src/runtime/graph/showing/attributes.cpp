@@ -133,6 +133,8 @@ Attributes attributes_of(const Edge& edge) {
     add(result, "deadline", seconds_text(edge.queue.deadline));
     if (edge.queue.drop_limit) add(result, "drop_limit", std::to_string(*edge.queue.drop_limit));
   }
+  if (edge.queue.confirm == QueuePolicy::Confirm::handled)
+    add(result, "confirm", to_string(edge.queue.confirm));
   if (edge.link != Link::local) add(result, "link", to_string(edge.link));
   return result;
 }

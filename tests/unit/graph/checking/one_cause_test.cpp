@@ -61,8 +61,9 @@ TEST_CASE("a connection with a bad policy does not take the place of another one
                        policy + "/>" + second));
   };
   CHECK(with("") == Codes{"G023"});
-  for (const std::string policy : {"queue='many'", "overflow='some'", "interval='often'", "deadline='soon'",
-                                   "interval='2 s' deadline='1 s'", "block_limit='1 s'"}) {
+  for (const std::string policy :
+       {"queue='many'", "overflow='some'", "interval='often'", "deadline='soon'",
+        "interval='2 s' deadline='1 s'", "block_limit='1 s'", "confirm='handled'"}) {
     CAPTURE(policy);
     const Codes found = with(" " + policy);
     CHECK(found.size() == 1);

@@ -31,7 +31,8 @@ class RandomGraph {
               maybe("<port name='ClientListSend' disabled='true'/>") + candidates(avoiders) + "</component>" +
               "<component name='planner' type='orca.Planner'/>" +
               connect("planner.limits", "base.LimitsQuery", "") +
-              connect("fuser.base", "base.MotionCommandSend", maybe(room()));
+              connect("fuser.base", "base.MotionCommandSend",
+                      maybe(room()) + maybe(" confirm='" + choice({"accepted", "handled"}) + "'"));
     for (int i = 0; i < avoiders; ++i) result += avoider(i);
     return result + "</graph>";
   }

@@ -48,6 +48,11 @@ struct QueuePolicy {
     block,   ///< The sender waits for room, at most `block_limit`; then the object is dropped or refused.
     refuse,  ///< Send and Query: the sender learns that the object was not accepted.
   };
+  /// Send: the moment at which an object counts as sent.
+  enum class Confirm {
+    accepted,  ///< It waits in the server's queue. It is lost if the server's process dies before it is handled.
+    handled,  ///< The server's handler has returned; its error is the sender's.
+  };
   std::uint32_t depth = 1;  ///< Objects kept, at least 1; depth 1 with drop_oldest means "the latest".
   Overflow overflow = Overflow::drop_oldest;
   Duration min_interval{0};  ///< Push: deliver at most one object per interval [s]; 0: every one.
@@ -55,6 +60,7 @@ struct QueuePolicy {
   Duration block_limit{std::chrono::milliseconds(100)};  ///< Longest wait of a sender for room [s].
   /// Push: objects that may be dropped before the edge reports it; nothing: as many as accepted_drops() says.
   std::optional<std::uint32_t> drop_limit{};
+  Confirm confirm = Confirm::accepted;
 
   /// Returns how many objects a Push edge may drop before it reports it; nothing: any number. Where the author
   /// and the graph give no limit, "the latest" may drop any number, because that is its purpose, and other
@@ -74,6 +80,10 @@ struct QueuePolicy {
     case QueuePolicy::Overflow::refuse: return "refuse";
   }
   return "?";
+}
+
+[[nodiscard]] constexpr const char* to_string(QueuePolicy::Confirm confirm) {
+  return confirm == QueuePolicy::Confirm::handled ? "handled" : "accepted";
 }
 
 /// One declared port of a component.

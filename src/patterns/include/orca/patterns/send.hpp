@@ -94,11 +94,14 @@ class SendProxy : public SendProxyHandle {
 
   [[nodiscard]] Loan<T> loan() const { return make_object<T>(); }
 
-  /// Sends an object of T or a type derived from it; it arrives whole. A full server refuses it. Waits only where the graph says overflow="block", at most the
-  /// edge's block_limit, and on links to other processes for their answer.
-  /// @return ok once the server has accepted the object: from then on it is not lost.
+  /// Sends an object of T or a type derived from it; it arrives whole. A full server refuses it. Waits only where the
+  /// graph says overflow="block" (at most the edge's block_limit) or confirm="handled", and on links to other processes
+  /// for their answer.
+  /// @return ok once the server has accepted the object: from then on it is lost only with the server's process. With
+  /// confirm="handled", what the server's handler returned.
   /// @errors  failed_precondition if not connected or called by a thread that runs no component, unavailable with the
-  /// server's reason if refused, deadline_exceeded after a wait.
+  /// server's reason if refused, deadline_exceeded after a wait; an object that is just being handled then cannot be
+  /// taken back.
   Status send(Loan<T> object) { return send_loan(std::move(object)); }
   template <std::derived_from<T> U = T>
   Status send(const U& value) {

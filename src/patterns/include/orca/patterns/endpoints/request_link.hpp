@@ -15,7 +15,7 @@ namespace orca {
 /// The client's side of one Query or Send edge, as its link sees it: the destination of answers.
 ///
 /// @tparam Answer  Result<ObjectRef> for Query: the reply, or the reason why there is none. Status for Send:
-/// the object was accepted and is not lost from now on, or it was refused, with the reason.
+/// the object was accepted (or handled, where the edge confirms that), or the reason why not.
 template <class Answer>
 class ReplySink {
  public:

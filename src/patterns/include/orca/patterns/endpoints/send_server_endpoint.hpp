@@ -16,7 +16,8 @@
 namespace orca {
 
 /// The server side of Send. Accepted objects wait here until the component's strand handles them between two
-/// laps. Each edge has its own room, so a sender that floods the server costs the others nothing.
+/// laps. Each edge has its own room, so a sender that floods the server costs the others nothing. On an edge that
+/// confirms what is handled, the sender has its answer after that.
 ///
 /// Thread contract: connect() before the components run; handle_one() from the server's strand; the rest from
 /// any thread.
@@ -54,10 +55,12 @@ class SendServerEndpoint final : public Endpoint {
   struct Accepted {
     ObjectRef object;
     Edge* edge;
+    SendReplySink* reply_to;  // waits until the object is handled; null: it has its answer
+    SendId id;
   };
 
   bool next(Accepted& accepted, std::shared_ptr<const Handler>& handler);
-  void count_failure(Edge& edge);
+  void settle(const Accepted& accepted, const Status& outcome);
 
   std::vector<std::unique_ptr<Edge>> edges_;
 

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is sent to another process while that is killed again and again: on an edge that confirms what was handled,
+// each object that counts as sent was handled, and none twice.
+#include <signal.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "deployer.hpp"
+#include "process_table.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+using Numbers = std::vector<std::int64_t>;
+
+Numbers read_numbers(const std::filesystem::path& path) {
+  Numbers numbers(std::filesystem::file_size(path) / sizeof(std::int64_t));
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(numbers.data()),
+            static_cast<std::streamsize>(numbers.size() * sizeof(std::int64_t)));
+  REQUIRE(file);
+  return numbers;
+}
+
+std::uintmax_t size_of(const std::filesystem::path& path) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  return none ? 0 : size;
+}
+
+// Returns what the deployer has to be told for a tally in a folder.
+Words tally(const TempFolder& folder, int count) {
+  return Words{system_graph("tally.xml")} + with_test_plugins() +
+         Words{"--set", "count=" + std::to_string(count),   "--set", "sent=" + folder.file("sent"),
+               "--set", "handled=" + folder.file("handled")};
+}
+
+// Waits until so many numbers were handled, then kills the taker.
+void kill_taker_after(Subprocess& program, const std::filesystem::path& handled, int numbers) {
+  const auto end = std::chrono::steady_clock::now() + Seconds(60) * kSlowdown;
+  while (size_of(handled) < static_cast<std::uintmax_t>(numbers) * sizeof(std::int64_t)) {
+    INFO(program.err());
+    REQUIRE(std::chrono::steady_clock::now() < end);
+    std::this_thread::sleep_for(Seconds(0.0005));
+  }
+  const auto children = children_of(program.pid());
+  const auto taker = children.find("taker");
+  REQUIRE(taker != children.end());
+  REQUIRE(kill(taker->second, SIGKILL) == 0);
+}
+
+// Sends so many numbers, kills the taker so often meanwhile, and compares what both say.
+void send_and_kill(int count, int kills) {
+  const TempFolder folder;
+  Subprocess program(deployer(tally(folder, count)));
+  for (int i = 1; i <= kills; ++i)
+    kill_taker_after(program, folder.path() / "handled", count * i / (kills + 1));
+  const Run run = finish(program, Seconds(120));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  const Numbers sent = read_numbers(folder.path() / "sent");
+  Numbers handled = read_numbers(folder.path() / "handled");
+  std::sort(handled.begin(), handled.end());
+  CHECK(std::adjacent_find(handled.begin(), handled.end()) == handled.end());
+  Numbers lost;
+  std::set_difference(sent.begin(), sent.end(), handled.begin(), handled.end(), std::back_inserter(lost));
+  CHECK(lost == Numbers{});
+  std::printf("%d numbers, %d kills: %zu sent, %zu handled\n", count, kills, sent.size(), handled.size());
+  CHECK(sent.size() > static_cast<std::size_t>(count) / 2);
+  CHECK(handled.size() <
+        static_cast<std::size_t>(count));  // some came while nobody was there, and the sender was told
+}
+
+}  // namespace
+
+TEST_CASE("nothing that counts as sent is lost or doubled while the receiver is killed", "[system][send]") {
+  send_and_kill(10'000, 4);
+}
+
+TEST_CASE("nothing of 100,000 is lost or doubled while the receiver is killed 20 times",
+          "[system][.][slow]") {
+  send_and_kill(100'000, 20);
+}
