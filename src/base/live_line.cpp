@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace orca {
 namespace {
@@ -18,6 +19,7 @@ constexpr std::string_view kEraseRest = "\x1b[K";
 struct State {
   std::mutex mutex;
   int pauses = 0;
+  std::function<void(bool begins)> pause_changed;
 };
 
 // Never destroyed: threads may write while the process ends.
@@ -47,13 +49,18 @@ void erase_shown() noexcept {
 
 LiveLine::Pause::Pause() {
   const std::lock_guard lock(state().mutex);
-  ++state().pauses;
+  if (++state().pauses == 1 && state().pause_changed) state().pause_changed(true);
   erase_shown();
 }
 
 LiveLine::Pause::~Pause() {
   const std::lock_guard lock(state().mutex);
-  --state().pauses;
+  if (--state().pauses == 0 && state().pause_changed) state().pause_changed(false);
+}
+
+void LiveLine::on_pause(std::function<void(bool begins)> changed) {
+  const std::lock_guard lock(state().mutex);
+  state().pause_changed = std::move(changed);
 }
 
 void LiveLine::show(int terminal, std::string_view text) {

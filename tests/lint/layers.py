@@ -84,7 +84,7 @@ LAYERS = (
     Layer("sim_files", ("sim/files",), ("orca/sim/bitmap.hpp", "orca/sim/robot_file.hpp", "orca/sim/world_file.hpp"),
           SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # Bullet: transforms
     Layer("sim_plugin", ("sim/plugin",), (), ("geometry_objects", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
-    Layer("host_containment", (f"{HOST}/containment",), ("orca/host/alarm.hpp", "orca/host/last_words.hpp",
+    Layer("host_containment", (f"{HOST}/containment",), ("orca/host/alarm.hpp", "orca/host/alarm_store.hpp", "orca/host/last_words.hpp",
                                                                 "orca/host/stop_signal.hpp"),
           ("plugin", *DEVICE), ("fmt",), module=HOST),
     Layer("host_picture", (f"{HOST}/picture",), ("orca/host/picture.hpp",), DEVICE, ("cairo", "fmt"), module=HOST),
@@ -98,7 +98,7 @@ LAYERS = (
     Layer("supervisor_processes", (f"{SUPERVISOR}/processes",), ("orca/supervisor/",),
           ("supervisor_channel", "graph", "xml", "base"), module=SUPERVISOR),
     Layer("supervisor_run", (f"{SUPERVISOR}/run", f"{SUPERVISOR}/hosted", SUPERVISOR),
-          tuple(f"orca/supervisor/{name}.hpp" for name in ("host_process_main", "supervised_run")),
+          tuple(f"orca/supervisor/{name}.hpp" for name in ("host_process_main", "outputs", "supervised_run")),
           ("supervisor_processes", "supervisor_channel", "host_run", "host_containment", "graph", "plugin", "xml",
            "patterns_shm", "patterns_endpoints", *DEVICE), ("fmt",), module=SUPERVISOR),
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),

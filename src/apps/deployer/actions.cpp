@@ -136,7 +136,7 @@ ExitCode run(const Options& options) {
   host::RunOptions run = options.run;
   run.looks_on = options.progress.value_or(stderr_can_live());
   Console console(options.stats, run.looks_on);
-  if (has_host_processes(*loaded.graph, options)) {
+  if (has_host_processes(options)) {
     if (const Status fits = check_for_processes(*loaded.graph, options); !fits.ok())
       return refuse_for_processes(fits.error());
     return exit_code_of(run_in_processes(*loaded.graph, options, stop, console).outcome);

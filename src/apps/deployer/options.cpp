@@ -213,6 +213,7 @@ std::map<std::string, Option> option_table(Words& executor) {
 Status choose_executor(Options& options, const Words& executor) {
   const bool is_virtual = options.run.executive.clock == ClockKind::virtual_time;
   const std::string name = executor.value_or(is_virtual ? "fiber" : "thread");
+  options.chooses_executor = executor.has_value();
   if (name == "thread") {
     options.run.executive.backend = Backend::thread;
   } else if (name == "fiber") {

@@ -2,15 +2,21 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "processes.hpp"
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <string_view>
 #include <utility>
 
 #include "exit_code.hpp"
-#include "orca/base/text.hpp"
+#include "orca/base/log.hpp"
+#include "orca/base/output_file.hpp"
+#include "orca/graph/placement.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/supervisor/host_process_main.hpp"
+#include "orca/supervisor/outputs.hpp"
 #include "orca/supervisor/own_process.hpp"
 #include "orca/supervisor/supervised_run.hpp"
 #include "progress.hpp"
@@ -25,6 +31,54 @@ constexpr std::string_view kHostProcess = "--host-process";
 
 fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
 
+// Returns the name by which a child of this process reaches a file: "/dev/stdout" is another one for it.
+std::string reachable(const std::string& file) {
+  std::string name = file;
+  for (const auto& [special, number] : {std::pair{"/dev/stdout", "1"}, {"/dev/stderr", "2"}})
+    if (name == special) name = std::string("/dev/fd/") + number;
+  for (const std::string folder : {"/dev/fd/", "/proc/self/fd/"})
+    if (name.starts_with(folder))
+      return "/proc/" + std::to_string(getpid()) + "/fd/" + name.substr(folder.size());
+  return name;
+}
+
+host::RunOutputs reachable(const host::RunOutputs& outputs) {
+  host::RunOutputs all = outputs;
+  all.trace_file = reachable(all.trace_file);
+  all.picture.file = reachable(all.picture.file);
+  for (host::RecordingOptions& recording : all.recordings) recording.file = reachable(recording.file);
+  return all;
+}
+
+// Opens a file as the host process will, and closes it as it was. A pipe would be closed for its reader, too.
+Status try_to_open(OutputFile& file, const std::string& path) {
+  return path.empty() || fs::is_fifo(path) ? ok() : file.open(path);
+}
+
+// Finds out before anything starts whether the outputs can be written and overwrite nothing: this process knows which
+// files the graph is made of.
+Status try_to_open(const host::RunOutputs& outputs) {
+  OutputFile trace("the trace");
+  OutputFile picture("the picture");
+  std::deque<OutputFile> recordings;
+  if (Status opened = try_to_open(trace, outputs.trace_file); !opened.ok()) return opened;
+  if (Status opened = try_to_open(picture, outputs.picture.file); !opened.ok()) return opened;
+  for (const host::RecordingOptions& recording : outputs.recordings)
+    if (Status opened = try_to_open(recordings.emplace_back("the recording"), recording.file); !opened.ok())
+      return opened;
+  return ok();
+}
+
+host::RunResult refuse(const Error& error, const std::string& log_name, host::RunListener& listener) {
+  log::error(log_name, error.text());
+  host::RunResult result;
+  const bool wrong = error.code == Code::invalid_argument;
+  result.outcome = wrong ? host::RunOutcome::bad_options : host::RunOutcome::not_started;
+  result.error = error;
+  listener.ended(result);
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::string> plugin_folders(const Options& options) {
@@ -33,8 +87,8 @@ std::vector<std::string> plugin_folders(const Options& options) {
   return folders;
 }
 
-bool has_host_processes(const graph::Graph& graph, const Options& options) {
-  return options.run.executive.clock == ClockKind::steady && !options.in_process && !graph.processes.empty();
+bool has_host_processes(const Options& options) {
+  return options.run.executive.clock == ClockKind::steady && !options.in_process;
 }
 
 Status check_for_processes(const graph::Graph& graph, const Options& options) {
@@ -47,16 +101,12 @@ Status check_for_processes(const graph::Graph& graph, const Options& options) {
         "on_supervisor_loss=\"continue\" is not available yet; take it out, and the processes stop the robot "
         "and end when the deployer is gone",
         options.file);
-  std::vector<std::string> unfit;
-  if (!options.run.trace_file.empty()) unfit.emplace_back("--trace");
-  if (!options.run.recordings.empty()) unfit.emplace_back("--record");
-  if (!options.run.picture.file.empty()) unfit.emplace_back("--picture");
-  if (options.stats) unfit.emplace_back("--stats");
-  if (unfit.empty()) return ok();
-  return fail(Code::invalid_argument,
-              listed(unfit) + (unfit.size() == 1 ? " needs" : " need") +
-                  " all parts of the system in one process, and the graph has several; add "
-                  "--in-process or --clock virtual");
+  const bool is_baton = options.run.executive.backend == Backend::baton;
+  if (is_baton && graph::processes_of(graph).size() > 1)
+    return fail(Code::invalid_argument,
+                "--executor baton runs one strand at a time, which several processes cannot do together; add "
+                "--in-process");
+  return supervisor::check_outputs(graph, options.run);
 }
 
 host::RunResult run_in_processes(const graph::Graph& graph, const Options& options, host::StopSignal& stop,
@@ -69,8 +119,13 @@ host::RunResult run_in_processes(const graph::Graph& graph, const Options& optio
   supervised.seed = options.run.seed;
   supervised.until = options.run.until;
   supervised.planned_failures = options.run.planned_failures;
+  if (options.chooses_executor) supervised.executor = options.run.executive.backend;
   supervised.log_level = options.log_level;
-  supervised.looks_on = options.progress.value_or(stderr_can_live());
+  supervised.log_name = options.run.log_name;
+  supervised.outputs = reachable(options.run);
+  supervised.outputs.looks_on = options.progress.value_or(stderr_can_live());
+  if (const Status opened = try_to_open(options.run); !opened.ok())
+    return refuse(opened.error(), options.run.log_name, listener);
   return supervisor::run_supervised(graph, supervised, stop, listener);
 }
 

@@ -18,11 +18,11 @@ namespace orca::deployer {
 /// line. The graph may name more; no environment variable does.
 [[nodiscard]] std::vector<std::string> plugin_folders(const Options& options);
 
-/// Returns whether the graph runs in host processes below this one.
-[[nodiscard]] bool has_host_processes(const graph::Graph& graph, const Options& options);
+/// Returns whether the run has host processes below this one: in real time, unless they are not wanted.
+[[nodiscard]] bool has_host_processes(const Options& options);
 
 /// Checks that graph and options fit a run in host processes.
-/// @errors  invalid_argument with the options that need all parts in one process, or with what the graph asks for that
+/// @errors  invalid_argument with the option that needs all parts in one process, or with what the graph asks for that
 ///          does not exist yet.
 [[nodiscard]] Status check_for_processes(const graph::Graph& graph, const Options& options);
 

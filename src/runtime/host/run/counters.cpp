@@ -4,11 +4,11 @@
 namespace orca::host {
 namespace {
 
-// Adds the Push edge between two ports.
-void add_edge(const Endpoint& from, const PushClientEndpoint& to, RunCounters& counters) {
+// Adds the Push edge that ends at a port.
+void add_edge(const graph::Edge& node, const PushClientEndpoint& to, RunCounters& counters) {
   for (const auto& edge : to.edges())
-    if (edge->source_path() == from.path())
-      counters.edges.push_back({from.path(), to.path(), edge->counters()});
+    if (edge->source_path() == node.from.text())
+      counters.edges.push_back({node.from.text(), to.path(), edge->counters()});
 }
 
 void add_client(const Endpoint& port, RunCounters& counters) {
@@ -30,12 +30,12 @@ void add_server(const Endpoint& port, RunCounters& counters) {
 RunCounters collect_counters(const graph::Graph& graph, const System& system) {
   RunCounters counters;
   for (const graph::Edge& edge : graph.edges) {
-    const Endpoint* const from = system.component(edge.from.component)->endpoint(edge.from.port);
-    const Endpoint* const to = system.component(edge.to.component)->endpoint(edge.to.port);
+    const Endpoint* const from = system.endpoint(edge.from);
+    const Endpoint* const to = system.endpoint(edge.to);
     if (const auto* subscriber = dynamic_cast<const PushClientEndpoint*>(to))
-      add_edge(*from, *subscriber, counters);
-    add_client(*from, counters);
-    add_server(*to, counters);
+      add_edge(edge, *subscriber, counters);
+    if (from != nullptr) add_client(*from, counters);
+    if (to != nullptr) add_server(*to, counters);
   }
   return counters;
 }

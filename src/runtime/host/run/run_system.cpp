@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "counters.hpp"
-#include "judging/idleness.hpp"
 #include "live_view.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
+#include "orca/host/idleness.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/host/robot_finder.hpp"
 #include "orca/host/verdict.hpp"
@@ -27,7 +27,6 @@ namespace {
 constexpr Duration kStartLimit = 10s;
 constexpr Duration kRestLimit = 1s;
 constexpr Duration kTakeDownLimit = 1500ms;
-constexpr Duration kShortRun = 1s;  // it ends before everybody has had something to do
 
 std::string restless_text(const std::vector<std::string>& names, Duration instant) {
   char time[32];
@@ -203,9 +202,13 @@ class Run {
   // makes other components fail.
   void sum_up() {
     counters_ = collect_counters(graph_, system());
-    if (stands_still_ || (!error_ && executive_.now() - start_ >= kShortRun))
-      report_idleness(graph_, system(), *counters_, reporter());
+    if (stands_still_ || (!error_ && executive_.now() - start_ >= kShortRun)) report_idleness();
     judge();
+  }
+
+  void report_idleness() {
+    for (const auto& [who, text] : find_idleness(graph_, reports_, *counters_))
+      reporter().log(log::Level::warning, who.empty() ? options_.log_name : who, text);
   }
 
   // Makes the run a failure if a component has ended in WORK_FAILED that the graph does not allow to.
@@ -257,12 +260,8 @@ class Run {
   }
 
   void draw() {
-    Scene scene;
-    scene.start = start_;
-    system().draw(scene);
-    reporter().draw(scene);
-    if (const Status drawn = write_picture(scene, options_.picture, files_.picture()); !drawn.ok())
-      fail_output(drawn.error());
+    const Status drawn = write_picture(watched_.scene(), options_.picture, files_.picture());
+    if (!drawn.ok()) fail_output(drawn.error());
   }
 
   [[nodiscard]] SystemOptions wishes() const {

@@ -53,6 +53,14 @@ void WatchedSystem::stop_motors() {
   if (place_.executive.tasks_overlap()) system_->stop_hardware(kMotorLimit);
 }
 
+Scene WatchedSystem::scene() {
+  Scene scene;
+  scene.start = start_;
+  system_->draw(scene);
+  reporter_.draw(scene);
+  return scene;
+}
+
 // Raises an alarm. Alarms of the environment about a single component come on its strand.
 void WatchedSystem::raise(idl::Alarm alarm) {
   const Activity* const activity = Activity::current();

@@ -15,6 +15,7 @@
 #include "orca/host/catalogue.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/host/run_listener.hpp"
+#include "orca/hw/scene.hpp"
 #include "reporter.hpp"
 #include "run_context.hpp"
 #include "system.hpp"
@@ -75,6 +76,10 @@ class WatchedSystem {
   /// watchdogs of the devices can.
   /// @thread  any, while the strands run.
   void stop_motors();
+
+  /// Returns what a picture of the run shows.
+  /// @pre  the options want a scene, and nothing runs any more.
+  [[nodiscard]] Scene scene();
 
   /// Destroys all instances.
   void destroy() { system_.reset(); }

@@ -44,6 +44,8 @@ void transfer(auto& archive, EdgeMemory& edge) {
   transfer(archive, edge.memory);
 }
 
+void transfer(auto& archive, Counts& counts);
+
 template <class A, class B>
 void transfer(auto& archive, std::pair<A, B>& pair) {
   transfer(archive, pair.first);
@@ -56,6 +58,11 @@ void transfer(auto& archive, std::vector<T>& list) {
   archive.number(count);
   archive.resize(list, count);
   for (T& element : list) transfer(archive, element);
+}
+
+void transfer(auto& archive, Counts& counts) {
+  transfer(archive, counts.name);
+  transfer(archive, counts.numbers);
 }
 
 void transfer_all(auto& archive, auto&... fields) { (transfer(archive, fields), ...); }
@@ -89,6 +96,10 @@ void fields(auto& archive, ObjectReport<kind>& m) {
 }
 void fields(auto& archive, Logged& m) { transfer_all(archive, m.level, m.who, m.text); }
 void fields(auto& archive, LastWordsReport& m) { transfer(archive, m.text); }
+void fields(auto& archive, Tally& m) { transfer_all(archive, m.edges, m.clients, m.servers, m.ways); }
+void fields(auto& archive, OutputFailed& m) { transfer(archive, m.outcome); }
+void fields(auto& archive, Glance& m) { transfer_all(archive, m.unwell, m.goals); }
+void fields(auto& archive, Prompting& m) { transfer(archive, m.begins); }
 
 template <class Words>
 Message encode_any(Words& words, std::uint64_t request) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/graph/loader.hpp"
@@ -80,6 +81,9 @@ class Life {
  public:
   Life(Channel& channel, const std::vector<std::string>& plugin_folders)
       : channel_(channel), catalogue_(plugin::PluginIndex(plugin_folders)) {}
+  ~Life() { LiveLine::on_pause(nullptr); }
+  Life(const Life&) = delete;
+  Life& operator=(const Life&) = delete;
 
   Status live() {
     die_with_supervisor(true);
@@ -106,12 +110,15 @@ class Life {
     set_process_name(setup.process);
     set_steady_epoch(wishes->epoch);
     log::set_level(log::Level::off);  // the supervisor writes the log
+    log::set_clock([start = wishes->start] { return TimePoint(steady_now() - start); });
     reports_.emplace(channel_, wishes->log_level);
+    LiveLine::on_pause([this](bool begins) { reports_->send(Prompting{begins}); });
     if (Status loaded = load(setup); !loaded.ok()) return loaded;
     Result<RunPage> page = RunPage::map(std::move(setup.run_page), graph::processes_of(*whole_).size(),
                                         whole_->components.size());
     if (!page) return page.error();
     page_.emplace(std::move(page).value());
+    shows_ = wishes->outputs.looks_on;
     return make_part(setup.process, *wishes);
   }
 
@@ -125,6 +132,7 @@ class Life {
   }
 
   Status make_part(const std::string& process, const RunWishes& wishes) {
+    executor_ = wishes.executor;
     const std::vector<graph::ProcessNode> processes = graph::processes_of(*whole_);
     const auto node = std::ranges::find(processes, process, &graph::ProcessNode::name);
     if (node == processes.end()) return fail(Code::data_loss, "nothing runs in process \"" + process + "\"");
@@ -137,17 +145,30 @@ class Life {
     host::PartOptions options{wishes.seed,
                               wishes.failures,
                               process,
-                              node->hang_limit,
+                              is_declared(process) ? node->hang_limit : Duration{0},
                               &page_->missions(),
-                              [this](const std::string& component) { return &doorbell(component); }};
+                              {},
+                              wishes.outputs};
+    if (processes.size() > 1)
+      options.doorbell = [this](const std::string& component) { return &doorbell(component); };
     part_.emplace(*whole_, process, host::PartPlace{catalogue_, *executive_, *reports_}, options);
     return ok();
   }
 
   ExecutiveOptions executive_options(const graph::ProcessNode& node) {
-    ExecutiveOptions options{ClockKind::steady, node.executor, node.spin};
-    if (node.executor == Backend::fiber) options.doorbell = &page_->process_doorbell(index_);
+    ExecutiveOptions options{ClockKind::steady, executor_of(node), node.spin};
+    if (options.backend == Backend::fiber) options.doorbell = &page_->process_doorbell(index_);
     return options;
+  }
+
+  // A process that the graph does not declare is everything: a component that computes for long does not end it.
+  [[nodiscard]] bool is_declared(const std::string& process) const {
+    return std::ranges::find(whole_->processes, process, &graph::ProcessNode::name) !=
+           whole_->processes.end();
+  }
+
+  [[nodiscard]] Backend executor_of(const graph::ProcessNode& node) const {
+    return executor_.value_or(node.executor);
   }
 
   // Returns the word that wakes a component, in whatever process it is. Fibers have one word together.
@@ -155,7 +176,7 @@ class Life {
     const auto component = std::ranges::find(whole_->components, name, &graph::ComponentNode::name);
     const std::vector<graph::ProcessNode> processes = graph::processes_of(*whole_);
     const auto process = std::ranges::find(processes, component->process, &graph::ProcessNode::name);
-    if (process->executor == Backend::fiber)
+    if (executor_of(*process) == Backend::fiber)
       return page_->process_doorbell(static_cast<std::size_t>(process - processes.begin()));
     return page_->doorbell(static_cast<std::size_t>(component - whole_->components.begin()));
   }
@@ -166,12 +187,13 @@ class Life {
   }
 
   void work() {
-    stop_.on_crash([this] { part_->stop_motors(); });
+    stop_.on_crash([this] { part_->prepare_for_death(); });
     stop_.on_request([this] { part_->order({.kind = host::PartOrder::Kind::take_down}); });
     {
-      const OrderDesk desk(channel_, *part_, *reports_, page_->heartbeat(index_));
+      const OrderDesk desk(channel_, *part_, *reports_, page_->heartbeat(index_), shows_);
       die_with_supervisor(false);  // the desk sees its end, and stops the motors first
       part_->run();
+      part_->write_outputs();
       die_with_supervisor(true);
     }
     stop_.on_request(nullptr);
@@ -185,7 +207,9 @@ class Life {
   std::optional<ReportSender> reports_;
   std::optional<graph::Graph> whole_;
   std::optional<RunPage> page_;
-  std::size_t index_ = 0;  // of this process, among processes_of()
+  std::size_t index_ = 0;            // of this process, among processes_of()
+  std::optional<Backend> executor_;  // that the command line asks for
+  bool shows_ = false;
   std::unique_ptr<Executive> executive_;
   std::optional<host::HostedPart> part_;
 };

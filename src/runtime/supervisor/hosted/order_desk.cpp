@@ -16,6 +16,7 @@ namespace orca::supervisor {
 namespace {
 
 constexpr int kBeatMs = 20;
+constexpr int kBeatsToGlance = 5;
 
 Descriptor make_wake() {
   Descriptor wake(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
@@ -45,11 +46,12 @@ std::optional<host::PartOrder> part_order(const Order& order) {
 }  // namespace
 
 OrderDesk::OrderDesk(Channel& channel, host::HostedPart& part, ReportSender& reports,
-                     std::atomic<std::uint32_t>& heartbeat)
+                     std::atomic<std::uint32_t>& heartbeat, bool shows)
     : channel_(channel),
       part_(part),
       reports_(reports),
       heartbeat_(heartbeat),
+      shows_(shows),
       wake_(make_wake()),
       thread_([this] {
         pthread_setname_np(pthread_self(), "orders");
@@ -63,7 +65,8 @@ OrderDesk::~OrderDesk() {
 }
 
 void OrderDesk::work() {
-  while (!ending_.load()) {
+  for (int beats = 0; !ending_.load(); ++beats) {
+    if (shows_) show_now_and_then(beats);
     heartbeat_.fetch_add(1, std::memory_order_relaxed);
     wait();
     (void)channel_.flush();  // its error comes back from receive()
@@ -75,6 +78,10 @@ void OrderDesk::wait() const {
   const short events = channel_.has_unsent() ? POLLIN | POLLOUT : POLLIN;
   pollfd fds[] = {{channel_.descriptor(), events, 0}, {wake_.number(), POLLIN, 0}};
   poll(fds, 2, kBeatMs);
+}
+
+void OrderDesk::show_now_and_then(int beats) {
+  if (beats % kBeatsToGlance == 0) reports_.show(part_.look());
 }
 
 void OrderDesk::receive() {
@@ -112,7 +119,7 @@ void OrderDesk::pass_on(host::PartOrder order, std::uint64_t request) {
 
 // Nobody is left who could stop this process, so it stops itself: the motors first.
 void OrderDesk::leave(const Error& reason) {
-  part_.stop_motors();
+  part_.prepare_for_death();
   log::error("supervisor", reason.message + "; the robot is stopped and this process ends");
   std::_Exit(EXIT_FAILURE);
 }

@@ -19,8 +19,9 @@ namespace orca::supervisor {
 class OrderDesk {
  public:
   /// @param heartbeat  word of this process in the run page.
+  /// @param shows      whether to report again and again what the part is like.
   OrderDesk(Channel& channel, host::HostedPart& part, ReportSender& reports,
-            std::atomic<std::uint32_t>& heartbeat);
+            std::atomic<std::uint32_t>& heartbeat, bool shows);
   ~OrderDesk();
   OrderDesk(const OrderDesk&) = delete;
   OrderDesk& operator=(const OrderDesk&) = delete;
@@ -28,6 +29,7 @@ class OrderDesk {
  private:
   void work();
   void wait() const;
+  void show_now_and_then(int beats);
   void receive();
   void carry_out(Order order, std::uint64_t request);
   void pass_on(host::PartOrder order, std::uint64_t request);
@@ -37,6 +39,7 @@ class OrderDesk {
   host::HostedPart& part_;
   ReportSender& reports_;
   std::atomic<std::uint32_t>& heartbeat_;
+  const bool shows_;
   const Descriptor wake_;
   std::atomic<bool> ending_{false};
   std::thread thread_;  // the last member: it uses the others

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orca/idl/object_type.hpp"
+#include "tallying.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -45,6 +46,22 @@ void ReportSender::goal_failed(const idl::GoalFailed& failed) { send(GoalFailedR
 void ReportSender::contact(const idl::Contact& contact) { send(ContactReport{bytes_of(contact)}); }
 
 void ReportSender::alarm(const idl::Alarm& alarm) { send(AlarmReport{bytes_of(alarm)}); }
+
+void ReportSender::counted(const host::RunCounters& counters, const std::vector<host::RunResult::Way>& ways) {
+  send(to_tally(counters, ways));
+}
+
+// The last thing that a process says, so it waits until it is said.
+void ReportSender::output_failed(const Error& error) {
+  (void)channel_.send(encode(Report(OutputFailed{error})), kLastLimit);
+}
+
+void ReportSender::show(const host::RunGlance& glance) {
+  Message message = encode(Report(to_report(glance)));
+  if (message.body == shown_) return;
+  shown_ = message.body;
+  (void)channel_.post(std::move(message));
+}
 
 void ReportSender::abandon(const host::RunResult& result) {
   (void)channel_.send(encode(Report(LastWordsReport{result.error ? result.error->text() : ""})), kLastLimit);

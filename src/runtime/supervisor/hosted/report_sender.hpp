@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "orca/base/log.hpp"
 #include "orca/host/hosted_part.hpp"
@@ -28,10 +30,16 @@ class ReportSender final : public host::PartListener {
   void goal_failed(const idl::GoalFailed& failed) override;
   void contact(const idl::Contact& contact) override;
   void alarm(const idl::Alarm& alarm) override;
+  void counted(const host::RunCounters& counters, const std::vector<host::RunResult::Way>& ways) override;
+  void output_failed(const Error& error) override;
+  /// Sends what the part is like, if that has changed since it was sent last.
+  /// @thread  one at a time.
+  void show(const host::RunGlance& glance);
   [[noreturn]] void abandon(const host::RunResult& result) override;
 
  private:
   Channel& channel_;
+  std::vector<std::byte> shown_;  // the last Glance
   const log::Listener log_;
 };
 

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "orca/base/executive.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/host/planned_failure.hpp"
+#include "orca/host/run_outputs.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 
 namespace orca::supervisor {
@@ -17,7 +20,10 @@ struct RunWishes {
   std::uint64_t seed = 1;
   log::Level log_level = log::Level::info;
   Duration epoch{0};  ///< What the clock of all processes adds to the system's steady clock [s].
+  TimePoint start;    ///< Of the run, for the log.
+  std::optional<Backend> executor;  ///< None: as the graph says.
   std::vector<host::PlannedFailure> failures;
+  host::RunOutputs outputs;  ///< Of this process.
 };
 
 /// Returns the wishes as the options of a Setup.

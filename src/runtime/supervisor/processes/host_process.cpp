@@ -82,6 +82,11 @@ std::vector<std::string> HostProcess::take_output() {
   return lines_->finish();
 }
 
+std::string HostProcess::take_unfinished_line() {
+  const std::vector<std::string> rest = lines_->finish();
+  return rest.empty() ? "" : rest.front();
+}
+
 void HostProcess::end(Moment now, const EndLimits& limits, std::uint64_t request) {
   if (exit_ || kill_at_) return;
   term_at_ = now + limits.when_asked;

@@ -154,10 +154,17 @@ Status collect_faults(int faults, const HostStart& start, std::vector<std::strin
   return ok();
 }
 
+// A descriptor for the child's stdin.
+Descriptor make_input(bool shares_input) {
+  Descriptor shared(shares_input ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, kAboveAll) : -1);
+  if (shared) return shared;
+  const Descriptor null = checked(open("/dev/null", O_RDONLY | O_CLOEXEC));
+  return checked(fcntl(null.number(), F_DUPFD_CLOEXEC, kAboveAll));
+}
+
 Child make_child(const HostStart& start, const Descriptor& channel) {
   Child child{};
-  child.input = checked(open("/dev/null", O_RDONLY | O_CLOEXEC));
-  child.input = checked(fcntl(child.input.number(), F_DUPFD_CLOEXEC, kAboveAll));
+  child.input = make_input(start.shares_input);
   child.channel = checked(fcntl(channel.number(), F_DUPFD_CLOEXEC, kAboveAll));
   for (const std::string& argument : start.arguments)
     child.arguments.push_back(const_cast<char*>(argument.c_str()));

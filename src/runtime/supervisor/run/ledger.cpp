@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "hosted/tallying.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
+#include "orca/graph/placement.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/robot_finder.hpp"
 #include "orca/idl/object_type.hpp"
@@ -24,8 +26,8 @@ Result<T> read(const ObjectReport<kind>& report) {
 
 }  // namespace
 
-Ledger::Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start)
-    : graph_(graph), listener_(listener), start_(start) {
+Ledger::Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start, std::string log_name)
+    : graph_(graph), listener_(listener), start_(start), log_name_(std::move(log_name)) {
   for (const graph::ComponentNode& node : graph.components) components_[node.name] = {};
   so_far_.start = start;
   listener_.started(start);
@@ -49,7 +51,24 @@ Status Ledger::take(const Report& report, const std::string& process) {
     return ok();
   }
   if (const auto* change = std::get_if<StateChange>(&report)) return take_change(*change);
-  return take_object(report);
+  return take_figures(report, process);
+}
+
+Status Ledger::take_figures(const Report& report, const std::string& process) {
+  if (const auto* tally = std::get_if<Tally>(&report)) {
+    tallies_[process] = *tally;
+    return ok();
+  }
+  if (const auto* failed = std::get_if<OutputFailed>(&report)) {
+    if (!failed->outcome.ok() && !output_error_) output_error_ = failed->outcome.error();
+    return ok();
+  }
+  if (const auto* glance = std::get_if<Glance>(&report)) {
+    const std::lock_guard lock(mutex_);
+    glances_[process] = *glance;
+    return ok();
+  }
+  return take_object(report, process);
 }
 
 Status Ledger::take_change(const StateChange& change) {
@@ -62,7 +81,7 @@ Status Ledger::take_change(const StateChange& change) {
   return ok();
 }
 
-Status Ledger::take_object(const Report& report) {
+Status Ledger::take_object(const Report& report, const std::string& process) {
   if (const auto* arrived = std::get_if<ArrivedReport>(&report)) {
     Result<idl::Arrived> object = read<idl::Arrived>(*arrived);
     if (!object) return object.error();
@@ -81,28 +100,30 @@ Status Ledger::take_object(const Report& report) {
   } else if (const auto* alarm = std::get_if<AlarmReport>(&report)) {
     Result<idl::Alarm> object = read<idl::Alarm>(*alarm);
     if (!object) return object.error();
-    note(std::move(object).value());
+    note(std::move(object).value(), process);
   }
   return ok();
 }
 
-void Ledger::note(idl::Alarm alarm) {
+void Ledger::note(idl::Alarm alarm, const std::string& process) {
   listener_.alarm(alarm);
+  alarms_.take(alarm, process);
   const std::lock_guard lock(mutex_);
   so_far_.alarms.push_back(std::move(alarm));
 }
 
-void Ledger::raise(host::AlarmKind kind, const std::string& component, const std::string& text) {
-  idl::Alarm alarm = host::make_alarm(kind, component, "", text);
+void Ledger::raise(host::AlarmKind kind, const std::string& process, const std::string& text) {
+  idl::Alarm alarm = host::make_alarm(kind, "", "", text);
   alarm.creation_time(to_time_value(steady_now()));
   alarm.stamp(alarm.creation_time());
-  host::log_alarm(alarm, "supervisor");
-  note(std::move(alarm));
+  host::log_alarm(alarm, log_name_);
+  note(std::move(alarm), process);
 }
 
 void Ledger::lose(const std::string& process, const std::string& why) {
   restless_.erase(process);
   const std::lock_guard lock(mutex_);
+  glances_.erase(process);
   for (const graph::ComponentNode& node : graph_.components) {
     if (node.process != process) continue;
     host::ComponentReport& report = components_[node.name];
@@ -123,6 +144,11 @@ host::Reports Ledger::reports() const {
   };
 }
 
+std::optional<host::RunCounters> Ledger::counters() const {
+  if (tallies_.size() < graph::processes_of(graph_).size()) return std::nullopt;
+  return counters_of(graph_, tallies_);
+}
+
 host::RunGlance Ledger::look() const {
   host::RunGlance glance;
   glance.time = steady_now() - start_;
@@ -133,6 +159,7 @@ host::RunGlance Ledger::look() const {
     if (report.ended_badly || host::is_unsettled(report.state))
       glance.unwell.push_back({node.name, host::to_string(report.state)});
   }
+  for (const auto& [process, shown] : glances_) add(shown, glance);
   if (!so_far_.alarms.empty()) glance.last_alarm = host::alarm_text(so_far_.alarms.back());
   return glance;
 }
@@ -145,6 +172,8 @@ void Ledger::fill(host::RunResult& result) const {
   result.contacts = so_far_.contacts;
   result.alarms = so_far_.alarms;
   result.robots = robots_;
+  result.counters = counters_of(graph_, tallies_);
+  result.ways = ways_of(tallies_);
 }
 
 }  // namespace orca::supervisor

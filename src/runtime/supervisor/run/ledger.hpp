@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "orca/graph/graph.hpp"
 #include "orca/host/alarm.hpp"
+#include "orca/host/alarm_store.hpp"
 #include "orca/host/component_report.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/host/run_result.hpp"
@@ -24,7 +28,9 @@ namespace orca::supervisor {
 class Ledger final : public host::RunView {
  public:
   /// @param start  time of the run's clock, which all stamps refer to.
-  Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start);
+  /// @param log_name  name in the log for what concerns the run as a whole.
+  Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start,
+         std::string log_name = "supervisor");
 
   /// Takes a report of a host process.
   /// @errors  data_loss if it cannot be: the process is not to be trusted any more.
@@ -34,12 +40,24 @@ class Ledger final : public host::RunView {
   void lose(const std::string& process, const std::string& why);
 
   /// Raises an alarm of the supervisor itself, and writes it to the log.
-  void raise(host::AlarmKind kind, const std::string& component, const std::string& text);
+  /// @param process  that the alarm is about; empty: not one alone.
+  void raise(host::AlarmKind kind, const std::string& process, const std::string& text);
+
+  /// Returns the alarms of all processes and of the supervisor that nobody has acknowledged yet, by number. They outlive
+  /// their sources.
+  [[nodiscard]] const std::vector<host::KeptAlarm>& alarms() const { return alarms_.kept(); }
+  /// Takes an alarm out.
+  /// @errors  not_found.
+  Status acknowledge(std::uint64_t alarm) { return alarms_.acknowledge(alarm); }
 
   /// Reports which robots there are, by their hardware, once all processes are built.
   void introduce();
 
   [[nodiscard]] host::Reports reports() const;
+  /// Returns what the connections of all processes carried; nothing unless each has told it.
+  [[nodiscard]] std::optional<host::RunCounters> counters() const;
+  /// Returns why an output could not be written; nothing if all could.
+  [[nodiscard]] const std::optional<Error>& output_error() const { return output_error_; }
   /// Returns whether all processes are at rest.
   [[nodiscard]] bool at_rest() const { return restless_.empty(); }
 
@@ -49,19 +67,25 @@ class Ledger final : public host::RunView {
 
  private:
   Status take_change(const StateChange& change);
-  Status take_object(const Report& report);
-  void note(idl::Alarm alarm);
+  Status take_figures(const Report& report, const std::string& process);
+  Status take_object(const Report& report, const std::string& process);
+  void note(idl::Alarm alarm, const std::string& process);
 
   const graph::Graph& graph_;
   host::RunListener& listener_;
   const TimePoint start_;
+  const std::string log_name_;
   std::map<std::string, std::string> robots_by_hardware_;
   std::set<std::string> restless_;  // processes
   host::RobotNames robots_;
+  host::AlarmStore alarms_;
+  std::map<std::string, Tally> tallies_;  // by process
+  std::optional<Error> output_error_;
 
   mutable std::mutex mutex_;
   // Below: guarded by mutex_.
   std::map<std::string, host::ComponentReport> components_;
+  std::map<std::string, Glance> glances_;  // by process
   host::RunResult so_far_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "member.hpp"
 
+#include <unistd.h>
+
 #include <string_view>
 
 namespace orca::supervisor {
@@ -30,11 +32,11 @@ void Member::tell(Order order) {
   if (process_ != nullptr) (void)process_->channel().post(encode(std::move(order)));
 }
 
-void Member::end(Moment now, Answered answered) {
+void Member::end(Moment now, const EndLimits& limits, Answered answered) {
   if (process_ == nullptr) return;
   phase_ = Phase::going_down;
   open_.emplace(++last_request_, std::move(answered));
-  process_->end(now, EndLimits{}, last_request_);
+  process_->end(now, limits, last_request_);
 }
 
 void Member::take_answer(std::uint64_t request, const Status& outcome) {
@@ -61,6 +63,20 @@ void Member::look(Moment now) {
 
 std::string Member::last_words(Moment now) const { return now - words_at_ < kJustBefore ? words_ : ""; }
 
+void Member::prompt(bool begins) {
+  if (!begins) {
+    prompts_.reset();
+  } else if (!prompts_) {
+    prompts_.emplace();
+  }
+}
+
+void Member::pass_on_question() {
+  if (!prompts_ || process_ == nullptr) return;
+  const std::string question = process_->take_unfinished_line();
+  if (!question.empty() && write(STDERR_FILENO, question.data(), question.size()) < 0) prompts_.reset();
+}
+
 void Member::lose_channel(Moment now) {
   if (!deaf_since_) deaf_since_ = now;
 }
@@ -70,6 +86,7 @@ void Member::forget() {
   open_.clear();
   words_.clear();
   deaf_since_.reset();
+  prompts_.reset();
   phase_ = Phase::absent;
 }
 

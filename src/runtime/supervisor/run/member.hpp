@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "orca/base/live_line.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/process.hpp"
 #include "orca/supervisor/channel.hpp"
@@ -43,7 +44,7 @@ class Member {
   /// Sends an order that nobody waits for.
   void tell(Order order);
   /// Orders the process to end, and sees to it that it does.
-  void end(Moment now, Answered answered);
+  void end(Moment now, const EndLimits& limits, Answered answered);
   /// Takes the answer to an order.
   void take_answer(std::uint64_t request, const Status& outcome);
 
@@ -53,6 +54,12 @@ class Member {
   void heard_last_words(const std::string& words, Moment now);
   /// Returns why the process has ended by its own words, which it said just before; empty: it said nothing.
   [[nodiscard]] std::string last_words(Moment now) const;
+
+  /// Notes whether the process asks the user something. Meanwhile what it writes without an end of the line is on the
+  /// terminal, and the line of progress is not.
+  void prompt(bool begins);
+  /// Writes to stderr what the process asks the user.
+  void pass_on_question();
 
   /// Notes that nothing can be received from the process any more.
   void lose_channel(Moment now);
@@ -82,6 +89,7 @@ class Member {
   std::string words_;  // the last that sounded like last words
   Moment words_at_{};
   std::optional<Moment> deaf_since_;
+  std::optional<LiveLine::Pause> prompts_;  // while it asks the user
 };
 
 }  // namespace orca::supervisor

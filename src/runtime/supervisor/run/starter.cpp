@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "hosted/run_wishes.hpp"
+#include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/print.hpp"
+#include "orca/supervisor/outputs.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -18,11 +20,12 @@ constexpr std::uint64_t kReserved = std::uint64_t{1} << 30;  // [bytes] of stack
 }  // namespace
 
 Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunPage& page,
-                 const Members& all)
+                 const Members& all, TimePoint start)
     : graph_(graph),
       options_(options),
       page_(page),
       all_(all),
+      start_(start),
       graph_text_(graph::print(graph)),
       wiring_(graph) {}
 
@@ -49,13 +52,32 @@ HostStart Starter::host_start(const Member& member) const {
           options_.arguments,
           memory ? std::optional(2 * *memory + kReserved) : std::nullopt,
           member.node().processors,
-          member.node().priority.value_or(0)};
+          member.node().priority.value_or(0),
+          true};
 }
 
-Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) const {
-  const RunWishes wishes{options_.seed.value_or(graph_.seed.value_or(1)), options_.log_level, steady_epoch(),
-                         options_.planned_failures};
+Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
+  const RunWishes wishes{options_.seed.value_or(graph_.seed.value_or(1)),
+                         options_.log_level,
+                         steady_epoch(),
+                         start_,
+                         options_.executor,
+                         options_.planned_failures,
+                         outputs_for(member)};
   return {member.name(), graph_text_, to_pairs(wishes), page_.descriptor(), std::move(edges)};
+}
+
+// A process that is started again would overwrite what was written before.
+host::RunOutputs Starter::outputs_for(const Member& member) {
+  host::RunOutputs outputs = outputs_of(graph_, member.name(), options_.outputs);
+  if (started_.insert(member.name()).second) return outputs;
+  const bool writes =
+      !outputs.trace_file.empty() || !outputs.recordings.empty() || !outputs.picture.file.empty();
+  if (writes)
+    log::warning(member.name(), "is started again; its trace, recordings or picture end where it was lost");
+  host::RunOutputs none;
+  none.looks_on = outputs.looks_on;
+  return none;
 }
 
 // Gives the processes that run already the other end of the new edges.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,9 @@ using Members = std::vector<Member*>;
 class Starter {
  public:
   /// All of these outlive the object.
+  /// @param start  of the run, which the log counts from.
   Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunPage& page,
-          const Members& all);
+          const Members& all, TimePoint start);
 
   /// Starts processes that do not run, all together, and renews the edges to those that do. The bring-up begins when
   /// the caller calls begin() with the returned setups.
@@ -41,15 +43,18 @@ class Starter {
 
  private:
   [[nodiscard]] HostStart host_start(const Member& member) const;
-  [[nodiscard]] Setup setup(const Member& member, std::vector<EdgeMemory> edges) const;
+  [[nodiscard]] Setup setup(const Member& member, std::vector<EdgeMemory> edges);
+  [[nodiscard]] host::RunOutputs outputs_for(const Member& member);
   void renew_others(const Members& started, Wiring::Lots& lots);
 
   const graph::Graph& graph_;
   const SupervisedOptions& options_;
   const RunPage& page_;
   const Members& all_;
+  const TimePoint start_;
   const std::string graph_text_;
   const Wiring wiring_;
+  std::set<std::string> started_;  // processes that have been started once
 };
 
 }  // namespace orca::supervisor

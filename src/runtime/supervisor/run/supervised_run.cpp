@@ -2,19 +2,18 @@
 #include "orca/supervisor/supervised_run.hpp"
 
 #include <algorithm>
-#include <map>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "bring_up.hpp"
+#include "conclusion.hpp"
 #include "ledger.hpp"
 #include "member.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/host/alarm.hpp"
-#include "orca/host/verdict.hpp"
+#include "orca/host/idleness.hpp"
 #include "orca/supervisor/heartbeats.hpp"
 #include "orca/supervisor/restart_policy.hpp"
 #include "orca/supervisor/run_page.hpp"
@@ -32,6 +31,9 @@ constexpr Duration kRestLimit = 1s;
 constexpr Duration kLook = 50ms;     // between two looks at everything
 constexpr int kMostReads = 32;       // of what a process has printed, after its end
 constexpr int kMostMessages = 1000;  // of one process at a time
+// What a process may take to end, and if there is no hurry and it has much to write.
+constexpr EndLimits kHurry{1900ms, 500ms};
+constexpr EndLimits kLeisure{30s, 500ms};
 
 std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph) {
   std::vector<std::unique_ptr<Member>> members;
@@ -65,18 +67,21 @@ class SupervisedRun {
         page_(std::move(page)),
         members_(make_members(graph)),
         all_(pointers_to(members_)),
-        starter_(graph, options, page_, all_),
-        ledger_(graph, listener, start_),
+        starter_(graph, options, page_, all_, start_),
+        ledger_(graph, listener, start_, options.log_name),
         policy_(nodes_of(members_), graph.supervision) {}
 
   host::RunResult execute() {
     stop_.on_request([this] { poller_.wake(); });
-    if (options_.looks_on) listener_.built(ledger_);
-    start(all_);
+    if (options_.outputs.looks_on) listener_.built(ledger_);
+    if (!stop_.requested()) start(all_);
     while (!is_over()) turn(next_time());
-    if (ends_well()) wait_for_rest();
-    judge();
+    if (conclusion_.ends_well()) wait_for_rest();
+    const bool was_well = !conclusion_.has_failed();
+    if (conclusion_.has_come_up()) conclusion_.judge();
     take_down();
+    if (was_well) report_idleness();
+    if (const auto& lost = ledger_.output_error()) conclusion_.fail_late(*lost);
     stop_.on_request(nullptr);
     host::RunResult result = this->result();
     listener_.ended(result);
@@ -89,7 +94,7 @@ class SupervisedRun {
   // Starts processes that do not run, all together.
   void start(const Members& members) {
     Result<std::vector<Setup>> setups = starter_.start(members);
-    if (!setups) return fail_start(setups.error());
+    if (!setups) return refuse(setups.error());
     for (const Member* member : members) {
       for (const std::string& warning : member->process()->warnings()) log::warning(member->name(), warning);
       beats_.watch(member->index(), member->node().hang_limit);
@@ -103,28 +108,27 @@ class SupervisedRun {
   }
 
   void built() {
-    if (!came_up_) ledger_.introduce();
+    if (!conclusion_.has_come_up()) ledger_.introduce();
   }
 
   void came_up(const Members& members) {
     for (const Member* member : members)
-      if (came_up_ && member->phase() == Phase::up)
-        log::info("supervisor", "process " + member->name() + " is back");
-    came_up_ = true;
+      if (conclusion_.has_come_up() && member->phase() == Phase::up)
+        log::info(options_.log_name, "process " + member->name() + " is back");
+    if (!conclusion_.has_come_up()) up_since_ = steady_now();
+    conclusion_.came_up();
   }
 
   void did_not_come_up(const Error& error, const Member& culprit) {
-    if (is_over_) return;
-    if (!came_up_) {
-      log::error("supervisor", error.text());
-      return fail_start(error);
-    }
+    if (conclusion_.is_over()) return;
+    if (!conclusion_.has_come_up()) return conclusion_.refuse_start(error);
     log::error(culprit.name(), "the process does not come up again: " + error.text());
     culprit.process()->end_by_force(Force::overdue, now());
   }
 
-  void fail_start(const Error& error) {
-    conclude(came_up_ ? RunOutcome::failed : RunOutcome::not_started, error);
+  void refuse(const Error& error) {
+    log::error(options_.log_name, error.text());
+    conclusion_.fail_with(error);
   }
 
   // ---- Watching
@@ -139,7 +143,7 @@ class SupervisedRun {
         members_[process]->process()->end_by_force(Force::hang, now());
     }
     std::erase_if(began_, [](const auto& bring_up) { return bring_up->is_over(); });
-    if (!is_over_) start_due();
+    if (!conclusion_.is_over()) start_due();
   }
 
   void look_after(Member& member) {
@@ -161,6 +165,7 @@ class SupervisedRun {
       member.heard(line, now());
     }
     receive(member);
+    member.pass_on_question();
     return !lines.empty();
   }
 
@@ -187,6 +192,8 @@ class SupervisedRun {
     }
     if (const auto* words = std::get_if<LastWordsReport>(&report))
       return member.heard_last_words(words->text, now()), ok();
+    if (const auto* prompting = std::get_if<Prompting>(&report))
+      return member.prompt(prompting->begins), ok();
     return ledger_.take(report, member.name());
   }
 
@@ -203,14 +210,21 @@ class SupervisedRun {
     for (const auto& bring_up : began_) bring_up->lose(member);
     ledger_.lose(member.name(), "its process " + how);
     for (const Wiring::Outer& outer : starter_.wiring().edges_at(member.name())) cut(outer, member, how);
-    if (is_over_) return;
     const std::string text = "process " + member.name() + " " + how;
-    if (unasked) ledger_.raise(host::AlarmKind::process_ended, "", text);
-    if (!came_up_) return fail_start(fail(Code::unavailable, text));
+    if (conclusion_.is_over()) return ended_late(is_normal, text);
+    if (unasked) ledger_.raise(host::AlarmKind::process_ended, member.name(), text);
+    if (!conclusion_.has_come_up()) return conclusion_.fail_with(fail(Code::unavailable, text));
     const RestartDecision decision = policy_.ended(member.index(), is_normal, now());
     if (!decision.restarts && !decision.gives_up && runs_an_end(member))
-      return conclude(RunOutcome::failed, fail(Code::unavailable, text));
+      return conclusion_.fail_with(fail(Code::unavailable, text));
     obey(decision, text);
+  }
+
+  // The run is being taken down.
+  void ended_late(bool is_normal, const std::string& text) {
+    if (is_normal) return;
+    log::error(options_.log_name, text);
+    conclusion_.fail_late(fail(Code::unavailable, text));
   }
 
   // Returns whether the end of the run waits for a component of the process.
@@ -228,7 +242,7 @@ class SupervisedRun {
   void obey(const RestartDecision& decision, const std::string& text) {
     if (decision.gives_up) {
       ledger_.raise(host::AlarmKind::gave_up, "", text + "; there were too many restarts, so the run ends");
-      return conclude(RunOutcome::failed, fail(Code::unavailable, text));
+      return conclusion_.fail_with(fail(Code::unavailable, text));
     }
     for (const std::size_t index : decision.end) end_for_restart(*members_[index]);
   }
@@ -237,7 +251,7 @@ class SupervisedRun {
   void end_for_restart(Member& member) {
     if (member.process() == nullptr) return;
     beats_.forget(member.index());
-    member.end(now(), [](const Status&) {});
+    member.end(now(), kHurry, [](const Status&) {});
   }
 
   void start_due() {
@@ -249,67 +263,56 @@ class SupervisedRun {
   // ---- Ending
 
   bool is_over() {
-    if (is_over_) return true;
-    if (stop_.requested()) return conclude_stop(), true;
-    if (options_.until && came_up_ && steady_now() >= start_ + *options_.until) return conclude_time(), true;
-    if (!came_up_ && steady_now() >= start_ + kStartLimit)
-      return fail_start(fail(Code::deadline_exceeded, "not everything came up in time")), true;
-    const std::optional<Status> end = came_up_ ? host::ending(graph_, reports_) : std::nullopt;
-    if (end) conclude(end->ok() ? RunOutcome::finished : RunOutcome::failed, *end);
-    return end.has_value();
+    if (conclusion_.is_over()) return true;
+    if (stop_.requested()) {
+      conclusion_.stop(stop_.failure());
+    } else if (!conclusion_.has_come_up()) {
+      if (steady_now() >= start_ + kStartLimit)
+        refuse(fail(Code::deadline_exceeded, "not everything came up in time"));
+    } else if (options_.until && steady_now() >= up_since_ + *options_.until) {
+      conclusion_.run_out_of_time();
+    } else {
+      conclusion_.look_at_ends();
+    }
+    return conclusion_.is_over();
   }
-
-  void conclude_stop() {
-    conclude(RunOutcome::stopped, ok());
-    if (const std::string signal = stop_.failure(); !signal.empty())
-      conclude(RunOutcome::failed,
-               fail(Code::failed_precondition, "the signal " + signal + " ended the run"));
-  }
-
-  void conclude_time() {
-    conclude(RunOutcome::time_is_up, ok());
-    if (!graph_.ends.empty())
-      log::info("supervisor", "the time limit has ended the run before these were done: " +
-                                  listed(host::unfinished(graph_, reports_)));
-  }
-
-  void conclude(RunOutcome outcome, const Status& status) {
-    is_over_ = true;
-    outcome_ = outcome;
-    if (!status.ok()) error_ = status.error();
-  }
-
-  [[nodiscard]] bool ends_well() const { return outcome_ == RunOutcome::finished; }
 
   void wait_for_rest() {
     const Moment limit = now() + kRestLimit;
     while (!ledger_.at_rest() && now() < limit && !stop_.requested()) turn(limit);
   }
 
-  // Makes the run a failure if a component has ended in WORK_FAILED that the graph does not allow to.
-  void judge() {
-    if (error_) return;
-    const std::vector<std::string> failed = host::failed_components(graph_, reports_);
-    for (const std::string& name : failed) log::error(name, host::kMayFailHint);
-    if (!failed.empty()) conclude(RunOutcome::failed, host::failure_of(failed, reports_));
-  }
-
   void take_down() {
     end_ = steady_now();
     for (const auto& member : members_) {
       beats_.forget(member->index());
-      member->end(now(), [name = member->name()](const Status& outcome) {
-        if (!outcome.ok()) log::error(name, outcome.error().text() + "; the process is ended without it");
-      });
+      const auto answered = [this, &member = *member](const Status& outcome) { taken_down(member, outcome); };
+      member->end(now(), stop_.requested() ? kHurry : kLeisure, answered);
     }
     const auto is_gone = [](const auto& member) { return member->process() == nullptr; };
     while (!std::ranges::all_of(members_, is_gone)) turn(now() + kLook);
   }
 
+  // Ends a process by force that cannot end all its strands.
+  void taken_down(Member& member, const Status& outcome) {
+    if (outcome.ok()) return;
+    log::error(member.name(), outcome.error().text() + "; the process is ended without it");
+    member.process()->end_by_force(Force::overdue, now());
+  }
+
+  // Says what did not happen in a run that went well.
+  void report_idleness() {
+    const auto counters = ledger_.counters();
+    if (!conclusion_.has_come_up() || !counters || end_ - up_since_ < host::kShortRun) return;
+    for (const auto& [who, text] : host::find_idleness(graph_, reports_, *counters))
+      log::warning(who.empty() ? options_.log_name : who, text);
+  }
+
   // Returns when there is something to do although nothing happens.
   [[nodiscard]] Moment next_time() const {
     Moment next = now() + kLook;
-    if (options_.until) next = std::min(next, to_steady(start_ + *options_.until));
+    if (options_.until && conclusion_.has_come_up())
+      next = std::min(next, to_steady(up_since_ + *options_.until));
     next = std::min(next, beats_.due().value_or(next));
     return std::min(next, policy_.due().value_or(next));
   }
@@ -318,10 +321,7 @@ class SupervisedRun {
 
   [[nodiscard]] host::RunResult result() const {
     host::RunResult result;
-    result.outcome = outcome_;
-    result.error = error_;
-    if (error_ && (graph_.find_component(error_->where) || graph_.find_hardware(error_->where)))
-      result.culprit = error_->where;
+    conclusion_.fill(result);
     ledger_.fill(result);
     result.end = end_;
     return result;
@@ -346,11 +346,9 @@ class SupervisedRun {
   Poller poller_;
   Heartbeats beats_{page_};
   std::vector<std::unique_ptr<BringUp>> began_;
-  bool came_up_ = false;
-  bool is_over_ = false;
+  Conclusion conclusion_{graph_, reports_, options_.log_name};
+  TimePoint up_since_ = start_;
   TimePoint end_ = start_;
-  RunOutcome outcome_ = RunOutcome::finished;
-  std::optional<Error> error_;
 };
 
 }  // namespace
@@ -359,12 +357,16 @@ host::RunResult run_supervised(const graph::Graph& graph, const SupervisedOption
                                host::StopSignal& stop, host::RunListener& listener) {
   Result<RunPage> page = RunPage::create(graph::processes_of(graph).size(), graph.components.size());
   if (!page) {
+    log::error(options.log_name, page.error().text());
     host::RunResult result;
     result.outcome = RunOutcome::not_started;
     result.error = page.error();
     return result;
   }
-  return SupervisedRun(graph, options, std::move(page).value(), stop, listener).execute();
+  log::set_clock([start = steady_now()] { return TimePoint(steady_now() - start); });
+  host::RunResult result = SupervisedRun(graph, options, std::move(page).value(), stop, listener).execute();
+  log::set_clock(nullptr);
+  return result;
 }
 
 }  // namespace orca::supervisor

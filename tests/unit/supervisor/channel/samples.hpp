@@ -47,7 +47,10 @@ inline std::vector<supervisor::Report> all_reports() {
                          Built{{{"hardware", "scout"}}}, StateChange{"avoid", 6, "no echo", true, true, true},
                          RestChange{true}, ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()},
                          ContactReport{{}}, AlarmReport{some_bytes()},
-                         Logged{log::Level::warning, "avoid", "text"}, LastWordsReport{"SIGSEGV"});
+                         Logged{log::Level::warning, "avoid", "text"}, LastWordsReport{"SIGSEGV"},
+                         Tally{{{"3", {1, 2}}}, {{"goto.send", {4}}}, {}, {{"base", {12'000}}}},
+                         OutputFailed{fail(Code::unavailable, "no space", "run.csv")},
+                         Glance{{{"scout", "Fault"}}, {{"kitchen", {2'500}}}}, Prompting{false});
 }
 
 }  // namespace orca::test

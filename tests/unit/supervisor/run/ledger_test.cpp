@@ -115,3 +115,19 @@ TEST_CASE("robots are introduced by the hardware of all processes", "[supervisor
   CHECK(hearing.known.robots == std::vector<std::string>{"Dewey"});
   CHECK(hearing.known.of("base") == "Dewey");
 }
+
+TEST_CASE("alarms of a process stay when it is lost, until they are acknowledged", "[supervisor][ledger]") {
+  const graph::Graph graph = system();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  const idl::Alarm failed = host::make_alarm(host::AlarmKind::failed, "goto", "work()", "it threw 7");
+  REQUIRE(ledger.take(AlarmReport{bytes_of(failed)}, "behaviours").ok());
+  ledger.lose("behaviours", "it was ended");
+  ledger.raise(host::AlarmKind::process_ended, "behaviours", "process behaviours was ended");
+  REQUIRE(ledger.alarms().size() == 2);
+  CHECK(ledger.alarms()[0].alarm.source() == "goto");
+  CHECK(ledger.alarms()[1].process == "behaviours");
+  REQUIRE(ledger.acknowledge(ledger.alarms()[0].number).ok());
+  REQUIRE(ledger.alarms().size() == 1);
+  CHECK(ledger.alarms()[0].alarm.kind() == "PROCESS_ENDED");
+}

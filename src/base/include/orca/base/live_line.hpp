@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string_view>
 
 namespace orca {
@@ -25,6 +26,11 @@ class LiveLine {
   /// @param terminal  a descriptor that stays open.
   /// @param text      printable, and shorter than the terminal is wide.
   static void show(int terminal, std::string_view text);
+
+  /// Calls `changed` with true when a Pause begins and there is no other, and with false when the last one ends; null: not
+  /// any more. For a process whose terminal shows the line of another one.
+  /// @param changed  is called on the thread of the Pause. It must not make a Pause itself.
+  static void on_pause(std::function<void(bool begins)> changed);
 
   /// Erases the line.
   static void erase();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "idleness.hpp"
+#include "orca/host/idleness.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -56,17 +56,18 @@ bool nothing_moved(const RunCounters& counters) {
 
 }  // namespace
 
-void report_idleness(const graph::Graph& graph, const System& system, const RunCounters& counters,
-                     Reporter& reporter) {
+std::vector<Idleness> find_idleness(const graph::Graph& graph, const Reports& reports,
+                                    const RunCounters& counters) {
+  std::vector<Idleness> found;
   for (const graph::ComponentNode& node : graph.components) {
-    const ComponentInstance& component = *system.component(node.name);
-    const bool did_something =
-        component.has_worked() || component.has_failed() || has_served(node.name, counters);
+    const ComponentReport report = reports(node.name);
+    const bool did_something = report.has_worked || report.has_failed || has_served(node.name, counters);
     if (did_something || node.on_demand || only_serves(node.name, graph)) continue;
-    reporter.log(log::Level::warning, node.name, "has never worked in this run: " + reason(node, graph));
+    found.push_back({node.name, "has never worked in this run: " + reason(node, graph)});
   }
   if (!graph.edges.empty() && nothing_moved(counters))
-    reporter.log_warning("no connection has carried anything in this run");
+    found.push_back({"", "no connection has carried anything in this run"});
+  return found;
 }
 
 }  // namespace orca::host

@@ -10,8 +10,12 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
+#include "orca/graph/port_list.hpp"
 #include "orca/host/last_words.hpp"
 #include "outer_edges.hpp"
+#include "run/counters.hpp"
+#include "run/recording/run_files.hpp"
+#include "run/sightings.hpp"
 #include "run/watched_system.hpp"
 
 namespace orca::host {
@@ -22,7 +26,9 @@ constexpr Duration kOrderLimit = 5s;
 constexpr Duration kTakeDownLimit = 1500ms;
 
 SystemOptions system_options(const PartOptions& options) {
-  return {options.seed, false, options.failures, options.log_name, options.missions, options.doorbell};
+  return {options.seed,     !options.outputs.picture.file.empty(),
+          options.failures, options.log_name,
+          options.missions, options.doorbell};
 }
 
 }  // namespace
@@ -33,16 +39,19 @@ class HostedPart::Inside {
          const PartOptions& options)
       : part_(graph::subgraph(whole, process)),
         place_(place),
+        whole_(whole),
         hang_limit_(options.hang_limit),
-        trace_(place.executive),
+        outputs_(options.outputs),
+        files_(place.executive),
         outer_(whole, options.doorbell),
-        watched_(part_, {place.catalogue, place.executive, trace_, place.listener}, system_options(options),
-                 [] { return false; }) {}
+        watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
+                 system_options(options), [] { return false; }) {}
 
   WatchedSystem& watched() { return watched_; }
   OuterEdges& outer() { return outer_; }
 
   Status build(std::map<std::size_t, Descriptor> memory) {
+    if (Status opened = open_outputs(); !opened.ok()) return opened;
     if (Status known = outer_.prepare(std::move(memory), place_.catalogue); !known.ok()) return known;
     if (Status built = watched_.build(); !built.ok()) return built;
     return outer_.connect(watched_.system());
@@ -51,6 +60,27 @@ class HostedPart::Inside {
   void run() {
     watched_.run([this] { obey(); }, [this](const std::string& component,
                                             const std::string& text) { stand_still(component, text); });
+  }
+
+  void write_outputs() {
+    if (!outputs_.picture.file.empty()) {
+      const Status drawn = write_picture(watched_.scene(), outputs_.picture, files_.picture());
+      if (!drawn.ok()) fail_output(drawn.error());
+    }
+    close_outputs();
+  }
+
+  void prepare_for_death() {
+    watched_.stop_motors();
+    files_.close_at_once();
+  }
+
+  [[nodiscard]] RunGlance look() const {
+    RunGlance glance;
+    for (RunGlance::Unwell& unwell : watched_.system().unwell())
+      if (part_.find_hardware(unwell.name) != nullptr) glance.unwell.push_back(std::move(unwell));
+    glance.goals = sightings_.goals();
+    return glance;
   }
 
   void order(PartOrder order) {
@@ -66,6 +96,24 @@ class HostedPart::Inside {
   }
 
  private:
+  Status open_outputs() {
+    const auto ports = outputs_.recordings.empty() ? std::vector<graph::ListedPort>{}
+                                                   : graph::list_ports(whole_, place_.catalogue);
+    if (Status opened = files_.open(outputs_, ports); !opened.ok()) return opened;
+    if (outputs_.looks_on) watched_.reporter().look_on(sightings_);
+    if (!outputs_.recordings.empty()) watched_.reporter().record(files_.recorder());
+    return ok();
+  }
+
+  void close_outputs() {
+    for (const Error& error : files_.close()) fail_output(error);
+  }
+
+  void fail_output(const Error& error) {
+    watched_.reporter().log_error(error.text());
+    place_.listener.output_failed(error);
+  }
+
   void obey() {
     while (!taken_down_) {
       report_changes();
@@ -139,10 +187,12 @@ class HostedPart::Inside {
   Status take_down() {
     watched_.set_hang_limit(Duration{0});  // it has its own limit
     watched_.reporter().ignore_trouble();
+    place_.listener.counted(collect_counters(whole_, watched_.system()), sightings_.ways());
     const std::vector<std::string> stuck =
         watched_.system().take_down(place_.executive.now() + kTakeDownLimit);
     taken_down_ = true;
     if (stuck.empty()) return ok();
+    close_outputs();  // the process will be ended
     return fail(Code::deadline_exceeded, listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end");
   }
 
@@ -160,7 +210,7 @@ class HostedPart::Inside {
 
   // A component hangs, and perhaps all others with it.
   void stand_still(const std::string& component, const std::string& text) {
-    watched_.stop_motors();
+    prepare_for_death();
     watched_.reporter().log(log::Level::error, component, text);
     RunResult result;
     result.outcome = RunOutcome::failed;
@@ -171,8 +221,11 @@ class HostedPart::Inside {
 
   const graph::Graph part_;
   const PartPlace place_;
+  const graph::Graph& whole_;
   const Duration hang_limit_;
-  Trace trace_;
+  const RunOutputs outputs_;
+  RunFiles files_;
+  Sightings sightings_;
   OuterEdges outer_;
   WatchedSystem watched_;
   bool taken_down_ = false;
@@ -198,6 +251,12 @@ Status HostedPart::build(std::map<std::size_t, Descriptor> memory) {
 std::map<std::string, std::string> HostedPart::robots() const { return inside_->watched().system().robots(); }
 
 void HostedPart::run() { inside_->run(); }
+
+void HostedPart::write_outputs() { inside_->write_outputs(); }
+
+void HostedPart::prepare_for_death() { inside_->prepare_for_death(); }
+
+RunGlance HostedPart::look() const { return inside_->look(); }
 
 void HostedPart::order(PartOrder order) { inside_->order(std::move(order)); }
 

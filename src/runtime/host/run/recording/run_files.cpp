@@ -3,14 +3,14 @@
 
 namespace orca::host {
 
-Status RunFiles::open(const RunOptions& options, const std::vector<graph::ListedPort>& ports) {
-  if (!options.trace_file.empty()) {
-    const auto detail = options.trace_values ? Trace::Detail::values : Trace::Detail::events;
-    if (Status opened = trace_.open(options.trace_file, detail); !opened.ok()) return opened;
+Status RunFiles::open(const RunOutputs& wanted, const std::vector<graph::ListedPort>& ports) {
+  if (!wanted.trace_file.empty()) {
+    const auto detail = wanted.trace_values ? Trace::Detail::values : Trace::Detail::events;
+    if (Status opened = trace_.open(wanted.trace_file, detail); !opened.ok()) return opened;
   }
-  if (!options.picture.file.empty())
-    if (Status opened = picture_.open(options.picture.file); !opened.ok()) return opened;
-  return options.recordings.empty() ? ok() : recorder_.open(options.recordings, ports);
+  if (!wanted.picture.file.empty())
+    if (Status opened = picture_.open(wanted.picture.file); !opened.ok()) return opened;
+  return wanted.recordings.empty() ? ok() : recorder_.open(wanted.recordings, ports);
 }
 
 std::vector<Error> RunFiles::close() {

@@ -7,7 +7,7 @@
 #include "orca/base/output_file.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/port_list.hpp"
-#include "orca/host/run_system.hpp"
+#include "orca/host/run_outputs.hpp"
 #include "recorder.hpp"
 #include "run/trace.hpp"
 
@@ -21,10 +21,10 @@ class RunFiles {
  public:
   explicit RunFiles(const Executive& executive) : trace_(executive), recorder_(executive) {}
 
-  /// Opens all files that the options name, so that a wrong name is known before anything moves. To be called once.
+  /// Opens all files that are wanted, so that a wrong name is known before anything moves. To be called once.
   /// @param ports  all ports of the graph.
   /// @errors  as OutputFile::open().
-  Status open(const RunOptions& options, const std::vector<graph::ListedPort>& ports);
+  Status open(const RunOutputs& wanted, const std::vector<graph::ListedPort>& ports);
 
   /// Writes the rest of all files and closes them. @return what could not be written.
   [[nodiscard]] std::vector<Error> close();

@@ -18,6 +18,9 @@
 #include "orca/host/component_report.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/host/run_listener.hpp"
+#include "orca/host/run_outputs.hpp"
+#include "orca/host/run_result.hpp"
+#include "orca/host/run_view.hpp"
 
 namespace orca::host {
 
@@ -52,6 +55,13 @@ class PartListener : public RunListener {
   /// Reports whether nothing is in use any more, components and hardware, each time that this has changed.
   /// @thread  the part's main task.
   virtual void rest_changed(bool at_rest) = 0;
+  /// Reports what the connections that end in this process carried, and how far its robots have driven, just before
+  /// everything is taken down.
+  /// @thread  the part's main task.
+  virtual void counted(const RunCounters& counters, const std::vector<RunResult::Way>& ways) = 0;
+  /// Reports that an output could not be written.
+  /// @thread  the part's main task, or the thread that calls HostedPart::write_outputs().
+  virtual void output_failed(const Error& error) = 0;
 };
 
 /// The options of a part.
@@ -65,6 +75,7 @@ struct PartOptions {
   std::atomic<std::uint64_t>* missions = nullptr;  ///< Number of missions begun so far, in all parts.
   /// Returns the word by which other processes wake a component of the graph, in whatever process it is.
   std::function<DoorbellWord*(const std::string& component)> doorbell{};
+  RunOutputs outputs{};  ///< Of this process.
 };
 
 /// What a part needs of its surroundings. All of it outlives the part.
@@ -76,8 +87,8 @@ struct PartPlace {
 
 /// The part of a system that this process runs. It does nothing by itself, but obeys orders.
 ///
-/// Thread contract: order(), stop_motors(), cut_edge() and renew_edge() from any thread once it is built, the rest from
-/// one.
+/// Thread contract: order(), stop_motors(), prepare_for_death(), look(), cut_edge() and renew_edge() from any thread once it
+/// is built, the rest from one.
 class HostedPart {
  public:
   /// @param whole    the graph of all processes. Outlives the object, as catalogue, executive and listener do.
@@ -88,9 +99,9 @@ class HostedPart {
   HostedPart(const HostedPart&) = delete;
   HostedPart& operator=(const HostedPart&) = delete;
 
-  /// Constructs everything and connects all edges.
+  /// Opens the outputs, constructs everything and connects all edges.
   /// @param memory  of each edge between this process and others, by its index in the graph.
-  /// @errors  with the name of what cannot be constructed.
+  /// @errors  as OutputFile::open(); with the name of what cannot be constructed.
   Status build(std::map<std::size_t, Descriptor> memory);
   /// Returns the names of the robots, by their hardware.
   /// @pre  build() has succeeded.
@@ -99,11 +110,21 @@ class HostedPart {
   /// Obeys orders until everything has been taken down.
   void run();
 
+  /// Draws the picture, and writes what is left of all outputs. The listener learns what could not be written.
+  /// @pre  run() has returned.
+  void write_outputs();
+
   /// Gives an order. Orders are carried out one after the other. One that comes after take_down is refused.
   void order(PartOrder order);
 
   /// Stops the motors and closes the hardware, while this process is about to end; waits for it, but not for long.
   void stop_motors();
+  /// Stops the motors, and writes as much of the outputs as there is, while this process is about to end.
+  void prepare_for_death();
+
+  /// Returns what the part is like at this moment: hardware that is not well, goals. The rest is the listener's to know.
+  /// @pre  it is built.
+  [[nodiscard]] RunGlance look() const;
 
   /// Cuts an edge to another process, because that is gone: whoever waits for an answer gets an error that says why.
   void cut_edge(std::size_t edge, const Error& reason);

@@ -9,25 +9,19 @@
 #include "orca/base/executive.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
-#include "orca/host/picture.hpp"
 #include "orca/host/planned_failure.hpp"
-#include "orca/host/recording.hpp"
 #include "orca/host/run_listener.hpp"
+#include "orca/host/run_outputs.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/stop_signal.hpp"
 
 namespace orca::host {
 
 /// The options of a run.
-struct RunOptions {
+struct RunOptions : RunOutputs {
   ExecutiveOptions executive;
-  std::optional<std::uint64_t> seed;  ///< None: the graph's seed, or 1 if it has none.
-  std::optional<Duration> until;      ///< Time limit [s of the run's clock]; none: no limit.
-  std::string trace_file;             ///< Empty: no trace is written.
-  bool trace_values = false;          ///< The trace shows each object that is delivered.
-  std::vector<RecordingOptions> recordings;
-  PictureOptions picture;
-  bool looks_on = false;  ///< The listener is offered a RunView, and the result has the ways of the robots.
+  std::optional<std::uint64_t> seed;             ///< None: the graph's seed, or 1 if it has none.
+  std::optional<Duration> until;                 ///< Time limit [s of the run's clock]; none: no limit.
   std::vector<PlannedFailure> planned_failures;  ///< What is to fail on purpose, in components of the graph.
   std::string log_name = "orca";                 ///< Name in the log for what concerns the run as a whole.
 };

@@ -29,7 +29,7 @@ struct EndLimits {
 
 /// A host process that the supervisor has started, and its control channel. The destructor kills it if it still runs.
 ///
-/// The process has only these descriptors: stdin is /dev/null, stdout and stderr are one pipe that never makes it wait (what
+/// The process has only these descriptors: stdin is /dev/null or that of the supervisor, stdout and stderr are one pipe that never makes it wait (what
 /// finds no room is lost), and the control channel is taken by take_channel() (orca/supervisor/own_process.hpp). Signals
 /// have their default effect, except that it ignores what a terminal sends to a whole process group to end it (SIGINT,
 /// SIGQUIT, SIGHUP): the supervisor decides how the system ends. It does not die with the supervisor by itself; it sees
@@ -59,6 +59,9 @@ class HostProcess {
   /// Returns what the process has written to stdout and stderr: whole lines, printable, without their ends. The rest of a
   /// long line is left out. One call reads a limited amount. When the process has closed both, output_descriptor() is -1.
   [[nodiscard]] std::vector<std::string> take_output();
+
+  /// Returns what it has written of a line that has no end yet, such as a question to the user, and takes it out.
+  [[nodiscard]] std::string take_unfinished_line();
 
   /// Orders the process to end (TakeDown), and begins to count its time. Does nothing if it is already being ended.
   /// @param request  of the order.

@@ -18,6 +18,7 @@ struct HostStart {
   std::optional<std::uint64_t> data_limit;
   std::vector<int> processors;  ///< Those that it may use; empty: all that the supervisor may use.
   int priority = 0;             ///< Of SCHED_FIFO, 1 to 99; 0: the normal scheduler.
+  bool shares_input = false;    ///< Its stdin is that of the supervisor; otherwise it is /dev/null.
 };
 
 }  // namespace orca::supervisor

@@ -35,6 +35,10 @@ enum class Kind : std::uint16_t {
   logged,
   last_words,
   rest_change,
+  tally,
+  output_failed,
+  glance,
+  prompting,
 };
 
 /// One message of a control channel, encoded. orca/supervisor/vocabulary.hpp gives it a meaning.

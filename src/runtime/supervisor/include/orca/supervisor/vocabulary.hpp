@@ -140,14 +140,44 @@ struct Logged {
   std::string who;
   std::string text;
 };
+/// Numbers with the name of what they count. Their order is agreed elsewhere.
+struct Counts {
+  std::string name;
+  std::vector<std::uint64_t> numbers;
+};
+/// What the process has done, just before it takes everything down.
+struct Tally {
+  static constexpr Kind kKind = Kind::tally;
+  std::vector<Counts> edges;    ///< By their ends: "a.out to b.in".
+  std::vector<Counts> clients;  ///< By the ports that send or ask.
+  std::vector<Counts> servers;  ///< By the ports that serve them.
+  std::vector<Counts> ways;     ///< By the components that tell where a robot is: how far it has driven [mm].
+};
+/// An output of the process could not be written.
+struct OutputFailed {
+  static constexpr Kind kKind = Kind::output_failed;
+  Status outcome;
+};
+/// What the process is like at this moment, for people.
+struct Glance {
+  static constexpr Kind kKind = Kind::glance;
+  Pairs unwell;               ///< Hardware that does not work as it should, and its state.
+  std::vector<Counts> goals;  ///< Places to which components drive: how far they are [mm].
+};
+/// Whether a component asks the user something on the terminal.
+struct Prompting {
+  static constexpr Kind kKind = Kind::prompting;
+  bool begins = true;
+};
 /// What a process says when it crashes.
 struct LastWordsReport {
   static constexpr Kind kKind = Kind::last_words;
   std::string text;
 };
 
-using Report = std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport,
-                            ContactReport, AlarmReport, Logged, LastWordsReport>;
+using Report =
+    std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport, ContactReport,
+                 AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance, Prompting>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/executive.hpp"
 #include "orca/base/log.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/host/run_listener.hpp"
+#include "orca/host/run_outputs.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/stop_signal.hpp"
 
@@ -20,10 +22,12 @@ struct SupervisedOptions {
   std::string program;                 ///< Path of the program of a host process.
   std::vector<std::string> arguments;  ///< What its main() gets, from argv[0] on.
   std::optional<std::uint64_t> seed;   ///< None: the graph's seed, or 1 if it has none.
-  std::optional<Duration> until;       ///< Time limit [s]; none: no limit.
+  std::optional<Duration> until;    ///< Time limit [s], counted from when everything is up; none: no limit.
+  std::optional<Backend> executor;  ///< Of all processes; none: as the graph says.
   std::vector<host::PlannedFailure> planned_failures;
   log::Level log_level = log::Level::info;
-  bool looks_on = false;  ///< The listener is offered a RunView.
+  std::string log_name = "supervisor";  ///< Name in the log for what concerns the run as a whole.
+  host::RunOutputs outputs;  ///< Checked by check_outputs(). A process that is started again writes none.
 };
 
 /// Runs a checked graph in host processes: starts them, brings everything up, watches, starts again what has died,

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/host/component_report.hpp"
+#include "orca/host/run_result.hpp"
+
+namespace orca::supervisor {
+
+/// How a supervised run ends, and why. What is worth a line goes to the log.
+///
+/// Thread contract: the supervisor's thread.
+class Conclusion {
+ public:
+  /// @param graph     outlives the object.
+  /// @param log_name  name in the log for what concerns the run as a whole.
+  Conclusion(const graph::Graph& graph, host::Reports reports, std::string log_name)
+      : graph_(graph), reports_(std::move(reports)), log_name_(std::move(log_name)) {}
+
+  [[nodiscard]] bool is_over() const { return is_over_; }
+  /// Returns whether the components that the graph names in `ends` were done.
+  [[nodiscard]] bool ends_well() const { return outcome_ == host::RunOutcome::finished; }
+  [[nodiscard]] bool has_failed() const { return error_.has_value(); }
+
+  /// Notes that everything has come up.
+  void came_up() { came_up_ = true; }
+  [[nodiscard]] bool has_come_up() const { return came_up_; }
+
+  /// Ends the run.
+  /// @param status  the reason if it fails.
+  void conclude(host::RunOutcome outcome, const Status& status);
+  /// Ends the run because something has failed: before everything has come up, it has not started.
+  void fail_with(const Error& error);
+  /// Ends the run because of an error that a host process has reported while everything came up.
+  void refuse_start(const Error& error);
+  /// Ends the run because a stop was requested.
+  /// @param signal  the signal that did, if it is not one for that purpose.
+  void stop(const std::string& signal);
+  /// Ends the run because its time limit was reached.
+  void run_out_of_time();
+  /// Ends the run if the components that the graph names in `ends` have come to an end.
+  void look_at_ends();
+
+  /// Makes the run a failure if a component has ended in WORK_FAILED that the graph does not allow to.
+  void judge();
+  /// Makes the run a failure that has ended well so far, because of what was found while it was taken down. A run that
+  /// never came up is none.
+  void fail_late(const Error& error);
+
+  void fill(host::RunResult& result) const;
+
+ private:
+  const graph::Graph& graph_;
+  const host::Reports reports_;
+  const std::string log_name_;
+  bool came_up_ = false;
+  bool is_over_ = false;
+  host::RunOutcome outcome_ = host::RunOutcome::finished;
+  std::optional<Error> error_;
+};
+
+}  // namespace orca::supervisor
