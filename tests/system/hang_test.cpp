@@ -19,7 +19,15 @@ constexpr double kEndLimit = 3.0;  // [s]
 struct Stopped {
   Run run;
   Seconds took{0};
+  bool left_behind = true;
 };
+
+// Where a plugin hangs, and what the last line says of the time that it had.
+struct Place {
+  Words words;
+  std::string when;
+};
+const std::vector<Place> kPlaces{{{"--in-process"}, "2.5 s after the signal to stop"}, {{}, "in time"}};
 
 // Sends SIGTERM after a while in which the program has come to where it hangs.
 Stopped stop(const Words& words, double after = 1.0) {
@@ -28,8 +36,9 @@ Stopped stop(const Words& words, double after = 1.0) {
   CHECK(program.group_lives());
   program.send(SIGTERM);
   const auto sent = std::chrono::steady_clock::now();
-  Stopped stopped{finish(program, Seconds(10)), {}};
+  Stopped stopped{finish(program, Seconds(10)), {}, true};
   stopped.took = std::chrono::steady_clock::now() - sent;
+  stopped.left_behind = program.group_lives();
   return stopped;
 }
 
@@ -101,14 +110,17 @@ TEST_CASE("a graph may come from a pipe that somebody writes to", "[system][sign
 
 TEST_CASE("a destructor that hangs is ended with 1 after one signal, and named", "[system][signals]") {
   if (kSanitized) return;  // they take longer to end
-  for (const std::string& until : {std::string("0.1 s"), std::string("1000 s")}) {
-    CAPTURE(until);
-    const Stopped stopped = stop(clinger({"where=destructor"}) + Words{"--until", until});
-    INFO(stopped.run.err);
-    CHECK(stopped.run.exit_code() == 1);
-    CHECK(stopped.took < Seconds(kEndLimit));
-    CHECK(stopped.run.says("error: clinger: its destructor has not ended 2.5 s after the signal to stop"));
-    CHECK(stopped.run.says("test_clinger.so"));
+  for (const Place& place : kPlaces) {
+    for (const std::string& until : {std::string("0.1 s"), std::string("1000 s")}) {
+      CAPTURE(until, place.words);
+      const Stopped stopped = stop(clinger({"where=destructor"}) + Words{"--until", until} + place.words);
+      INFO(stopped.run.err);
+      CHECK(stopped.run.exit_code() == 1);
+      CHECK(stopped.took < Seconds(kEndLimit));
+      CHECK(stopped.run.says("error: clinger: its destructor has not ended " + place.when));
+      CHECK(stopped.run.says("test_clinger.so"));
+      CHECK_FALSE(stopped.left_behind);
+    }
   }
 }
 
@@ -116,22 +128,29 @@ TEST_CASE(
     "a static destructor or an atexit handler of a plugin that hangs is ended after one signal, and named",
     "[system][signals]") {
   if (kSanitized) return;
-  for (const std::string& where : {std::string("where=static"), std::string("where=atexit")}) {
-    CAPTURE(where);
-    const Stopped stopped = stop(clinger({where}) + Words{"--until", "0.1 s"});
-    INFO(stopped.run.err);
-    CHECK(stopped.run.exit_code() == 1);
-    CHECK(stopped.took < Seconds(kEndLimit));
-    CHECK(stopped.run.says("test_clinger.so: its static destruction has not ended"));
+  for (const Place& place : kPlaces) {
+    for (const std::string& where : {std::string("where=static"), std::string("where=atexit")}) {
+      CAPTURE(where, place.words);
+      const Stopped stopped = stop(clinger({where}) + Words{"--until", "0.1 s"} + place.words);
+      INFO(stopped.run.err);
+      CHECK(stopped.run.exit_code() == 1);
+      CHECK(stopped.took < Seconds(kEndLimit));
+      CHECK(stopped.run.says("test_clinger.so: its static destruction has not ended " + place.when));
+      CHECK_FALSE(stopped.left_behind);
+    }
   }
 }
 
 TEST_CASE("a constructor that hangs before anything has started is ended with 0 after one signal, and named",
           "[system][signals]") {
   if (kSanitized) return;
-  const Stopped stopped = stop(clinger({"type=LateClinger"}));
-  INFO(stopped.run.err);
-  CHECK(stopped.run.exit_code() == 0);
-  CHECK(stopped.took < Seconds(kEndLimit));
-  CHECK(stopped.run.says("clinger: its constructor has not ended"));
+  for (const Place& place : kPlaces) {
+    CAPTURE(place.words);
+    const Stopped stopped = stop(clinger({"type=LateClinger"}) + place.words);
+    INFO(stopped.run.err);
+    CHECK(stopped.run.exit_code() == 0);
+    CHECK(stopped.took < Seconds(kEndLimit));
+    CHECK(stopped.run.says("clinger: its constructor has not ended"));
+    CHECK_FALSE(stopped.left_behind);
+  }
 }

@@ -20,7 +20,8 @@ Run act(const std::string& where, const std::string& deed, const Words& clock = 
       with_test_plugins() + clock);
 }
 
-const Words kSteady{"--clock", "steady"};
+const Words kSteady{"--clock", "steady", "--in-process"};
+const Words kHosted{"--clock", "steady"};  // in a host process
 
 std::string line_with(const std::string& text, const Run& run) {
   for (const std::string& line : split_lines(run.err))
@@ -42,7 +43,7 @@ void check_names_culprit(const std::string& line) {
 }  // namespace
 
 TEST_CASE("a component that behaves raises no alarm, with any clock", "[system][plugins]") {
-  for (const Words& clock : {virtual_clock(), kSteady}) {
+  for (const Words& clock : {virtual_clock(), kSteady, kHosted}) {
     const Run run = act("work", "none", clock);
     INFO(run.err);
     CHECK(run.exit_code() == 0);
@@ -113,7 +114,7 @@ TEST_CASE("a component that redirects stdout loses nobody's output", "[system][p
 }
 
 TEST_CASE("an exception without a text is reported by its type", "[system][plugins]") {
-  for (const Words& clock : {virtual_clock(), kSteady}) {
+  for (const Words& clock : {virtual_clock(), kSteady, kHosted}) {
     const Run run = act("work", "mute", clock);
     INFO(run.err);
     CHECK(run.exit_code() == 0);
@@ -122,8 +123,9 @@ TEST_CASE("an exception without a text is reported by its type", "[system][plugi
 }
 
 TEST_CASE("a component may use 1.2 MB of stack, with every executor", "[system][plugins]") {
-  for (const Words& clock : {virtual_clock(), kSteady, Words{"--clock", "virtual", "--executor", "baton"},
-                             Words{"--clock", "steady", "--executor", "fiber"}}) {
+  for (const Words& clock :
+       {virtual_clock(), kSteady, kHosted, Words{"--clock", "virtual", "--executor", "baton"},
+        kSteady + Words{"--executor", "fiber"}, kHosted + Words{"--executor", "fiber"}}) {
     const Run run = act("work", "stack", clock);
     CAPTURE(clock);
     INFO(run.err);
@@ -134,7 +136,7 @@ TEST_CASE("a component may use 1.2 MB of stack, with every executor", "[system][
 
 TEST_CASE("a configure() that hangs ends the start with 3, and component and hook are named",
           "[system][plugins]") {
-  for (const Words& clock : {virtual_clock(), kSteady}) {
+  for (const Words& clock : {virtual_clock(), kSteady, kHosted}) {
     const Run run = act("configure", "hang", clock);
     CAPTURE(clock);
     INFO(run.err);
@@ -246,7 +248,7 @@ TEST_CASE("a component that takes all descriptors is named", "[system][plugins]"
 #endif
 
 TEST_CASE("memory that a component takes is blamed on nobody", "[system][plugins]") {
-  for (const Words& clock : {virtual_clock(), kSteady}) {
+  for (const Words& clock : {virtual_clock(), kSteady, kHosted}) {
     const Run run =
         run_deployer(Words{system_graph("hooligan.xml"), "--set", "where=work", "--set", "deed=memory"} +
                      with_test_plugins() + clock);
@@ -291,9 +293,12 @@ TEST_CASE(
 
 TEST_CASE("a component that sleeps in its own thread is named, and costs the others nothing",
           "[system][plugins]") {
-  const Run run = act("work", "sleep", kSteady);
-  INFO(run.err);
-  REQUIRE(run.ended);
-  CHECK(run.says("counter: counted 30 laps"));
-  CHECK_THAT(line_with("alarm STALLED", run), Contains("bad: "));
+  for (const Words& clock : {kSteady, kHosted}) {
+    const Run run = act("work", "sleep", clock);
+    CAPTURE(clock);
+    INFO(run.err);
+    REQUIRE(run.ended);
+    CHECK(run.says("counter: counted 30 laps"));
+    CHECK_THAT(line_with("alarm STALLED", run), Contains("bad: "));
+  }
 }

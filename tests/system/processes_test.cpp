@@ -409,9 +409,6 @@ TEST_CASE("what does not exist yet is refused before anything starts", "[system]
   INFO(run.err);
   CHECK(run.exit_code() == 2);
   CHECK(run.says("on_supervisor_loss=\"continue\" is not available yet"));
-  const Run traced = run_deployer({kScout, "--trace", "trace.txt", "--stats"});
-  CHECK(traced.exit_code() == 2);
-  CHECK(traced.says("--trace, --stats need all parts of the system in one process"));
 }
 
 TEST_CASE("twenty restarts leave nothing in the deployer", "[system][processes]") {

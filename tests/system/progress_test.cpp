@@ -162,7 +162,8 @@ TEST_CASE("a signal leaves nothing of the line", "[system][progress]") {
 TEST_CASE("the last words of a process that crashes stand in a line of their own", "[system][progress]") {
   Screen terminal;
   const Run run = run_on_terminal(
-      terminal, Words{system_graph("crash_on_the_way.xml"), "--set", "deed=segfault"} + with_test_plugins());
+      terminal, Words{system_graph("crash_on_the_way.xml"), "--set", "deed=segfault", "--in-process"} +
+                    with_test_plugins());
   CHECK(run.exit_code() != 0);
   if (!kSanitized) CHECK(run.ending.signal == SIGSEGV);
   REQUIRE_FALSE(drawn(terminal.all_bytes()).empty());

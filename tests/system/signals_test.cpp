@@ -239,9 +239,10 @@ TEST_CASE("a crash, an abort or an exit() of a component stops the robot before 
   for (const char* deed : {"segfault", "abort", "noexcept", "exit"}) {
     CAPTURE(deed);
     const TempFolder folder;
-    const Run run = run_deployer(Words{system_graph("crash_on_the_way.xml"), "--set",
-                                       std::string("deed=") + deed, "--trace", folder.file("trace")} +
-                                 with_test_plugins());
+    const Run run =
+        run_deployer(Words{system_graph("crash_on_the_way.xml"), "--set", std::string("deed=") + deed,
+                           "--trace", folder.file("trace"), "--in-process"} +
+                     with_test_plugins());
     INFO(run.err);
     CHECK(run.ended);
     CHECK(run.exit_code() != 0);

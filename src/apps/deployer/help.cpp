@@ -24,11 +24,11 @@ What to run
 How to run it
   --clock KIND          steady: real time (default); virtual: simulated time, bit-identical for the same seed
   --executor KIND       thread (default of steady), fiber (default of virtual) or baton
-  --in-process          everything in this process, for a debugger, whatever processes the graph declares; the virtual
-                        clock always does so
+  --in-process          everything in this process, for a debugger, instead of host processes below it; the virtual clock
+                        always does so
 
 What to write
-  --trace FILE          one line per delivery, connection and change of state
+  --trace FILE          one line per delivery, connection and change of state; not with several host processes
   --values              in the trace, each object that is delivered, so that two runs can be compared to the first
                         differing number
   --record FILE.csv=PORT,...

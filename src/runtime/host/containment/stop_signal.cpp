@@ -29,6 +29,7 @@ constexpr std::chrono::milliseconds kEndLimit = 30s;  // everything takes longer
 #else
 constexpr std::chrono::milliseconds kEndLimit = 2500ms;
 #endif
+constexpr std::chrono::milliseconds kHostEndLimit = kEndLimit / 6;
 constexpr std::chrono::milliseconds kSecondSignalGrace = 400ms;
 constexpr std::chrono::milliseconds kMotorLimit = 300ms;
 
@@ -74,12 +75,12 @@ bool would_end_process(int signal) {
 }  // namespace
 
 StopSignal::StopSignal(int stopped_status, int failed_status, Terminal terminal)
-    : stopped_status_(stopped_status), failed_status_(failed_status) {
+    : stopped_status_(stopped_status), failed_status_(failed_status), terminal_(terminal) {
   g_wake_fd.store(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   if (g_wake_fd.load() < 0) throw_if_exhausted(errno);
   g_process.store(getpid());
   g_signal.store(0);
-  block_requests(terminal);
+  block_requests();
   handle_others();
   watcher_ = std::thread([this] { watch(); });
 }
@@ -92,10 +93,10 @@ StopSignal::~StopSignal() {
   close(g_wake_fd.exchange(-1));
 }
 
-void StopSignal::block_requests(Terminal terminal) {
+void StopSignal::block_requests() {
   sigset_t set;
   sigemptyset(&set);
-  const bool heeded = terminal == Terminal::heeded;
+  const bool heeded = terminal_ == Terminal::heeded;
   for (const int signal : kRequests)
     if (signal == SIGTERM || (heeded && (signal == SIGINT || would_end_process(signal))))
       sigaddset(&set, signal);
@@ -176,7 +177,7 @@ void StopSignal::request() {
     if (!std::exchange(impatient_, true)) deadline_ = std::min(deadline_, Clock::now() + kSecondSignalGrace);
     return;
   }
-  deadline_ = Clock::now() + kEndLimit;
+  deadline_ = Clock::now() + (is_host_process() ? kHostEndLimit : kEndLimit);
   const std::lock_guard lock(mutex_);
   if (action_) action_();
 }
@@ -194,8 +195,11 @@ void StopSignal::give_up() {
   const int status = has_run_.load() ? failed_status_ : stopped_status_;
   LiveLine::erase_for_good();
   if (impatient_) std::_Exit(stopped_status_);
-  LastWords::end_hung(
-      main_thread_, "has not ended 2.5 s after the signal to stop; the process is ended without it", status);
+  LastWords::end_hung(main_thread_,
+                      is_host_process()
+                          ? "has not ended in time; the process is ended without it"
+                          : "has not ended 2.5 s after the signal to stop; the process is ended without it",
+                      status);
 }
 
 }  // namespace orca::host

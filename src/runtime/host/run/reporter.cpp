@@ -114,6 +114,7 @@ void Reporter::note(idl::Alarm alarm) {
   const std::lock_guard lock(mutex_);
   alarm.seq(alarms_.size() + 1);
   alarms_.push_back(std::move(alarm));
+  alarm_news_.add(alarms_.back(), "");
   listener_.alarm(alarms_.back());
 }
 

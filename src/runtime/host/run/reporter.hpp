@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "alarm_news.hpp"
 #include "line_limit.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
@@ -62,6 +63,8 @@ class Reporter final : public LinkObserver {
   void raise(idl::Alarm alarm);
   /// Reports an alarm whose text is in the log already, whatever it is about.
   void note(idl::Alarm alarm);
+  /// Returns the alarms of the whole system, as far as this process has heard of them.
+  [[nodiscard]] AlarmNews& alarm_news() { return alarm_news_; }
   /// Sets the robots of the run and reports them, before anything moves.
   void introduce(RobotNames robots);
   /// Writes a line to the log and reports it.
@@ -91,6 +94,7 @@ class Reporter final : public LinkObserver {
   const TimePoint start_;
   Sightings* sightings_ = nullptr;
   Recorder* recorder_ = nullptr;
+  AlarmNews alarm_news_;
   mutable std::mutex mutex_;
   std::vector<idl::Arrived> arrivals_;
   std::vector<idl::GoalFailed> failures_;

@@ -83,6 +83,8 @@ void fields(auto& archive, Resume& m) { transfer(archive, m.component); }
 void fields(auto& archive, SetParams& m) { transfer_all(archive, m.component, m.values); }
 void fields(auto& archive, RenewEdge& m) { transfer(archive, m.edge); }
 void fields(auto& archive, CutEdge& m) { transfer_all(archive, m.edge, m.reason); }
+void fields(auto& archive, TellAlarm& m) { transfer_all(archive, m.process, m.object); }
+void fields(auto& archive, ForgetAlarm& m) { transfer_all(archive, m.kind, m.source, m.process); }
 
 void fields(auto& archive, Answer& m) { transfer(archive, m.outcome); }
 void fields(auto& archive, Built& m) { transfer(archive, m.robots); }

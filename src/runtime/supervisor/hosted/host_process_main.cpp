@@ -79,8 +79,8 @@ Result<std::uint64_t> await_build(Channel& channel, Memory& memory) {
 // The life of a host process, step by step.
 class Life {
  public:
-  Life(Channel& channel, const std::vector<std::string>& plugin_folders)
-      : channel_(channel), catalogue_(plugin::PluginIndex(plugin_folders)) {}
+  Life(Channel& channel, const std::vector<std::string>& plugin_folders, host::StopSignal& stop)
+      : stop_(stop), channel_(channel), catalogue_(plugin::PluginIndex(plugin_folders)) {}
   ~Life() { LiveLine::on_pause(nullptr); }
   Life(const Life&) = delete;
   Life& operator=(const Life&) = delete;
@@ -200,8 +200,7 @@ class Life {
     stop_.on_crash(nullptr);
   }
 
-  // First of all, since all threads inherit the signals that it blocks.
-  host::StopSignal stop_{EXIT_SUCCESS, EXIT_FAILURE, host::StopSignal::Terminal::ignored};
+  host::StopSignal& stop_;
   Channel& channel_;
   host::PluginCatalogue catalogue_;
   std::optional<ReportSender> reports_;
@@ -217,8 +216,11 @@ class Life {
 }  // namespace
 
 int host_process_main(Descriptor socket, const std::vector<std::string>& plugin_folders) {
+  // First of all, since all threads inherit the signals that it blocks, and never destroyed, so that it also ends
+  // destructors and atexit handlers that hang.
+  static auto& stop = *new host::StopSignal(EXIT_SUCCESS, EXIT_FAILURE, host::StopSignal::Terminal::ignored);
   Channel channel(std::move(socket));
-  const Status lived = Life(channel, plugin_folders).live();
+  const Status lived = Life(channel, plugin_folders, stop).live();
   return lived.ok() ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

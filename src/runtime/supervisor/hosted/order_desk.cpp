@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "orca/base/exhaustion.hpp"
+#include "orca/idl/object_type.hpp"
+#include "orca/idl/system.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -105,11 +107,21 @@ void OrderDesk::carry_out(Order order, std::uint64_t request) {
   }
   if (const auto* cut = std::get_if<CutEdge>(&order))
     return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
+  if (const auto* alarm = std::get_if<TellAlarm>(&order)) return hear(*alarm);
+  if (const auto* alarm = std::get_if<ForgetAlarm>(&order))
+    return part_.forget_alarm(alarm->kind, alarm->source, alarm->process);
   if (auto* renew = std::get_if<RenewEdge>(&order)) {
     const Status renewed = part_.renew_edge(renew->edge.edge, std::move(renew->edge.memory));
     return reports_.send(Answer{renewed}, request);
   }
   reports_.send(Answer{fail(Code::failed_precondition, "this order comes too late")}, request);
+}
+
+void OrderDesk::hear(const TellAlarm& told) {
+  idl::Alarm alarm;
+  if (const Status read = object_type<idl::Alarm>().deserialize(told.object, &alarm); !read.ok())
+    leave(read.error());
+  part_.hear(alarm, told.process);
 }
 
 void OrderDesk::pass_on(host::PartOrder order, std::uint64_t request) {

@@ -8,6 +8,7 @@
 #include "orca/base/descriptor.hpp"
 #include "orca/host/hosted_part.hpp"
 #include "orca/supervisor/channel.hpp"
+#include "orca/supervisor/vocabulary.hpp"
 #include "report_sender.hpp"
 
 namespace orca::supervisor {
@@ -32,6 +33,7 @@ class OrderDesk {
   void show_now_and_then(int beats);
   void receive();
   void carry_out(Order order, std::uint64_t request);
+  void hear(const TellAlarm& told);
   void pass_on(host::PartOrder order, std::uint64_t request);
   [[noreturn]] void leave(const Error& reason);
 

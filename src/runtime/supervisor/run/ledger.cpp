@@ -100,14 +100,15 @@ Status Ledger::take_object(const Report& report, const std::string& process) {
   } else if (const auto* alarm = std::get_if<AlarmReport>(&report)) {
     Result<idl::Alarm> object = read<idl::Alarm>(*alarm);
     if (!object) return object.error();
-    note(std::move(object).value(), process);
+    note(std::move(object).value(), process, process);
   }
   return ok();
 }
 
-void Ledger::note(idl::Alarm alarm, const std::string& process) {
+void Ledger::note(idl::Alarm alarm, const std::string& process, const std::string& reporter) {
   listener_.alarm(alarm);
   alarms_.take(alarm, process);
+  if (relay_ != nullptr) relay_->tell(alarm, process, reporter);
   const std::lock_guard lock(mutex_);
   so_far_.alarms.push_back(std::move(alarm));
 }
@@ -117,7 +118,13 @@ void Ledger::raise(host::AlarmKind kind, const std::string& process, const std::
   alarm.creation_time(to_time_value(steady_now()));
   alarm.stamp(alarm.creation_time());
   host::log_alarm(alarm, log_name_);
-  note(std::move(alarm), process);
+  note(std::move(alarm), process, "");
+}
+
+Status Ledger::acknowledge(std::uint64_t number) {
+  const auto known = std::ranges::find(alarms_.kept(), number, &host::KeptAlarm::number);
+  if (known != alarms_.kept().end() && relay_ != nullptr) relay_->tell_acknowledged(*known);
+  return alarms_.acknowledge(number);
 }
 
 void Ledger::lose(const std::string& process, const std::string& why) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "alarm_relay.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/alarm_store.hpp"
@@ -48,7 +49,10 @@ class Ledger final : public host::RunView {
   [[nodiscard]] const std::vector<host::KeptAlarm>& alarms() const { return alarms_.kept(); }
   /// Takes an alarm out.
   /// @errors  not_found.
-  Status acknowledge(std::uint64_t alarm) { return alarms_.acknowledge(alarm); }
+  Status acknowledge(std::uint64_t alarm);
+  /// Tells of what happens to alarms from now on.
+  /// @param relay  outlives the object.
+  void relay_to(const AlarmRelay& relay) { relay_ = &relay; }
 
   /// Reports which robots there are, by their hardware, once all processes are built.
   void introduce();
@@ -69,7 +73,7 @@ class Ledger final : public host::RunView {
   Status take_change(const StateChange& change);
   Status take_figures(const Report& report, const std::string& process);
   Status take_object(const Report& report, const std::string& process);
-  void note(idl::Alarm alarm, const std::string& process);
+  void note(idl::Alarm alarm, const std::string& process, const std::string& reporter);
 
   const graph::Graph& graph_;
   host::RunListener& listener_;
@@ -79,6 +83,7 @@ class Ledger final : public host::RunView {
   std::set<std::string> restless_;  // processes
   host::RobotNames robots_;
   host::AlarmStore alarms_;
+  const AlarmRelay* relay_ = nullptr;
   std::map<std::string, Tally> tallies_;  // by process
   std::optional<Error> output_error_;
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "alarm_relay.hpp"
 #include "bring_up.hpp"
 #include "conclusion.hpp"
 #include "ledger.hpp"
@@ -34,6 +35,7 @@ constexpr int kMostMessages = 1000;  // of one process at a time
 // What a process may take to end, and if there is no hurry and it has much to write.
 constexpr EndLimits kHurry{1900ms, 500ms};
 constexpr EndLimits kLeisure{30s, 500ms};
+constexpr EndLimits kImpatience{1s, 500ms};  // if somebody wants it to end who has waited already
 
 std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph) {
   std::vector<std::unique_ptr<Member>> members;
@@ -69,7 +71,9 @@ class SupervisedRun {
         all_(pointers_to(members_)),
         starter_(graph, options, page_, all_, start_),
         ledger_(graph, listener, start_, options.log_name),
-        policy_(nodes_of(members_), graph.supervision) {}
+        policy_(nodes_of(members_), graph.supervision) {
+    ledger_.relay_to(relay_);
+  }
 
   host::RunResult execute() {
     stop_.on_request([this] { poller_.wake(); });
@@ -112,9 +116,11 @@ class SupervisedRun {
   }
 
   void came_up(const Members& members) {
-    for (const Member* member : members)
-      if (conclusion_.has_come_up() && member->phase() == Phase::up)
-        log::info(options_.log_name, "process " + member->name() + " is back");
+    for (Member* const member : members) {
+      if (member->phase() != Phase::up) continue;
+      if (conclusion_.has_come_up()) log::info(options_.log_name, "process " + member->name() + " is back");
+      AlarmRelay::brief(*member, ledger_.alarms(), !conclusion_.has_come_up());
+    }
     if (!conclusion_.has_come_up()) up_since_ = steady_now();
     conclusion_.came_up();
   }
@@ -290,7 +296,12 @@ class SupervisedRun {
       member->end(now(), stop_.requested() ? kHurry : kLeisure, answered);
     }
     const auto is_gone = [](const auto& member) { return member->process() == nullptr; };
-    while (!std::ranges::all_of(members_, is_gone)) turn(now() + kLook);
+    for (bool hurries = stop_.requested(); !std::ranges::all_of(members_, is_gone); turn(now() + kLook)) {
+      if (!hurries && stop_.requested())
+        for (const auto& member : members_)
+          if (member->process() != nullptr) member->process()->end(now(), kImpatience);
+      hurries = stop_.requested();
+    }
   }
 
   // Ends a process by force that cannot end all its strands.
@@ -340,6 +351,7 @@ class SupervisedRun {
   const std::vector<std::unique_ptr<Member>> members_;
   const Members all_;
   Starter starter_;
+  const AlarmRelay relay_{all_};
   Ledger ledger_;
   const host::Reports reports_ = ledger_.reports();
   RestartPolicy policy_;

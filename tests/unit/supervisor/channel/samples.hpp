@@ -37,7 +37,8 @@ inline std::vector<supervisor::Order> all_orders() {
   return list_of<Order>(setup(), Build{}, OpenHardware{}, Configure{"avoid"}, OpenGates{}, TakeDown{},
                         StopMotors{"estop"}, Suspend{"avoid"}, Resume{"avoid"},
                         SetParams{"avoid", {{"stop_distance", "0.5 m"}}}, RenewEdge{{4, null_device()}},
-                        CutEdge{4, "process \"base\" has crashed"});
+                        CutEdge{4, "process \"base\" has crashed"}, TellAlarm{"base", some_bytes()},
+                        ForgetAlarm{"FAILED", "avoid", "behaviours"});
 }
 
 /// Returns at least one of each report.

@@ -129,6 +129,12 @@ class Component : public PortOwner {
   /// with latest() or gets from a PushProxyArray does not.
   void note_cause(const idl::OrcaObject& object) { host_.note_cause(object); }
 
+  /// Returns the alarms of the whole system that were raised or cleared since the last call, whichever process raised
+  /// them; the first call returns the latest of the run. For a component that passes them on.
+  [[nodiscard]] std::vector<idl::Alarm> take_alarms() { return host_.take_alarms(); }
+  /// Returns the alarms of the whole system that nobody has acknowledged yet. They outlive their sources.
+  [[nodiscard]] std::vector<idl::Alarm> kept_alarms() const { return host_.kept_alarms(); }
+
   [[nodiscard]] ComponentHost& host() const { return host_; }
 
  private:

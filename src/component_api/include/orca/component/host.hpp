@@ -5,11 +5,13 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "orca/base/contract.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/random.hpp"
 #include "orca/component/device.hpp"
+#include "orca/idl/system.hpp"
 #include "orca/patterns/port_owner.hpp"
 
 namespace orca {
@@ -62,6 +64,11 @@ class ComponentHost : public PluginHost {
   virtual void note_cause(const idl::OrcaObject& object) = 0;
   /// Returns the strand on which the component runs.
   [[nodiscard]] virtual Strand& strand() = 0;
+
+  /// Returns the alarms of the whole system that were raised or cleared since the last call.
+  [[nodiscard]] virtual std::vector<idl::Alarm> take_alarms() { return {}; }
+  /// Returns the alarms of the whole system that nobody has acknowledged yet.
+  [[nodiscard]] virtual std::vector<idl::Alarm> kept_alarms() const { return {}; }
 };
 
 }  // namespace orca

@@ -47,4 +47,10 @@ std::uint64_t ComponentSite::begin_mission() {
   return mission;
 }
 
+std::vector<idl::Alarm> ComponentSite::take_alarms() {
+  return run_.reporter.alarm_news().since(heard_alarms_);
+}
+
+std::vector<idl::Alarm> ComponentSite::kept_alarms() const { return run_.reporter.alarm_news().kept(); }
+
 }  // namespace orca::host

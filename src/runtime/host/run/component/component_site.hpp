@@ -57,6 +57,8 @@ class ComponentSite final : public ComponentHost {
   std::uint64_t begin_mission() override;
   void end_mission() override { home_.provenance.end_task(); }
   void note_cause(const idl::OrcaObject& object) override { home_.provenance.note(object); }
+  [[nodiscard]] std::vector<idl::Alarm> take_alarms() override;
+  [[nodiscard]] std::vector<idl::Alarm> kept_alarms() const override;
 
  private:
   RunContext& run_;
@@ -65,7 +67,8 @@ class ComponentSite final : public ComponentHost {
   const LapTrigger& laps_;
   Device* const hardware_;
   Declarations declared_;
-  bool stays_active_ = false;  // as the component wants it
+  bool stays_active_ = false;       // as the component wants it
+  std::uint64_t heard_alarms_ = 0;  // position in the news
 };
 
 }  // namespace orca::host

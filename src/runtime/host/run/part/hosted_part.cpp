@@ -262,6 +262,15 @@ void HostedPart::order(PartOrder order) { inside_->order(std::move(order)); }
 
 void HostedPart::stop_motors() { inside_->watched().stop_motors(); }
 
+void HostedPart::hear(const idl::Alarm& alarm, const std::string& process) {
+  inside_->watched().reporter().alarm_news().add(alarm, process);
+}
+
+void HostedPart::forget_alarm(const std::string& kind, const std::string& source,
+                              const std::string& process) {
+  inside_->watched().reporter().alarm_news().acknowledge(kind, source, process);
+}
+
 void HostedPart::cut_edge(std::size_t edge, const Error& reason) { inside_->outer().cut(edge, reason); }
 
 Status HostedPart::renew_edge(std::size_t edge, const Descriptor& memory) {

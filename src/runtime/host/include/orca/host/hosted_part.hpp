@@ -87,8 +87,8 @@ struct PartPlace {
 
 /// The part of a system that this process runs. It does nothing by itself, but obeys orders.
 ///
-/// Thread contract: order(), stop_motors(), prepare_for_death(), look(), cut_edge() and renew_edge() from any thread once it
-/// is built, the rest from one.
+/// Thread contract: order(), stop_motors(), prepare_for_death(), look(), hear(), forget_alarm(), cut_edge() and renew_edge() from any
+/// thread once it is built, the rest from one.
 class HostedPart {
  public:
   /// @param whole    the graph of all processes. Outlives the object, as catalogue, executive and listener do.
@@ -125,6 +125,13 @@ class HostedPart {
   /// Returns what the part is like at this moment: hardware that is not well, goals. The rest is the listener's to know.
   /// @pre  it is built.
   [[nodiscard]] RunGlance look() const;
+
+  /// Takes an alarm that was raised elsewhere, for components that pass alarms on.
+  /// @param process  that it is about; empty: not one alone.
+  void hear(const idl::Alarm& alarm, const std::string& process);
+  /// Forgets an alarm that was acknowledged.
+  /// @param process  that it is about, this one, too; empty: not one alone.
+  void forget_alarm(const std::string& kind, const std::string& source, const std::string& process);
 
   /// Cuts an edge to another process, because that is gone: whoever waits for an answer gets an error that says why.
   void cut_edge(std::size_t edge, const Error& reason);

@@ -18,7 +18,8 @@ namespace orca::host {
 /// SIGINT, SIGTERM, SIGHUP and SIGQUIT are requests to stop. All other signals that would end a process at once
 /// request it too, unless a library handles them, but are a failure(). Signals that the process was started to
 /// ignore stay ignored, except SIGINT and SIGTERM. A process that has not ended by itself 2.5 s after the first
-/// signal is ended, after a line that says what it is doing. A second signal ends it after 0.4 s.
+/// signal is ended, after a line that says what it is doing. A second signal ends it after 0.4 s. A host process, which is
+/// terminated only after it was asked to end, has 0.4 s from the first signal.
 ///
 /// A crash cannot be survived, but the motors are stopped before: see on_crash().
 ///
@@ -64,17 +65,19 @@ class StopSignal {
   enum class Wake { signal, crash, end, timeout };
   using Clock = std::chrono::steady_clock;
 
-  void block_requests(Terminal terminal);
+  void block_requests();
   void handle_others();
   void watch();
   [[nodiscard]] Wake next();
   void request();
   void prepare_for_death();
   [[noreturn]] void give_up();
+  [[nodiscard]] bool is_host_process() const { return terminal_ == Terminal::ignored; }
   [[nodiscard]] static std::string name_of(int signal);
 
   const int stopped_status_;
   const int failed_status_;
+  const Terminal terminal_;
   const pthread_t main_thread_ = pthread_self();
   std::atomic<bool> requested_{false};
   std::atomic<bool> ending_{false};

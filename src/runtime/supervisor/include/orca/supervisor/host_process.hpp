@@ -63,7 +63,8 @@ class HostProcess {
   /// Returns what it has written of a line that has no end yet, such as a question to the user, and takes it out.
   [[nodiscard]] std::string take_unfinished_line();
 
-  /// Orders the process to end (TakeDown), and begins to count its time. Does nothing if it is already being ended.
+  /// Orders the process to end (TakeDown), and begins to count its time. If it is already being ended, the limits can only
+  /// shorten its time.
   /// @param request  of the order.
   void end(Moment now, const EndLimits& limits, std::uint64_t request = 0);
   /// Ends the process by force: SIGTERM, so that it can stop the motors, then SIGKILL.

@@ -24,6 +24,8 @@ enum class Kind : std::uint16_t {
   set_params,
   renew_edge,
   cut_edge,
+  tell_alarm,
+  forget_alarm,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,

@@ -91,9 +91,22 @@ struct CutEdge {
   std::uint64_t edge = 0;
   std::string reason;
 };
+/// Tells of an alarm that was raised or cleared elsewhere.
+struct TellAlarm {
+  static constexpr Kind kKind = Kind::tell_alarm;
+  std::string process;            ///< That it is about; empty: not one alone.
+  std::vector<std::byte> object;  ///< An idl::Alarm, encoded as XCDR1.
+};
+/// Tells that an alarm was acknowledged.
+struct ForgetAlarm {
+  static constexpr Kind kKind = Kind::forget_alarm;
+  std::string kind;
+  std::string source;
+  std::string process;
+};
 
 using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
-                           Resume, SetParams, RenewEdge, CutEdge>;
+                           Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm>;
 
 // ---- Reports, from a host process to the supervisor.
 
