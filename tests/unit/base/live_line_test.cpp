@@ -8,6 +8,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "orca/base/log.hpp"
 
@@ -86,4 +87,17 @@ TEST_CASE("a terminal that takes no output makes nobody wait", "[base][live_line
   output.stop();
   LiveLine::show(output.terminal(), "1 s");
   CHECK(output.news().find("1 s") == std::string::npos);
+}
+
+TEST_CASE("somebody else hears when the first pause begins and when the last one ends", "[base][live_line]") {
+  std::vector<bool> heard;
+  LiveLine::on_pause([&](bool begins) { heard.push_back(begins); });
+  {
+    const LiveLine::Pause outer;
+    const LiveLine::Pause inner;
+  }
+  CHECK(heard == std::vector<bool>{true, false});
+  LiveLine::on_pause(nullptr);
+  { const LiveLine::Pause unheard; }
+  CHECK(heard.size() == 2);
 }

@@ -184,6 +184,35 @@ TEST_CASE("A host process that does not obey is terminated, and killed at last",
   CHECK(now() - begun >= (signal == SIGTERM ? 50ms : 150ms));
 }
 
+TEST_CASE("Who is in a hurry shortens the time that a host process was given to end, and cannot lengthen it",
+          "[supervisor][processes]") {
+  const auto process = ready("stubborn");
+  const Moment begun = now();
+  process->end(begun, {.when_asked = kLong, .when_terminated = 50ms});
+  process->end(begun, {.when_asked = 50ms, .when_terminated = 50ms});
+  process->end(begun, {.when_asked = kLong, .when_terminated = kLong});
+  CHECK(looked_after(*process).signal == SIGKILL);
+  CHECK(now() - begun >= 100ms);
+}
+
+TEST_CASE("A question that waits for an answer on the same line can be taken", "[supervisor][processes]") {
+  const auto process = started(start_of("print"));
+  CHECK(end_of(*process).is_normal());
+  std::vector<std::string> lines;
+  while (lines.size() < 2)
+    for (auto& line : process->take_output()) lines.push_back(line);
+  CHECK(process->take_unfinished_line() == "no end");
+  CHECK(process->take_unfinished_line().empty());
+}
+
+TEST_CASE("A host process that shares the input has that of the supervisor", "[supervisor][processes]") {
+  HostStart start = start_of("describe");
+  start.shares_input = true;
+  const auto process = started(start);
+  CHECK(line_of(last_words_of(*process), "stdin") ==
+        "stdin " + std::filesystem::read_symlink("/proc/self/fd/0").string());
+}
+
 TEST_CASE("A stopped host process is killed, and the reason is kept", "[supervisor][processes]") {
   const auto process = ready("sleep");
   kill(process->pid(), SIGSTOP);
