@@ -150,7 +150,8 @@ TEST_CASE("a constructor that hangs before anything has started is ended with 0 
     INFO(stopped.run.err);
     CHECK(stopped.run.exit_code() == 0);
     CHECK(stopped.took < Seconds(kEndLimit));
-    CHECK(stopped.run.says("clinger: its constructor has not ended"));
+    // It hangs in the trial, too. After the signal no host process is started.
+    CHECK(stopped.run.says("clinger: its constructor has not ended") == !place.words.empty());
     CHECK_FALSE(stopped.left_behind);
   }
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <unistd.h>
-
 #include <string>
 
 #include "orca/component.hpp"
@@ -10,7 +8,7 @@ namespace {
 
 using orca::idl::Alarm;
 
-/// Writes each alarm that it hears of to the log, with its own process.
+/// Writes each alarm that it hears of to the log.
 class AlarmListener final : public orca::Component {
  public:
   explicit AlarmListener(orca::ComponentHost& host) : Component(host) { lap_on(alarms_); }
@@ -23,8 +21,7 @@ class AlarmListener final : public orca::Component {
 
   orca::Outcome work() override {
     const auto alarm = alarms_.get_update_wait();
-    log_info("hears in " + std::to_string(getpid()) + " " + alarm->kind() + " of " + alarm->source() + ": " +
-             alarm->text());
+    log_info("hears " + alarm->kind() + " of " + alarm->source() + ": " + alarm->text());
     return orca::again();
   }
 

@@ -174,7 +174,7 @@ StopSignal::Wake StopSignal::next() {
 
 void StopSignal::request() {
   if (requested_.exchange(true)) {
-    if (!std::exchange(impatient_, true)) deadline_ = std::min(deadline_, Clock::now() + kSecondSignalGrace);
+    if (!urgent_.exchange(true)) deadline_ = std::min(deadline_, Clock::now() + kSecondSignalGrace);
     return;
   }
   deadline_ = Clock::now() + (is_host_process() ? kHostEndLimit : kEndLimit);
@@ -194,7 +194,7 @@ void StopSignal::prepare_for_death() {
 void StopSignal::give_up() {
   const int status = has_run_.load() ? failed_status_ : stopped_status_;
   LiveLine::erase_for_good();
-  if (impatient_) std::_Exit(stopped_status_);
+  if (urgent_.load()) std::_Exit(stopped_status_);
   LastWords::end_hung(main_thread_,
                       is_host_process()
                           ? "has not ended in time; the process is ended without it"

@@ -50,14 +50,20 @@ Descriptor checked(int number) {
   return Descriptor(number);
 }
 
+// A copy of a descriptor with a number that is in nobody's way. A limit below that number is EINVAL.
+Descriptor above_all(int descriptor) {
+  const int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, kAboveAll);
+  if (copy < 0) throw_system(errno == EINVAL ? EMFILE : errno);
+  return Descriptor(copy);
+}
+
 // A pipe, both ends above the numbers that a child gives to its own descriptors.
 std::pair<Descriptor, Descriptor> make_pipe(int flags) {
   int ends[2] = {-1, -1};
   if (pipe2(ends, O_CLOEXEC | flags) != 0) throw_system(errno);
   const Descriptor read_end(ends[0]);
   const Descriptor write_end(ends[1]);
-  return {checked(fcntl(ends[0], F_DUPFD_CLOEXEC, kAboveAll)),
-          checked(fcntl(ends[1], F_DUPFD_CLOEXEC, kAboveAll))};
+  return {above_all(ends[0]), above_all(ends[1])};
 }
 
 cpu_set_t set_of(const std::vector<int>& processors) {
@@ -156,16 +162,15 @@ Status collect_faults(int faults, const HostStart& start, std::vector<std::strin
 
 // A descriptor for the child's stdin.
 Descriptor make_input(bool shares_input) {
-  Descriptor shared(shares_input ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, kAboveAll) : -1);
-  if (shared) return shared;
+  if (shares_input && fcntl(STDIN_FILENO, F_GETFD) >= 0) return above_all(STDIN_FILENO);
   const Descriptor null = checked(open("/dev/null", O_RDONLY | O_CLOEXEC));
-  return checked(fcntl(null.number(), F_DUPFD_CLOEXEC, kAboveAll));
+  return above_all(null.number());
 }
 
 Child make_child(const HostStart& start, const Descriptor& channel) {
   Child child{};
   child.input = make_input(start.shares_input);
-  child.channel = checked(fcntl(channel.number(), F_DUPFD_CLOEXEC, kAboveAll));
+  child.channel = above_all(channel.number());
   for (const std::string& argument : start.arguments)
     child.arguments.push_back(const_cast<char*>(argument.c_str()));
   child.arguments.push_back(nullptr);

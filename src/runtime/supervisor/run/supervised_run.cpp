@@ -228,7 +228,7 @@ class SupervisedRun {
 
   // The run is being taken down.
   void ended_late(bool is_normal, const std::string& text) {
-    if (is_normal) return;
+    if (is_normal || stop_.is_urgent()) return;
     log::error(options_.log_name, text);
     conclusion_.fail_late(fail(Code::unavailable, text));
   }
@@ -297,11 +297,19 @@ class SupervisedRun {
     }
     const auto is_gone = [](const auto& member) { return member->process() == nullptr; };
     for (bool hurries = stop_.requested(); !std::ranges::all_of(members_, is_gone); turn(now() + kLook)) {
-      if (!hurries && stop_.requested())
-        for (const auto& member : members_)
-          if (member->process() != nullptr) member->process()->end(now(), kImpatience);
-      hurries = stop_.requested();
+      if (stop_.is_urgent()) {
+        for (Member* const member : running()) member->process()->end_by_force(Force::overdue, now());
+      } else if (!std::exchange(hurries, stop_.requested()) && hurries) {
+        for (Member* const member : running()) member->process()->end(now(), kImpatience);
+      }
     }
+  }
+
+  [[nodiscard]] Members running() const {
+    Members running;
+    for (Member* const member : all_)
+      if (member->process() != nullptr) running.push_back(member);
+    return running;
   }
 
   // Ends a process by force that cannot end all its strands.

@@ -40,7 +40,8 @@ TEST_CASE("counters arrive as they were, edges in the order of the graph", "[sup
   host::RunCounters other;
   other.edges.push_back({"a.out", "b.in", {}});
   other.edges.back().counters.dropped = 6;
-  const std::map<std::string, Tally> tallies{{"base", to_tally(counted(), {})}, {"main", to_tally(other, {})}};
+  const std::map<std::string, Tally> tallies{{"base", to_tally(counted(), {})},
+                                             {"main", to_tally(other, {})}};
   const host::RunCounters read = counters_of(two_edges(), tallies);
   REQUIRE(read.edges.size() == 2);
   CHECK(read.edges[0].from == "a.out");

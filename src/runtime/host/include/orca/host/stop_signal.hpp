@@ -45,6 +45,9 @@ class StopSignal {
 
   [[nodiscard]] bool requested() const { return requested_.load(std::memory_order_acquire); }
 
+  /// Returns whether a second signal has come: whoever waits wants no more than the motors to be stopped.
+  [[nodiscard]] bool is_urgent() const { return urgent_.load(std::memory_order_acquire); }
+
   /// Returns the name of the signal that requested the stop, if it is not one for that purpose: "SIGUSR1". Empty
   /// otherwise.
   [[nodiscard]] std::string failure() const;
@@ -80,6 +83,7 @@ class StopSignal {
   const Terminal terminal_;
   const pthread_t main_thread_ = pthread_self();
   std::atomic<bool> requested_{false};
+  std::atomic<bool> urgent_{false};  // a second signal has come
   std::atomic<bool> ending_{false};
   std::atomic<bool> has_run_{false};  // there was something to take down
   std::mutex mutex_;
@@ -87,7 +91,6 @@ class StopSignal {
   std::function<void()> crash_action_;
   // Used by the watcher only.
   Clock::time_point deadline_ = Clock::time_point::max();
-  bool impatient_ = false;  // a second signal has come
   int signal_fd_ = -1;
   std::thread watcher_;
 };
