@@ -312,7 +312,7 @@ TEST_CASE("SIGINT to all and SIGTERM to the deployer end everything with 0", "[s
       CHECK(run.exit_code() == 0);
       CHECK(since_boot() - sent < Seconds(3.0 * kSlowdown));
       CHECK(system.left() == Nobody{});
-      CHECK_FALSE(run.says("alarm"));
+      CHECK_FALSE(run.says(": alarm "));
     }
   }
 }

@@ -62,13 +62,17 @@ Memory memory_of(std::vector<EdgeMemory>& edges) {
   return memory;
 }
 
-// Waits for the order to build, and returns its number. Meanwhile peers may end and be started again, which changes the
-// memory of edges.
-Result<std::uint64_t> await_build(Channel& channel, Memory& memory) {
+// Waits for the order to build, and returns its number; nothing if there is nothing to do but to end. Meanwhile peers may
+// end and be started again, which changes the memory of edges.
+Result<std::optional<std::uint64_t>> await_build(Channel& channel, Memory& memory) {
   for (;;) {
     Result<Numbered> next = next_order(channel);
     if (!next) return next.error();
-    if (std::holds_alternative<Build>(next->order)) return next->request;
+    if (std::holds_alternative<Build>(next->order)) return std::optional(next->request);
+    if (std::holds_alternative<TakeDown>(next->order)) {
+      (void)channel.send(encode(Report(Answer{}), next->request), kOrderLimit);
+      return std::optional<std::uint64_t>();
+    }
     if (std::holds_alternative<CutEdge>(next->order)) continue;  // new memory will come
     auto* const renew = std::get_if<RenewEdge>(&next->order);
     if (renew == nullptr) return wrong_sequence();
@@ -93,11 +97,12 @@ class Life {
     reports_->send(Answer{made}, setup->second);
     if (!made.ok()) return made;
     Memory memory = memory_of(setup->first.edges);
-    const Result<std::uint64_t> build = await_build(channel_, memory);
+    const auto build = await_build(channel_, memory);
     if (!build) return build.error();
+    if (!build->has_value()) return ok();
     made = part_->build(std::move(memory));
     if (made.ok()) reports_->send(Built{robots()});
-    reports_->send(Answer{made}, *build);
+    reports_->send(Answer{made}, **build);
     if (!made.ok()) return made;
     work();
     return ok();

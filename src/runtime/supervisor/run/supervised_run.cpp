@@ -228,7 +228,7 @@ class SupervisedRun {
 
   // The run is being taken down.
   void ended_late(bool is_normal, const std::string& text) {
-    if (is_normal || stop_.is_urgent()) return;
+    if (is_normal || stop_.is_urgent() || !conclusion_.has_come_up()) return;
     log::error(options_.log_name, text);
     conclusion_.fail_late(fail(Code::unavailable, text));
   }
