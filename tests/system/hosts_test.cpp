@@ -180,6 +180,15 @@ TEST_CASE("keys that come by stdin reach the process that reads them", "[system]
   CHECK(finish(program, kLimit).exit_code() == 0);
 }
 
+TEST_CASE("a question to the user stands as it is on stderr, also if the answer is there already",
+          "[system][hosts]") {
+  Subprocess program(deployer({kScout, "--set", "goals=", "--until", "3 s"}), {.input = "near: 3.6 6\n"});
+  const Run run = finish(program, kLimit);
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.err, Contains("goal (name: x y > x y, empty line to end)? ") && !Contains("main: goal ("));
+}
+
 TEST_CASE("alarms of all processes and of the supervisor reach AlarmCentral", "[system][hosts][alarms]") {
   Subprocess program(deployer(Words{system_graph("alarms.xml")} + with_test_plugins()));
   says_after(program, 0, " FAILED of hooligan: ");

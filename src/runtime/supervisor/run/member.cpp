@@ -65,6 +65,7 @@ std::string Member::last_words(Moment now) const { return now - words_at_ < kJus
 
 void Member::prompt(bool begins) {
   if (!begins) {
+    pass_on_question();
     prompts_.reset();
   } else if (!prompts_) {
     prompts_.emplace();

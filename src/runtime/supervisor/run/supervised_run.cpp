@@ -165,13 +165,19 @@ class SupervisedRun {
 
   // Takes what a process has said and printed. Returns whether it had printed something.
   bool hear(Member& member) {
+    const bool printed = read(member);
+    receive(member);
+    member.pass_on_question();
+    return printed;
+  }
+
+  // Takes what a process has printed. Returns whether it was something.
+  bool read(Member& member) {
     const std::vector<std::string> lines = member.process()->take_output();
     for (const std::string& line : lines) {
       log::info(member.name(), line);
       member.heard(line, now());
     }
-    receive(member);
-    member.pass_on_question();
     return !lines.empty();
   }
 
@@ -198,8 +204,10 @@ class SupervisedRun {
     }
     if (const auto* words = std::get_if<LastWordsReport>(&report))
       return member.heard_last_words(words->text, now()), ok();
-    if (const auto* prompting = std::get_if<Prompting>(&report))
+    if (const auto* prompting = std::get_if<Prompting>(&report)) {
+      if (!prompting->begins) read(member);  // the question may have been answered at once
       return member.prompt(prompting->begins), ok();
+    }
     return ledger_.take(report, member.name());
   }
 
