@@ -57,6 +57,7 @@ Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
   if (!limits_.turret) return fail(Code::failed_precondition, "this base has no turret");
   if (Status checked = check_command(turret); !checked.ok()) return checked;
   const std::lock_guard lock(mutex_);
+  if (Status free = check_held(); !free.ok()) return free;
   setpoint_.turret_angle = turret.angle();
   return ok();
 }
@@ -64,6 +65,7 @@ Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
 Status MotionHW::move(const DriveSetpoint& wanted, std::uint64_t mission, TimePoint now) {
   const std::lock_guard lock(mutex_);
   mission_ = mission;
+  if (Status free = check_held(); !free.ok() && wanted.velocity != Twist2{}) return free;
   if (const auto reason = obstruction_.against(wanted.velocity)) {
     stand();
     return fail(Code::unavailable, "the base stands: " + *reason + "; ask for another direction");
@@ -127,6 +129,22 @@ DriveSetpoint MotionHW::due(TimePoint now) {
 void MotionHW::halt() {
   const std::lock_guard lock(mutex_);
   stand();
+}
+
+void MotionHW::hold(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  held_ = reason;
+  stand();
+}
+
+void MotionHW::let_go() {
+  const std::lock_guard lock(mutex_);
+  held_.reset();
+}
+
+// @pre  mutex_ is held.
+Status MotionHW::check_held() const {
+  return held_ ? Status(fail(Code::unavailable, "the base is held: " + *held_)) : ok();
 }
 
 void MotionHW::end_mission() {

@@ -83,6 +83,25 @@ TEST_CASE("a command is carried out at once, and is zero when no other follows i
   });
 }
 
+TEST_CASE("a base that is held stops at once with a full stop, and takes commands again when it is let go",
+          "[hw][container]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    RunningScout robot(executive);
+    robot.scout.acquire();
+    REQUIRE(robot.gets(HardwareState::active));
+    REQUIRE(robot.scout.command(*turn(0.25, 0.5)).ok());
+    REQUIRE(robot.notes("drive 0.5 0.25"));
+    robot.scout.wheels().hold("emergency stop");
+    CHECK(robot.scout.command(*full_stop()).ok());
+    CHECK(robot.notes("drive 0 0"));
+    CHECK(robot.scout.command(*turn(0.25, 0.5)).error().code == Code::unavailable);
+    CHECK(robot.scout.state() == HardwareState::active);
+    robot.scout.wheels().let_go();
+    CHECK(robot.scout.command(*turn(0.5, 0.5)).ok());
+    CHECK(robot.notes("drive 0.5 0.5"));
+  });
+}
+
 TEST_CASE("a set-point is given to the motors once, however often it is commanded", "[hw][container]") {
   run_on_each(all_executives(), [](Executive& executive) {
     RunningScout robot(executive);

@@ -120,6 +120,38 @@ TEST_CASE("a full stop and halt stop the base at once, and a standing base has n
   CHECK(motion.expired_count() == 0);
 }
 
+TEST_CASE(
+    "a base that is held stands whatever is commanded, and moves again only by a command after it is let go",
+    "[hw][motion]") {
+  MotionHW motion(kLimits, kAge);
+  REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
+  motion.hold("emergency stop");
+  CHECK(motion.due(kStart + 1ms) == kStop);
+  const Status refused = motion.command(*turn(0.1, 0.5), kStart + 2ms);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().code == Code::unavailable);
+  CHECK_THAT(refused.error().message, Contains("emergency stop"));
+  CHECK(motion.command(*full_stop(), kStart + 3ms).ok());
+  CHECK(motion.due(kStart + 3ms) == kStop);
+  motion.let_go();
+  CHECK(motion.due(kStart + 4ms) == kStop);
+  REQUIRE(motion.command(*turn(0.1, 0.5), kStart + 5ms).ok());
+  CHECK(motion.due(kStart + 5ms) == driving(0.5, 0.1));
+}
+
+TEST_CASE("a turret that is held stays where it points", "[hw][motion]") {
+  DriveLimits limits = kLimits;
+  limits.turret = true;
+  MotionHW motion(limits, kAge);
+  idl::TurretCommand left;
+  left.angle(1.0);
+  motion.hold("emergency stop");
+  CHECK(motion.command(left, kStart).error().code == Code::unavailable);
+  CHECK(motion.due(kStart).turret_angle == 0.0);
+  motion.let_go();
+  CHECK(motion.command(left, kStart).ok());
+}
+
 TEST_CASE("a full stop is obeyed whatever its other fields hold", "[hw][motion]") {
   MotionHW motion(kLimits, kAge);
   REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());

@@ -104,10 +104,10 @@ struct DriveSetpoint {
 
 /// The motion endpoint of a container (thesis 10.2, Fig. 10.6). It takes crisp commands, keeps them within
 /// the limits, and lets no command live longer than `max_command_age`. When the driver reports that the base has met
-/// something, the base stands until a command asks for another direction. A FULLSTOP, a command that has become too old,
+/// something, the base stands until a command asks for another direction. While it is held, it refuses every command to move. A FULLSTOP, a command that has become too old,
 /// halt() and an obstruction stop the base as hard as it can; a speed of 0 is a command like others.
 ///
-/// Thread contract: command() from any strand; the rest from the container's.
+/// Thread contract: command() from any strand; the rest from the container's, if nothing else is said.
 class MotionHW {
  public:
   MotionHW(const DriveLimits& limits, Duration max_command_age);
@@ -137,6 +137,13 @@ class MotionHW {
   /// Makes the base stand from now on until the next command.
   void halt();
 
+  /// Stops the base at once. Until let_go() base and turret refuse all commands to move; an emergency stop. The base
+  /// still stands after let_go(), until the next command.
+  /// @param reason  for people, as the error of a refused command gives it: "emergency stop".
+  /// @thread  any, as let_go().
+  void hold(const std::string& reason);
+  void let_go();
+
   /// Reports that the base has met something, or that its motors are stalled. If it is moving it stands until a command
   /// asks for another direction.
   /// @param reason  for people, e.g. "it touched a wall".
@@ -165,6 +172,7 @@ class MotionHW {
   [[nodiscard]] double within_limits(double turn_rate) const;
   Status move(const DriveSetpoint& wanted, std::uint64_t mission, TimePoint now);
   void stand();
+  [[nodiscard]] Status check_held() const;
 
   const DriveLimits limits_;
   const Duration max_command_age_;
@@ -174,6 +182,7 @@ class MotionHW {
   TimePoint received_{};
   std::uint64_t mission_ = 0;
   std::uint64_t expired_ = 0;
+  std::optional<std::string> held_;  // why, while it is held
 };
 
 }  // namespace orca::hw
