@@ -54,6 +54,7 @@ QueryServerEndpoint::QueryServerEndpoint(PortHome& home, PortContract contract)
 QueryServerEndpoint::~QueryServerEndpoint() { cut_links(); }
 
 QueryTarget& QueryServerEndpoint::connect() {
+  const std::lock_guard lock(mutex_);
   edges_.push_back(std::make_unique<Edge>(*this));
   return *edges_.back();
 }

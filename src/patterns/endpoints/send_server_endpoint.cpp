@@ -116,6 +116,7 @@ SendServerEndpoint::SendServerEndpoint(PortHome& home, PortContract contract)
 SendServerEndpoint::~SendServerEndpoint() { cut_links(); }
 
 SendTarget& SendServerEndpoint::connect(std::string client, const QueuePolicy& policy) {
+  const std::lock_guard lock(mutex_);
   edges_.push_back(std::make_unique<Edge>(*this, std::move(client), policy));
   return *edges_.back();
 }
@@ -173,8 +174,13 @@ bool SendServerEndpoint::has_waiting() const {
 
 IntakeCounters SendServerEndpoint::counters() const {
   IntakeCounters all;
-  for (std::size_t edge = 0; edge < edges_.size(); ++edge) all += counters(edge);
+  for (std::size_t edge = 0; edge < edge_count(); ++edge) all += counters(edge);
   return all;
+}
+
+std::size_t SendServerEndpoint::edge_count() const {
+  const std::lock_guard lock(mutex_);
+  return edges_.size();
 }
 
 IntakeCounters SendServerEndpoint::counters(std::size_t edge) const {

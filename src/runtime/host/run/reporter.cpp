@@ -39,15 +39,35 @@ Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listen
 
 void Reporter::delivered(std::string_view component, std::string_view port, const ObjectRef& object) {
   trace_.delivered(component, port, object);
+  if (taps_ != nullptr) taps_->pass(Flow::delivered, component, port, object);
   if (recorder_ != nullptr) recorder_->delivered(component, port, object);
   if (sightings_ != nullptr) sightings_->delivered(component, object);
 }
 
 void Reporter::pushed(std::string_view component, std::string_view port, const ObjectRef& object) {
+  if (taps_ != nullptr) taps_->pass(Flow::pushed, component, port, object);
   if (recorder_ != nullptr) recorder_->pushed(component, port, object);
   if (&object.type() == &object_type<idl::Arrived>()) hear(*static_cast<const idl::Arrived*>(object.get()));
   if (&object.type() == &object_type<idl::GoalFailed>())
     hear(*static_cast<const idl::GoalFailed*>(object.get()));
+}
+
+void Reporter::requested(std::string_view component, std::string_view port, const ObjectRef& object) {
+  if (taps_ != nullptr) taps_->pass(Flow::requested, component, port, object);
+  if (recorder_ != nullptr) recorder_->requested(component, port, object);
+  if (object.header().mission() != 0) follow_mission(component, port, object);
+}
+
+// Most objects of a port belong to one mission, so as a rule this is a look at two maps.
+void Reporter::follow_mission(std::string_view component, std::string_view port, const ObjectRef& object) {
+  const std::lock_guard lock(mutex_);
+  auto of_component = last_missions_.find(component);
+  if (of_component == last_missions_.end())
+    of_component = last_missions_.emplace(std::string(component), decltype(of_component->second){}).first;
+  auto last = of_component->second.find(port);
+  if (last == of_component->second.end()) last = of_component->second.emplace(std::string(port), 0).first;
+  if (std::exchange(last->second, object.header().mission()) == object.header().mission()) return;
+  listener_.mission_step(std::string(component) + "." + std::string(port), object);
 }
 
 void Reporter::hear(const idl::Arrived& arrived) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <set>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "alarm_news.hpp"
 #include "line_limit.hpp"
+#include "orca/host/port_taps.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
@@ -36,13 +38,14 @@ class Reporter final : public LinkObserver {
   /// Passes what travels on to `recorder` as well.
   /// @pre  nothing runs yet.
   void record(Recorder& recorder) { recorder_ = &recorder; }
+  /// Passes what travels on to `taps` as well.
+  /// @pre  nothing runs yet.
+  void tap(PortTaps& taps) { taps_ = &taps; }
 
   void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
   /// Passes on the results of missions: Arrived and GoalFailed.
   void pushed(std::string_view component, std::string_view port, const ObjectRef& object) override;
-  void requested(std::string_view component, std::string_view port, const ObjectRef& object) override {
-    if (recorder_ != nullptr) recorder_->requested(component, port, object);
-  }
+  void requested(std::string_view component, std::string_view port, const ObjectRef& object) override;
   void link_changed(std::string_view client, std::string_view server, bool connected) override {
     trace_.link_changed(client, server, connected);
   }
@@ -86,6 +89,7 @@ class Reporter final : public LinkObserver {
  private:
   void hear(const idl::Arrived& arrived);
   void hear(const idl::GoalFailed& failed);
+  void follow_mission(std::string_view component, std::string_view port, const ObjectRef& object);
 
   const Executive& executive_;
   Trace& trace_;
@@ -94,6 +98,7 @@ class Reporter final : public LinkObserver {
   const TimePoint start_;
   Sightings* sightings_ = nullptr;
   Recorder* recorder_ = nullptr;
+  PortTaps* taps_ = nullptr;
   AlarmNews alarm_news_;
   mutable std::mutex mutex_;
   std::vector<idl::Arrived> arrivals_;
@@ -103,6 +108,8 @@ class Reporter final : public LinkObserver {
   RobotNames robots_;
   LineLimit trouble_lines_;
   std::set<std::string, std::less<>> with_foreign_threads_;  // components
+  // Mission of the last object that a port has sent, by component and port.
+  std::map<std::string, std::map<std::string, std::uint64_t, std::less<>>, std::less<>> last_missions_;
   bool ignores_trouble_ = false;
 };
 

@@ -135,6 +135,23 @@ void System::stop_hardware(Duration limit) {
     std::this_thread::sleep_for(1ms);
 }
 
+void System::hold(const std::string& reason) {
+  for (const auto& hardware : hardware_) {
+    hw::MotionHW* const motion = hardware->container().motion();
+    if (motion == nullptr) continue;
+    motion->hold(reason);
+    idl::MotionCommand stop;  // wakes the strand of the container, so that it stops at once
+    stop.kind(idl::FULLSTOP);
+    stop.mission(motion->mission());
+    (void)hardware->container().command(stop);  // it may not be active: then nothing moves
+  }
+}
+
+void System::let_go() {
+  for (const auto& hardware : hardware_)
+    if (hw::MotionHW* const motion = hardware->container().motion()) motion->let_go();
+}
+
 Endpoint* System::endpoint(const graph::PortRef& port) const {
   const ComponentInstance* const owner = find(port.component);
   return owner == nullptr ? nullptr : owner->endpoint(port.port);

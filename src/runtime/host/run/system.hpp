@@ -59,6 +59,11 @@ class System {
   /// @thread  any, while the strands run.
   void stop_hardware(Duration limit);
 
+  /// Stops what moves and refuses commands to move, until let_go().
+  /// @thread  any, once the system is built.
+  void hold(const std::string& reason);
+  void let_go();
+
   /// Pause a component between two laps, and resume it.
   /// @errors  not_found; failed_precondition if it cannot be suspended now; deadline_exceeded if a lap does
   ///          not end in time. The order is then carried out when the lap does end.

@@ -13,6 +13,7 @@
 #include "orca/graph/port_list.hpp"
 #include "orca/host/last_words.hpp"
 #include "outer_edges.hpp"
+#include "outer_offers.hpp"
 #include "run/counters.hpp"
 #include "run/recording/run_files.hpp"
 #include "run/sightings.hpp"
@@ -31,6 +32,10 @@ SystemOptions system_options(const PartOptions& options) {
           options.missions, options.doorbell};
 }
 
+Error no_such(const graph::PortRef& port) {
+  return fail(Code::not_found, "there is no port " + port.text() + " in this process");
+}
+
 }  // namespace
 
 class HostedPart::Inside {
@@ -43,11 +48,18 @@ class HostedPart::Inside {
         hang_limit_(options.hang_limit),
         outputs_(options.outputs),
         files_(place.executive),
+        taps_(place.executive),
+        offers_(place.executive, options.missions),
         outer_(whole, options.doorbell),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
-                 system_options(options), [] { return false; }) {}
+                 system_options(options), [] { return false; }) {
+    watched_.reporter().tap(taps_);
+  }
 
   WatchedSystem& watched() { return watched_; }
+  PortTaps& taps() { return taps_; }
+  OuterOffers& offers() { return offers_; }
+  [[nodiscard]] RunCounters counters() { return collect_counters(whole_, watched_.system()); }
   OuterEdges& outer() { return outer_; }
 
   Status build(std::map<std::size_t, Descriptor> memory) {
@@ -226,6 +238,8 @@ class HostedPart::Inside {
   const RunOutputs outputs_;
   RunFiles files_;
   Sightings sightings_;
+  PortTaps taps_;
+  OuterOffers offers_;  // the system's ports answer to it
   OuterEdges outer_;
   WatchedSystem watched_;
   bool taken_down_ = false;
@@ -261,6 +275,25 @@ RunGlance HostedPart::look() const { return inside_->look(); }
 void HostedPart::order(PartOrder order) { inside_->order(std::move(order)); }
 
 void HostedPart::stop_motors() { inside_->watched().stop_motors(); }
+
+void HostedPart::hold(const std::string& reason) { inside_->watched().system().hold(reason); }
+
+void HostedPart::let_go() { inside_->watched().system().let_go(); }
+
+RunCounters HostedPart::counters() const { return inside_->counters(); }
+
+Result<std::shared_ptr<PortTap>> HostedPart::tap(const graph::PortRef& port) {
+  const Endpoint* const endpoint = inside_->watched().system().endpoint(port);
+  if (endpoint == nullptr) return no_such(port);
+  return inside_->taps().open(port.component, endpoint->contract());
+}
+
+Status HostedPart::offer(const graph::PortRef& port, ObjectLoan object,
+                         std::function<void(Result<ObjectRef>)> answered) {
+  Endpoint* const endpoint = inside_->watched().system().endpoint(port);
+  if (endpoint == nullptr) return no_such(port);
+  return inside_->offers().offer(*endpoint, std::move(object), std::move(answered));
+}
 
 void HostedPart::hear(const idl::Alarm& alarm, const std::string& process) {
   inside_->watched().reporter().alarm_news().add(alarm, process);

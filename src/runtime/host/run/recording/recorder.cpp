@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "orca/host/port_taps.hpp"
 #include "orca/idl/object_type.hpp"
 #include "run/lock_before.hpp"
 #include "table_file.hpp"
@@ -21,13 +22,6 @@ namespace {
 constexpr std::chrono::milliseconds kCloseLimit{500};
 // The thread looks for work by itself, because waking it would cost the component that pushes a system call.
 constexpr std::chrono::milliseconds kWriteInterval{20};
-
-enum class Flow { pushed, requested, delivered };
-
-Flow flow_of(const PortContract& port) {
-  if (port.pattern == Pattern::push && port.role == Role::server) return Flow::pushed;
-  return port.pattern == Pattern::send && port.role == Role::proxy ? Flow::requested : Flow::delivered;
-}
 
 // Returns the type of the objects that are recorded at a port.
 const ObjectType& type_of(const PortContract& port) {

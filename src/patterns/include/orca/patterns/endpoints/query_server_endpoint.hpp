@@ -20,7 +20,7 @@ namespace orca {
 /// The server side of Query. Questions wait here until the component's strand answers them between two laps.
 /// Each edge has room for as many questions as the port's depth.
 ///
-/// Thread contract: connect() before the components run; the targets from any task; the rest from the server's
+/// Thread contract: connect() and counters() from any thread; the targets from any task; the rest from the server's
 /// strand.
 class QueryServerEndpoint final : public Endpoint {
  public:
@@ -58,10 +58,9 @@ class QueryServerEndpoint final : public Endpoint {
   std::optional<Question> next(std::shared_ptr<const Handler>& handler);
   void answer(const Question& question, Result<ObjectLoan> answer);
 
-  std::vector<std::unique_ptr<Edge>> edges_;
-
   mutable std::mutex mutex_;
   // Below, and the edges' content: guarded by mutex_.
+  std::vector<std::unique_ptr<Edge>> edges_;
   std::deque<Question> waiting_;
   std::shared_ptr<const Handler> handler_;
   std::string closed_because_ = "it has not been started yet";

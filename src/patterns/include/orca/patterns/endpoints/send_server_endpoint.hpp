@@ -19,8 +19,7 @@ namespace orca {
 /// laps. Each edge has its own room, so a sender that floods the server costs the others nothing. On an edge that
 /// confirms what is handled, the sender has its answer after that.
 ///
-/// Thread contract: connect() before the components run; handle_one() from the server's strand; the rest from
-/// any thread.
+/// Thread contract: handle_one() from the server's strand; the rest from any thread.
 class SendServerEndpoint final : public Endpoint {
  public:
   using Handler = std::function<Status(const ObjectRef&)>;
@@ -48,7 +47,7 @@ class SendServerEndpoint final : public Endpoint {
   [[nodiscard]] IntakeCounters counters() const;
   /// Returns the counters of one edge; edges count in the order of connect().
   [[nodiscard]] IntakeCounters counters(std::size_t edge) const;
-  [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
+  [[nodiscard]] std::size_t edge_count() const;
 
  private:
   class Edge;
@@ -62,10 +61,9 @@ class SendServerEndpoint final : public Endpoint {
   bool next(Accepted& accepted, std::shared_ptr<const Handler>& handler);
   void settle(const Accepted& accepted, const Status& outcome);
 
-  std::vector<std::unique_ptr<Edge>> edges_;
-
   mutable std::mutex mutex_;
   // Below, and the edges' content: guarded by mutex_.
+  std::vector<std::unique_ptr<Edge>> edges_;
   std::deque<Accepted> waiting_;
   std::shared_ptr<const Handler> handler_;
   std::string closed_because_ = "it has not been started yet";

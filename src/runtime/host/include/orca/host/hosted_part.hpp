@@ -17,10 +17,12 @@
 #include "orca/host/catalogue.hpp"
 #include "orca/host/component_report.hpp"
 #include "orca/host/planned_failure.hpp"
+#include "orca/host/port_taps.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/host/run_outputs.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/run_view.hpp"
+#include "orca/idl/object.hpp"
 
 namespace orca::host {
 
@@ -87,8 +89,7 @@ struct PartPlace {
 
 /// The part of a system that this process runs. It does nothing by itself, but obeys orders.
 ///
-/// Thread contract: order(), stop_motors(), prepare_for_death(), look(), hear(), forget_alarm(), cut_edge() and renew_edge() from any
-/// thread once it is built, the rest from one.
+/// Thread contract: order(), stop_motors() and all functions after it from any thread once it is built, the rest from one.
 class HostedPart {
  public:
   /// @param whole    the graph of all processes. Outlives the object, as catalogue, executive and listener do.
@@ -125,6 +126,24 @@ class HostedPart {
   /// Returns what the part is like at this moment: hardware that is not well, goals. The rest is the listener's to know.
   /// @pre  it is built.
   [[nodiscard]] RunGlance look() const;
+
+  /// Stops what moves and refuses commands to move, until let_go(). Everything else goes on.
+  /// @param reason  for people: "emergency stop".
+  void hold(const std::string& reason);
+  void let_go();
+
+  /// Returns the counters of the connections that end in this process.
+  [[nodiscard]] RunCounters counters() const;
+  /// Opens a tap of a port. It must be closed before this object is destroyed.
+  /// @errors  not_found.
+  [[nodiscard]] Result<std::shared_ptr<PortTap>> tap(const graph::PortRef& port);
+  /// Hands an object from outside to a SendServer, or a question to a QueryServer. Such an object begins a mission of its
+  /// own.
+  /// @param answered  takes the outcome, with the reply of a QueryServer; called now or later, on any thread, unless the
+  ///                  component ends before. It must not block.
+  /// @errors  not_found; invalid_argument if the port takes no such object.
+  Status offer(const graph::PortRef& port, ObjectLoan object,
+               std::function<void(Result<ObjectRef>)> answered);
 
   /// Takes an alarm that was raised elsewhere, for components that pass alarms on.
   /// @param process  that it is about; empty: not one alone.

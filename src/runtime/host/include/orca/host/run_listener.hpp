@@ -7,6 +7,7 @@
 #include "orca/base/time.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/run_view.hpp"
+#include "orca/idl/object.hpp"
 
 namespace orca::host {
 
@@ -37,6 +38,8 @@ class RunListener {
   /// Reports that a robot touched something.
   virtual void contact(const idl::Contact& /*contact*/) {}
   virtual void alarm(const idl::Alarm& /*alarm*/) {}
+  /// Reports that a port has sent an object of another mission than the one before. Objects without a mission do not count.
+  virtual void mission_step(const std::string& /*port*/, const ObjectRef& /*object*/) {}
   /// Reports a line that a component or a hardware container wrote to the log.
   virtual void logged(log::Level /*level*/, std::string_view /*who*/, std::string_view /*text*/) {}
 

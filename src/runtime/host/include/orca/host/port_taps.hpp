@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/base/contract.hpp"
+#include "orca/base/executive.hpp"
+#include "orca/idl/object.hpp"
+
+namespace orca::host {
+
+/// The moment at which an object is seen at a port: when a PushServer pushes it or a SendProxy sends it, whoever takes it;
+/// at any other port, when it arrives.
+enum class Flow { pushed, requested, delivered };
+
+/// Returns the moment at which objects are seen at a port.
+[[nodiscard]] Flow flow_of(const PortContract& port);
+
+/// What has passed a port since the last look. Whoever passes an object never waits: one that finds no room is lost, and
+/// counted.
+///
+/// Thread contract: any thread.
+class PortTap {
+ public:
+  static constexpr std::size_t kMost = 64;  ///< Objects that wait for the next look.
+
+  /// An object, with the time of the run's clock at which it has passed.
+  struct Passed {
+    ObjectRef object;
+    TimePoint time;
+  };
+
+  /// Returns what waits, the oldest first.
+  [[nodiscard]] std::vector<Passed> take();
+  /// Returns how many objects were lost from the beginning until now.
+  [[nodiscard]] std::uint64_t lost() const;
+
+ private:
+  friend class PortTaps;
+  PortTap(std::string component, std::string port, Flow flow);
+  void put(const ObjectRef& object, TimePoint time);
+
+  const std::string component_;
+  const std::string port_;
+  const Flow flow_;
+  mutable std::mutex mutex_;
+  // Below: guarded by mutex_.
+  std::vector<Passed> waiting_;
+  std::uint64_t lost_ = 0;
+};
+
+/// The taps of a process. While there are none, an object that passes costs a look at one number.
+///
+/// Thread contract: any thread.
+class PortTaps {
+ public:
+  explicit PortTaps(const Executive& executive) : executive_(executive) {}
+
+  /// Opens a tap. It is closed when nobody holds the pointer any more.
+  [[nodiscard]] std::shared_ptr<PortTap> open(const std::string& component, const PortContract& port);
+
+  /// Takes an object that passes a port.
+  void pass(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object) {
+    if (count_.load(std::memory_order_relaxed) > 0) pass_on(flow, component, port, object);
+  }
+
+ private:
+  void pass_on(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object);
+
+  const Executive& executive_;
+  std::atomic<std::size_t> count_{0};  // of taps_
+  std::mutex mutex_;
+  std::vector<std::weak_ptr<PortTap>> taps_;  // guarded by mutex_
+};
+
+}  // namespace orca::host
