@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "channel/packets.hpp"
+#include "orca/supervisor/control.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 
 namespace {
@@ -25,6 +26,12 @@ void decode_both(const Message& message, std::size_t descriptors) {
     if (encode(std::move(*order)).body != message.body) std::abort();
   if (auto report = decode_report(copy_of(message, descriptors)))
     if (encode(std::move(*report)).body != message.body) std::abort();
+  if (auto ask = decode_ask(copy_of(message, descriptors)))
+    if (encode(std::move(*ask), 0).body != message.body) std::abort();
+  if (auto answer = decode_answer(copy_of(message, descriptors)))
+    if (encode(std::move(*answer), 0).body != message.body) std::abort();
+  if (auto word = decode_line_word(copy_of(message, descriptors)))
+    if (encode(std::move(*word)).body != message.body) std::abort();
 }
 
 }  // namespace

@@ -34,5 +34,8 @@ int main(int argc, char** argv) {
   const auto next_path = [&] { return std::string(argv[1]) + "/message" + std::to_string(++number); };
   for (auto& order : orca::test::all_orders()) write_seed(next_path(), encode(std::move(order)));
   for (auto& report : orca::test::all_reports()) write_seed(next_path(), encode(std::move(report)));
+  for (auto& answer : orca::test::all_answers()) write_seed(next_path(), encode(std::move(answer), 1));
+  for (auto& word : orca::test::all_line_words()) write_seed(next_path(), encode(std::move(word)));
+  write_seed(next_path(), encode(Ask{"set", {"avoid.margin", "0.3 m"}, true}, 1));
   return 0;
 }

@@ -139,7 +139,7 @@ ExitCode run(const Options& options) {
   if (has_host_processes(options)) {
     if (const Status fits = check_for_processes(*loaded.graph, options); !fits.ok())
       return refuse_for_processes(fits.error());
-    return exit_code_of(run_in_processes(*loaded.graph, options, stop, console).outcome);
+    return exit_code_of(run_in_processes(*loaded.graph, options, loaded.catalogue, stop, console).outcome);
   }
   return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, run, stop, console).outcome);
 }

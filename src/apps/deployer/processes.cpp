@@ -19,6 +19,7 @@
 #include "orca/supervisor/outputs.hpp"
 #include "orca/supervisor/own_process.hpp"
 #include "orca/supervisor/supervised_run.hpp"
+#include "orca/supervisor/system_facts.hpp"
 #include "progress.hpp"
 #include "streams.hpp"
 
@@ -109,9 +110,11 @@ Status check_for_processes(const graph::Graph& graph, const Options& options) {
   return supervisor::check_outputs(graph, options.run);
 }
 
-host::RunResult run_in_processes(const graph::Graph& graph, const Options& options, host::StopSignal& stop,
+host::RunResult run_in_processes(const graph::Graph& graph, const Options& options,
+                                 host::PluginCatalogue& catalogue, host::StopSignal& stop,
                                  host::RunListener& listener) {
   supervisor::SupervisedOptions supervised;
+  supervised.facts = supervisor::facts_of(graph, catalogue);
   supervised.program = own_program().string();
   supervised.arguments = {"deployer", std::string(kHostProcess)};
   const std::vector<std::string> folders = plugin_folders(options);

@@ -8,6 +8,7 @@
 #include "options.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
+#include "orca/host/catalogue.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/stop_signal.hpp"
@@ -27,9 +28,11 @@ namespace orca::deployer {
 [[nodiscard]] Status check_for_processes(const graph::Graph& graph, const Options& options);
 
 /// Runs a graph in host processes. This process only supervises them.
+/// @param catalogue  the one that has checked the graph.
 /// @thread  the main thread.
 [[nodiscard]] host::RunResult run_in_processes(const graph::Graph& graph, const Options& options,
-                                               host::StopSignal& stop, host::RunListener& listener);
+                                               host::PluginCatalogue& catalogue, host::StopSignal& stop,
+                                               host::RunListener& listener);
 
 /// Returns whether this process was started by another deployer as a host process.
 [[nodiscard]] bool is_host_process(int argc, char** argv);

@@ -74,4 +74,6 @@ std::string print(const Graph& graph) {
   return result + "</graph>\n";
 }
 
+std::string print_value(const ParamValue& value) { return value_text(value); }
+
 }  // namespace orca::graph

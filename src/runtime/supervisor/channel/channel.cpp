@@ -149,6 +149,12 @@ Channel::Channel(Descriptor socket, std::size_t bound)
       joiner_(std::make_unique<PacketJoiner>()),
       buffer_(kPacketBytes) {}
 
+Channel::Channel(Descriptor socket, std::size_t bound, std::size_t longest)
+    : socket_(std::move(socket)),
+      bound_(bound),
+      joiner_(std::make_unique<PacketJoiner>(longest, 0)),
+      buffer_(kPacketBytes) {}
+
 Channel::~Channel() = default;
 
 Status Channel::post(Message message) {

@@ -110,7 +110,7 @@ Result<std::optional<Message>> PacketJoiner::add(std::span<const std::byte> byte
 Status PacketJoiner::begin(std::span<const std::byte>& bytes) {
   if (bytes.size() < kHeadBytes) return impossible("has an incomplete head");
   const Head head = take_head(bytes);
-  if (head.body > kLongestBody || head.descriptors > kMostDescriptors)
+  if (head.body > longest_body_ || head.descriptors > most_descriptors_)
     return impossible("announces " + std::to_string(head.body) + " bytes and " +
                       std::to_string(head.descriptors) + " descriptors");
   message_.emplace(Message{head.kind, head.request, {}, {}});

@@ -35,6 +35,12 @@ struct Packet {
 /// Thread contract: not synchronised.
 class PacketJoiner {
  public:
+  /// @param longest_body      [bytes] a longer message is impossible.
+  /// @param most_descriptors  so is one with more of them.
+  explicit PacketJoiner(std::size_t longest_body = kLongestBody,
+                        std::size_t most_descriptors = kMostDescriptors)
+      : longest_body_(longest_body), most_descriptors_(most_descriptors) {}
+
   /// Adds the next packet.
   /// @return the message that it completes; nothing if more packets are to come.
   /// @errors  data_loss if it cannot be the next packet. No packet may be added after that.
@@ -44,6 +50,8 @@ class PacketJoiner {
   Status begin(std::span<const std::byte>& bytes);
   Status append(std::span<const std::byte> bytes, std::size_t expected, std::vector<Descriptor> descriptors);
 
+  const std::size_t longest_body_;
+  const std::size_t most_descriptors_;
   std::optional<Message> message_;    // not yet complete
   std::size_t body_left_ = 0;         // [bytes] still to come
   std::size_t descriptors_left_ = 0;  // still to come

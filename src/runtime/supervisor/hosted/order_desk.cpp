@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "counter_records.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/idl/system.hpp"
@@ -54,6 +55,7 @@ OrderDesk::OrderDesk(Channel& channel, host::HostedPart& part, ReportSender& rep
       reports_(reports),
       heartbeat_(heartbeat),
       shows_(shows),
+      lines_(part),
       wake_(make_wake()),
       thread_([this] {
         pthread_setname_np(pthread_self(), "orders");
@@ -101,20 +103,26 @@ void OrderDesk::receive() {
 void OrderDesk::carry_out(Order order, std::uint64_t request) {
   if (std::optional<host::PartOrder> for_part = part_order(order))
     return pass_on(std::move(*for_part), request);
-  if (std::holds_alternative<StopMotors>(order)) {
-    part_.stop_motors();
-    return reports_.send(Answer{ok()}, request);
-  }
   if (const auto* cut = std::get_if<CutEdge>(&order))
     return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
   if (const auto* alarm = std::get_if<TellAlarm>(&order)) return hear(*alarm);
   if (const auto* alarm = std::get_if<ForgetAlarm>(&order))
     return part_.forget_alarm(alarm->kind, alarm->source, alarm->process);
-  if (auto* renew = std::get_if<RenewEdge>(&order)) {
-    const Status renewed = part_.renew_edge(renew->edge.edge, std::move(renew->edge.memory));
-    return reports_.send(Answer{renewed}, request);
-  }
-  reports_.send(Answer{fail(Code::failed_precondition, "this order comes too late")}, request);
+  std::optional<Answer> answer = answer_of(order);
+  reports_.send(
+      answer ? std::move(*answer) : Answer{fail(Code::failed_precondition, "this order comes too late")},
+      request);
+}
+
+// Carries out an order that takes no time. Returns nothing if it is none of these.
+std::optional<Answer> OrderDesk::answer_of(Order& order) {
+  if (const auto* stop = std::get_if<StopMotors>(&order)) return part_.hold(stop->reason), Answer{};
+  if (std::holds_alternative<ReleaseMotors>(order)) return part_.let_go(), Answer{};
+  if (std::holds_alternative<Count>(order)) return Answer{ok(), to_records(part_.counters())};
+  if (auto* line = std::get_if<OpenLine>(&order)) return Answer{lines_.open(std::move(*line))};
+  if (auto* renew = std::get_if<RenewEdge>(&order))
+    return Answer{part_.renew_edge(renew->edge.edge, std::move(renew->edge.memory))};
+  return std::nullopt;
 }
 
 void OrderDesk::hear(const TellAlarm& told) {

@@ -3,12 +3,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <thread>
 
 #include "orca/base/descriptor.hpp"
 #include "orca/host/hosted_part.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/vocabulary.hpp"
+#include "port_lines.hpp"
 #include "report_sender.hpp"
 
 namespace orca::supervisor {
@@ -35,6 +37,7 @@ class OrderDesk {
   void carry_out(Order order, std::uint64_t request);
   void hear(const TellAlarm& told);
   void pass_on(host::PartOrder order, std::uint64_t request);
+  [[nodiscard]] std::optional<Answer> answer_of(Order& order);
   [[noreturn]] void leave(const Error& reason);
 
   Channel& channel_;
@@ -42,6 +45,7 @@ class OrderDesk {
   ReportSender& reports_;
   std::atomic<std::uint32_t>& heartbeat_;
   const bool shows_;
+  PortLines lines_;
   const Descriptor wake_;
   std::atomic<bool> ending_{false};
   std::thread thread_;  // the last member: it uses the others

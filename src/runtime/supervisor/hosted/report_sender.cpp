@@ -45,6 +45,13 @@ void ReportSender::goal_failed(const idl::GoalFailed& failed) { send(GoalFailedR
 
 void ReportSender::contact(const idl::Contact& contact) { send(ContactReport{bytes_of(contact)}); }
 
+void ReportSender::mission_step(const std::string& port, const ObjectRef& object) {
+  const idl::OrcaObject& header = object.header();
+  send(MissionStep{header.mission(), static_cast<std::uint64_t>(header.creation_time().ns()), port,
+                   std::string(object.type().name), header.seq(), header.cause().origin(),
+                   header.cause().seq()});
+}
+
 void ReportSender::alarm(const idl::Alarm& alarm) { send(AlarmReport{bytes_of(alarm)}); }
 
 void ReportSender::counted(const host::RunCounters& counters, const std::vector<host::RunResult::Way>& ways) {

@@ -30,6 +30,7 @@ class ReportSender final : public host::PartListener {
   void goal_failed(const idl::GoalFailed& failed) override;
   void contact(const idl::Contact& contact) override;
   void alarm(const idl::Alarm& alarm) override;
+  void mission_step(const std::string& port, const ObjectRef& object) override;
   void counted(const host::RunCounters& counters, const std::vector<host::RunResult::Way>& ways) override;
   void output_failed(const Error& error) override;
   /// Sends what the part is like, if that has changed since it was sent last.

@@ -90,6 +90,13 @@ bool RestartPolicy::awaits_end() const {
   });
 }
 
+void RestartPolicy::restart(std::size_t process, Moment now) {
+  Process& one = processes_[process];
+  const bool lives = one.state != State::waiting && one.state != State::finished;
+  one.state = lives ? State::ending : State::waiting;
+  one.start_at = now;
+}
+
 std::vector<std::size_t> RestartPolicy::take_due(Moment now) {
   std::vector<std::size_t> due;
   if (awaits_end()) return due;

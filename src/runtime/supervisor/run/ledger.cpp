@@ -68,6 +68,7 @@ Status Ledger::take_figures(const Report& report, const std::string& process) {
     glances_[process] = *glance;
     return ok();
   }
+  if (const auto* step = std::get_if<MissionStep>(&report)) return missions_.note(*step), ok();
   return take_object(report, process);
 }
 
@@ -86,16 +87,19 @@ Status Ledger::take_object(const Report& report, const std::string& process) {
     Result<idl::Arrived> object = read<idl::Arrived>(*arrived);
     if (!object) return object.error();
     listener_.arrived(*object);
+    missions_.note(*object);
     so_far_.arrivals.push_back(std::move(object).value());
   } else if (const auto* failed = std::get_if<GoalFailedReport>(&report)) {
     Result<idl::GoalFailed> object = read<idl::GoalFailed>(*failed);
     if (!object) return object.error();
     listener_.goal_failed(*object);
+    missions_.note(*object);
     so_far_.failures.push_back(std::move(object).value());
   } else if (const auto* contact = std::get_if<ContactReport>(&report)) {
     Result<idl::Contact> object = read<idl::Contact>(*contact);
     if (!object) return object.error();
     listener_.contact(*object);
+    missions_.note(*object);
     so_far_.contacts.push_back(std::move(object).value());
   } else if (const auto* alarm = std::get_if<AlarmReport>(&report)) {
     Result<idl::Alarm> object = read<idl::Alarm>(*alarm);
@@ -108,6 +112,7 @@ Status Ledger::take_object(const Report& report, const std::string& process) {
 void Ledger::note(idl::Alarm alarm, const std::string& process, const std::string& reporter) {
   listener_.alarm(alarm);
   alarms_.take(alarm, process);
+  missions_.note(alarm);
   if (relay_ != nullptr) relay_->tell(alarm, process, reporter);
   const std::lock_guard lock(mutex_);
   so_far_.alarms.push_back(std::move(alarm));

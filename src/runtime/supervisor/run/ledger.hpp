@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "alarm_relay.hpp"
+#include "control/mission_book.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/alarm_store.hpp"
@@ -47,6 +48,9 @@ class Ledger final : public host::RunView {
   /// Returns the alarms of all processes and of the supervisor that nobody has acknowledged yet, by number. They outlive
   /// their sources.
   [[nodiscard]] const std::vector<host::KeptAlarm>& alarms() const { return alarms_.kept(); }
+  [[nodiscard]] const MissionBook& missions() const { return missions_; }
+  /// Returns the time of the run's clock, which all stamps refer to.
+  [[nodiscard]] TimePoint start() const { return start_; }
   /// Takes an alarm out.
   /// @errors  not_found.
   Status acknowledge(std::uint64_t alarm);
@@ -83,6 +87,7 @@ class Ledger final : public host::RunView {
   std::set<std::string> restless_;  // processes
   host::RobotNames robots_;
   host::AlarmStore alarms_;
+  MissionBook missions_{start_};
   const AlarmRelay* relay_ = nullptr;
   std::map<std::string, Tally> tallies_;  // by process
   std::optional<Error> output_error_;

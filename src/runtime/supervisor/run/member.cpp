@@ -19,12 +19,18 @@ Status Member::start(const HostStart& start) {
   if (!started) return started.error();
   process_ = std::move(started).value();
   phase_ = Phase::coming_up;
+  ++starts_;
   return ok();
 }
 
 void Member::ask(Order order, Answered answered) {
+  ask_for(std::move(order),
+          [answered = std::move(answered)](const Answer& answer) { answered(answer.outcome); });
+}
+
+void Member::ask_for(Order order, AnswerTaker taker) {
   if (process_ == nullptr) return;
-  open_.emplace(++last_request_, std::move(answered));
+  open_.emplace(++last_request_, std::move(taker));
   (void)process_->channel().post(encode(std::move(order), last_request_));  // its end is seen elsewhere
 }
 
@@ -35,13 +41,14 @@ void Member::tell(Order order) {
 void Member::end(Moment now, const EndLimits& limits, Answered answered) {
   if (process_ == nullptr) return;
   phase_ = Phase::going_down;
-  open_.emplace(++last_request_, std::move(answered));
+  open_.emplace(++last_request_,
+                [answered = std::move(answered)](const Answer& answer) { answered(answer.outcome); });
   process_->end(now, limits, last_request_);
 }
 
-void Member::take_answer(std::uint64_t request, const Status& outcome) {
+void Member::take_answer(std::uint64_t request, const Answer& answer) {
   auto found = open_.extract(request);
-  if (!found.empty()) found.mapped()(outcome);
+  if (!found.empty()) found.mapped()(answer);
 }
 
 void Member::heard(const std::string& line, Moment now) {
@@ -89,6 +96,7 @@ void Member::forget() {
   deaf_since_.reset();
   prompts_.reset();
   phase_ = Phase::absent;
+  is_built_ = false;
 }
 
 }  // namespace orca::supervisor

@@ -32,6 +32,8 @@ class Member {
   };
   /// Takes the answer to an order.
   using Answered = std::function<void(const Status&)>;
+  /// Takes all of it. If the process ends before it has answered, the function is destroyed without a call.
+  using AnswerTaker = std::function<void(const Answer&)>;
 
   Member(graph::ProcessNode node, std::size_t index) : node_(std::move(node)), index_(index) {}
 
@@ -41,12 +43,14 @@ class Member {
 
   /// Sends an order. `answered` is called when the answer is there, unless the process ends before.
   void ask(Order order, Answered answered);
+  /// Does the same for an order that asks for more than an outcome.
+  void ask_for(Order order, AnswerTaker taker);
   /// Sends an order that nobody waits for.
   void tell(Order order);
   /// Orders the process to end, and sees to it that it does.
   void end(Moment now, const EndLimits& limits, Answered answered);
   /// Takes the answer to an order.
-  void take_answer(std::uint64_t request, const Status& outcome);
+  void take_answer(std::uint64_t request, const Answer& answer);
 
   /// Notes a line that the process has printed. A line of host::LastWords tells why it ends.
   void heard(const std::string& line, Moment now);
@@ -78,13 +82,20 @@ class Member {
   [[nodiscard]] HostProcess* process() const { return process_.get(); }
   [[nodiscard]] Phase phase() const { return phase_; }
   void enter(Phase phase) { phase_ = phase; }
+  /// Returns whether its instances are built, so that it takes orders about them.
+  [[nodiscard]] bool is_built() const { return is_built_; }
+  void note_built() { is_built_ = true; }
+  /// Returns how often it was started again.
+  [[nodiscard]] std::uint64_t restarts() const { return starts_ > 0 ? starts_ - 1 : 0; }
 
  private:
   const graph::ProcessNode node_;
   const std::size_t index_;
   Phase phase_ = Phase::absent;
+  bool is_built_ = false;
+  std::uint64_t starts_ = 0;
   std::unique_ptr<HostProcess> process_;
-  std::map<std::uint64_t, Answered> open_;
+  std::map<std::uint64_t, AnswerTaker> open_;
   std::uint64_t last_request_ = 0;
   std::string words_;  // the last that sounded like last words
   Moment words_at_{};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "poller.hpp"
 
-#include <poll.h>
 #include <sys/eventfd.h>
 
 #include <algorithm>
@@ -27,8 +26,10 @@ int milliseconds_until(Moment moment) {
 
 Poller::Poller() : wake_(make_wake()) {}
 
-void Poller::wait(const std::vector<std::unique_ptr<Member>>& members, Moment until) {
+void Poller::wait(const std::vector<std::unique_ptr<Member>>& members, const std::vector<pollfd>& others,
+                  Moment until) {
   std::vector<pollfd> all{{wake_.number(), POLLIN, 0}};
+  all.insert(all.end(), others.begin(), others.end());
   for (const auto& member : members) {
     HostProcess* const process = member->process();
     if (process == nullptr) continue;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <poll.h>
+
 #include <memory>
 #include <vector>
 
@@ -18,8 +20,10 @@ class Poller {
   /// @errors  throws std::system_error if there are no descriptors left (orca/base/exhaustion.hpp).
   Poller();
 
-  /// Waits until a process has sent a message, written something or ended, until wake(), or until that moment.
-  void wait(const std::vector<std::unique_ptr<Member>>& members, Moment until);
+  /// Waits until a process has sent a message, written something or ended, until one of the others is ready, until wake(),
+  /// or until that moment.
+  void wait(const std::vector<std::unique_ptr<Member>>& members, const std::vector<pollfd>& others,
+            Moment until);
   /// Ends the present wait, or the next one.
   void wake() const;
 

@@ -8,6 +8,7 @@
 #include "alarm_relay.hpp"
 #include "bring_up.hpp"
 #include "conclusion.hpp"
+#include "control/control_desk.hpp"
 #include "ledger.hpp"
 #include "member.hpp"
 #include "orca/base/steady_clock.hpp"
@@ -56,6 +57,13 @@ std::vector<graph::ProcessNode> nodes_of(const std::vector<std::unique_ptr<Membe
   return nodes;
 }
 
+// Returns whether the end of the run waits for a component of the process.
+bool runs_an_end(const graph::Graph& graph, const Member& member) {
+  return std::ranges::any_of(graph.ends, [&](const std::string& name) {
+    return graph.find_component(name)->process == member.name();
+  });
+}
+
 // One run, from the first process to the last.
 class SupervisedRun {
  public:
@@ -71,14 +79,18 @@ class SupervisedRun {
         all_(pointers_to(members_)),
         starter_(graph, options, page_, all_, start_),
         ledger_(graph, listener, start_, options.log_name),
-        policy_(nodes_of(members_), graph.supervision) {
+        policy_(nodes_of(members_), graph.supervision),
+        control_(graph, options.facts, all_, ledger_, levers()) {
     ledger_.relay_to(relay_);
   }
 
   host::RunResult execute() {
     stop_.on_request([this] { poller_.wake(); });
     if (options_.outputs.looks_on) listener_.built(ledger_);
-    if (!stop_.requested()) start(all_);
+    if (const Status alone = control_.open(); !alone.ok())
+      refuse(alone.error());
+    else if (!stop_.requested())
+      start(all_);
     while (!is_over()) turn(next_time());
     if (conclusion_.ends_well()) wait_for_rest();
     const bool was_well = !conclusion_.has_failed();
@@ -93,6 +105,22 @@ class SupervisedRun {
   }
 
  private:
+  // ---- Operators
+
+  RunLevers levers() {
+    const auto stop = [this] {
+      if (!conclusion_.is_over()) conclusion_.stop("");
+    };
+    const auto restart = [this](Member& member) -> Status {
+      if (conclusion_.is_over() || !conclusion_.has_come_up())
+        return fail(Code::failed_precondition, "the system is just coming up or ending");
+      policy_.restart(member.index(), now());
+      end_for_restart(member);
+      return ok();
+    };
+    return {stop, restart};
+  }
+
   // ---- Starting
 
   // Starts processes that do not run, all together.
@@ -104,14 +132,15 @@ class SupervisedRun {
       beats_.watch(member->index(), member->node().hang_limit);
     }
     began_.push_back(std::make_unique<BringUp>(
-        starter_.plan(members), [this] { built(); },
+        starter_.plan(members), [this, members] { built(members); },
         [this, members](const Status& outcome, const Member* culprit) {
           outcome.ok() ? came_up(members) : did_not_come_up(outcome.error(), *culprit);
         }));
     began_.back()->begin(std::move(setups).value());
   }
 
-  void built() {
+  void built(const Members& members) {
+    control_.built(members);
     if (!conclusion_.has_come_up()) ledger_.introduce();
   }
 
@@ -123,6 +152,7 @@ class SupervisedRun {
     }
     if (!conclusion_.has_come_up()) up_since_ = steady_now();
     conclusion_.came_up();
+    control_.came_up(members);
   }
 
   void did_not_come_up(const Error& error, const Member& culprit) {
@@ -142,7 +172,10 @@ class SupervisedRun {
   void turn(Moment until) {
     for (const auto& member : members_)
       if (member->process() != nullptr) until = std::min(until, member->process()->due().value_or(until));
-    poller_.wait(members_, until);
+    std::vector<pollfd> clients;
+    control_.add_to(clients);
+    poller_.wait(members_, clients, until);
+    control_.serve(now());
     for (const auto& member : members_) look_after(*member);
     for (const std::size_t process : beats_.look(now())) {
       if (members_[process]->process() != nullptr)
@@ -199,7 +232,7 @@ class SupervisedRun {
 
   Status take(Member& member, const Report& report, std::uint64_t request) {
     if (const auto* answer = std::get_if<Answer>(&report)) {
-      member.take_answer(request, answer->outcome);
+      member.take_answer(request, *answer);
       return ok();
     }
     if (const auto* words = std::get_if<LastWordsReport>(&report))
@@ -229,7 +262,7 @@ class SupervisedRun {
     if (unasked) ledger_.raise(host::AlarmKind::process_ended, member.name(), text);
     if (!conclusion_.has_come_up()) return conclusion_.fail_with(fail(Code::unavailable, text));
     const RestartDecision decision = policy_.ended(member.index(), is_normal, now());
-    if (!decision.restarts && !decision.gives_up && runs_an_end(member))
+    if (policy_.has_finished(member.index()) && !decision.gives_up && runs_an_end(graph_, member))
       return conclusion_.fail_with(fail(Code::unavailable, text));
     obey(decision, text);
   }
@@ -239,13 +272,6 @@ class SupervisedRun {
     if (is_normal || stop_.is_urgent() || !conclusion_.has_come_up()) return;
     log::error(options_.log_name, text);
     conclusion_.fail_late(fail(Code::unavailable, text));
-  }
-
-  // Returns whether the end of the run waits for a component of the process.
-  [[nodiscard]] bool runs_an_end(const Member& member) const {
-    return std::ranges::any_of(graph_.ends, [&](const std::string& name) {
-      return graph_.find_component(name)->process == member.name();
-    });
   }
 
   void cut(const Wiring::Outer& outer, const Member& lost, const std::string& how) {
@@ -373,6 +399,7 @@ class SupervisedRun {
   RestartPolicy policy_;
   Poller poller_;
   Heartbeats beats_{page_};
+  ControlDesk control_;
   std::vector<std::unique_ptr<BringUp>> began_;
   Conclusion conclusion_{graph_, reports_, options_.log_name};
   TimePoint up_since_ = start_;

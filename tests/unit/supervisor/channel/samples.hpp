@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "orca/supervisor/control.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 
 namespace orca::test {
@@ -38,7 +39,8 @@ inline std::vector<supervisor::Order> all_orders() {
                         StopMotors{"estop"}, Suspend{"avoid"}, Resume{"avoid"},
                         SetParams{"avoid", {{"stop_distance", "0.5 m"}}}, RenewEdge{{4, null_device()}},
                         CutEdge{4, "process \"base\" has crashed"}, TellAlarm{"base", some_bytes()},
-                        ForgetAlarm{"FAILED", "avoid", "behaviours"});
+                        ForgetAlarm{"FAILED", "avoid", "behaviours"}, ReleaseMotors{}, Count{},
+                        OpenLine{"base", "OdometryPush", true, false, null_device()});
 }
 
 /// Returns at least one of each report.
@@ -51,7 +53,26 @@ inline std::vector<supervisor::Report> all_reports() {
                          Logged{log::Level::warning, "avoid", "text"}, LastWordsReport{"SIGSEGV"},
                          Tally{{{"3", {1, 2}}}, {{"goto.send", {4}}}, {}, {{"base", {12'000}}}},
                          OutputFailed{fail(Code::unavailable, "no space", "run.csv")},
-                         Glance{{{"scout", "Fault"}}, {{"kitchen", {2'500}}}}, Prompting{false});
+                         Glance{{{"scout", "Fault"}}, {{"kitchen", {2'500}}}}, Prompting{false},
+                         Answer{ok(), {{{"name", "goto"}, {"restarts", 3}, {"active", true}}, {}}},
+                         MissionStep{7, 1'000'000, "command.goto", "GoalPoint", 2, "goto", 5});
+}
+
+/// Returns one of each word that a client of the control socket hears.
+inline std::vector<supervisor::ControlAnswer> all_answers() {
+  using namespace supervisor;
+  return list_of<ControlAnswer>(RecordAnswer{{{"name", "goto"}, {"pid", 42}, {"active", true}}},
+                                TextAnswer{"<graph/>"}, LineAnswer{null_device(), "Ask", "ClientList"},
+                                EndAnswer{ok()},
+                                EndAnswer{fail(Code::not_found, "there is no component \"gto\"")});
+}
+
+/// Returns one of each word on a line to a port.
+inline std::vector<supervisor::LineWord> all_line_words() {
+  using namespace supervisor;
+  return list_of<LineWord>(Tapped{"Odometry", some_bytes(), 3, 2, 4, 1}, Offer{"Ask", some_bytes()},
+                           OfferOutcome{ok(), "ClientList", some_bytes()},
+                           OfferOutcome{fail(Code::unavailable, "full"), "", {}});
 }
 
 }  // namespace orca::test

@@ -247,3 +247,26 @@ TEST_CASE("Whatever happens, limits are kept and no process is lost", "[supervis
     run.settle();
   }
 }
+
+TEST_CASE(
+    "A process that somebody wants restarted starts anew whatever its rule, alone, and it counts as no fault",
+    "[supervisor][restart]") {
+  const auto rule = GENERATE(values({kPermanent, kTransient, kTemporary}));
+  RestartPolicy policy(nodes({kPermanent, rule, kPermanent}), supervision(Strategy::one_for_all, 0));
+  policy.restart(1, kStart);
+  CHECK(policy.take_due(kStart) == Indices{});
+  const RestartDecision decision = policy.ended(1, true, kStart);
+  CHECK_FALSE(decision.restarts);
+  CHECK_FALSE(decision.gives_up);
+  CHECK(decision.end == Indices{});
+  CHECK_FALSE(policy.has_finished(1));
+  CHECK(policy.take_due(kStart) == Indices{1});
+}
+
+TEST_CASE("A process that has finished can be restarted", "[supervisor][restart]") {
+  RestartPolicy policy(nodes({kTemporary}), supervision(Strategy::one_for_one));
+  CHECK_FALSE(policy.ended(0, false, kStart).restarts);
+  CHECK(policy.has_finished(0));
+  policy.restart(0, kStart);
+  CHECK(policy.take_due(kStart) == Indices{0});
+}

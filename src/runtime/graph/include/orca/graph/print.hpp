@@ -11,4 +11,7 @@ namespace orca::graph {
 /// SI. Loading that text gives an equal Graph.
 [[nodiscard]] std::string print(const Graph& graph);
 
+/// Returns the value of a parameter as print() writes it.
+[[nodiscard]] std::string print_value(const ParamValue& value);
+
 }  // namespace orca::graph

@@ -45,6 +45,9 @@ class Channel {
   /// @param socket  one end of make_socket_pair().
   /// @param bound   [bytes] if more than this waits for the peer, post() and send() take nothing more.
   explicit Channel(Descriptor socket, std::size_t bound = kDefaultBound);
+  /// Makes a channel to a peer that sends no descriptors.
+  /// @param longest  [bytes] of a message that the peer may send.
+  Channel(Descriptor socket, std::size_t bound, std::size_t longest);
   ~Channel();
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;

@@ -26,6 +26,9 @@ enum class Kind : std::uint16_t {
   cut_edge,
   tell_alarm,
   forget_alarm,
+  release_motors,
+  count,
+  open_line,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,
@@ -41,6 +44,17 @@ enum class Kind : std::uint16_t {
   output_failed,
   glance,
   prompting,
+  mission_step,
+  // Words of an operator's program and the answers: see orca/supervisor/control.hpp.
+  ask = 201,
+  record_answer = 301,
+  text_answer,
+  line_answer,
+  end_answer,
+  // On a line between an operator's program and a port.
+  tapped = 401,
+  offer,
+  offer_outcome,
 };
 
 /// One message of a control channel, encoded. orca/supervisor/vocabulary.hpp gives it a meaning.

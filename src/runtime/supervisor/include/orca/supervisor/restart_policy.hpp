@@ -43,6 +43,15 @@ class RestartPolicy {
   /// @param now        not before the times of earlier calls.
   [[nodiscard]] RestartDecision ended(std::size_t process, bool is_normal, Moment now);
 
+  /// Returns whether a process has ended and is not to be started again.
+  [[nodiscard]] bool has_finished(std::size_t process) const {
+    return processes_[process].state == State::finished;
+  }
+
+  /// Lets a process start again as soon as it has ended, whatever its rule, because somebody wants it so. It counts as no
+  /// fault and concerns no other process. Whoever calls this ends it, if it runs.
+  void restart(std::size_t process, Moment now);
+
   /// Returns the processes that are to be started now, in the order of the graph, once each. From here on they count as
   /// running. None is returned while one that is to be ended still runs.
   [[nodiscard]] std::vector<std::size_t> take_due(Moment now);

@@ -12,6 +12,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
 #include "orca/supervisor/message.hpp"
+#include "orca/supervisor/record.hpp"
 
 namespace orca::supervisor {
 
@@ -59,10 +60,27 @@ struct OpenGates {
 struct TakeDown {
   static constexpr Kind kKind = Kind::take_down;
 };
-/// Asks to stop all motors of the process now. Everything else goes on.
+/// Asks to stop all motors of the process now, and to let nothing move until ReleaseMotors. Everything else goes on.
 struct StopMotors {
   static constexpr Kind kKind = Kind::stop_motors;
   std::string reason;
+};
+/// Asks to let the motors obey commands again.
+struct ReleaseMotors {
+  static constexpr Kind kKind = Kind::release_motors;
+};
+/// Asks for the counters of all connections that end in the process. They come with the answer.
+struct Count {
+  static constexpr Kind kKind = Kind::count;
+};
+/// Gives an operator's program a line to a port of the process: see orca/supervisor/control.hpp.
+struct OpenLine {
+  static constexpr Kind kKind = Kind::open_line;
+  std::string component;
+  std::string port;
+  bool taps = false;     ///< Objects that pass the port are told, with their times.
+  bool objects = false;  ///< With the objects themselves.
+  Descriptor line;
 };
 /// Asks to suspend a component.
 struct Suspend {
@@ -105,8 +123,9 @@ struct ForgetAlarm {
   std::string process;
 };
 
-using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
-                           Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm>;
+using Order =
+    std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend, Resume,
+                 SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors, Count, OpenLine>;
 
 // ---- Reports, from a host process to the supervisor.
 
@@ -114,6 +133,7 @@ using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, Tak
 struct Answer {
   static constexpr Kind kKind = Kind::answer;
   Status outcome;
+  std::vector<Record> records{};  ///< What was asked for, if anything.
 };
 /// The robots of the process, before anything moves.
 struct Built {
@@ -188,9 +208,21 @@ struct LastWordsReport {
   std::string text;
 };
 
+/// A port has sent the first object of a mission.
+struct MissionStep {
+  static constexpr Kind kKind = Kind::mission_step;
+  std::uint64_t mission = 0;
+  std::uint64_t time = 0;  ///< Of its creation [ns of the run's clock].
+  std::string port;        ///< "component.port"
+  std::string type;        ///< Of the object, its IDL name.
+  std::uint64_t seq = 0;
+  std::string cause_origin;  ///< What the object answers; empty: nothing.
+  std::uint64_t cause_seq = 0;
+};
+
 using Report =
     std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport, ContactReport,
-                 AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance, Prompting>;
+                 AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance, Prompting, MissionStep>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.

@@ -14,6 +14,7 @@
 #include "orca/host/run_outputs.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/stop_signal.hpp"
+#include "orca/supervisor/system_facts.hpp"
 
 namespace orca::supervisor {
 
@@ -28,6 +29,7 @@ struct SupervisedOptions {
   log::Level log_level = log::Level::info;
   std::string log_name = "supervisor";  ///< Name in the log for what concerns the run as a whole.
   host::RunOutputs outputs;  ///< Checked by check_outputs(). A process that is started again writes none.
+  SystemFacts facts;         ///< For operators.
 };
 
 /// Runs a checked graph in host processes: starts them, brings everything up, watches, starts again what has died,

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/supervisor/control.hpp"
+
+#include <cstdio>
+
+#include "channel/transfer.hpp"
+
+namespace orca::supervisor {
+
+Cell::Cell(std::string called, double number, int digits) : name(std::move(called)), kind(Kind::number) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, number);
+  value = text;
+}
+
+void fields(auto& archive, Ask& m) { transfer_all(archive, m.command, m.words, m.as_json); }
+void fields(auto& archive, RecordAnswer& m) { transfer(archive, m.record); }
+void fields(auto& archive, TextAnswer& m) { transfer(archive, m.text); }
+void fields(auto& archive, LineAnswer& m) { transfer_all(archive, m.line, m.type, m.reply); }
+void fields(auto& archive, EndAnswer& m) { transfer(archive, m.outcome); }
+void fields(auto& archive, Tapped& m) {
+  transfer_all(archive, m.type, m.object, m.passed, m.created, m.size, m.lost);
+}
+void fields(auto& archive, Offer& m) { transfer_all(archive, m.type, m.object); }
+void fields(auto& archive, OfferOutcome& m) { transfer_all(archive, m.outcome, m.type, m.object); }
+
+Message encode(Ask ask, std::uint64_t request) {
+  std::variant<Ask> words(std::move(ask));
+  return encode_any(words, request);
+}
+Message encode(ControlAnswer answer, std::uint64_t request) { return encode_any(answer, request); }
+Message encode(LineWord word, std::uint64_t request) { return encode_any(word, request); }
+
+Result<Ask> decode_ask(Message message) {
+  Result<std::variant<Ask>> decoded = decode_any(message, std::variant<Ask>{});
+  if (!decoded) return decoded.error();
+  return std::get<Ask>(std::move(decoded).value());
+}
+Result<ControlAnswer> decode_answer(Message message) { return decode_any(message, ControlAnswer{}); }
+Result<LineWord> decode_line_word(Message message) { return decode_any(message, LineWord{}); }
+
+}  // namespace orca::supervisor

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "channel/fields.hpp"
+#include "orca/base/log.hpp"
+#include "orca/base/result.hpp"
+#include "orca/supervisor/record.hpp"
+#include "orca/supervisor/vocabulary.hpp"
+
+namespace orca::supervisor {
+
+// A field, to or from an Archive: FieldWriter or FieldReader.
+
+void transfer(auto& archive, std::uint64_t& value) { archive.number(value); }
+void transfer(auto& archive, std::string& text) { archive.text(text); }
+void transfer(auto& archive, std::vector<std::byte>& bytes) { archive.bytes(bytes); }
+void transfer(auto& archive, Descriptor& descriptor) { archive.descriptor(descriptor); }
+
+// Transfers the number of an enumerator, or of a bool.
+template <class T>
+void transfer_up_to(auto& archive, T& value, T last) {
+  auto number = static_cast<std::uint64_t>(value);
+  archive.number(number);
+  archive.require(number <= static_cast<std::uint64_t>(last));
+  if (number <= static_cast<std::uint64_t>(last)) value = static_cast<T>(number);
+}
+
+void transfer(auto& archive, bool& value) { transfer_up_to(archive, value, true); }
+void transfer(auto& archive, log::Level& level) { transfer_up_to(archive, level, log::Level::error); }
+
+void transfer(auto& archive, Status& status) {
+  bool is_ok = status.ok();
+  transfer(archive, is_ok);
+  if (is_ok) return;
+  Error error = status.ok() ? Error{} : status.error();
+  transfer_up_to(archive, error.code, Code::internal);
+  transfer(archive, error.message);
+  transfer(archive, error.where);
+  transfer(archive, error.param);
+  status = std::move(error);
+}
+
+void transfer(auto& archive, EdgeMemory& edge) {
+  transfer(archive, edge.edge);
+  transfer(archive, edge.memory);
+}
+
+void transfer(auto& archive, Cell& cell) {
+  transfer(archive, cell.name);
+  transfer(archive, cell.value);
+  transfer_up_to(archive, cell.kind, Cell::Kind::flag);
+}
+
+void transfer(auto& archive, Counts& counts);
+
+template <class A, class B>
+void transfer(auto& archive, std::pair<A, B>& pair) {
+  transfer(archive, pair.first);
+  transfer(archive, pair.second);
+}
+
+template <class T>
+void transfer(auto& archive, std::vector<T>& list) {
+  std::uint64_t count = list.size();
+  archive.number(count);
+  archive.resize(list, count);
+  for (T& element : list) transfer(archive, element);
+}
+
+void transfer(auto& archive, Counts& counts) {
+  transfer(archive, counts.name);
+  transfer(archive, counts.numbers);
+}
+
+void transfer_all(auto& archive, auto&... fields) { (transfer(archive, fields), ...); }
+
+// Encodes one of the words. Each has an overload of fields().
+template <class Words>
+Message encode_any(Words& words, std::uint64_t request) {
+  return std::visit(
+      [&](auto& word) {
+        Message message{std::decay_t<decltype(word)>::kKind, request, {}, {}};
+        FieldWriter writer(message);
+        fields(writer, word);
+        return message;
+      },
+      words);
+}
+
+inline Error wrong(const Message& message, const std::string& what) {
+  return fail(Code::data_loss, "a message of kind " + std::to_string(static_cast<unsigned>(message.kind)) +
+                                   " of the control channel " + what);
+}
+
+// Decodes the message into `words` if it is of the kind of Word. Returns whether it is.
+template <class Word, class Words>
+bool decode_as(Message& message, Words& words, bool& is_complete) {
+  if (message.kind != Word::kKind) return false;
+  FieldReader reader(message);
+  fields(reader, words.template emplace<Word>());
+  is_complete = reader.is_complete();
+  return true;
+}
+
+// Decodes a message that is one of the words.
+// @errors  data_loss.
+template <class... Word>
+Result<std::variant<Word...>> decode_any(Message& message, std::variant<Word...> words) {
+  bool is_complete = false;
+  if (!(decode_as<Word>(message, words, is_complete) || ...)) return wrong(message, "is not known here");
+  if (!is_complete) return wrong(message, "is damaged");
+  return words;
+}
+
+}  // namespace orca::supervisor

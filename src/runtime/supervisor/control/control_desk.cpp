@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "control/control_desk.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "control/alarm_desk.hpp"
+#include "orca/base/text.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+// Returns whether an option is among the words.
+bool has(const Ask& ask, std::string_view option) {
+  return std::ranges::find(ask.words, option) != ask.words.end();
+}
+
+// Returns a word after the command; "" if there are not so many.
+std::string word(const Ask& ask, std::size_t at) { return at < ask.words.size() ? ask.words[at] : ""; }
+
+// Reads the words after "log": "--follow", "--level", a level, and names.
+Result<LogWish> read_log_wish(const std::vector<std::string>& words) {
+  LogWish wish;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--follow") {
+      wish.follows = true;
+    } else if (words[i] == "--level") {
+      const Result<log::Level> level = log::parse_level(i + 1 < words.size() ? words[i + 1] : "");
+      if (!level) return level.error();
+      wish.level = *level;
+      ++i;
+    } else {
+      wish.who.push_back(words[i]);
+    }
+  }
+  return wish;
+}
+
+}  // namespace
+
+ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
+                         const std::vector<Member*>& members, Ledger& ledger, RunLevers levers)
+    : system_(graph.name),
+      ledger_(ledger),
+      names_(graph, facts.ports, members),
+      showing_(graph, facts, members, ledger),
+      operating_(graph, facts, names_, std::move(levers)),
+      motors_(members) {}
+
+Status ControlDesk::open() {
+  Result<ControlSocket> socket = ControlSocket::open(system_);
+  if (!socket && socket.error().code == Code::already_exists) return socket.error();
+  if (!socket) {
+    log::warning("supervisor", "orcactl cannot reach this system: " + socket.error().text());
+    return ok();
+  }
+  server_.emplace(std::move(socket).value(),
+                  [this](const Ask& ask, const ReplyPtr& reply) { handle(ask, reply); });
+  return ok();
+}
+
+void ControlDesk::add_to(std::vector<pollfd>& all) const {
+  if (server_) server_->add_to(all);
+}
+
+void ControlDesk::serve(Moment now) {
+  if (server_) server_->serve(now);
+  log_.pass_on();
+}
+
+void ControlDesk::built(const std::vector<Member*>& members) {
+  for (Member* const member : members) {
+    member->note_built();
+    motors_.take_in(*member);
+  }
+}
+
+const ControlDesk::Handlers& ControlDesk::handlers() {
+  static const Handlers all{
+      {"ps", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.components(*r); }},
+      {"graph", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.graph(*r); }},
+      {"ports", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.ports(*r); }},
+      {"plugins", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.plugins(*r); }},
+      {"names", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.names(*r); }},
+      {"counters", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.counters(r); }},
+      {"alarms",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { handle_alarms(ask.words, d.ledger_, *r); }},
+      {"missions", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.show_missions(ask, *r); }},
+      {"log", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.show_log(ask, r); }},
+      {"estop", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.stop_motors(ask, r); }},
+      {"stop", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.operating_.stop(r); }},
+      {"restart",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.restart(word(ask, 0), r); }},
+      {"suspend",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.suspend(word(ask, 0), r); }},
+      {"resume",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.resume(word(ask, 0), r); }},
+      {"get", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.get(word(ask, 0), r); }},
+      {"set", [](ControlDesk& d, const Ask& ask,
+                 const ReplyPtr& r) { d.operating_.set(word(ask, 0), word(ask, 1), r); }},
+      {"line", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.open_line(ask, r); }},
+  };
+  return all;
+}
+
+void ControlDesk::handle(const Ask& ask, const ReplyPtr& reply) {
+  const auto handler = handlers().find(ask.command);
+  if (handler != handlers().end()) return handler->second(*this, ask, reply);
+  reply->refuse(
+      fail(Code::unimplemented, "the supervisor does not know the command " + in_quotes(ask.command)));
+}
+
+void ControlDesk::stop_motors(const Ask& ask, const ReplyPtr& reply) {
+  if (has(ask, "--release")) return motors_.release(reply);
+  motors_.stop(reply);
+}
+
+void ControlDesk::show_log(const Ask& ask, const ReplyPtr& reply) {
+  Result<LogWish> wish = read_log_wish(ask.words);
+  if (!wish) return reply->refuse(wish.error());
+  log_.show(std::move(wish).value(), reply);
+}
+
+void ControlDesk::show_missions(const Ask& ask, Reply& reply) const {
+  if (ask.words.empty()) return ledger_.missions().show(reply);
+  std::uint64_t number = 0;
+  const std::string& text = ask.words[0];
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size())
+    return reply.refuse(fail(Code::invalid_argument, in_quotes(text) + " is no number of a mission"));
+  if (const Status shown = ledger_.missions().show(number, reply); !shown.ok()) reply.refuse(shown.error());
+}
+
+// Joins the client to the host process of a port. The supervisor itself keeps no end.
+void ControlDesk::open_line(const Ask& ask, const ReplyPtr& reply) {
+  const Result<const graph::ListedPort*> port = names_.port(word(ask, 0));
+  if (!port) return reply->refuse(port.error());
+  const graph::PortRef& ref = (*port)->ref;
+  const Result<Member*> member = names_.ready_member_of(**names_.component(ref.component));
+  if (!member) return reply->refuse(member.error());
+  Result<SocketPair> pair = make_socket_pair();
+  if (!pair) return reply->refuse(pair.error());
+  const PortContract& contract = (*port)->contract;
+  auto answer = std::make_shared<LineAnswer>(LineAnswer{std::move(pair->supervisor), contract.type.name,
+                                                        contract.reply ? contract.reply->name : ""});
+  OpenLine order{ref.component, ref.port, has(ask, "--tap"), has(ask, "--objects"), std::move(pair->host)};
+  (*member)->ask(std::move(order), [reply, answer](const Status& opened) {
+    if (!opened.ok()) return reply->refuse(opened.error());
+    reply->add(std::move(*answer));
+  });
+}
+
+}  // namespace orca::supervisor

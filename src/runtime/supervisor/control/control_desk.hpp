@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <poll.h>
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/control_server.hpp"
+#include "control/log_book.hpp"
+#include "control/motor_hold.hpp"
+#include "control/operating.hpp"
+#include "control/showing.hpp"
+#include "control/system_names.hpp"
+#include "orca/base/result.hpp"
+#include "orca/supervisor/system_facts.hpp"
+#include "run/ledger.hpp"
+#include "run/member.hpp"
+
+namespace orca::supervisor {
+
+/// The place at which a running system can be watched and commanded, through its socket.
+///
+/// Thread contract: the supervisor's thread.
+class ControlDesk {
+ public:
+  /// All of these outlive the object.
+  ControlDesk(const graph::Graph& graph, const SystemFacts& facts, const std::vector<Member*>& members,
+              Ledger& ledger, RunLevers levers);
+
+  /// Opens the system's socket. If that is not possible, nobody can reach the system, and the log says so.
+  /// @errors  already_exists if a system of this name runs.
+  Status open();
+  /// Adds what it waits for.
+  void add_to(std::vector<pollfd>& all) const;
+  /// Carries out what clients ask, and passes on what they follow. Never waits.
+  void serve(Moment now);
+
+  /// Notes that processes are built, before they open their hardware.
+  void built(const std::vector<Member*>& members);
+  /// Notes that processes work.
+  void came_up(const std::vector<Member*>& members) { operating_.came_up(members); }
+
+ private:
+  using Handler = void (*)(ControlDesk& desk, const Ask& ask, const ReplyPtr& reply);
+  using Handlers = std::map<std::string, Handler, std::less<>>;
+
+  static const Handlers& handlers();
+  void handle(const Ask& ask, const ReplyPtr& reply);
+  void stop_motors(const Ask& ask, const ReplyPtr& reply);
+  void show_log(const Ask& ask, const ReplyPtr& reply);
+  void show_missions(const Ask& ask, Reply& reply) const;
+  void open_line(const Ask& ask, const ReplyPtr& reply);
+
+  const std::string system_;
+  Ledger& ledger_;
+  const SystemNames names_;
+  const Showing showing_;
+  Operating operating_;
+  MotorHold motors_;
+  LogBook log_;
+  std::optional<ControlServer> server_;  // the last member: its clients are gone first
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <poll.h>
+
+#include <cstddef>
+#include <functional>
+#include <list>
+#include <memory>
+#include <vector>
+
+#include "control/reply.hpp"
+#include "orca/supervisor/channel.hpp"
+#include "orca/supervisor/control.hpp"
+#include "orca/supervisor/control_socket.hpp"
+#include "orca/supervisor/moment.hpp"
+
+namespace orca::supervisor {
+
+/// The clients of a system's socket. It passes on what they ask. A client costs the supervisor little, whatever it does:
+/// one that sends rubbish or too many requests is cut off, and of what one does not read, little is kept.
+///
+/// Thread contract: the supervisor's thread.
+class ControlServer {
+ public:
+  static constexpr std::size_t kMostClients = 32;
+  static constexpr std::size_t kLongestAsk = std::size_t{256} << 10;  ///< [bytes]
+  static constexpr std::size_t kBound = std::size_t{1} << 20;         ///< [bytes] that wait for a client.
+  static constexpr int kMostAsks = 200;                               ///< Of one client within a second.
+
+  /// Carries out what a client has asked, now or later.
+  using Handler = std::function<void(const Ask& ask, const ReplyPtr& reply)>;
+
+  ControlServer(ControlSocket socket, Handler handler)
+      : socket_(std::move(socket)), handler_(std::move(handler)) {}
+
+  /// Adds what it waits for.
+  void add_to(std::vector<pollfd>& all) const;
+  /// Takes in new clients and what they ask, and sends what waits for them. Never waits.
+  void serve(Moment now);
+
+  [[nodiscard]] std::size_t clients() const { return clients_.size(); }
+
+ private:
+  struct Client {
+    std::shared_ptr<Channel> channel;
+    Moment second{};  // the beginning of the second in which requests are counted
+    int asks = 0;     // since then
+  };
+  void take_in_clients();
+  [[nodiscard]] bool is_served(Client& client, Moment now);
+
+  const ControlSocket socket_;
+  const Handler handler_;
+  std::list<Client> clients_;  // the oldest first
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "control/log_book.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "orca/base/text.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+constexpr const char* kLevels[] = {"debug", "info", "warning", "error", "off"};
+
+Record record_of(TimePoint time, const char* level, const std::string& who, const std::string& text) {
+  return {{"time", to_seconds(time), 3}, {"level", level}, {"who", who}, {"text", text}};
+}
+
+}  // namespace
+
+LogBook::LogBook() : listener_([this](const log::Line& line) { note(line); }) {}
+
+void LogBook::note(const log::Line& line) {
+  const std::lock_guard lock(mutex_);
+  if (entries_.size() == kMost) entries_.pop_front();
+  entries_.push_back(
+      {++last_, line.time, line.level, std::string(line.who), shortened(line.text, kLongestLine)});
+}
+
+void LogBook::tell(const Entry& entry, const LogWish& wish, Reply& reply) {
+  if (entry.level < wish.level) return;
+  if (!wish.who.empty() && std::ranges::find(wish.who, entry.who) == wish.who.end()) return;
+  const std::uint64_t left_out = reply.take_left_out();
+  if (left_out > 0)
+    reply.add(
+        record_of(entry.time, "warning", "orcactl", std::to_string(left_out) + " lines were left out here"));
+  reply.add(record_of(entry.time, kLevels[static_cast<int>(entry.level)], entry.who, entry.text));
+}
+
+void LogBook::show(LogWish wish, const ReplyPtr& reply) {
+  pass_on();  // so that nobody gets a line twice
+  {
+    const std::lock_guard lock(mutex_);
+    for (const Entry& entry : entries_) tell(entry, wish, *reply);
+  }
+  if (wish.follows) followers_.push_back({std::move(wish), reply});
+}
+
+void LogBook::pass_on() {
+  std::erase_if(followers_, [](const Follower& follower) { return follower.reply->is_in_vain(); });
+  const std::lock_guard lock(mutex_);
+  const auto first = std::ranges::find_if(entries_, [&](const Entry& e) { return e.number > passed_on_; });
+  for (auto entry = first; entry != entries_.end(); ++entry)
+    for (Follower& follower : followers_) tell(*entry, follower.wish, *follower.reply);
+  passed_on_ = last_;
+}
+
+}  // namespace orca::supervisor

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "control/motor_hold.hpp"
+
+#include "orca/base/log.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+constexpr const char* kReason = "emergency stop; an operator releases it with: orcactl estop --release";
+
+}  // namespace
+
+void MotorHold::ask_all(const ReplyPtr& reply, const std::function<Order()>& make) const {
+  for (Member* const member : members_) {
+    if (!member->is_built()) continue;
+    member->ask(make(), [reply](const Status& outcome) {
+      if (!outcome.ok()) reply->refuse(outcome.error());
+    });
+  }
+}
+
+void MotorHold::stop(const ReplyPtr& reply) {
+  holds_ = true;
+  ask_all(reply, [] { return StopMotors{kReason}; });
+  log::warning("supervisor", "emergency stop: all motors are held until orcactl estop --release");
+}
+
+void MotorHold::release(const ReplyPtr& reply) {
+  if (!holds_)
+    return reply->refuse(fail(Code::failed_precondition, "there is no emergency stop to be released"));
+  holds_ = false;
+  ask_all(reply, [] { return ReleaseMotors{}; });
+  log::warning("supervisor", "the emergency stop is released; motors obey commands again");
+}
+
+void MotorHold::take_in(Member& member) const {
+  if (holds_) member.tell(StopMotors{kReason});
+}
+
+}  // namespace orca::supervisor

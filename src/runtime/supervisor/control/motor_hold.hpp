@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "control/reply.hpp"
+#include "run/member.hpp"
+
+namespace orca::supervisor {
+
+/// The emergency stop of a system: stops all motors, in whatever process they are, and holds them until an operator
+/// releases them. The order goes over the control channels, so no link that carries objects can delay it. A process that
+/// comes up meanwhile is held before it opens its hardware.
+///
+/// Thread contract: the supervisor's thread.
+class MotorHold {
+ public:
+  /// @param members  all; outlives the object.
+  explicit MotorHold(const std::vector<Member*>& members) : members_(members) {}
+
+  /// Stops all motors. The answer ends when they are held in all processes.
+  void stop(const ReplyPtr& reply);
+  /// Lets them obey commands again. Nothing moves before the next command.
+  void release(const ReplyPtr& reply);
+
+  /// Holds the motors of a process that has just been built, if all are held.
+  void take_in(Member& member) const;
+
+  [[nodiscard]] bool holds() const { return holds_; }
+
+ private:
+  void ask_all(const ReplyPtr& reply, const std::function<Order()>& make) const;
+
+  const std::vector<Member*>& members_;
+  bool holds_ = false;
+};
+
+}  // namespace orca::supervisor

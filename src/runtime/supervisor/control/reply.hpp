@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "orca/base/result.hpp"
+#include "orca/supervisor/channel.hpp"
+#include "orca/supervisor/control.hpp"
+
+namespace orca::supervisor {
+
+/// The way back to the client that has asked something. The answer ends when the object is destroyed, so whoever has
+/// something to add keeps a pointer to it. What a client does not read is left out and counted.
+///
+/// Thread contract: the supervisor's thread.
+class Reply {
+ public:
+  /// @param client   may end before the reply.
+  /// @param request  number of the request.
+  Reply(std::weak_ptr<Channel> client, std::uint64_t request, bool as_json)
+      : client_(std::move(client)), request_(request), as_json_(as_json) {}
+  ~Reply();
+  Reply(const Reply&) = delete;
+  Reply& operator=(const Reply&) = delete;
+
+  /// Send a part of the answer.
+  void add(Record record) { send(RecordAnswer{std::move(record)}); }
+  void add(std::string text) { send(TextAnswer{std::move(text)}); }
+  void add(LineAnswer line) { send(std::move(line)); }
+  /// Makes the answer end with an error, of several with the first.
+  void refuse(const Error& error);
+
+  /// Returns whether texts are wanted as JSON.
+  [[nodiscard]] bool as_json() const { return as_json_; }
+  /// Returns whether nobody listens any more.
+  [[nodiscard]] bool is_in_vain() const { return client_.expired(); }
+  /// Returns the number of parts that the client had no room for, since the last call.
+  [[nodiscard]] std::uint64_t take_left_out() { return std::exchange(left_out_, 0); }
+
+ private:
+  void send(ControlAnswer answer);
+
+  const std::weak_ptr<Channel> client_;
+  const std::uint64_t request_;
+  const bool as_json_;
+  Status outcome_;
+  std::uint64_t left_out_ = 0;
+};
+
+/// A reply that several may add to.
+using ReplyPtr = std::shared_ptr<Reply>;
+
+}  // namespace orca::supervisor

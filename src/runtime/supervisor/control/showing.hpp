@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "control/reply.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/supervisor/system_facts.hpp"
+#include "run/ledger.hpp"
+#include "run/member.hpp"
+
+namespace orca::supervisor {
+
+/// The answers to what an operator asks about a system as a whole.
+///
+/// Thread contract: the supervisor's thread.
+class Showing {
+ public:
+  /// All of these outlive the object.
+  Showing(const graph::Graph& graph, const SystemFacts& facts, const std::vector<Member*>& members,
+          const Ledger& ledger)
+      : graph_(graph), facts_(facts), members_(members), ledger_(ledger) {}
+
+  /// A line for each component: where it runs and how it is.
+  void components(Reply& reply) const;
+  /// The graph, as `deployer --print` shows it.
+  void graph(Reply& reply) const;
+  /// All ports, as `deployer --list-ports` shows them.
+  void ports(Reply& reply) const;
+  /// A line for each plugin, with the types and components that need it.
+  void plugins(Reply& reply) const;
+  /// The names of all ports and parameters, for completion.
+  void names(Reply& reply) const;
+  /// What all connections have carried. The processes answer one after the other.
+  void counters(const ReplyPtr& reply) const;
+
+ private:
+  [[nodiscard]] const PluginFacts& plugin_of(const std::string& type) const;
+
+  const graph::Graph& graph_;
+  const SystemFacts& facts_;
+  const std::vector<Member*>& members_;
+  const Ledger& ledger_;
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "counter_records.hpp"
+
+namespace orca::supervisor {
+
+std::vector<Record> to_records(const host::RunCounters& counters) {
+  std::vector<Record> records;
+  for (const auto& [from, to, counted] : counters.edges)
+    records.push_back({{"from", from},
+                       {"to", to},
+                       {"delivered", counted.delivered},
+                       {"dropped", counted.dropped - counted.left_behind},
+                       {"unread", counted.left_behind},
+                       {"late", counted.missed_deadlines},
+                       {"queued", counted.queued},
+                       {"high_water", counted.high_water}});
+  for (const auto& [port, counted] : counters.clients)
+    records.push_back({{"client", port},
+                       {"sent", counted.sent},
+                       {"answered", counted.answered},
+                       {"failed", counted.failed},
+                       {"timed_out", counted.timed_out}});
+  for (const auto& [port, counted] : counters.servers)
+    records.push_back({{"server", port},
+                       {"accepted", counted.accepted},
+                       {"refused", counted.refused},
+                       {"failed", counted.failed},
+                       {"queued", counted.queued},
+                       {"high_water", counted.high_water}});
+  return records;
+}
+
+}  // namespace orca::supervisor

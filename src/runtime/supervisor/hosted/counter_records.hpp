@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "orca/host/run_result.hpp"
+#include "orca/supervisor/record.hpp"
+
+namespace orca::supervisor {
+
+/// Returns the counters of connections for people and programs: a line for each Push edge, for each port that sends or
+/// asks, and for each one that is sent to or asked.
+[[nodiscard]] std::vector<Record> to_records(const host::RunCounters& counters);
+
+}  // namespace orca::supervisor

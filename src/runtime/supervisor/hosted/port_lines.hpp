@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <mutex>
+#include <thread>
+
+#include "orca/base/result.hpp"
+#include "orca/host/hosted_part.hpp"
+#include "orca/supervisor/vocabulary.hpp"
+
+namespace orca::supervisor {
+
+/// The lines between operators' programs and ports of this process: objects that pass a port go out, objects for a server
+/// come in. A thread of its own encodes and sends, as long as there are lines, so a component that is looked at does
+/// nothing more than put a view of each object into a queue. A client that does not read loses objects, and is told how
+/// many; one that sends rubbish is cut off.
+///
+/// Thread contract: open() from one thread at a time. Destroyed before the part.
+class PortLines {
+ public:
+  static constexpr std::size_t kMost = 16;  ///< Lines at a time.
+
+  explicit PortLines(host::HostedPart& part);
+  ~PortLines();
+  PortLines(const PortLines&) = delete;
+  PortLines& operator=(const PortLines&) = delete;
+
+  /// Opens a line.
+  /// @errors  as HostedPart::tap(); unavailable if there are kMost.
+  Status open(OpenLine order);
+
+ private:
+  class Line;
+  void serve();
+
+  host::HostedPart& part_;
+  std::thread thread_;  // runs, or has ended
+
+  std::mutex mutex_;
+  // Below: guarded by mutex_.
+  std::list<Line> lines_;
+  bool runs_ = false;  // whether the thread goes on
+  bool ending_ = false;
+};
+
+}  // namespace orca::supervisor
