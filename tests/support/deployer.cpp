@@ -58,6 +58,13 @@ Words operator+(Words a, const Words& b) {
 
 Words deployer(const Words& words) { return Words{ORCA_BINARY_DIR "/bin/deployer"} + words; }
 
+Words orcactl(const Words& words) { return Words{ORCA_BINARY_DIR "/bin/orcactl"} + words; }
+
+Run run_orcactl(const Words& words, Seconds limit) {
+  Subprocess program(orcactl(words));
+  return finish(program, limit);
+}
+
 Words virtual_clock() {
   return kThreadSanitizer ? Words{"--clock", "virtual", "--executor", "baton"} : Words{"--clock", "virtual"};
 }

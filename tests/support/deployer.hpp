@@ -60,6 +60,11 @@ struct Run {
 /// Returns the command build/PRESET/bin/deployer with the words as arguments.
 [[nodiscard]] Words deployer(const Words& words);
 
+/// Runs orcactl to its end, for at most `limit` (longer under sanitizers).
+[[nodiscard]] Run run_orcactl(const Words& words, Seconds limit = Seconds(20));
+/// Returns the command build/PRESET/bin/orcactl with the words as arguments.
+[[nodiscard]] Words orcactl(const Words& words);
+
 /// Returns `--clock virtual`, with an executor that works with the sanitizer of this build.
 [[nodiscard]] Words virtual_clock();
 [[nodiscard]] Words operator+(Words a, const Words& b);

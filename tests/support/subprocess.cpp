@@ -13,9 +13,12 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <thread>
+
+#include "temp_folder.hpp"
 
 namespace orca::test {
 namespace {
@@ -40,6 +43,14 @@ Ending ending_from(int status, const rusage& usage, Clock::duration wall) {
   return ending;
 }
 
+// Gives the programs a folder for their sockets that no other test program has. Systems of one name would refuse to run
+// beside each other.
+void prepare_runtime_folder() {
+  static const TempFolder folder;
+  static const int set = setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+  checked(set, "setenv");
+}
+
 }  // namespace
 
 // Output goes to memory files, not to pipes: a program that writes a lot never waits for the test to read.
@@ -47,6 +58,7 @@ Subprocess::Subprocess(const std::vector<std::string>& command, const Options& o
     : out_fd_(checked(memfd_create("stdout", MFD_CLOEXEC), "memfd_create")),
       err_fd_(checked(memfd_create("stderr", MFD_CLOEXEC), "memfd_create")),
       start_(Clock::now()) {
+  prepare_runtime_folder();
   std::array<int, 2> input{};
   checked(pipe2(input.data(), O_CLOEXEC), "pipe2");
   // A signal that is sent at once must not reach the test program's own handlers in the child. It is blocked

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "asking.hpp"
+
+#include <cstdio>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "client.hpp"
+#include "orca/base/text.hpp"
+#include "orca/supervisor/control_socket.hpp"
+#include "table.hpp"
+
+namespace orca::orcactl {
+namespace {
+
+using supervisor::Record;
+
+constexpr Duration kLimit = 30s;  // for a part of an answer: a process that is restarted is back before
+constexpr Duration kForEver = 24h * 365;
+constexpr std::chrono::seconds kWatchInterval{1};
+
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
+// Returns the request. The options of the command are words, as on the command line.
+supervisor::Ask request_of(const Call& call) {
+  supervisor::Ask ask{std::string(call.command->name), call.words, call.json};
+  for (const auto& [option, value] : call.options) {
+    ask.words.push_back(option);
+    if (!value.empty()) ask.words.push_back(value);
+  }
+  return ask;
+}
+
+// A line of the log as the deployer prints it.
+std::string log_line(const Record& record) {
+  char text[64];
+  std::snprintf(text, sizeof text, "[%10s] %-7s ", record[0].value.c_str(), record[1].value.c_str());
+  return text + printable(record[2].value) + ": " + printable(record[3].value) + "\n";
+}
+
+bool is_log_line(const Record& record) {
+  return record.size() == 4 && record[0].name == "time" && record[3].name == "text";
+}
+
+// Collects what comes, to be printed as tables at the end; the log is printed as it comes.
+class Printer {
+ public:
+  explicit Printer(const Call& call) : call_(call), follows_(call.has("--follow")) {}
+
+  void take(supervisor::ControlAnswer& answer) {
+    if (const auto* const text = std::get_if<supervisor::TextAnswer>(&answer)) print(text->text);
+    auto* const record = std::get_if<supervisor::RecordAnswer>(&answer);
+    if (record == nullptr) return;
+    if (!call_.json && is_log_line(record->record)) return print(log_line(record->record));
+    if (follows_) return print(record_json(record->record));
+    records_.push_back(std::move(record->record));
+  }
+
+  void finish() const {
+    if (call_.watch && !call_.json) print(clear_screen());
+    if (follows_ || !call_.command->tells) return;
+    print(call_.json ? table_json(records_) : table_text(records_, terminal_columns()));
+  }
+
+ private:
+  static std::string clear_screen() { return terminal_columns() > 0 ? "\x1b[H\x1b[2J" : "\n"; }
+
+  const Call& call_;
+  const bool follows_;
+  std::vector<Record> records_;
+};
+
+Status ask_once(const Call& call, Client& client) {
+  Printer printer(call);
+  const Status outcome = client.ask(
+      request_of(call), [&](supervisor::ControlAnswer& answer) { printer.take(answer); },
+      call.has("--follow") ? kForEver : kLimit);
+  const bool is_end = call.command->name == "stop" || call.has("--follow");
+  if (!outcome.ok() && is_end && outcome.error().code == Code::unavailable) return ok();
+  if (outcome.ok()) printer.finish();
+  return outcome;
+}
+
+// Adds what a kind of names is called in the records of a command.
+void add_names(Client& client, const char* command, const std::string& cell, std::set<std::string>& names) {
+  const auto take = [&](supervisor::ControlAnswer& answer) {
+    if (const auto* const record = std::get_if<supervisor::RecordAnswer>(&answer))
+      for (const supervisor::Cell& one : record->record)
+        if (one.name == cell) names.insert(one.value);
+  };
+  (void)client.ask({command, {}, false}, take, kLimit);
+}
+
+}  // namespace
+
+ExitCode report(const Failure& failure) {
+  std::fprintf(stderr, "orcactl: %s\n", failure.error.text().c_str());
+  return failure.code;
+}
+
+ExitCode ask(const Call& call) {
+  std::variant<Client, Failure> connected = Client::connect(call.system);
+  if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
+  for (;;) {
+    const Status outcome = ask_once(call, std::get<Client>(connected));
+    if (!outcome.ok()) return report({outcome.error()});
+    if (!call.watch) return ExitCode::done;
+    std::this_thread::sleep_for(kWatchInterval);
+  }
+}
+
+ExitCode print_names(const Call& call) {
+  const std::string& kind = call.words.front();
+  std::set<std::string> names;
+  if (kind == "system") {
+    for (const std::string& name : supervisor::running_systems()) names.insert(name);
+  } else {
+    std::variant<Client, Failure> connected = Client::connect(call.system);
+    if (auto* const failure = std::get_if<Failure>(&connected)) return failure->code;
+    Client& client = std::get<Client>(connected);
+    if (kind == "component" || kind == "process") add_names(client, "ps", "name", names);
+    if (kind == "process") add_names(client, "ps", "process", names);
+    if (kind == "port") add_names(client, "names", "port", names);
+    if (kind == "param") add_names(client, "names", "param", names);
+  }
+  for (const std::string& name : names) print(name + "\n");
+  return ExitCode::done;
+}
+
+}  // namespace orca::orcactl

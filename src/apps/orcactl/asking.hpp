@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include "call.hpp"
+#include "exit_code.hpp"
+
+namespace orca::orcactl {
+
+/// Carries out a command that the supervisor answers, once, or again and again with --watch.
+[[nodiscard]] ExitCode ask(const Call& call);
+
+/// Prints names for completion, one per line. Without a system there are none.
+[[nodiscard]] ExitCode print_names(const Call& call);
+
+/// Prints a failure to stderr.
+/// @return its exit status.
+ExitCode report(const Failure& failure);
+
+}  // namespace orca::orcactl

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "client.hpp"
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "orca/base/text.hpp"
+#include "orca/supervisor/control_socket.hpp"
+#include "orca/xml/names.hpp"
+
+namespace orca::orcactl {
+namespace {
+
+Failure no_system(const std::string& what) {
+  return {fail(Code::not_found, what + "; looked in " + supervisor::control_folder()), ExitCode::no_deployer};
+}
+
+}  // namespace
+
+std::variant<Client, Failure> Client::connect(const std::string& system) {
+  std::string name = system;
+  if (name.empty()) {
+    const std::vector<std::string> running = supervisor::running_systems();
+    if (running.empty()) return no_system("no system runs");
+    if (running.size() > 1)
+      return Failure{fail(Code::invalid_argument, "several systems run: " + listed(running) +
+                                                      "; choose one: --system " + running.front()),
+                     ExitCode::usage};
+    name = running.front();
+  }
+  Result<Descriptor> socket = supervisor::connect_to_system(name);
+  if (socket) return Client(std::move(socket).value());
+  const auto nearest = xml::nearest_name(name, supervisor::running_systems());
+  return no_system(socket.error().message + xml::did_you_mean(nearest));
+}
+
+Status Client::ask(const supervisor::Ask& ask, const Taker& taker, Duration limit) {
+  const std::uint64_t request = ++last_request_;
+  if (Status sent = channel_->send(supervisor::encode(ask, request), limit); !sent.ok()) return sent;
+  for (;;) {
+    Result<supervisor::Message> message = channel_->wait_for_message(limit);
+    if (!message) {
+      if (message.error().code == Code::unavailable) return fail(Code::unavailable, "the system has ended");
+      return message.error();
+    }
+    if (message->request != request) continue;  // the rest of an earlier answer
+    Result<supervisor::ControlAnswer> answer = supervisor::decode_answer(std::move(message).value());
+    if (!answer) return answer.error();
+    if (const auto* const end = std::get_if<supervisor::EndAnswer>(&*answer)) return end->outcome;
+    taker(*answer);
+  }
+}
+
+Result<supervisor::LineAnswer> Client::open_line(const std::string& port,
+                                                 const std::vector<std::string>& options) {
+  constexpr Duration kLimit = 10s;
+  supervisor::Ask ask{"line", {port}, false};
+  ask.words.insert(ask.words.end(), options.begin(), options.end());
+  std::optional<supervisor::LineAnswer> line;
+  const auto take = [&](supervisor::ControlAnswer& answer) {
+    if (auto* const found = std::get_if<supervisor::LineAnswer>(&answer)) line.emplace(std::move(*found));
+  };
+  if (const Status asked = this->ask(ask, take, kLimit); !asked.ok()) return asked.error();
+  if (!line) return fail(Code::internal, "the supervisor has sent no line");
+  return std::move(*line);
+}
+
+}  // namespace orca::orcactl

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "exit_code.hpp"
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+#include "orca/supervisor/channel.hpp"
+#include "orca/supervisor/control.hpp"
+
+namespace orca::orcactl {
+
+/// A connection to the supervisor of a running system.
+///
+/// Thread contract: not synchronised.
+class Client {
+ public:
+  /// Takes a part of an answer.
+  using Taker = std::function<void(supervisor::ControlAnswer&)>;
+
+  /// Connects.
+  /// @param system  name of its graph; empty: the only one that runs.
+  [[nodiscard]] static std::variant<Client, Failure> connect(const std::string& system);
+
+  /// Asks, and passes each part of the answer on until it ends.
+  /// @param limit  [s] for each part.
+  /// @return the outcome of what was asked.
+  /// @errors  unavailable if the system ends meanwhile; deadline_exceeded if the supervisor does not answer.
+  Status ask(const supervisor::Ask& ask, const Taker& taker, Duration limit);
+
+  /// Asks for a line to a port.
+  /// @errors  as ask().
+  Result<supervisor::LineAnswer> open_line(const std::string& port, const std::vector<std::string>& options);
+
+ private:
+  explicit Client(Descriptor socket) : channel_(std::make_unique<supervisor::Channel>(std::move(socket))) {}
+
+  std::unique_ptr<supervisor::Channel> channel_;
+  std::uint64_t last_request_ = 0;
+};
+
+}  // namespace orca::orcactl

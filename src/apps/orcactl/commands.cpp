@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "commands.hpp"
+
+#include <algorithm>
+
+namespace orca::orcactl {
+namespace {
+
+const Argument kPort{"PORT", Names::port};
+const Argument kComponent{"COMPONENT", Names::component};
+const OptionSpec kCount{"--count", "N", "end after so many objects"};
+const OptionSpec kFor{"--for", "DURATION", "end after this time, with one line about all of it"};
+const OptionSpec kTimeout{"--timeout", "DURATION", "longest wait for the answer (default 5 s)"};
+
+constexpr std::string_view kSendDetails =
+    "XML is the text form of the object, one element named after its type; what is not mentioned keeps its "
+    "default. With - it is read from stdin. The framework stamps the header, and gives the object a mission "
+    "of its own.";
+
+// What a system is and does.
+std::vector<Command> showing_commands() {
+  return {
+      {.name = "ps",
+       .watches = true,
+       .tells = true,
+       .text = "the components: where they run and how they are"},
+      {.name = "graph", .text = "the graph, with files, arguments and profiles merged"},
+      {.name = "ports", .text = "the ports of all components, and what they are connected to"},
+      {.name = "plugins", .tells = true, .text = "the plugin files, and who uses them"},
+  };
+}
+
+// Objects at ports.
+std::vector<Command> port_commands() {
+  return {
+      {.name = "echo",
+       .way = Way::tap,
+       .arguments = {kPort},
+       .options = {kCount},
+       .text = "the objects that pass a port, one per line",
+       .details = "At a PushServer and a SendProxy an object is seen when it leaves, whoever takes it; at "
+                  "any other port, "
+                  "when it arrives. Looking makes no component work: one that nobody uses pushes nothing. "
+                  "Objects that "
+                  "come faster than they can be printed are left out, and counted on stderr."},
+      {.name = "hz",
+       .way = Way::tap,
+       .arguments = {kPort},
+       .options = {kFor},
+       .tells = true,
+       .text = "how often objects pass a port, each second"},
+      {.name = "latency",
+       .way = Way::tap,
+       .arguments = {kPort},
+       .options = {kFor},
+       .tells = true,
+       .text = "how old objects are when they pass a port, each second",
+       .details = "The age counts from the moment at which the object was made, by the clock that all "
+                  "processes of the "
+                  "machine share."},
+      {.name = "send",
+       .way = Way::offer,
+       .arguments = {kPort, {"XML"}},
+       .options = {kTimeout},
+       .text = "send an object to a SendServer",
+       .details = kSendDetails},
+      {.name = "query",
+       .way = Way::offer,
+       .arguments = {kPort, {"XML"}},
+       .options = {kTimeout},
+       .text = "ask a QueryServer, and print its reply",
+       .details = kSendDetails},
+  };
+}
+
+// Parameters, and what has happened.
+std::vector<Command> history_commands() {
+  return {
+      {.name = "get",
+       .arguments = {{"COMPONENT[.PARAM]", Names::param}},
+       .watches = true,
+       .tells = true,
+       .text = "the value of a parameter, or of all of a component, in SI"},
+      {.name = "set",
+       .arguments = {{"COMPONENT.PARAM", Names::param}, {"VALUE"}},
+       .text = "change a parameter between two laps",
+       .details = "The value is written and checked as in a graph, with units. A process that is started "
+                  "again begins "
+                  "with the values of the graph."},
+      {.name = "counters",
+       .watches = true,
+       .tells = true,
+       .text = "what the connections have carried, dropped and refused"},
+      {.name = "log",
+       .arguments = {{"NAME", Names::component, true, true}},
+       .options = {{"--follow", "", "go on with the lines that come"},
+                   {"--level", "LEVEL", "debug, info (default), warning or error: no lines below"}},
+       .tells = true,
+       .text = "the last lines of the log, of all processes or of those named"},
+      {.name = "alarms",
+       .arguments = {{"ack N", Names::none, true, true}},
+       .watches = true,
+       .tells = true,
+       .text = "the alarms that nobody has acknowledged",
+       .details = "An alarm stays until it is acknowledged, even if its source has been started again: "
+                  "alarms ack N takes "
+                  "out the one with that number, alarms ack all takes out all."},
+      {.name = "missions",
+       .arguments = {{"MISSION", Names::none, true}},
+       .tells = true,
+       .text = "what happened in each mission, in order"},
+  };
+}
+
+// What changes a running system.
+std::vector<Command> operating_commands() {
+  return {
+      {.name = "estop",
+       .options = {{"--release", "", "let the motors obey commands again"}},
+       .text = "stop all motors now, and hold them until estop --release",
+       .details = "The order goes to each process over its control channel, not over a connection of the "
+                  "graph. A held base "
+                  "refuses commands to move; a process that is started meanwhile is held, too. After the "
+                  "release nothing "
+                  "moves before the next command."},
+      {.name = "stop", .text = "end the system: motors first, then everything else"},
+      {.name = "restart",
+       .arguments = {{"NAME", Names::process}},
+       .tells = true,
+       .text = "start the process of a component again, with all that runs in it"},
+      {.name = "suspend", .arguments = {kComponent}, .text = "pause a component between two laps"},
+      {.name = "resume", .arguments = {kComponent}, .text = "let a suspended component go on"},
+  };
+}
+
+// For shells and people.
+std::vector<Command> shell_commands() {
+  return {
+      {.name = "names",
+       .way = Way::names,
+       .arguments = {{"KIND"}},
+       .text = "names for completion, one per line: component, port, param, process or system"},
+      {.name = "completion",
+       .way = Way::completion,
+       .arguments = {{"SHELL"}},
+       .text = "the completion script of bash or zsh: source <(orcactl completion bash)"},
+      {.name = "man", .way = Way::manual, .text = "the man page: orcactl man | man -l -"},
+  };
+}
+
+const std::vector<Command>& table() {
+  static const std::vector<Command> all = [] {
+    std::vector<Command> commands;
+    for (const auto& group :
+         {showing_commands(), port_commands(), history_commands(), operating_commands(), shell_commands()})
+      commands.insert(commands.end(), group.begin(), group.end());
+    return commands;
+  }();
+  return all;
+}
+
+}  // namespace
+
+std::span<const Command> commands() { return table(); }
+
+const Command* find_command(std::string_view name) {
+  const auto found = std::ranges::find(table(), name, &Command::name);
+  return found == table().end() ? nullptr : &*found;
+}
+
+std::span<const OptionSpec> common_options() {
+  static const std::vector<OptionSpec> all{
+      {"--system", "NAME", "which system, if several run: the name of its graph"},
+      {"--json", "", "for programs: JSON on stdout; one object per line where the output goes on"},
+      {"--watch", "", "repeat every second, until interrupted"},
+      {"--help", "", "this text, or that of a command"},
+  };
+  return all;
+}
+
+}  // namespace orca::orcactl

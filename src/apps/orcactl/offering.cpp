@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "offering.hpp"
+
+#include <cstdio>
+#include <iostream>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "asking.hpp"
+#include "client.hpp"
+#include "orca/base/text.hpp"
+#include "orca/idl/object.hpp"
+#include "orca/idl/object_type.hpp"
+#include "orca/text/object_xml.hpp"
+#include "table.hpp"
+
+namespace orca::orcactl {
+namespace {
+
+using supervisor::Channel;
+using supervisor::LineAnswer;
+using supervisor::OfferOutcome;
+
+constexpr Duration kDefaultTimeout = 5s;
+
+std::string read_stdin() { return {std::istreambuf_iterator<char>(std::cin), {}}; }
+
+// Reads the object that the command line gives. Prints all errors in it.
+Result<ObjectLoan> read_object(const std::string& word, const LineAnswer& line) {
+  const ObjectType* const type = find_object_type(line.type);
+  if (type == nullptr)
+    return fail(Code::unimplemented, "objects of the type " + line.type + " are not known here");
+  xml::Diagnostics diagnostics;
+  const bool from_stdin = word == "-";
+  std::optional<ObjectLoan> object =
+      from_xml(from_stdin ? read_stdin() : word, from_stdin ? "stdin" : "XML", diagnostics, type);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (!object) return fail(Code::invalid_argument, "nothing was sent: the text is no " + line.type);
+  return std::move(*object);
+}
+
+Result<OfferOutcome> exchange(Channel& line, const ObjectLoan& object, Duration limit) {
+  supervisor::Offer offer{std::string(object.type().name), {}};
+  object.type().serialize(object.get(), offer.object);
+  if (const Status sent = line.send(supervisor::encode(supervisor::LineWord(std::move(offer)), 1), limit);
+      !sent.ok())
+    return sent.error();
+  Result<supervisor::Message> message = line.wait_for_message(limit);
+  if (!message && message.error().code == Code::deadline_exceeded)
+    return fail(Code::deadline_exceeded, "no answer came in time; see --timeout");
+  if (!message) return fail(Code::unavailable, "the process of the port has ended");
+  Result<supervisor::LineWord> word = supervisor::decode_line_word(std::move(message).value());
+  if (!word) return word.error();
+  auto* const outcome = std::get_if<OfferOutcome>(&*word);
+  if (outcome == nullptr) return fail(Code::data_loss, "the process has sent something else than an answer");
+  return std::move(*outcome);
+}
+
+Status print_reply(const OfferOutcome& outcome, bool as_json) {
+  const ObjectType* const type = find_object_type(outcome.type);
+  if (type == nullptr)
+    return fail(Code::data_loss, "replies of the type " + outcome.type + " are not known here");
+  ObjectLoan object = make_object(*type);
+  if (Status read = type->deserialize(outcome.object, object.get()); !read.ok()) return read;
+  const std::string xml = to_xml(*type, object.get());
+  std::fputs(as_json ? record_json({{"type", outcome.type}, {"xml", xml}}).c_str() : (xml + "\n").c_str(),
+             stdout);
+  return ok();
+}
+
+Status carry_out(const Call& call, LineAnswer& answer) {
+  const bool asks = call.command->name == "query";
+  if (asks && answer.reply.empty())
+    return fail(Code::invalid_argument, call.words[0] + " answers no questions; use orcactl send");
+  if (!asks && !answer.reply.empty())
+    return fail(Code::invalid_argument, call.words[0] + " is asked, not sent to; use orcactl query");
+  const Result<ObjectLoan> object = read_object(call.words[1], answer);
+  if (!object) return object.error();
+  Channel line(std::move(answer.line));
+  const Result<OfferOutcome> outcome =
+      exchange(line, *object, call.duration("--timeout").value_or(kDefaultTimeout));
+  if (!outcome) return outcome.error();
+  if (!outcome->outcome.ok()) return outcome->outcome;
+  return outcome->type.empty() ? ok() : print_reply(*outcome, call.json);
+}
+
+}  // namespace
+
+ExitCode offer(const Call& call) {
+  std::variant<Client, Failure> connected = Client::connect(call.system);
+  if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
+  Result<LineAnswer> answer = std::get<Client>(connected).open_line(call.words.front(), {});
+  if (!answer) return report({answer.error()});
+  const Status done = carry_out(call, *answer);
+  return done.ok() ? ExitCode::done : report({done.error()});
+}
+
+}  // namespace orca::orcactl

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include "call.hpp"
+#include "exit_code.hpp"
+
+namespace orca::orcactl {
+
+/// Carries out send or query: hands an object to a port, and prints the reply.
+[[nodiscard]] ExitCode offer(const Call& call);
+
+}  // namespace orca::orcactl
