@@ -9,6 +9,7 @@ void register_fan_out();
 void register_isolation();
 void register_query();
 void register_shm();
+void register_dds();
 void register_throughput();
 void register_graph();
 void register_sim_cast();

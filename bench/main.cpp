@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   register_isolation();
   register_query();
   register_shm();
+  register_dds();
   register_throughput();
   register_graph();
   register_sim_cast();

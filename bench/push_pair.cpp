@@ -8,24 +8,26 @@ namespace {
 
 constexpr int kWarmUp = 4;
 
-void connect(test::Peer& from, test::Peer& to) {
-  const Status connected = LocalLinks().connect(from.endpoint("out"), to.endpoint("in"));
+void connect(Links& links, test::Peer& from, test::Peer& to) {
+  const Status connected = links.connect(from.endpoint("out"), to.endpoint("in"));
   if (!connected.ok()) throw std::runtime_error(connected.error().text());
 }
 
 }  // namespace
 
-PushPair::PushPair(Executive& executive, std::size_t ranges)
-    : ranges_(ranges), one_(executive, "publisher"), other_(executive, "subscriber"), echo_(other_, [this] {
-        for (;;) {
-          const ObjectPtr<Scan> got = other_.in.get_update_wait();
-          other_.push_next();
-        }
-      }) {
-  connect(one_, other_);
-  connect(other_, one_);
+PushPair::PushPair(Executive& executive, std::size_t ranges, Links& links)
+    : ranges_(ranges), one_(executive, "publisher"), other_(executive, "subscriber") {
+  connect(links, one_, other_);
+  connect(links, other_, one_);
   one_.in.subscribe();
   other_.in.subscribe();
+  echo_.emplace(other_, [this] {
+    for (;;) {
+      const ObjectPtr<Scan> got = other_.in.get_update_wait();
+      other_.push_next();
+    }
+  });
+  one_.strand().wait_for(kForever, [this] { return one_.out.subscriber_count() == 1; });
 }
 
 Nanoseconds PushPair::time(int round_trips) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <vector>
 
 #include "comparison.hpp"
@@ -13,7 +14,9 @@ namespace orca::bench {
 /// every push meets a component that is blocked.
 class PushPair {
  public:
-  PushPair(Executive& executive, std::size_t ranges);
+  PushPair(Executive& executive, std::size_t ranges) : PushPair(executive, ranges, local_) {}
+  /// @param links  join the two; they outlive the pair.
+  PushPair(Executive& executive, std::size_t ranges, Links& links);
 
   /// @return time from the call of push() until the other component has the object [ns].
   Nanoseconds time(int round_trips);
@@ -30,9 +33,10 @@ class PushPair {
   };
 
   const std::size_t ranges_;
+  LocalLinks local_;
   Both one_;
   Both other_;
-  test::Script echo_;
+  std::optional<test::Script> echo_;
 };
 
 }  // namespace orca::bench

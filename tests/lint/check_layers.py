@@ -201,7 +201,7 @@ GOOD = [
     _one("src/base/executive/fiber.cpp", "#include <boost/context/fiber.hpp>"),
     _one("src/components/avoid/avoid.cpp", '#include "orca/component.hpp"\n#include <Eigen/Core>\n#include <vector>'),
     _one("src/hw/api/x.cpp", '#include "orca/hardware.hpp"\n#include "orca/hw/byte_link.hpp"\n#include "orca/idl/time.hpp"'),
-    _one("src/patterns/dds/link.cpp", '#include <fastdds/dds/topic/Topic.hpp>\n#include "orca/patterns/endpoints/links.hpp"'),
+    _one("src/patterns/dds/backend/link.cpp", '#include <fastdds/dds/topic/Topic.hpp>\n#include "orca/patterns/endpoints/links.hpp"'),
     _one("tests/unit/x_test.cpp", '#include <catch2/catch.hpp>\n#include "orca/graph/graph.hpp"'),
     {"src/components/a/a.cpp": '#include "algorithm.hpp"\n', "src/components/a/algorithm.hpp": "\n"},
     {"src/base/executive/a.cpp": '#include "../b.hpp"\n', "src/base/b.hpp": "\n"},

@@ -54,9 +54,12 @@ void ShippedGraph::remove(const std::string& component) {
 
 void ShippedGraph::watch_motion(const std::string& base) {
   const std::string watch = base.substr(0, base.rfind('/') + 1) + "watch";
+  std::smatch found;
+  const std::regex of_base("<component name=\"" + base + "\"[^>]*( process=\"[^\"]*\")");
+  const std::string process = std::regex_search(text_, found, of_base) ? found[1].str() : "";
   insert_before(text_, "</graph>",
-                "  <component name=\"" + watch + "\" type=\"test.MotionWatch\"/>\n  <connect from=\"" + base +
-                    ".OdometryPush\" to=\"" + watch + ".odometry\"/>\n");
+                "  <component name=\"" + watch + "\" type=\"test.MotionWatch\"" + process +
+                    "/>\n  <connect from=\"" + base + ".OdometryPush\" to=\"" + watch + ".odometry\"/>\n");
   const std::string plugins = " plugins=\"" ORCA_BINARY_DIR "/tests/plugins\"";
   if (text_.find(plugins) == std::string::npos) text_.insert(text_.find('>', text_.find("<graph ")), plugins);
 }

@@ -27,13 +27,13 @@ struct Robot {
 
 const std::vector<Robot> kRobots{
     {"scout_goto", "", {"goto", "avoid"}},         {"scout_goto_processes", "", {"goto", "avoid"}},
-    {"scout_gallery", "", {"goto", "avoid"}},      {"scout_rounds", "", {"goto", "avoid"}},
-    {"scout_odometry", "", {"goto", "avoid"}},     {"scout_hospital", "", {"goto", "avoid"}},
-    {"pioneer_laser_goto", "", {"goto", "avoid"}}, {"random_walk", "", {"walk", "avoid"}},
-    {"two_robots", "dewey/", {"goto", "avoid"}},   {"two_robots", "huey/", {"goto", "avoid"}},
-    {"five_robots", "dewey/", {"goto", "avoid"}},  {"five_robots", "huey/", {"goto", "avoid"}},
-    {"five_robots", "louie/", {"goto", "avoid"}},  {"five_robots", "donald/", {"goto", "avoid"}},
-    {"five_robots", "daisy/", {"goto", "avoid"}},
+    {"two_machines", "", {"goto", "avoid"}},       {"scout_gallery", "", {"goto", "avoid"}},
+    {"scout_rounds", "", {"goto", "avoid"}},       {"scout_odometry", "", {"goto", "avoid"}},
+    {"scout_hospital", "", {"goto", "avoid"}},     {"pioneer_laser_goto", "", {"goto", "avoid"}},
+    {"random_walk", "", {"walk", "avoid"}},        {"two_robots", "dewey/", {"goto", "avoid"}},
+    {"two_robots", "huey/", {"goto", "avoid"}},    {"five_robots", "dewey/", {"goto", "avoid"}},
+    {"five_robots", "huey/", {"goto", "avoid"}},   {"five_robots", "louie/", {"goto", "avoid"}},
+    {"five_robots", "donald/", {"goto", "avoid"}}, {"five_robots", "daisy/", {"goto", "avoid"}},
 };
 
 // Driven by a person, in real time.
@@ -135,7 +135,8 @@ void check_failures_of(const Robot& robot, const Words& arguments) {
 class DrivenByHand {
  public:
   explicit DrivenByHand(const Failure& failure)
-      : program_(deployer(Words{folder_.write("graph.xml", watched(failure.robot)), "--set",
+      : program_(Words{"/usr/bin/env", "XDG_RUNTIME_DIR=" + folder_.path().string()} +
+                 deployer(Words{folder_.write("graph.xml", watched(failure.robot)), "--set",
                                 "keyboard=" + terminal_.name()} +
                           options(failure, kAt, kAt + 2.0))) {}
 

@@ -116,10 +116,9 @@ ExitCode show_graph(const Options& options) {
   return show(options.json ? graph::ports_json(ports) : graph::ports_text(ports));
 }
 
-ExitCode refuse_for_processes(const Error& error) {
+ExitCode refuse_for_processes(const char* code, const Error& error) {
   xml::Diagnostics diagnostics;
-  diagnostics.error(codes::kExcluding, {error.where.empty() ? "command line" : error.where, 0, 0},
-                    error.message);
+  diagnostics.error(code, {error.where.empty() ? "command line" : error.where, 0, 0}, error.message);
   std::fputs(diagnostics.text().c_str(), stderr);
   return ExitCode::bad_input;
 }
@@ -138,9 +137,17 @@ ExitCode run(const Options& options) {
   Console console(options.stats, run.looks_on);
   if (has_host_processes(options)) {
     if (const Status fits = check_for_processes(*loaded.graph, options); !fits.ok())
-      return refuse_for_processes(fits.error());
-    return exit_code_of(run_in_processes(*loaded.graph, options, loaded.catalogue, stop, console).outcome);
+      return refuse_for_processes(codes::kExcluding, fits.error());
+    const Result<std::string> machine = machine_of_run(*loaded.graph, options);
+    if (!machine) return refuse_for_processes(codes::kOptionValue, machine.error());
+    return exit_code_of(
+        run_in_processes(*loaded.graph, *machine, options, loaded.catalogue, stop, console).outcome);
   }
+  if (!options.machine.empty())
+    return refuse_for_processes(codes::kExcluding,
+                                fail(Code::invalid_argument,
+                                     "--machine: here everything runs in this process; leave it "
+                                     "out"));
   return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, run, stop, console).outcome);
 }
 

@@ -24,6 +24,7 @@ What to run
 How to run it
   --clock KIND          steady: real time (default); virtual: simulated time, bit-identical for the same seed
   --executor KIND       thread (default of steady), fiber (default of virtual) or baton
+  --machine NAME        the machine of the graph that this is; start the deployer on each of them, in any order
   --in-process          everything in this process, for a debugger, instead of host processes below it; the virtual clock
                         always does so
 

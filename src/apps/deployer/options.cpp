@@ -195,6 +195,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--set", {true, [](Options& o, const std::string& v) { return o.settings.push_back(v), ok(); }, true}},
       {"--plugins", {true, add_plugin_folder, true}},
       {"--clock", {true, set_clock}},
+      {"--machine", {true, [](Options& o, const std::string& v) { return o.machine = v, ok(); }}},
       {"--executor",
        {true, [&executor](Options&, const std::string& v) { return set_executor(executor, v); }}},
       {"--seed", {true, set_seed}},

@@ -37,6 +37,7 @@ struct Options {
   bool stats = false;                       ///< Write what the connections of a run carried.
   bool in_process = false;                  ///< No host processes, whatever the graph says.
   bool chooses_executor = false;            ///< --executor was given.
+  std::string machine;                      ///< The one of the graph that this is; empty: not given.
   std::optional<bool> progress;             ///< Show how a run is going; nothing: if stderr is a terminal.
   std::vector<std::string> plugin_folders;  ///< Searched after Orca's own.
   std::vector<std::string> profiles;

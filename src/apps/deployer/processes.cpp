@@ -13,6 +13,7 @@
 #include "exit_code.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
+#include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/supervisor/host_process_main.hpp"
@@ -20,6 +21,7 @@
 #include "orca/supervisor/own_process.hpp"
 #include "orca/supervisor/supervised_run.hpp"
 #include "orca/supervisor/system_facts.hpp"
+#include "orca/xml/names.hpp"
 #include "progress.hpp"
 #include "streams.hpp"
 
@@ -92,10 +94,24 @@ bool has_host_processes(const Options& options) {
   return options.run.executive.clock == ClockKind::steady && !options.in_process;
 }
 
+Result<std::string> machine_of_run(const graph::Graph& graph, const Options& options) {
+  const auto refuse = [](const std::string& text) { return fail(Code::invalid_argument, text); };
+  std::vector<std::string> names;
+  for (const graph::MachineNode& node : graph.machines)
+    if (!graph::processes_on(graph, node.name).empty()) names.push_back(node.name);
+  const std::string choice = "--machine NAME, one of: " + listed(names);
+  if (graph.machines.empty() && !options.machine.empty())
+    return refuse("--machine: the graph declares no machines");
+  if (options.machine.empty() && names.size() > 1)
+    return refuse("the graph runs on several machines; say which one this is: " + choice);
+  if (options.machine.empty()) return names.empty() ? "" : names.front();
+  if (std::ranges::find(names, options.machine) == names.end())
+    return refuse("nothing of the graph runs on a machine " + in_quotes(options.machine) + "; write " +
+                  choice + xml::did_you_mean(xml::nearest_name(options.machine, names)));
+  return options.machine;
+}
+
 Status check_for_processes(const graph::Graph& graph, const Options& options) {
-  if (graph.machines.size() > 1)
-    return fail(Code::invalid_argument,
-                "several machines cannot be run in real time yet; leave one in the graph", options.file);
   if (graph.supervision.on_supervisor_loss == graph::OnLoss::go_on)
     return fail(
         Code::invalid_argument,
@@ -110,15 +126,16 @@ Status check_for_processes(const graph::Graph& graph, const Options& options) {
   return supervisor::check_outputs(graph, options.run);
 }
 
-host::RunResult run_in_processes(const graph::Graph& graph, const Options& options,
-                                 host::PluginCatalogue& catalogue, host::StopSignal& stop,
-                                 host::RunListener& listener) {
+host::RunResult run_in_processes(const graph::Graph& graph, const std::string& machine,
+                                 const Options& options, host::PluginCatalogue& catalogue,
+                                 host::StopSignal& stop, host::RunListener& listener) {
   supervisor::SupervisedOptions supervised;
   supervised.facts = supervisor::facts_of(graph, catalogue);
   supervised.program = own_program().string();
   supervised.arguments = {"deployer", std::string(kHostProcess)};
   const std::vector<std::string> folders = plugin_folders(options);
   supervised.arguments.insert(supervised.arguments.end(), folders.begin(), folders.end());
+  supervised.machine = machine;
   supervised.seed = options.run.seed;
   supervised.until = options.run.until;
   supervised.planned_failures = options.run.planned_failures;

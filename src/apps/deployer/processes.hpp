@@ -22,17 +22,22 @@ namespace orca::deployer {
 /// Returns whether the run has host processes below this one: in real time, unless they are not wanted.
 [[nodiscard]] bool has_host_processes(const Options& options);
 
+/// Returns the machine of the graph that this is; empty: the graph declares none.
+/// @errors  invalid_argument if the options name none although the graph has several, or one that it does not have.
+[[nodiscard]] Result<std::string> machine_of_run(const graph::Graph& graph, const Options& options);
+
 /// Checks that graph and options fit a run in host processes.
 /// @errors  invalid_argument with the option that needs all parts in one process, or with what the graph asks for that
 ///          does not exist yet.
 [[nodiscard]] Status check_for_processes(const graph::Graph& graph, const Options& options);
 
-/// Runs a graph in host processes. This process only supervises them.
+/// Runs a graph in host processes, or what of it runs on one machine. This process only supervises them.
+/// @param machine    of the graph; empty: it declares none.
 /// @param catalogue  the one that has checked the graph.
 /// @thread  the main thread.
-[[nodiscard]] host::RunResult run_in_processes(const graph::Graph& graph, const Options& options,
-                                               host::PluginCatalogue& catalogue, host::StopSignal& stop,
-                                               host::RunListener& listener);
+[[nodiscard]] host::RunResult run_in_processes(const graph::Graph& graph, const std::string& machine,
+                                               const Options& options, host::PluginCatalogue& catalogue,
+                                               host::StopSignal& stop, host::RunListener& listener);
 
 /// Returns whether this process was started by another deployer as a host process.
 [[nodiscard]] bool is_host_process(int argc, char** argv);

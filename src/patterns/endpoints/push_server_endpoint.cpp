@@ -93,6 +93,7 @@ bool PushServerEndpoint::hand_out(ObjectRef& object) {
     edge->owed_until = saturating_add(home().strand.executive().now(), *wait);
     done = false;
   }
+  for (PushOutlet* outlet : outlets_) outlet->flush();
   return done;
 }
 

@@ -52,6 +52,14 @@ class Frame {
   /// @pre  the frame has no object.
   void add(ObjectRef object) { object_ = std::move(object); }
 
+  [[nodiscard]] FrameKind kind() const { return kind_; }
+  [[nodiscard]] std::uint64_t number() const { return number_; }
+  /// Returns the number that was added first.
+  /// @pre  there is one.
+  [[nodiscard]] std::uint64_t first_number() const { return numbers_[0]; }
+  /// Returns the object; empty if there is none.
+  [[nodiscard]] const ObjectRef& object() const { return object_; }
+
   /// Encodes the frame as far as it fits into `to`.
   /// @return the bytes that the whole frame takes. If `to` has fewer, its contents are unspecified.
   std::size_t write(std::span<std::byte> to) const;

@@ -25,7 +25,7 @@ bool operator==(const ProcessNode& a, const ProcessNode& b) {
 
 bool operator==(const MachineNode& a, const MachineNode& b) {
   const auto content = [](const MachineNode& n) {
-    return std::tie(n.name, n.address, n.interface, n.on_loss);
+    return std::tie(n.name, n.address, n.interface, n.on_loss, n.loss_limit);
   };
   return content(a) == content(b);
 }

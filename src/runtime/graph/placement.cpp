@@ -53,6 +53,18 @@ class StartOrder {
   std::map<std::size_t, std::vector<std::size_t>> followers_;  // components that wait for one
 };
 
+// Keeps of a graph what runs in certain processes, and the edges within.
+Graph reduced(Graph graph, const std::set<std::string>& processes) {
+  const auto elsewhere = [&](const auto& node) { return !processes.contains(node.process); };
+  std::erase_if(graph.hardware, elsewhere);
+  std::erase_if(graph.components, elsewhere);
+  std::erase_if(graph.edges, [&](const Edge& edge) {
+    return graph.find_component(edge.from.component) == nullptr ||
+           graph.find_component(edge.to.component) == nullptr;
+  });
+  return graph;
+}
+
 }  // namespace
 
 std::vector<ProcessNode> processes_of(const Graph& graph) {
@@ -81,16 +93,26 @@ ProcessPart part_of(const Graph& graph, const std::string& process) {
   return part;
 }
 
-Graph subgraph(const Graph& graph, const std::string& process) {
-  Graph part = graph;
-  const auto elsewhere = [&](const auto& node) { return node.process != process; };
-  std::erase_if(part.hardware, elsewhere);
-  std::erase_if(part.components, elsewhere);
-  std::erase_if(part.edges, [&](const Edge& edge) {
-    return part.find_component(edge.from.component) == nullptr ||
-           part.find_component(edge.to.component) == nullptr;
-  });
+std::vector<ProcessNode> processes_on(const Graph& graph, const std::string& machine) {
+  std::vector<ProcessNode> processes = processes_of(graph);
+  std::erase_if(processes, [&](const ProcessNode& node) { return node.machine != machine; });
+  return processes;
+}
+
+Graph subgraph(const Graph& graph, const std::string& process) { return reduced(graph, {process}); }
+
+Graph part_on(const Graph& graph, const std::string& machine) {
+  std::set<std::string> names;
+  for (const ProcessNode& node : processes_on(graph, machine)) names.insert(node.name);
+  Graph part = reduced(graph, names);
+  std::erase_if(part.ends, [&](const std::string& end) { return part.find_component(end) == nullptr; });
   return part;
+}
+
+std::string machine_of(const Graph& graph, const std::string& component) {
+  const std::string& process = graph.find_component(component)->process;
+  const auto node = std::ranges::find(graph.processes, process, &ProcessNode::name);
+  return node == graph.processes.end() ? "" : node->machine;
 }
 
 std::vector<std::string> start_order(const Graph& graph) { return StartOrder(graph).run(); }

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "dds_links.hpp"
 #include "executives.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
@@ -87,7 +88,17 @@ struct ShmKit : Kit<ShmLinks> {
   explicit ShmKit(Executive& used) : Kit(used, used) {}
 };
 
-using LinkKits = std::tuple<LocalKit, ByteKit, ShmKit>;
+/// The links through DDS, with both ends in this process.
+struct DdsKit : Kit<DdsLinks> {
+  static constexpr bool kSharesObjects = false;
+
+  // Virtual time does not wait for the network.
+  static std::vector<ExecutiveOptions> executives() { return steady_executives(); }
+
+  explicit DdsKit(Executive& used) : Kit(used, used) {}
+};
+
+using LinkKits = std::tuple<LocalKit, ByteKit, ShmKit, DdsKit>;
 
 /// Runs `body` with a fresh kit on each executive where the kit works.
 template <class Kit>

@@ -175,3 +175,31 @@ TEST_CASE("the subgraph of a process in which nothing runs is empty", "[graph][p
   CHECK(part.hardware.empty());
   CHECK(part.edges.empty());
 }
+
+TEST_CASE("of a graph on two machines each has its processes, and what is in them", "[graph][placement]") {
+  Graph graph = robot();
+  graph.machines = {{.name = "near"}, {.name = "far"}, {.name = "spare"}};
+  graph.processes[0].machine = "far";
+  graph.processes[2].machine = "near";
+  graph.processes.push_back({.name = "main", .machine = "near"});
+  graph.ends = {"command", "goto"};
+  CHECK(names_of(processes_on(graph, "near")) == Names{"base", "main"});
+  CHECK(names_of(processes_on(graph, "far")) == Names{"behaviours"});
+  CHECK(processes_on(graph, "spare").empty());
+  CHECK(machine_of(graph, "avoid") == "far");
+  const Graph near = part_on(graph, "near");
+  REQUIRE(near.components.size() == 2);
+  CHECK(near.components[0].name == "command");
+  CHECK(near.components[1].name == "base");
+  CHECK(near.hardware.size() == 1);
+  CHECK(near.edges == std::vector{edge("base", "command")});
+  CHECK(near.ends == Names{"command"});
+  CHECK(part_on(graph, "far").ends == Names{"goto"});
+}
+
+TEST_CASE("without machines everything runs on the one that has no name", "[graph][placement]") {
+  const Graph graph = robot();
+  CHECK(names_of(processes_on(graph, "")) == names_of(processes_of(graph)));
+  CHECK(part_on(graph, "") == graph);
+  CHECK(machine_of(graph, "command").empty());
+}

@@ -8,6 +8,7 @@
 #include "orca/idl/generated/geometry.reflection.hpp"
 #include "orca/idl/generated/graph.reflection.hpp"
 #include "orca/idl/generated/hardware.reflection.hpp"
+#include "orca/idl/generated/machines.reflection.hpp"
 #include "orca/idl/generated/motion.reflection.hpp"
 #include "orca/idl/generated/navigation.reflection.hpp"
 #include "orca/idl/generated/sensing.reflection.hpp"
@@ -15,6 +16,7 @@
 #include "orca/idl/geometry.hpp"
 #include "orca/idl/graph.hpp"
 #include "orca/idl/hardware.hpp"
+#include "orca/idl/machines.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
@@ -34,9 +36,9 @@ using HeadedObjects =
                idl::BumperReadings, idl::ClientList, idl::Contact, idl::Door, idl::Drive, idl::Estimate,
                idl::FusionReason, idl::GoalFailed, idl::GoalPoint, idl::Graph, idl::HolonomicVelocity,
                idl::Image, idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor,
-               idl::LogRecord, idl::MotionCommand, idl::OccupancyGrid, idl::Odometry, idl::Path,
-               idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor, idl::SonarRangeReadings,
-               idl::SonarRing, idl::TurretAngle, idl::TurretCommand>;
+               idl::LogRecord, idl::MachineState, idl::MotionCommand, idl::OccupancyGrid, idl::Odometry,
+               idl::Path, idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor,
+               idl::SonarRangeReadings, idl::SonarRing, idl::TurretAngle, idl::TurretCommand>;
 
 template <class... T>
 std::tuple<Travelling<T>...> with_headers(std::tuple<T...>);

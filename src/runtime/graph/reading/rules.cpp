@@ -58,14 +58,20 @@ constexpr std::array kGraph{
     AttributeRule{"within", false, "Time in which restarts are counted; 10 s if not given.", seconds(0.1)},
     AttributeRule{"on_supervisor_loss", false,
                   "What the processes do when their supervisor is gone; stop if not given.",
-                  one_of(kSupervisorLoss)}};
+                  one_of(kSupervisorLoss)},
+    AttributeRule{"machine_wait", false,
+                  "Longest time that a machine waits for the others at the start; 60 s if not given.",
+                  seconds(0.1)}};
 constexpr std::array kMachine{
     AttributeRule{"name", true, "Name of the machine in this system."},
     AttributeRule{"address", false, "Its IP address or host name; found by itself if not given."},
     AttributeRule{"interface", false,
                   "Network interface of its links to other machines, for example wlan0; any if not given."},
     AttributeRule{"on_loss", false, "What the other machines do when this one goes away; stop if not given.",
-                  one_of(kMachineLoss)}};
+                  one_of(kMachineLoss)},
+    AttributeRule{"loss_limit", false,
+                  "Time without a sign of life after which the others take it for gone; 1 s if not given.",
+                  seconds(0.5)}};
 constexpr std::array kProcess{
     AttributeRule{"name", true, "Name of the process."},
     AttributeRule{"machine", false, "Machine on which it runs; needed if the graph declares machines."},

@@ -39,6 +39,8 @@ void add(Attributes& attributes, const Supervision& supervision) {
     add(attributes, "restarts", std::to_string(supervision.restarts));
   if (supervision.within != standard.within) add(attributes, "within", seconds_text(supervision.within));
   if (supervision.on_supervisor_loss == OnLoss::go_on) add(attributes, "on_supervisor_loss", "continue");
+  if (supervision.machine_wait != standard.machine_wait)
+    add(attributes, "machine_wait", seconds_text(supervision.machine_wait));
 }
 
 std::string processors_text(const std::vector<int>& processors) {
@@ -71,6 +73,7 @@ Attributes attributes_of(const MachineNode& node) {
   add(result, "address", node.address);
   add(result, "interface", node.interface);
   if (node.on_loss == OnLoss::go_on) add(result, "on_loss", "go_on");
+  if (node.loss_limit != MachineNode{}.loss_limit) add(result, "loss_limit", seconds_text(node.loss_limit));
   return result;
 }
 

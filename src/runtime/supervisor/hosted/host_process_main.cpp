@@ -20,6 +20,7 @@
 #include "orca/supervisor/own_process.hpp"
 #include "orca/supervisor/run_page.hpp"
 #include "order_desk.hpp"
+#include "peers_process.hpp"
 #include "report_sender.hpp"
 #include "run_wishes.hpp"
 
@@ -44,15 +45,6 @@ Result<Numbered> next_order(Channel& channel) {
 }
 
 Error wrong_sequence() { return fail(Code::data_loss, "the supervisor's orders come in a wrong sequence"); }
-
-// Waits for the first order.
-Result<std::pair<Setup, std::uint64_t>> await_setup(Channel& channel) {
-  Result<Numbered> next = next_order(channel);
-  if (!next) return next.error();
-  auto* const order = std::get_if<Setup>(&next->order);
-  if (order == nullptr) return wrong_sequence();
-  return std::pair(std::move(*order), next->request);
-}
 
 using Memory = std::map<std::size_t, Descriptor>;
 
@@ -89,14 +81,11 @@ class Life {
   Life(const Life&) = delete;
   Life& operator=(const Life&) = delete;
 
-  Status live() {
-    die_with_supervisor(true);
-    auto setup = await_setup(channel_);
-    if (!setup) return setup.error();
-    Status made = prepare(setup->first);
-    reports_->send(Answer{made}, setup->second);
+  Status live(Setup setup, std::uint64_t request) {
+    Status made = prepare(setup);
+    reports_->send(Answer{made}, request);
     if (!made.ok()) return made;
-    Memory memory = memory_of(setup->first.edges);
+    Memory memory = memory_of(setup.edges);
     const auto build = await_build(channel_, memory);
     if (!build) return build.error();
     if (!build->has_value()) return ok();
@@ -119,8 +108,9 @@ class Life {
     reports_.emplace(channel_, wishes->log_level);
     LiveLine::on_pause([this](bool begins) { reports_->send(Prompting{begins}); });
     if (Status loaded = load(setup); !loaded.ok()) return loaded;
-    Result<RunPage> page = RunPage::map(std::move(setup.run_page), graph::processes_of(*whole_).size(),
-                                        whole_->components.size());
+    if (Status placed = place(setup.process); !placed.ok()) return placed;
+    Result<RunPage> page =
+        RunPage::map(std::move(setup.run_page), processes_.size(), whole_->components.size());
     if (!page) return page.error();
     page_.emplace(std::move(page).value());
     shows_ = wishes->outputs.looks_on;
@@ -136,12 +126,25 @@ class Life {
     return ok();
   }
 
+  // Finds out which process of which machine this is.
+  Status place(const std::string& process) {
+    processes_ = graph::processes_of(*whole_);
+    const auto node = std::ranges::find(processes_, process, &graph::ProcessNode::name);
+    if (node == processes_.end()) return fail(Code::data_loss, "nothing runs in process \"" + process + "\"");
+    processes_ = graph::processes_on(*whole_, std::string(node->machine));
+    index_ = index_of(process);
+    return ok();
+  }
+
+  // Returns the place of a process of this machine in the run page.
+  [[nodiscard]] std::size_t index_of(const std::string& process) const {
+    const auto node = std::ranges::find(processes_, process, &graph::ProcessNode::name);
+    return static_cast<std::size_t>(node - processes_.begin());
+  }
+
   Status make_part(const std::string& process, const RunWishes& wishes) {
     executor_ = wishes.executor;
-    const std::vector<graph::ProcessNode> processes = graph::processes_of(*whole_);
-    const auto node = std::ranges::find(processes, process, &graph::ProcessNode::name);
-    if (node == processes.end()) return fail(Code::data_loss, "nothing runs in process \"" + process + "\"");
-    index_ = static_cast<std::size_t>(node - processes.begin());
+    const graph::ProcessNode* const node = &processes_[index_];
     if (node->lock_memory)
       if (const auto refused = lock_memory()) log::warning(process, *refused);
     Result<std::unique_ptr<Executive>> executive = make_executive(executive_options(*node));
@@ -153,8 +156,9 @@ class Life {
                               is_declared(process) ? node->hang_limit : Duration{0},
                               &page_->missions(),
                               {},
-                              wishes.outputs};
-    if (processes.size() > 1)
+                              wishes.outputs,
+                              wishes.run};
+    if (graph::processes_of(*whole_).size() > 1)
       options.doorbell = [this](const std::string& component) { return &doorbell(component); };
     part_.emplace(*whole_, process, host::PartPlace{catalogue_, *executive_, *reports_}, options);
     return ok();
@@ -176,13 +180,11 @@ class Life {
     return executor_.value_or(node.executor);
   }
 
-  // Returns the word that wakes a component, in whatever process it is. Fibers have one word together.
+  // Returns the word that wakes a component of this machine, in whatever process it is. Fibers have one word together.
   DoorbellWord& doorbell(const std::string& name) {
     const auto component = std::ranges::find(whole_->components, name, &graph::ComponentNode::name);
-    const std::vector<graph::ProcessNode> processes = graph::processes_of(*whole_);
-    const auto process = std::ranges::find(processes, component->process, &graph::ProcessNode::name);
-    if (executor_of(*process) == Backend::fiber)
-      return page_->process_doorbell(static_cast<std::size_t>(process - processes.begin()));
+    const std::size_t process = index_of(component->process);
+    if (executor_of(processes_[process]) == Backend::fiber) return page_->process_doorbell(process);
     return page_->doorbell(static_cast<std::size_t>(component - whole_->components.begin()));
   }
 
@@ -211,8 +213,9 @@ class Life {
   std::optional<ReportSender> reports_;
   std::optional<graph::Graph> whole_;
   std::optional<RunPage> page_;
-  std::size_t index_ = 0;            // of this process, among processes_of()
-  std::optional<Backend> executor_;  // that the command line asks for
+  std::vector<graph::ProcessNode> processes_;  // of this machine
+  std::size_t index_ = 0;                      // of this process among them
+  std::optional<Backend> executor_;            // that the command line asks for
   bool shows_ = false;
   std::unique_ptr<Executive> executive_;
   std::optional<host::HostedPart> part_;
@@ -225,7 +228,13 @@ int host_process_main(Descriptor socket, const std::vector<std::string>& plugin_
   // destructors and atexit handlers that hang.
   static auto& stop = *new host::StopSignal(EXIT_SUCCESS, EXIT_FAILURE, host::StopSignal::Terminal::ignored);
   Channel channel(std::move(socket));
-  const Status lived = Life(channel, plugin_folders, stop).live();
+  die_with_supervisor(true);
+  Result<Numbered> first = next_order(channel);
+  Status lived = first ? wrong_sequence() : first.error();
+  if (auto* const setup = first ? std::get_if<Setup>(&first->order) : nullptr)
+    lived = Life(channel, plugin_folders, stop).live(std::move(*setup), first->request);
+  else if (const auto* const meet = first ? std::get_if<Meet>(&first->order) : nullptr)
+    lived = carry_states(channel, *meet, first->request);
   return lived.ok() ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

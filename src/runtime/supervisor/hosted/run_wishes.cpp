@@ -73,6 +73,7 @@ bool read(std::string_view name, std::string_view value, RunWishes& wishes) {
     if (failure) wishes.failures.push_back(*failure);
     return failure.has_value();
   }
+  if (name == "run") return wishes.run = value, true;
   return read_number(name, value, wishes) || read_output(name, value, wishes.outputs);
 }
 
@@ -101,7 +102,8 @@ Pairs to_pairs(const RunWishes& wishes) {
   Pairs pairs{{"seed", std::to_string(wishes.seed)},
               {"log", std::to_string(static_cast<int>(wishes.log_level))},
               {"epoch", std::to_string(wishes.epoch.count())},
-              {"start", std::to_string(wishes.start.time_since_epoch().count())}};
+              {"start", std::to_string(wishes.start.time_since_epoch().count())},
+              {"run", wishes.run}};
   if (wishes.executor) pairs.emplace_back("executor", std::to_string(static_cast<int>(*wishes.executor)));
   for (const host::PlannedFailure& failure : wishes.failures) pairs.emplace_back("fail", to_text(failure));
   add_outputs(wishes.outputs, pairs);

@@ -20,10 +20,11 @@ struct RunWishes {
   std::uint64_t seed = 1;
   log::Level log_level = log::Level::info;
   Duration epoch{0};  ///< What the clock of all processes adds to the system's steady clock [s].
-  TimePoint start;    ///< Of the run, for the log.
-  std::optional<Backend> executor;  ///< None: as the graph says.
-  std::vector<host::PlannedFailure> failures;
-  host::RunOutputs outputs;  ///< Of this process.
+  TimePoint start{};  ///< Of the run, for the log.
+  std::optional<Backend> executor{};  ///< None: as the graph says.
+  std::vector<host::PlannedFailure> failures{};
+  host::RunOutputs outputs{};  ///< Of this process.
+  std::string run{};           ///< Its name, which no other run has.
 };
 
 /// Returns the wishes as the options of a Setup.

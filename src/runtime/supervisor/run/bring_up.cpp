@@ -5,8 +5,11 @@
 
 namespace orca::supervisor {
 
-BringUp::BringUp(Plan plan, std::function<void()> built, Done done)
-    : plan_(std::move(plan)), built_(std::move(built)), done_(std::move(done)) {}
+BringUp::BringUp(Plan plan, Consent consent, std::function<void()> built, Done done)
+    : plan_(std::move(plan)),
+      consent_(std::move(consent)),
+      built_(std::move(built)),
+      done_(std::move(done)) {}
 
 void BringUp::begin(std::vector<Setup> setups) {
   next_ = &BringUp::build;
@@ -24,13 +27,14 @@ void BringUp::open_hardware() {
 
 void BringUp::configure_next() {
   if (plan_.components.empty()) return open_gates();
+  if (consent_.to_configure && !consent_.to_configure(plan_.components.front().second)) return;
   const auto [member, component] = std::move(plan_.components.front());
   plan_.components.pop_front();
-  next_ = &BringUp::configure_next;
   ask(*member, Configure{component});
 }
 
 void BringUp::open_gates() {
+  if (consent_.to_begin && !consent_.to_begin()) return;
   for (Member* const member : plan_.members) {
     member->tell(OpenGates{});
     member->enter(Member::Phase::up);
@@ -62,7 +66,7 @@ void BringUp::lose(Member& member) {
 }
 
 void BringUp::go_on() {
-  if (awaited_.empty() && !is_over()) (this->*next_)();
+  if (next_ != nullptr && awaited_.empty() && !is_over()) (this->*next_)();
 }
 
 }  // namespace orca::supervisor

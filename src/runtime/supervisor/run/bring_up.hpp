@@ -24,14 +24,23 @@ class BringUp {
     /// Components of these members in the order in which they are configured, with their member.
     std::deque<std::pair<Member*, std::string>> components;
   };
+  /// What the bring-up waits for besides its members. Each is asked again in go_on() until it returns true; one that is
+  /// empty always does.
+  struct Consent {
+    std::function<bool(const std::string& component)> to_configure{};
+    std::function<bool()> to_begin{};
+  };
   /// Takes the outcome: ok(), or the error of a member.
   using Done = std::function<void(const Status&, const Member*)>;
 
   /// @param built  called when all members are built, before any hardware is opened.
-  BringUp(Plan plan, std::function<void()> built, Done done);
+  BringUp(Plan plan, Consent consent, std::function<void()> built, Done done);
 
   /// Begins with these orders, one for each member in the plan's order.
   void begin(std::vector<Setup> setups);
+
+  /// Goes on if a consent is there that was missing. Call it often.
+  void go_on();
 
   /// Goes on without a member, whose process has ended.
   void lose(Member& member);
@@ -49,9 +58,9 @@ class BringUp {
   void configure_next();
   void open_gates();
   void take_answer(Member& member, const Status& outcome);
-  void go_on();
 
   Plan plan_;
+  const Consent consent_;
   const std::function<void()> built_;
   const Done done_;
   std::set<Member*> awaited_;  // who has not answered yet

@@ -15,6 +15,7 @@ void Conclusion::conclude(RunOutcome outcome, const Status& status) {
   is_over_ = true;
   outcome_ = outcome;
   if (!status.ok()) error_ = status.error();
+  if (told_) told_(outcome, error_ ? error_->text() : "");
 }
 
 void Conclusion::fail_with(const Error& error) {
@@ -43,9 +44,13 @@ void Conclusion::run_out_of_time() {
                              listed(host::unfinished(graph_, reports_)));
 }
 
-void Conclusion::look_at_ends() {
-  const std::optional<Status> end = host::ending(graph_, reports_);
-  if (end) conclude(end->ok() ? RunOutcome::finished : RunOutcome::failed, *end);
+void Conclusion::look_at_ends(const std::function<bool(bool is_done_here)>& everywhere) {
+  std::optional<Status> end = host::ending(graph_, reports_);
+  if (everywhere && (!end || end->ok()))
+    end = everywhere(end.has_value()) ? std::optional<Status>(ok()) : std::nullopt;
+  if (!end) return;
+  by_components_ = true;
+  conclude(end->ok() ? RunOutcome::finished : RunOutcome::failed, *end);
 }
 
 void Conclusion::judge() {

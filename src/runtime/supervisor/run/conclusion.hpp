@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,13 +24,17 @@ class Conclusion {
       : graph_(graph), reports_(std::move(reports)), log_name_(std::move(log_name)) {}
 
   [[nodiscard]] bool is_over() const { return is_over_; }
-  /// Returns whether the components that the graph names in `ends` were done.
-  [[nodiscard]] bool ends_well() const { return outcome_ == host::RunOutcome::finished; }
+  /// Returns whether the components that the graph names in `ends` have ended the run, well or not. Then the others still
+  /// need a moment to come to rest.
+  [[nodiscard]] bool has_closing_phase() const { return by_components_; }
   [[nodiscard]] bool has_failed() const { return error_.has_value(); }
 
   /// Notes that everything has come up.
   void came_up() { came_up_ = true; }
   [[nodiscard]] bool has_come_up() const { return came_up_; }
+
+  /// Sets a function that learns of each end of the run, and why if it fails.
+  void on_end(std::function<void(host::RunOutcome, const std::string& why)> told) { told_ = std::move(told); }
 
   /// Ends the run.
   /// @param status  the reason if it fails.
@@ -44,7 +49,8 @@ class Conclusion {
   /// Ends the run because its time limit was reached.
   void run_out_of_time();
   /// Ends the run if the components that the graph names in `ends` have come to an end.
-  void look_at_ends();
+  /// @param everywhere  takes whether they have here, and returns whether they have on all machines; empty: there is no other.
+  void look_at_ends(const std::function<bool(bool is_done_here)>& everywhere = {});
 
   /// Makes the run a failure if a component has ended in WORK_FAILED that the graph does not allow to.
   void judge();
@@ -60,8 +66,10 @@ class Conclusion {
   const std::string log_name_;
   bool came_up_ = false;
   bool is_over_ = false;
+  bool by_components_ = false;  // those of `ends` have ended the run
   host::RunOutcome outcome_ = host::RunOutcome::finished;
   std::optional<Error> error_;
+  std::function<void(host::RunOutcome, const std::string& why)> told_;
 };
 
 }  // namespace orca::supervisor

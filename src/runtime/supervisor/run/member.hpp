@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "orca/base/live_line.hpp"
 #include "orca/base/result.hpp"
@@ -102,5 +103,7 @@ class Member {
   std::optional<Moment> deaf_since_;
   std::optional<LiveLine::Pause> prompts_;  // while it asks the user
 };
+
+using Members = std::vector<Member*>;
 
 }  // namespace orca::supervisor

@@ -26,11 +26,10 @@ int milliseconds_until(Moment moment) {
 
 Poller::Poller() : wake_(make_wake()) {}
 
-void Poller::wait(const std::vector<std::unique_ptr<Member>>& members, const std::vector<pollfd>& others,
-                  Moment until) {
+void Poller::wait(const Members& members, const std::vector<pollfd>& others, Moment until) {
   std::vector<pollfd> all{{wake_.number(), POLLIN, 0}};
   all.insert(all.end(), others.begin(), others.end());
-  for (const auto& member : members) {
+  for (const Member* const member : members) {
     HostProcess* const process = member->process();
     if (process == nullptr) continue;
     const bool unsent = process->channel().has_unsent();

@@ -3,7 +3,6 @@
 
 #include <poll.h>
 
-#include <memory>
 #include <vector>
 
 #include "member.hpp"
@@ -22,8 +21,7 @@ class Poller {
 
   /// Waits until a process has sent a message, written something or ended, until one of the others is ready, until wake(),
   /// or until that moment.
-  void wait(const std::vector<std::unique_ptr<Member>>& members, const std::vector<pollfd>& others,
-            Moment until);
+  void wait(const Members& members, const std::vector<pollfd>& others, Moment until);
   /// Ends the present wait, or the next one.
   void wake() const;
 

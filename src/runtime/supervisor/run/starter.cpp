@@ -2,10 +2,12 @@
 #include "starter.hpp"
 
 #include <algorithm>
+#include <random>
 #include <set>
 #include <utility>
 
 #include "hosted/run_wishes.hpp"
+#include "orca/base/hash.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/graph/placement.hpp"
@@ -17,6 +19,17 @@ namespace {
 
 constexpr std::uint64_t kReserved = std::uint64_t{1} << 30;  // [bytes] of stacks and the like
 
+// The name of a run on several machines is the same for all of them, and for one that is started again.
+std::string run_name(const graph::Graph& graph, const std::string& text) {
+  if (graph.machines.size() > 1) {
+    Fnv1a hash;
+    hash.add_text(text);
+    return std::to_string(hash.value());
+  }
+  std::random_device device;
+  return std::to_string((std::uint64_t{device()} << 32) | device());
+}
+
 }  // namespace
 
 Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunPage& page,
@@ -27,6 +40,7 @@ Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, co
       all_(all),
       start_(start),
       graph_text_(graph::print(graph)),
+      run_(run_name(graph, graph_text_)),
       wiring_(graph) {}
 
 Result<std::vector<Setup>> Starter::start(const Members& members) {
@@ -56,6 +70,10 @@ HostStart Starter::host_start(const Member& member) const {
           true};
 }
 
+HostStart Starter::plain_start(const std::string& name) const {
+  return {name, options_.program, options_.arguments, std::nullopt, {}, 0};
+}
+
 Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
   const RunWishes wishes{options_.seed.value_or(graph_.seed.value_or(1)),
                          options_.log_level,
@@ -63,7 +81,8 @@ Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
                          start_,
                          options_.executor,
                          options_.planned_failures,
-                         outputs_for(member)};
+                         outputs_for(member),
+                         run_};
   return {member.name(), graph_text_, to_pairs(wishes), page_.descriptor(), std::move(edges)};
 }
 

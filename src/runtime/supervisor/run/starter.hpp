@@ -16,8 +16,6 @@
 
 namespace orca::supervisor {
 
-using Members = std::vector<Member*>;
-
 /// Starts host processes and gives them what they need: the graph, the run page, the memory of their edges.
 ///
 /// Thread contract: the supervisor's thread.
@@ -39,6 +37,9 @@ class Starter {
   /// Returns the names of the components that run in a process.
   [[nodiscard]] std::vector<std::string> components_of(const Member& member) const;
 
+  /// Returns how a process is started for which the graph sets nothing.
+  [[nodiscard]] HostStart plain_start(const std::string& name) const;
+
   [[nodiscard]] const Wiring& wiring() const { return wiring_; }
 
  private:
@@ -53,6 +54,7 @@ class Starter {
   const Members& all_;
   const TimePoint start_;
   const std::string graph_text_;
+  const std::string run_;
   const Wiring wiring_;
   std::set<std::string> started_;  // processes that have been started once
 };

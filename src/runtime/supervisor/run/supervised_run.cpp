@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "alarm_relay.hpp"
@@ -10,6 +11,8 @@
 #include "conclusion.hpp"
 #include "control/control_desk.hpp"
 #include "ledger.hpp"
+#include "listening.hpp"
+#include "machines/neighbours.hpp"
 #include "member.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/text.hpp"
@@ -30,17 +33,18 @@ using Phase = Member::Phase;
 
 constexpr Duration kStartLimit = 15s;
 constexpr Duration kRestLimit = 1s;
-constexpr Duration kLook = 50ms;     // between two looks at everything
-constexpr int kMostReads = 32;       // of what a process has printed, after its end
-constexpr int kMostMessages = 1000;  // of one process at a time
+constexpr Duration kLook = 50ms;  // between two looks at everything
+constexpr int kMostReads = 32;    // of what a process has printed, after its end
 // What a process may take to end, and if there is no hurry and it has much to write.
 constexpr EndLimits kHurry{1900ms, 500ms};
 constexpr EndLimits kLeisure{30s, 500ms};
 constexpr EndLimits kImpatience{1s, 500ms};  // if somebody wants it to end who has waited already
+// If that is asked for twice: time for the motors, and less than the deployer itself then has.
+constexpr EndLimits kUrgency{150ms, 100ms};
 
-std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph) {
+std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph, const std::string& machine) {
   std::vector<std::unique_ptr<Member>> members;
-  for (graph::ProcessNode& node : graph::processes_of(graph))
+  for (graph::ProcessNode& node : graph::processes_on(graph, machine))
     members.push_back(std::make_unique<Member>(std::move(node), members.size()));
   return members;
 }
@@ -70,29 +74,34 @@ class SupervisedRun {
   SupervisedRun(const graph::Graph& graph, const SupervisedOptions& options, RunPage page,
                 host::StopSignal& stop, host::RunListener& listener)
       : graph_(graph),
+        here_(graph::part_on(graph, options.machine)),
         options_(options),
         stop_(stop),
         listener_(listener),
         start_(steady_now()),
         page_(std::move(page)),
-        members_(make_members(graph)),
+        members_(make_members(graph, options.machine)),
         all_(pointers_to(members_)),
         starter_(graph, options, page_, all_, start_),
-        ledger_(graph, listener, start_, options.log_name),
+        ledger_(here_, listener, start_, options.log_name),
         policy_(nodes_of(members_), graph.supervision),
-        control_(graph, options.facts, all_, ledger_, levers()) {
+        control_(here_, options.facts, all_, ledger_, levers()) {
     ledger_.relay_to(relay_);
+    if (graph.machines.size() < 2) return;
+    neighbours_.emplace(graph, options.machine, starter_.plain_start("peers"), ledger_);
+    polled_.push_back(&neighbours_->member());
+    conclusion_.on_end(
+        [this](RunOutcome outcome, const std::string& why) { neighbours_->conclude(outcome, why, now()); });
   }
 
   host::RunResult execute() {
     stop_.on_request([this] { poller_.wake(); });
     if (options_.outputs.looks_on) listener_.built(ledger_);
-    if (const Status alone = control_.open(); !alone.ok())
-      refuse(alone.error());
-    else if (!stop_.requested())
-      start(all_);
+    if (const Status alone = control_.open(); !alone.ok()) refuse(alone.error());
+    gather();
+    if (!conclusion_.is_over()) start(all_);
     while (!is_over()) turn(next_time());
-    if (conclusion_.ends_well()) wait_for_rest();
+    if (conclusion_.has_closing_phase()) wait_for_rest();
     const bool was_well = !conclusion_.has_failed();
     if (conclusion_.has_come_up()) conclusion_.judge();
     take_down();
@@ -123,6 +132,11 @@ class SupervisedRun {
 
   // ---- Starting
 
+  void gather() {
+    while (!is_over() && neighbours_ && !neighbours_->have_gathered()) turn(next_time());
+    began_at_ = steady_now();
+  }
+
   // Starts processes that do not run, all together.
   void start(const Members& members) {
     Result<std::vector<Setup>> setups = starter_.start(members);
@@ -132,11 +146,19 @@ class SupervisedRun {
       beats_.watch(member->index(), member->node().hang_limit);
     }
     began_.push_back(std::make_unique<BringUp>(
-        starter_.plan(members), [this, members] { built(members); },
+        starter_.plan(members), consent(), [this, members] { built(members); },
         [this, members](const Status& outcome, const Member* culprit) {
           outcome.ok() ? came_up(members) : did_not_come_up(outcome.error(), *culprit);
         }));
     began_.back()->begin(std::move(setups).value());
+  }
+
+  // Only the start is common to all machines.
+  BringUp::Consent consent() {
+    if (!neighbours_ || conclusion_.has_come_up()) return {};
+    return {
+        [this](const std::string& component) { return neighbours_->gathering().may_configure(component); },
+        [this] { return neighbours_->gathering().may_begin(); }};
   }
 
   void built(const Members& members) {
@@ -153,6 +175,7 @@ class SupervisedRun {
     if (!conclusion_.has_come_up()) up_since_ = steady_now();
     conclusion_.came_up();
     control_.came_up(members);
+    if (neighbours_) neighbours_->gathering().enter(idl::MACHINE_WORKING);
   }
 
   void did_not_come_up(const Error& error, const Member& culprit) {
@@ -170,19 +193,22 @@ class SupervisedRun {
   // ---- Watching
 
   void turn(Moment until) {
-    for (const auto& member : members_)
+    for (const Member* member : polled_)
       if (member->process() != nullptr) until = std::min(until, member->process()->due().value_or(until));
     std::vector<pollfd> clients;
     control_.add_to(clients);
-    poller_.wait(members_, clients, until);
+    poller_.wait(polled_, clients, until);
     control_.serve(now());
     for (const auto& member : members_) look_after(*member);
+    if (neighbours_) neighbours_->turn(now());
     for (const std::size_t process : beats_.look(now())) {
       if (members_[process]->process() != nullptr)
         members_[process]->process()->end_by_force(Force::hang, now());
     }
     std::erase_if(began_, [](const auto& bring_up) { return bring_up->is_over(); });
-    if (!conclusion_.is_over()) start_due();
+    if (conclusion_.is_over()) return;
+    for (const auto& bring_up : began_) bring_up->go_on();
+    start_due();
   }
 
   void look_after(Member& member) {
@@ -198,47 +224,15 @@ class SupervisedRun {
 
   // Takes what a process has said and printed. Returns whether it had printed something.
   bool hear(Member& member) {
-    const bool printed = read(member);
-    receive(member);
+    const bool has_printed = listen(
+        member, [&](const Report& report) { return take(member, report); }, now());
     member.pass_on_question();
-    return printed;
+    return has_printed;
   }
 
-  // Takes what a process has printed. Returns whether it was something.
-  bool read(Member& member) {
-    const std::vector<std::string> lines = member.process()->take_output();
-    for (const std::string& line : lines) {
-      log::info(member.name(), line);
-      member.heard(line, now());
-    }
-    return !lines.empty();
-  }
-
-  void receive(Member& member) {
-    Channel& channel = member.process()->channel();
-    (void)channel.flush();
-    for (int i = 0; i < kMostMessages; ++i) {  // the others want to be heard, too
-      Result<std::optional<Message>> message = channel.receive();
-      if (!message) return member.lose_channel(now());  // as a rule because the process is just ending
-      if (!message->has_value()) return;
-      const std::uint64_t request = (*message)->request;
-      Result<Report> report = decode_report(std::move(**message));
-      const Status taken = report ? take(member, *report, request) : Status(report.error());
-      if (taken.ok()) continue;
-      member.process()->end_by_force(Force::channel, now());
-      return log::error(member.name(), "the process talks nonsense and is ended: " + taken.error().message);
-    }
-  }
-
-  Status take(Member& member, const Report& report, std::uint64_t request) {
-    if (const auto* answer = std::get_if<Answer>(&report)) {
-      member.take_answer(request, *answer);
-      return ok();
-    }
-    if (const auto* words = std::get_if<LastWordsReport>(&report))
-      return member.heard_last_words(words->text, now()), ok();
+  Status take(Member& member, const Report& report) {
     if (const auto* prompting = std::get_if<Prompting>(&report)) {
-      if (!prompting->begins) read(member);  // the question may have been answered at once
+      if (!prompting->begins) read_output(member, now());  // the question may have been answered at once
       return member.prompt(prompting->begins), ok();
     }
     return ledger_.take(report, member.name());
@@ -258,7 +252,11 @@ class SupervisedRun {
     ledger_.lose(member.name(), "its process " + how);
     for (const Wiring::Outer& outer : starter_.wiring().edges_at(member.name())) cut(outer, member, how);
     const std::string text = "process " + member.name() + " " + how;
-    if (conclusion_.is_over()) return ended_late(is_normal, text);
+    if (conclusion_.is_over()) {
+      if (is_normal || stop_.is_urgent()) return;
+      log::error(options_.log_name, text);
+      return conclusion_.fail_late(fail(Code::unavailable, text));
+    }
     if (unasked) ledger_.raise(host::AlarmKind::process_ended, member.name(), text);
     if (!conclusion_.has_come_up()) return conclusion_.fail_with(fail(Code::unavailable, text));
     const RestartDecision decision = policy_.ended(member.index(), is_normal, now());
@@ -267,16 +265,10 @@ class SupervisedRun {
     obey(decision, text);
   }
 
-  // The run is being taken down.
-  void ended_late(bool is_normal, const std::string& text) {
-    if (is_normal || stop_.is_urgent() || !conclusion_.has_come_up()) return;
-    log::error(options_.log_name, text);
-    conclusion_.fail_late(fail(Code::unavailable, text));
-  }
-
   void cut(const Wiring::Outer& outer, const Member& lost, const std::string& how) {
-    Member& other = find(outer.from == lost.name() ? outer.to : outer.from);
-    other.tell(CutEdge{outer.edge, "process " + lost.name() + " " + how});
+    const std::string& there = outer.from == lost.name() ? outer.to : outer.from;
+    const auto other = std::ranges::find(all_, there, &Member::name);  // it may be on another machine
+    if (other != all_.end()) (*other)->tell(CutEdge{outer.edge, "process " + lost.name() + " " + how});
   }
 
   void obey(const RestartDecision& decision, const std::string& text) {
@@ -306,15 +298,39 @@ class SupervisedRun {
     if (conclusion_.is_over()) return true;
     if (stop_.requested()) {
       conclusion_.stop(stop_.failure());
+    } else if (neighbours_ && is_over_elsewhere()) {
+      return true;
     } else if (!conclusion_.has_come_up()) {
-      if (steady_now() >= start_ + kStartLimit)
+      if (began_at_ && steady_now() >= *began_at_ + kStartLimit)
         refuse(fail(Code::deadline_exceeded, "not everything came up in time"));
     } else if (options_.until && steady_now() >= up_since_ + *options_.until) {
       conclusion_.run_out_of_time();
     } else {
-      conclusion_.look_at_ends();
+      look_at_ends();
     }
     return conclusion_.is_over();
+  }
+
+  // With several machines the run is done when it is on all of them.
+  void look_at_ends() {
+    if (!neighbours_ || graph_.ends.empty()) return conclusion_.look_at_ends();
+    conclusion_.look_at_ends([this](bool is_done_here) {
+      neighbours_->gathering().set_done(is_done_here || here_.ends.empty());
+      return neighbours_->gathering().are_all_done();
+    });
+  }
+
+  bool is_over_elsewhere() {
+    if (const auto verdict = neighbours_->verdict()) {
+      const RunOutcome outcome = outcome_of(verdict->end);
+      const bool is_bad = outcome == RunOutcome::failed || outcome == RunOutcome::not_started;
+      log::write(is_bad ? log::Level::error : log::Level::info, options_.log_name, verdict->why);
+      conclusion_.conclude(outcome, is_bad ? Status(fail(Code::unavailable, verdict->why)) : ok());
+      return true;
+    }
+    if (neighbours_->have_gathered() || steady_now() < start_ + graph_.supervision.machine_wait) return false;
+    refuse(fail(Code::deadline_exceeded, neighbours_->awaited() + " did not come in time"));
+    return true;
   }
 
   void wait_for_rest() {
@@ -332,11 +348,12 @@ class SupervisedRun {
     const auto is_gone = [](const auto& member) { return member->process() == nullptr; };
     for (bool hurries = stop_.requested(); !std::ranges::all_of(members_, is_gone); turn(now() + kLook)) {
       if (stop_.is_urgent()) {
-        for (Member* const member : running()) member->process()->end_by_force(Force::overdue, now());
+        for (Member* const member : running()) member->process()->end(now(), kUrgency);
       } else if (!std::exchange(hurries, stop_.requested()) && hurries) {
         for (Member* const member : running()) member->process()->end(now(), kImpatience);
       }
     }
+    while (neighbours_ && !neighbours_->take_leave(now())) turn(now() + kLook);
   }
 
   [[nodiscard]] Members running() const {
@@ -357,7 +374,7 @@ class SupervisedRun {
   void report_idleness() {
     const auto counters = ledger_.counters();
     if (!conclusion_.has_come_up() || !counters || end_ - up_since_ < host::kShortRun) return;
-    for (const auto& [who, text] : host::find_idleness(graph_, reports_, *counters))
+    for (const auto& [who, text] : host::find_idleness(here_, reports_, *counters))
       log::warning(who.empty() ? options_.log_name : who, text);
   }
 
@@ -380,11 +397,8 @@ class SupervisedRun {
     return result;
   }
 
-  [[nodiscard]] Member& find(const std::string& name) const {
-    return **std::ranges::find(members_, name, [](const auto& member) { return member->name(); });
-  }
-
   const graph::Graph& graph_;
+  const graph::Graph here_;  // what runs on this machine
   const SupervisedOptions& options_;
   host::StopSignal& stop_;
   host::RunListener& listener_;
@@ -392,16 +406,19 @@ class SupervisedRun {
   RunPage page_;
   const std::vector<std::unique_ptr<Member>> members_;
   const Members all_;
+  Members polled_ = all_;
   Starter starter_;
   const AlarmRelay relay_{all_};
   Ledger ledger_;
+  std::optional<Neighbours> neighbours_;  // if the graph has several machines
   const host::Reports reports_ = ledger_.reports();
   RestartPolicy policy_;
   Poller poller_;
   Heartbeats beats_{page_};
   ControlDesk control_;
   std::vector<std::unique_ptr<BringUp>> began_;
-  Conclusion conclusion_{graph_, reports_, options_.log_name};
+  Conclusion conclusion_{here_, reports_, options_.log_name};
+  std::optional<TimePoint> began_at_;  // when all machines were there
   TimePoint up_since_ = start_;
   TimePoint end_ = start_;
 };
@@ -410,7 +427,8 @@ class SupervisedRun {
 
 host::RunResult run_supervised(const graph::Graph& graph, const SupervisedOptions& options,
                                host::StopSignal& stop, host::RunListener& listener) {
-  Result<RunPage> page = RunPage::create(graph::processes_of(graph).size(), graph.components.size());
+  Result<RunPage> page =
+      RunPage::create(graph::processes_on(graph, options.machine).size(), graph.components.size());
   if (!page) {
     log::error(options.log_name, page.error().text());
     host::RunResult result;

@@ -26,14 +26,14 @@ Wiring::Wiring(const graph::Graph& graph) {
     const std::string& from = graph.find_component(graph.edges[edge].from.component)->process;
     const std::string& to = graph.find_component(graph.edges[edge].to.component)->process;
     const std::string name = graph.edges[edge].from.text() + " to " + graph.edges[edge].to.text();
-    if (from != to) outer_.push_back({edge, name, from, to});
+    if (from != to) outer_.push_back({edge, name, from, to, graph.edges[edge].link != graph::Link::dds});
   }
 }
 
 Result<Wiring::Lots> Wiring::deal(const std::set<std::string>& processes) const {
   Lots lots;
   for (const Outer& outer : outer_) {
-    if (!processes.contains(outer.from) && !processes.contains(outer.to)) continue;
+    if (!outer.needs_memory || !(processes.contains(outer.from) || processes.contains(outer.to))) continue;
     const Result<MemoryFile> memory = RingSegment::create(outer.name);
     if (!memory) return memory.error();
     for (const std::string& process : {outer.from, outer.to})

@@ -27,13 +27,14 @@ class Wiring {
     std::string name;  ///< For people: "a.out to b.in".
     std::string from;  ///< Process of its `from` end.
     std::string to;
+    bool needs_memory;  ///< Its objects go through shared memory.
   };
 
   /// The new memory of the edges at some processes.
   struct Lots {
     std::map<std::string, std::vector<EdgeMemory>> by_process;
   };
-  /// Makes new memory for all edges that have an end in one of the processes.
+  /// Makes new memory for all edges that need it and have an end in one of the processes.
   /// @errors  unavailable if the system gives none.
   [[nodiscard]] Result<Lots> deal(const std::set<std::string>& processes) const;
 

@@ -65,14 +65,16 @@ TEST_CASE("a process that says nothing has threads, no limits and is started aga
 }
 
 TEST_CASE("the attributes of a machine are read", "[graph][process]") {
-  const Graph graph =
-      must_load(robot("<machine name='m' address='10.0.0.2' interface='wlan0' on_loss='go_on'/>"
-                      "<machine name='n'/><process name='main' machine='m'/>",
-                      "", "", ""));
+  const Graph graph = must_load(
+      robot("<machine name='m' address='10.0.0.2' interface='wlan0' on_loss='go_on' loss_limit='2.5 s'/>"
+            "<machine name='n'/><process name='main' machine='m'/>",
+            "", "", ""));
   REQUIRE(graph.machines.size() == 2);
   MachineNode expected{.name = "m", .address = "10.0.0.2", .interface = "wlan0"};
   CHECK(graph.machines[0] != expected);
   expected.on_loss = OnLoss::go_on;
+  CHECK(graph.machines[0] != expected);
+  expected.loss_limit = 2500ms;
   CHECK(graph.machines[0] == expected);
   CHECK(graph.machines[1] == MachineNode{.name = "n"});
 }
@@ -81,9 +83,9 @@ TEST_CASE("the rules for restarts are those of the graph, or the usual ones", "[
   CHECK(must_load("<graph name='g'/>").supervision == Supervision{});
   const Supervision read = must_load(
                                "<graph name='g' strategy='rest_for_one' restarts='5' within='1 min' "
-                               "on_supervisor_loss='continue'/>")
+                               "on_supervisor_loss='continue' machine_wait='5 s'/>")
                                .supervision;
-  CHECK(read == Supervision{Strategy::rest_for_one, 5, 60s, OnLoss::go_on});
+  CHECK(read == Supervision{Strategy::rest_for_one, 5, 60s, OnLoss::go_on, 5s});
   CHECK(must_load("<graph name='g' strategy='one_for_all'/>").supervision.strategy == Strategy::one_for_all);
 }
 

@@ -52,17 +52,18 @@ class RandomGraph {
   std::string supervision() {
     return " strategy='" + choice({"one_for_one", "rest_for_one", "one_for_all"}) + "' restarts='" +
            integer(0, 9) + "' within='" + real(0.1, 99) + "' on_supervisor_loss='" +
-           choice({"stop", "continue"}) + "'";
+           choice({"stop", "continue"}) + "'" + maybe(" machine_wait='" + real(0.1, 99) + "'");
   }
 
   // Two processes beside "main", on a machine each if there are any.
   std::string places() {
     const bool machines = pick(2) == 0;
     const auto on = [&](const char* name) { return machines ? " machine='" + std::string(name) + "'" : ""; };
-    return (machines ? "<machine name='robot'" + maybe(" address='10.0.0.2'") + maybe(" interface='wlan0'") +
-                           "/><machine name='laptop'" + maybe(" on_loss='go_on'") + "/>" +
-                           "<process name='main'" + on("laptop") + maybe(" priority='1'") + "/>"
-                     : "") +
+    return (machines
+                ? "<machine name='robot'" + maybe(" address='10.0.0.2'") + maybe(" interface='wlan0'") +
+                      "/><machine name='laptop'" + maybe(" on_loss='go_on'") + maybe(" loss_limit='3 s'") +
+                      "/>" + "<process name='main'" + on("laptop") + maybe(" priority='1'") + "/>"
+                : "") +
            "<process name='p1'" + on("robot") + maybe(" executor='fiber'") +
            maybe(" spin='" + integer(0, 99) + " us'") + maybe(" processors='3 0,1'") + maybe(" text='x'") +
            "/><process name='p2'" + on("robot") + maybe(" priority='" + integer(1, 99) + "'") +

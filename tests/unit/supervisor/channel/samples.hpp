@@ -40,7 +40,8 @@ inline std::vector<supervisor::Order> all_orders() {
                         SetParams{"avoid", {{"stop_distance", "0.5 m"}}}, RenewEdge{{4, null_device()}},
                         CutEdge{4, "process \"base\" has crashed"}, TellAlarm{"base", some_bytes()},
                         ForgetAlarm{"FAILED", "avoid", "behaviours"}, ReleaseMotors{}, Count{},
-                        OpenLine{"base", "OdometryPush", true, false, null_device()});
+                        OpenLine{"base", "OdometryPush", true, false, null_device()},
+                        Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}}, Say{some_bytes()});
 }
 
 /// Returns at least one of each report.
@@ -49,7 +50,7 @@ inline std::vector<supervisor::Report> all_reports() {
   return list_of<Report>(Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
                          Built{{{"hardware", "scout"}}}, StateChange{"avoid", 6, "no echo", true, true, true},
                          RestChange{true}, ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()},
-                         ContactReport{{}}, AlarmReport{some_bytes()},
+                         ContactReport{{}}, AlarmReport{some_bytes()}, HeardReport{some_bytes()},
                          Logged{log::Level::warning, "avoid", "text"}, LastWordsReport{"SIGSEGV"},
                          Tally{{{"3", {1, 2}}}, {{"goto.send", {4}}}, {}, {{"base", {12'000}}}},
                          OutputFailed{fail(Code::unavailable, "no space", "run.csv")},

@@ -46,7 +46,21 @@ TEST_CASE("a run ends when the components that it waits for are done", "[supervi
   CHECK_FALSE(c.conclusion.is_over());
   c.reports["command"].state = host::ComponentState::work_done;
   c.conclusion.look_at_ends();
-  CHECK(c.conclusion.ends_well());
+  CHECK(c.conclusion.has_closing_phase());
+  CHECK(c.result().outcome == RunOutcome::finished);
+}
+
+TEST_CASE("a run whose end has failed still gives the others time to come to rest",
+          "[supervisor][conclusion]") {
+  Case c;
+  c.conclusion.came_up();
+  c.reports["command"].has_failed = true;
+  c.conclusion.look_at_ends();
+  CHECK(c.conclusion.has_closing_phase());
+  CHECK(c.result().outcome == RunOutcome::failed);
+  Case stopped;
+  stopped.conclusion.stop("");
+  CHECK_FALSE(stopped.conclusion.has_closing_phase());
 }
 
 TEST_CASE("a signal that is no request to stop makes a failed run", "[supervisor][conclusion]") {

@@ -11,6 +11,7 @@ TEST_CASE("the wishes for a run arrive at a host process as they were", "[superv
   wishes.seed = 18'446'744'073'709'551'615U;
   wishes.log_level = log::Level::debug;
   wishes.epoch = Duration(-7);
+  wishes.run = "12345";
   wishes.failures = {{"dewey/avoid", host::Failure::slow, 20s}, {"goto", host::Failure::throws, Duration{0}}};
   wishes.start = TimePoint(5s);
   wishes.executor = Backend::baton;
@@ -36,6 +37,7 @@ TEST_CASE("the wishes for a run arrive at a host process as they were", "[superv
   CHECK(read->outputs.picture.file == "run.svg");
   CHECK(read->outputs.picture.view == host::View::film);
   CHECK(read->outputs.picture.hidden == wishes.outputs.picture.hidden);
+  CHECK(read->run == wishes.run);
   REQUIRE(read->failures.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(read->failures[i].component == wishes.failures[i].component);

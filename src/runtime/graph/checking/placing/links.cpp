@@ -68,10 +68,12 @@ Link link_of(const Node& connection, const Edge& edge, const Model& model, Repor
     report.error(codes::kLink, connection.place("link"),
                  ends + " by link=\"" + to_string(link) + "\", which " + reason +
                      "; remove link, or write link=\"" + to_string(best) + "\"");
-  } else if (link == Link::dds && !model.any_link) {
-    report.error(codes::kUnsupported, connection.place("link"),
-                 ends + ": link dds is not available yet; " +
-                     (best == Link::dds ? "put both processes on one machine" : "remove link"));
+  } else if (link == Link::dds && best == Link::local && !model.any_link) {
+    report.error(
+        codes::kLink, connection.place("link"),
+        ends +
+            " by link=\"dds\", which joins two processes; remove link, or put one of them into another "
+            "process");
   }
   return link;
 }

@@ -127,6 +127,7 @@ MachineNode read_machine(const Node& node, Report& report) {
   machine.position = node.position;
   check_name(node, "name", report);
   if (read_attribute<std::string>(node, "on_loss", report) == "go_on") machine.on_loss = OnLoss::go_on;
+  read_time(node, "loss_limit", machine.loss_limit, report);
   return machine;
 }
 
@@ -139,6 +140,7 @@ Supervision read_supervision(const Node& root, Report& report) {
   read_time(root, "within", supervision.within, report);
   if (read_attribute<std::string>(root, "on_supervisor_loss", report) == "continue")
     supervision.on_supervisor_loss = OnLoss::go_on;
+  read_time(root, "machine_wait", supervision.machine_wait, report);
   return supervision;
 }
 

@@ -50,7 +50,7 @@ class HostedPart::Inside {
         files_(place.executive),
         taps_(place.executive),
         offers_(place.executive, options.missions),
-        outer_(whole, options.doorbell),
+        outer_(whole, process, options.doorbell, options.run),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
                  system_options(options), [] { return false; }) {
     watched_.reporter().tap(taps_);

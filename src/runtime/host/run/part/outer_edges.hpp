@@ -4,13 +4,16 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "orca/base/descriptor.hpp"
 #include "orca/base/doorbell.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/patterns/dds/dds_backend.hpp"
 #include "orca/patterns/shm/shm_edges.hpp"
 #include "run/system.hpp"
 
@@ -24,33 +27,51 @@ class OuterEdges {
   /// Returns the word that wakes a component of the graph.
   using Doorbell = std::function<DoorbellWord*(const std::string& component)>;
 
-  /// @param whole  the graph of all processes; outlives the object.
-  OuterEdges(const graph::Graph& whole, Doorbell doorbell) : whole_(whole), doorbell_(std::move(doorbell)) {}
+  /// @param whole    the graph of all processes; outlives the object.
+  /// @param process  the one that this process is.
+  /// @param run      the name of the run.
+  OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run)
+      : whole_(whole), process_(std::move(process)), doorbell_(std::move(doorbell)), run_(std::move(run)) {}
 
   /// Asks the plugins what this process must know of the components at the other ends.
-  /// @param memory  of each edge between this process and others.
-  /// @errors  those of the catalogue.
+  /// @param memory  of each edge through shared memory.
+  /// @errors  those of the catalogue; data_loss if there is memory for what needs none.
   Status prepare(std::map<std::size_t, Descriptor> memory, PluginCatalogue& catalogue);
 
-  /// Makes this process's ends of the edges. Their components get their doorbells.
-  /// @errors  internal if a port is missing; those of RingSegment::map().
+  /// Makes this process's ends of the edges. Takes part in DDS if one of them needs it.
+  /// @errors  internal if a port is missing; those of RingSegment::map() and of open_dds().
   Status connect(System& system);
 
   /// Cuts an edge, because the process at its other end is gone.
   void cut(std::size_t edge, const Error& reason);
-  /// Gives an edge new memory, because the process at its other end has been started again.
+  /// Gives an edge new memory, because the process at its other end has been started again. An edge through DDS finds its
+  /// new peer by itself.
   /// @errors  not_found; those of RingSegment::map().
   Status renew(std::size_t edge, const Descriptor& memory);
 
  private:
-  Status connect(std::size_t edge, const Descriptor& memory, System& system);
-  [[nodiscard]] Result<Duration> period_of(const graph::PortRef& server, PluginCatalogue& catalogue) const;
+  // The two ends of an edge, as this process sees them.
+  struct Ends {
+    const graph::PortRef& here;
+    const graph::PortRef& there;
+  };
+
+  [[nodiscard]] Ends ends_of(const graph::Edge& edge) const;
+  [[nodiscard]] const std::string& process_of(const graph::PortRef& port) const;
+  Status connect_memory(std::size_t index, const Descriptor& memory, Endpoint& port);
+  Status connect_dds(std::size_t index, Endpoint& port);
+  [[nodiscard]] Result<DdsOptions> dds_options() const;
+  Status learn(std::size_t edge, PluginCatalogue& catalogue);
 
   const graph::Graph& whole_;
+  const std::string process_;
   const Doorbell doorbell_;
-  std::map<std::size_t, Descriptor> memory_;      // until connect()
-  std::map<std::size_t, Duration> base_periods_;  // of the servers of Push at the other ends
+  const std::string run_;
+  std::vector<std::size_t> edges_;               // to other processes
+  std::map<std::size_t, Descriptor> memory_;     // until connect()
+  std::map<std::size_t, PortContract> servers_;  // of Push
   std::map<std::size_t, ShmEnd*> ends_;
+  std::unique_ptr<DdsBackend> dds_;  // null: not needed
 };
 
 }  // namespace orca::host

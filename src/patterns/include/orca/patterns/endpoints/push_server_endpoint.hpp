@@ -13,6 +13,17 @@
 
 namespace orca {
 
+/// A link that carries one copy of an object for several subscribers. It collects the edges for which an object is due,
+/// each of which hands it the object, and sends the object in flush().
+///
+/// Thread contract: flush() as PushServerEndpoint::publish(), with the server's lock held: it must not block.
+class PushOutlet {
+ public:
+  virtual ~PushOutlet() = default;
+  /// Reports that the object was handed to all edges for which it is due.
+  virtual void flush() = 0;
+};
+
 /// The server side of Push. It hands every object to all subscribers, each of which has its own queue.
 ///
 /// Thread contract: connect() before the component runs; seal() and publish() from one task at a time;
@@ -24,6 +35,9 @@ class PushServerEndpoint final : public Endpoint {
 
   /// Adds an edge, not yet subscribed.
   PushSource& connect();
+  /// Adds an outlet, which is flushed after each object. It outlives the edges that use it.
+  /// @thread  before the component runs.
+  void add_outlet(PushOutlet& outlet) { outlets_.push_back(&outlet); }
 
   /// Announces the time between two objects from now on [s]; 0: irregular. All subscribers get new grants of
   /// their rates.
@@ -55,6 +69,7 @@ class PushServerEndpoint final : public Endpoint {
   [[nodiscard]] TimePoint next_limit() const;
 
   std::vector<std::unique_ptr<Edge>> edges_;  // all that are connected
+  std::vector<PushOutlet*> outlets_;
   std::atomic<std::size_t> subscribers_{0};
   Published<std::uint64_t> pushed_;
   Published<Duration::rep> base_period_;

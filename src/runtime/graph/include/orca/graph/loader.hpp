@@ -28,7 +28,7 @@ struct LoadOptions {
   std::vector<std::string> failing{};
   /// Ports ("component.port") that --record on the command line names; each must be there.
   std::vector<std::string> recorded{};
-  /// Links that Orca cannot make yet are no errors, because no process needs them: the run is in virtual time and so in
+  /// A link within a process that needs two is no error, because nothing needs it: the run is in virtual time and so in
   /// one process, or nothing is run.
   bool any_link = false;
 };

@@ -24,11 +24,23 @@ struct ProcessPart {
 /// @thread  pure function; any thread. So are the others.
 [[nodiscard]] std::vector<ProcessNode> processes_of(const Graph& graph);
 
+/// Returns those of them that run on a machine.
+/// @param machine  empty: the graph declares no machines, so all of them do.
+[[nodiscard]] std::vector<ProcessNode> processes_on(const Graph& graph, const std::string& machine);
+
 /// Returns what runs in the process of that name, and the edges at its components.
 [[nodiscard]] ProcessPart part_of(const Graph& graph, const std::string& process);
 
 /// Returns the graph with only what runs in the process of that name, and the edges within it.
 [[nodiscard]] Graph subgraph(const Graph& graph, const std::string& process);
+
+/// Returns the graph with only what runs on that machine, the edges within it, and those ends that are on it.
+/// @param machine  empty: the graph declares no machines, so everything runs on it.
+[[nodiscard]] Graph part_on(const Graph& graph, const std::string& machine);
+
+/// Returns the machine on which a component runs; empty: the graph declares no machines.
+/// @pre  the graph has the component.
+[[nodiscard]] std::string machine_of(const Graph& graph, const std::string& component);
 
 /// Returns the names of all components in the order in which they come up: each after those that its start_after
 /// names, otherwise as in the graph.

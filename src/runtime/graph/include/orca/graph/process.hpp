@@ -76,7 +76,8 @@ struct MachineNode {
   std::string address{};          ///< IP address or host name; empty: found on its own.
   std::string interface {};       ///< Network interface for links to other machines, "wlan0"; empty: any.
   OnLoss on_loss = OnLoss::stop;  ///< What the other machines do when this one goes away.
-  xml::Position position{};       ///< Place of its element; not compared.
+  Duration loss_limit{std::chrono::seconds(1)};  ///< Silence [s] after which it counts as gone.
+  xml::Position position{};                      ///< Place of its element; not compared.
 
   friend bool operator==(const MachineNode& a, const MachineNode& b);
 };
@@ -87,6 +88,8 @@ struct Supervision {
   int restarts = 3;                           ///< More restarts than these within `within` end the run.
   Duration within{std::chrono::seconds(10)};  ///< [s]
   OnLoss on_supervisor_loss = OnLoss::stop;   ///< What the processes do when their supervisor is gone.
+  Duration machine_wait{
+      std::chrono::seconds(60)};  ///< Longest time [s] to wait for all machines at the start.
 
   friend bool operator==(const Supervision&, const Supervision&) = default;
 };

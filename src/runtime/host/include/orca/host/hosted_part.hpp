@@ -78,6 +78,7 @@ struct PartOptions {
   /// Returns the word by which other processes wake a component of the graph, in whatever process it is.
   std::function<DoorbellWord*(const std::string& component)> doorbell{};
   RunOutputs outputs{};  ///< Of this process.
+  std::string run{};     ///< The same in all processes of a run, and in no other run.
 };
 
 /// What a part needs of its surroundings. All of it outlives the part.
@@ -101,7 +102,7 @@ class HostedPart {
   HostedPart& operator=(const HostedPart&) = delete;
 
   /// Opens the outputs, constructs everything and connects all edges.
-  /// @param memory  of each edge between this process and others, by its index in the graph.
+  /// @param memory  of each edge to another process through shared memory, by its index in the graph.
   /// @errors  as OutputFile::open(); with the name of what cannot be constructed.
   Status build(std::map<std::size_t, Descriptor> memory);
   /// Returns the names of the robots, by their hardware.

@@ -29,6 +29,8 @@ enum class Kind : std::uint16_t {
   release_motors,
   count,
   open_line,
+  meet = 31,
+  say,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,
@@ -45,6 +47,7 @@ enum class Kind : std::uint16_t {
   glance,
   prompting,
   mission_step,
+  heard = 131,
   // Words of an operator's program and the answers: see orca/supervisor/control.hpp.
   ask = 201,
   record_answer = 301,

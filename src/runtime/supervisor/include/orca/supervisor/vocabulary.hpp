@@ -123,9 +123,23 @@ struct ForgetAlarm {
   std::string process;
 };
 
-using Order =
-    std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend, Resume,
-                 SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors, Count, OpenLine>;
+/// Tells a new process that it is the one that speaks with the other machines, and where. The first order, instead of Setup.
+struct Meet {
+  static constexpr Kind kKind = Kind::meet;
+  std::string topic;                ///< What all machines of the system speak on.
+  std::string address;              ///< Of this machine; empty: any.
+  std::string interface {};         ///< Network interface of this machine; empty: any.
+  std::vector<std::string> others;  ///< Addresses of the other machines, as far as they are known.
+};
+/// Asks to say something to all other machines. The answer says that the process is well.
+struct Say {
+  static constexpr Kind kKind = Kind::say;
+  std::vector<std::byte> state;  ///< An idl::MachineState, encoded as XCDR1.
+};
+
+using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
+                           Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors,
+                           Count, OpenLine, Meet, Say>;
 
 // ---- Reports, from a host process to the supervisor.
 
@@ -166,6 +180,7 @@ using GoalFailedReport =
     ObjectReport<Kind::goal_failed>;                ///< An idl::GoalFailed that a component has pushed.
 using ContactReport = ObjectReport<Kind::contact>;  ///< An idl::Contact of a robot.
 using AlarmReport = ObjectReport<Kind::alarm>;      ///< An idl::Alarm.
+using HeardReport = ObjectReport<Kind::heard>;      ///< An idl::MachineState of another machine.
 /// A line of the log.
 struct Logged {
   static constexpr Kind kKind = Kind::logged;
@@ -220,9 +235,9 @@ struct MissionStep {
   std::uint64_t cause_seq = 0;
 };
 
-using Report =
-    std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport, ContactReport,
-                 AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance, Prompting, MissionStep>;
+using Report = std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport,
+                            ContactReport, AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance,
+                            Prompting, MissionStep, HeardReport>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.

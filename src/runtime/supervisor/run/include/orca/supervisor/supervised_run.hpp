@@ -22,6 +22,7 @@ namespace orca::supervisor {
 struct SupervisedOptions {
   std::string program;                 ///< Path of the program of a host process.
   std::vector<std::string> arguments;  ///< What its main() gets, from argv[0] on.
+  std::string machine;                 ///< The one of the graph that this is; empty: it declares none.
   std::optional<std::uint64_t> seed;   ///< None: the graph's seed, or 1 if it has none.
   std::optional<Duration> until;    ///< Time limit [s], counted from when everything is up; none: no limit.
   std::optional<Backend> executor;  ///< Of all processes; none: as the graph says.
@@ -33,7 +34,8 @@ struct SupervisedOptions {
 };
 
 /// Runs a checked graph in host processes: starts them, brings everything up, watches, starts again what has died,
-/// stops the robot and takes everything down. This process runs no plugin code.
+/// stops the robot and takes everything down. This process runs no plugin code. If the graph has several machines, it waits
+/// for the others first, then begins and ends together with them.
 ///
 /// @param stop      a request ends the run.
 /// @param listener  is called during the run, on the calling thread.

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frames/frame_end.hpp"
+#include "message.hpp"
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+
+namespace orca::dds {
+
+/// The participant that a message came from: the prefix of its DDS identity.
+using Origin = std::array<std::byte, 12>;
+
+/// Whoever is reached by a line: the end of an edge.
+///
+/// Thread contract: called by any thread, with the line's lock held: must not block, nor call the line.
+class Passenger {
+ public:
+  virtual ~Passenger() = default;
+  /// Takes a parcel, in the order in which the peer's end has sent them.
+  virtual void arrived(Parcel kind, std::span<const std::byte> contents) = 0;
+  /// Learns that the peer is lost: nothing that was sent in the session and not answered will be.
+  virtual void line_lost(const Error& reason) = 0;
+  /// Learns that there is a peer again, which knows nothing of earlier sessions.
+  virtual void line_joined(std::uint64_t session) = 0;
+};
+
+/// What two processes say to each other beside the objects of Push, whatever the network does to it: each parcel arrives
+/// once and in order, or the line is lost.
+///
+/// Both sides do the same. Each chooses a number at random and repeats it until the other has echoed it; only who has
+/// echoed the present number is believed. So messages of a process that has ended mean nothing, however late they
+/// arrive, and a process that has been started again is known by its new number. Parcels are numbered, and are repeated
+/// until they are acknowledged. A session lasts until the peer is lost.
+///
+/// Thread contract: any thread.
+class Line {
+ public:
+  /// Sends a message to the peer's process; may lose it. Called with the lock held: must not block.
+  using Write = std::function<void(std::vector<std::byte> message)>;
+
+  struct Settings {
+    std::uint64_t own_id = 0;    ///< Hash of this process's name.
+    Duration liveliness{300ms};  ///< Without a sign of life for this long [s] the peer is lost.
+  };
+
+  /// How often tick() is to be called [s].
+  static constexpr Duration kTick{20ms};
+
+  /// @param peer  name of the other process.
+  Line(std::string peer, const Settings& settings, Write write);
+
+  /// Adds an end that has this number at both sides.
+  /// @return the present session.
+  std::uint64_t add(std::uint64_t edge, Passenger& passenger);
+  /// Removes an end. It is not called afterwards. The peer's end learns of it.
+  void remove(std::uint64_t edge);
+
+  /// Sends a parcel.
+  /// @param session  for which it is meant: in another one it is not sent, but cut.
+  frames::Sent send(std::vector<std::byte> parcel, std::uint64_t session,
+                    frames::Loss loss = frames::Loss::never);
+  /// Sends a parcel in the present session, whichever it is.
+  void send_now(std::vector<std::byte> parcel);
+
+  /// Takes what has come from a process with the peer's name.
+  void receive(const Message& message, const Origin& origin);
+  /// Repeats what is due, and loses a peer that gives no sign of life. Called every kTick; time is counted in these calls,
+  /// so that a process that was stopped for a while does not take its peers for lost.
+  void tick();
+  /// Loses the peer, because the caller knows that it is gone. Without a peer it does nothing.
+  void lose(const Error& reason);
+
+  /// Returns whether the participant is the present peer's.
+  [[nodiscard]] bool is_peer(const Origin& origin) const;
+  [[nodiscard]] bool is_joined() const;
+
+ private:
+  struct Sending {
+    std::uint64_t sequence;
+    std::vector<std::byte> parcel;
+  };
+
+  // All: called with the lock held.
+  frames::Sent send_locked(std::vector<std::byte> parcel, frames::Loss loss);
+  void meet(const Message& message, const Origin& origin);
+  void take_receipt(std::uint64_t received);
+  void take_parcel(const Message& message);
+  void dispatch_early();
+  void dispatch(std::span<const std::byte> parcel);
+  void end_session(const Error& reason);
+  void tick_joined();
+  void tick_alone();
+  void write(std::uint64_t sequence, std::span<const std::byte> parcel, std::uint64_t to);
+  void greet(std::uint64_t to) { write(0, {}, to); }
+  void repeat();
+  void watch_receipts();
+
+  const std::string peer_name_;
+  const Settings settings_;
+  const Write write_;
+
+  mutable std::mutex mutex_;
+  // Below: guarded by mutex_.
+  std::map<std::uint64_t, Passenger*> passengers_;
+  std::uint64_t session_ = 1;
+  std::uint64_t own_;         // this side's number
+  std::uint64_t peer_ = 0;    // the peer's; 0: there is none
+  std::uint64_t former_ = 0;  // of the process that the peer has replaced
+  Origin origin_{};           // the peer's
+  std::deque<Sending> unacknowledged_;
+  std::size_t unacknowledged_bytes_ = 0;
+  std::uint64_t sent_ = 0;                                 // sequence number of the last parcel
+  std::uint64_t received_ = 0;                             // that of the peer, in order
+  std::map<std::uint64_t, std::vector<std::byte>> early_;  // parcels behind one that is missing
+  bool owes_receipt_ = false;
+  // Numbers of ticks.
+  std::uint32_t silent_ = 0;      // since the peer was heard
+  std::uint32_t quiet_ = 0;       // since anything was written
+  std::uint32_t alone_ = 0;       // since there is no peer
+  std::uint32_t unanswered_ = 0;  // since the oldest parcel became the oldest, or was repeated
+  std::uint32_t patience_;        // after which it is repeated
+  std::uint64_t oldest_ = 0;      // the sequence number of that parcel
+};
+
+}  // namespace orca::dds

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "line.hpp"
+#include "orca/base/result.hpp"
+#include "orca/idl/object.hpp"
+#include "orca/patterns/dds/dds_backend.hpp"
+
+namespace orca::dds {
+
+/// What accompanies an object on its topic. It travels as the sample's related identity, which readers that do not ask
+/// for it do not see.
+struct Label {
+  std::uint64_t layout_hash = 0;  ///< Of the object's type, which may be derived from that of the topic.
+  std::uint64_t edges = 0;        ///< A bit for each edge for which the object is due; below 2^62.
+  std::uint32_t epoch = 0;        ///< Grows with each subscription that begins to use the topic.
+};
+
+/// What a reader has received.
+struct Sample {
+  std::vector<std::byte> bytes;  ///< The object's XCDR1, or a message.
+  Label label;                   ///< Of objects.
+  Origin origin;
+  std::uint64_t sequence = 0;  ///< Of the writer; a gap means that samples were lost.
+};
+
+/// A data writer. It keeps its topic alive.
+///
+/// Thread contract: one thread writes; the counter may be used by any.
+class TopicWriter {
+ public:
+  virtual ~TopicWriter() = default;
+  /// @return false if it could not be written.
+  virtual bool write(const ObjectRef& object, const Label& label) = 0;
+  virtual bool write(std::vector<std::byte> message) = 0;
+
+  std::atomic<std::size_t> queued{0};  ///< Objects on their way to write() [bytes].
+};
+
+/// A data reader. No callback runs after its destructor.
+class TopicReader {
+ public:
+  virtual ~TopicReader() = default;
+};
+
+/// A topic, and the number of samples that its writer or reader keeps.
+struct TopicOptions {
+  std::string name;
+  std::string type;  ///< IDL name with its modules.
+  std::int32_t depth = 1;
+};
+
+/// This process's part in DDS.
+///
+/// Thread contract: any thread.
+class Participant {
+ public:
+  /// Takes a sample. It must not block.
+  /// @thread  one of DDS.
+  using Received = std::function<void(Sample)>;
+
+  /// @errors  unavailable if DDS does not start, as a rule because of the network interface.
+  [[nodiscard]] static Result<std::unique_ptr<Participant>> open(const DdsOptions& options);
+
+  virtual ~Participant() = default;
+  /// @errors  unavailable if DDS refuses.
+  [[nodiscard]] virtual Result<std::shared_ptr<TopicWriter>> make_writer(const TopicOptions& topic) = 0;
+  [[nodiscard]] virtual Result<std::unique_ptr<TopicReader>> make_reader(const TopicOptions& topic,
+                                                                         Received received) = 0;
+};
+
+}  // namespace orca::dds

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "orca/patterns/endpoints/push_server_endpoint.hpp"
+#include "outbox.hpp"
+
+namespace orca::dds {
+
+/// The topic on which a Push port publishes: each object is written once, for all edges that are due.
+///
+/// Thread contract: reserve(), release() and use() before the component runs or after; the rest with the lock of the
+/// port's endpoint held.
+class Publication final : public PushOutlet {
+ public:
+  Publication(Outbox& outbox, std::shared_ptr<TopicWriter> writer)
+      : outbox_(outbox), writer_(std::move(writer)) {}
+
+  /// Returns a bit for an edge; nothing if all are taken.
+  [[nodiscard]] std::optional<std::uint64_t> reserve();
+  void release(std::uint64_t bit) { taken_ &= ~bit; }
+  /// Writes with another writer from now on.
+  void use(std::shared_ptr<TopicWriter> writer) { writer_ = std::move(writer); }
+
+  /// Begins a time from which on a subscription uses the topic.
+  [[nodiscard]] std::uint32_t begin_epoch() { return ++epoch_; }
+
+  /// Adds an object for which an edge is due.
+  /// @param bit  of the edge; 0: the edge gets it in another way, and only shall see that the topic works.
+  /// @return false if too much waits to be written; the object is then not added.
+  bool add(const ObjectRef& object, std::uint64_t bit);
+  /// Writes the object that was added.
+  void flush() override;
+
+ private:
+  Outbox& outbox_;
+  std::shared_ptr<TopicWriter> writer_;
+  std::uint64_t taken_ = 0;
+  std::uint32_t epoch_ = 0;
+  ObjectRef pending_;
+  std::uint64_t due_ = 0;  // edges
+};
+
+}  // namespace orca::dds

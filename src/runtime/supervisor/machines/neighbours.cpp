@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "machines/neighbours.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "orca/base/log.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "orca/base/text.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+using host::RunOutcome;
+
+constexpr auto kRepeat = 200ms;
+constexpr auto kRepeatEnd = 50ms;
+constexpr auto kLeaveLimit = 1s;
+constexpr auto kListen = 700ms;
+
+Meet meet(const graph::Graph& graph, const std::string& here) {
+  Meet meet;
+  meet.topic = "orca/" + graph.name + "/machines";
+  for (const graph::MachineNode& node : graph.machines) {
+    if (node.name == here) {
+      meet.address = node.address;
+      meet.interface = node.interface;
+    } else if (!node.address.empty()) {
+      meet.others.push_back(node.address);
+    }
+  }
+  return meet;
+}
+
+// The number of a run: by the clock, so that a later one is larger.
+std::uint64_t new_run() { return static_cast<std::uint64_t>(steady_now().time_since_epoch().count()); }
+
+idl::MachineEnd end_of(RunOutcome outcome) {
+  switch (outcome) {
+    case RunOutcome::finished: return idl::MACHINE_FINISHED;
+    case RunOutcome::time_is_up: return idl::MACHINE_TIME_IS_UP;
+    case RunOutcome::stopped: return idl::MACHINE_STOPPED;
+    case RunOutcome::not_started: return idl::MACHINE_NOT_STARTED;
+    default: return idl::MACHINE_FAILED;
+  }
+}
+
+}  // namespace
+
+RunOutcome outcome_of(idl::MachineEnd end) {
+  switch (end) {
+    case idl::MACHINE_FINISHED: return RunOutcome::finished;
+    case idl::MACHINE_TIME_IS_UP: return RunOutcome::time_is_up;
+    case idl::MACHINE_STOPPED: return RunOutcome::stopped;
+    case idl::MACHINE_NOT_STARTED: return RunOutcome::not_started;
+    default: return RunOutcome::failed;
+  }
+}
+
+Neighbours::Neighbours(const graph::Graph& graph, const std::string& here, HostStart start, Ledger& ledger)
+    : gathering_(graph, here, new_run()),
+      messenger_(std::move(start), meet(graph, here),
+                 [this](const idl::MachineState& state) { gathering_.hear(state, Moment::clock::now()); }),
+      ledger_(ledger) {}
+
+void Neighbours::turn(Moment now) {
+  messenger_.turn(now);
+  gathering_.look(now);
+  tell_news();
+  publish(now);
+}
+
+void Neighbours::tell_news() {
+  for (const Gathering::News& news : gathering_.take_news()) {
+    if (news.kind == Gathering::News::Kind::lost)
+      ledger_.raise(host::AlarmKind::machine_lost, "", news.text);
+    else
+      log::write(news.kind == Gathering::News::Kind::info ? log::Level::info : log::Level::warning,
+                 "supervisor", news.text);
+  }
+}
+
+// A new run listens first: if another deployer runs for this machine, its neighbours never hear of this one.
+bool Neighbours::listens(Moment now) const {
+  const std::optional<Moment> since = messenger_.speaks_since();
+  return gathering_.state().phase() == idl::MACHINE_GATHERING && (!since || now < *since + kListen);
+}
+
+void Neighbours::publish(Moment now) {
+  idl::MachineState state = gathering_.state();
+  if (listens(now) || (state == said_ && now < say_at_)) return;
+  said_ = state;
+  say_at_ = now + (state.phase() == idl::MACHINE_ENDED ? kRepeatEnd : kRepeat);
+  state.seq(++seq_);
+  messenger_.say(state, now);
+}
+
+bool Neighbours::have_gathered() {
+  if (has_gathered_) return true;
+  const std::string awaited = this->awaited();
+  has_gathered_ = awaited.empty();
+  if (has_gathered_) {
+    gathering_.enter(idl::MACHINE_BUILDING);
+  } else if (std::exchange(told_, awaited) != awaited) {
+    log::info("supervisor", "waiting for " + awaited);
+  }
+  return has_gathered_;
+}
+
+std::string Neighbours::awaited() const {
+  const std::vector<std::string> missing = gathering_.missing();
+  if (missing.empty()) return "";
+  return (missing.size() == 1 ? "machine " : "machines ") + listed(missing);
+}
+
+void Neighbours::conclude(RunOutcome outcome, const std::string& why, Moment now) {
+  gathering_.end(end_of(outcome), why);
+  concluded_at_ = now;
+  publish(now);
+}
+
+bool Neighbours::take_leave(Moment now) {
+  leaves_ = leaves_ || gathering_.have_all_ended() || now > concluded_at_ + kLeaveLimit;
+  if (leaves_) messenger_.end(now);
+  return leaves_ && messenger_.member().process() == nullptr;
+}
+
+}  // namespace orca::supervisor

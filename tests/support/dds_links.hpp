@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "orca/patterns/dds/dds_backend.hpp"
+#include "orca/patterns/endpoints/links.hpp"
+
+namespace orca::test {
+
+/// Returns a new part in DDS, for a process of that name.
+/// @param run  that no other test uses.
+std::unique_ptr<DdsBackend> make_dds(const std::string& process, const std::string& run);
+/// Returns the DDS domain of this test program; the same in those that it forks afterwards.
+std::uint32_t dds_test_domain();
+/// Returns a name for a run that no other test uses.
+std::string fresh_run();
+
+/// Links through DDS whose two ends are in this process, as if they were in two: clients in one, servers in the other.
+///
+/// Strands that have no task of their own, because the test acts for them, take in nothing by themselves. As a rule a task
+/// does that for them, every millisecond.
+///
+/// Thread contract: as Links. It must outlive the ports that it connects.
+class DdsLinks final : public Links {
+ public:
+  /// Whether a task takes in for strands that have none of their own.
+  enum class Help { task, none };
+  explicit DdsLinks(Executive& executive, Help help = Help::task);
+  ~DdsLinks() override;
+
+ private:
+  class Helped;
+
+  void push(PushServerEndpoint& server, PushClientEndpoint& client, const QueuePolicy& policy) override;
+  void query(QueryClientEndpoint& client, QueryServerEndpoint& server) override;
+  void send(SendClientEndpoint& client, SendServerEndpoint& server, const QueuePolicy& policy) override;
+
+  void join(Endpoint& server, Endpoint& client, const QueuePolicy& policy,
+            Duration base_period = Duration{0});
+  void make_end(DdsBackend& backend, Endpoint& port, const DdsPeer& peer, const QueuePolicy& policy,
+                Duration base_period);
+  void work();
+
+  Executive& executive_;
+  const std::string run_ = fresh_run();
+  const std::unique_ptr<DdsBackend> servers_ = make_dds("servers", run_);
+  const std::unique_ptr<DdsBackend> clients_ = make_dds("clients", run_);
+
+  std::uint64_t edges_ = 0;  // so far
+  std::mutex mutex_;
+  std::vector<Strand*> helped_;  // guarded by mutex_, as their intakes are
+  std::atomic<bool> ending_{false};
+  std::unique_ptr<Event> end_;
+  std::unique_ptr<Task> task_;
+};
+
+}  // namespace orca::test

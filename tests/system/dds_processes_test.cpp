@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Processes of one machine that are joined by DDS instead of shared memory.
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "hosted_system.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+const std::string kScout = source_file("graphs/scout_goto_processes.xml");
+const std::string kNear = "goals=kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8";
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// What a process holds that only DDS needs.
+struct Traces {
+  bool library = false;
+  bool thread = false;
+  bool socket = false;  // of the Internet
+};
+
+// Returns the inodes of all Internet sockets of this network namespace.
+std::set<std::string> internet_sockets() {
+  std::set<std::string> inodes;
+  for (const char* table : {"/proc/net/udp", "/proc/net/udp6", "/proc/net/tcp", "/proc/net/tcp6"})
+    for (const std::string& line : split_lines(read(table))) {
+      std::istringstream words(line);
+      std::vector<std::string> fields{std::istream_iterator<std::string>(words), {}};
+      if (fields.size() > 9) inodes.insert("socket:[" + fields[9] + "]");
+    }
+  return inodes;
+}
+
+Traces traces_of(pid_t pid) {
+  const std::filesystem::path folder = "/proc/" + std::to_string(pid);
+  Traces traces;
+  traces.library = read(folder / "maps").find("libfastrtps") != std::string::npos;
+  for (const auto& task : std::filesystem::directory_iterator(folder / "task"))
+    traces.thread = traces.thread || read(task.path() / "comm").starts_with("dds");
+  const std::set<std::string> internet = internet_sockets();
+  for (const auto& descriptor : std::filesystem::directory_iterator(folder / "fd")) {
+    std::error_code gone;
+    const auto target = std::filesystem::read_symlink(descriptor.path(), gone);
+    traces.socket = traces.socket || internet.contains(target.string());
+  }
+  return traces;
+}
+
+}  // namespace
+
+TEST_CASE("a graph whose processes are joined by DDS reaches its goals", "[system][dds]") {
+  const Run run = run_deployer({kScout, "--set", kNear, "--set", "link=dds"}, Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.arrivals().size() == 1);
+  CHECK_FALSE(run.says("alarm"));
+}
+
+TEST_CASE("only a process with an edge that goes over DDS has anything of DDS", "[system][dds]") {
+  for (const std::string link : {"shm", "dds"}) {
+    System system(flow(link));
+    system.when("flow ", 0, Seconds(10));
+    CAPTURE(link);
+    for (const std::string name : {"source", "relay", "sink"}) {
+      CAPTURE(name);
+      const Traces traces = traces_of(system.process(name));
+      const bool expected = link == "dds";
+      CHECK(traces.library == expected);
+      CHECK(traces.thread == expected);
+      CHECK(traces.socket == expected);
+    }
+    const Traces of_deployer = traces_of(system.program().pid());
+    CHECK_FALSE((of_deployer.library || of_deployer.thread || of_deployer.socket));
+    stop(system);
+  }
+}
+
+TEST_CASE("the loss of each process is seen at once, and objects flow again over DDS", "[system][dds]") {
+  const std::vector<std::string> before = kept_by_system();
+  System system(flow("dds"));
+  system.when("flow ", 0, Seconds(10));
+  for (const std::string name : {"source", "relay", "sink"}) {
+    CAPTURE(name);
+    const Outage outage = kill_one(system, name);
+    CHECK(outage.detected < Seconds(0.5 * kSlowdown));
+    CHECK(outage.flows < Seconds(3.0 * kSlowdown));
+    std::this_thread::sleep_for(Seconds(0.15));
+  }
+  const Run run = stop(system);
+  CHECK_FALSE(run.says("GAVE_UP"));
+  CHECK(kept_by_system() == before);
+}
+
+TEST_CASE("a robot whose behaviours are killed drives on, over DDS too", "[system][dds]") {
+  System system({kScout, "--set", kNear, "--set", "link=dds"});
+  const pid_t behaviours = system.process("behaviours");
+  std::this_thread::sleep_for(Seconds(3));
+  REQUIRE(kill(behaviours, SIGKILL) == 0);
+  const Run run = finish(system.program(), Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.arrivals().size() == 1);
+}
+
+TEST_CASE("a hundred random kills over DDS", "[.][slow][dds]") { kill_many(100, "dds"); }
+
+TEST_CASE("a thousand starts of processes joined by DDS", "[.][slow][dds]") {
+  constexpr int kStarts = 1000;
+  std::vector<double> times;
+  for (int i = 0; i < kStarts; ++i) {
+    CAPTURE(i);
+    const Seconds began = since_boot();
+    System system(flow("dds"));
+    times.push_back((system.when("flow ", 0, Seconds(5)) - began).count());
+    stop(system);
+  }
+  print("start to the first object", times);
+}

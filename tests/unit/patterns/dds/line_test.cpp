@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What two processes say to each other over a network that loses, doubles and delays.
+#include "dds/backend/line.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <deque>
+#include <random>
+
+using namespace orca;
+using namespace orca::dds;
+using frames::Loss;
+using frames::Sent;
+
+namespace {
+
+constexpr std::uint64_t kEdge = 7;
+constexpr std::uint64_t kFarId = 2;
+
+// An end that notes what it learns.
+struct Listener final : Passenger {
+  void arrived(Parcel kind, std::span<const std::byte> contents) override {
+    if (kind == Parcel::closed) log += "closed ";
+    if (kind == Parcel::frame) numbers.push_back(take_number(contents).value_or(0));
+  }
+  void line_lost(const Error&) override { log += "lost "; }
+  void line_joined(std::uint64_t new_session) override {
+    log += "joined ";
+    session = new_session;
+  }
+
+  std::vector<std::uint64_t> numbers;
+  std::string log;
+  std::uint64_t session = 0;
+};
+
+std::vector<std::byte> numbered(std::uint64_t number) {
+  std::vector<std::byte> parcel = begin_parcel(kEdge, Parcel::frame);
+  append(parcel, number);
+  return parcel;
+}
+
+// Two lines and the network between them.
+class Pair {
+ public:
+  explicit Pair(unsigned seed = 1, Duration liveliness = 300ms) : liveliness_(liveliness), random_(seed) {
+    restart();
+  }
+
+  // Replaces the far process by a new one.
+  void restart() {
+    far_listener = Listener();
+    far = std::make_unique<Line>("near", Line::Settings{kFarId, liveliness_},
+                                 [this](std::vector<std::byte> bytes) { put(to_near_, std::move(bytes)); });
+    far_listener.session = far->add(kEdge, far_listener);
+  }
+
+  void put(std::deque<std::vector<std::byte>>& way, std::vector<std::byte> bytes) {
+    if (dice() < loss) return;
+    if (dice() < doubled) way.push_back(bytes);
+    const bool overtakes = dice() < disorder && !way.empty();
+    way.insert(overtakes ? way.end() - 1 : way.end(), std::move(bytes));
+  }
+
+  void carry() {
+    for (int i = 0; i < 1000 && !(to_far_.empty() && to_near_.empty()); ++i) {
+      carry_one(to_far_, *far, Origin{std::byte{2}});
+      carry_one(to_near_, near, Origin{std::byte{1}});
+    }
+  }
+
+  void tick(int times = 1) {
+    for (int i = 0; i < times; ++i) {
+      near.tick();
+      far->tick();
+      carry();
+    }
+  }
+
+  void drop_all() {
+    to_far_.clear();
+    to_near_.clear();
+  }
+
+  std::deque<std::vector<std::byte>>& to_near() { return to_near_; }
+
+  double loss = 0.0, doubled = 0.0, disorder = 0.0;
+  Listener near_listener, far_listener;
+
+ private:
+  double dice() { return static_cast<double>(random_()) / std::mt19937::max(); }
+
+  static void carry_one(std::deque<std::vector<std::byte>>& way, Line& line, const Origin& from) {
+    if (way.empty()) return;
+    const std::vector<std::byte> bytes = std::move(way.front());
+    way.pop_front();
+    if (const auto message = decode(bytes)) line.receive(*message, from);
+  }
+
+  const Duration liveliness_;
+  std::mt19937 random_;
+  std::deque<std::vector<std::byte>> to_far_, to_near_;
+
+ public:
+  Line near{"far", Line::Settings{1, liveliness_},
+            [this](std::vector<std::byte> bytes) { put(to_far_, std::move(bytes)); }};
+  std::unique_ptr<Line> far;
+};
+
+std::vector<std::uint64_t> up_to(std::uint64_t last) {
+  std::vector<std::uint64_t> numbers;
+  for (std::uint64_t i = 1; i <= last; ++i) numbers.push_back(i);
+  return numbers;
+}
+
+}  // namespace
+
+TEST_CASE("a parcel that was sent before the peer was there arrives", "[patterns][dds]") {
+  Pair pair;
+  REQUIRE(pair.near.send(numbered(1), pair.near.add(kEdge, pair.near_listener)) == Sent::yes);
+  pair.drop_all();
+  CHECK_FALSE(pair.near.is_joined());
+  pair.tick(3);
+  CHECK(pair.near.is_joined());
+  CHECK(pair.far_listener.numbers == up_to(1));
+  CHECK(pair.near_listener.log.empty());  // the first time that it joins is no news
+}
+
+TEST_CASE("each parcel arrives once and in order, whatever the network does", "[patterns][dds]") {
+  const unsigned seed = GENERATE(1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U);
+  CAPTURE(seed);
+  Pair pair(seed, 10s);  // nobody is lost for the silence of a bad network
+  pair.loss = 0.3;
+  pair.doubled = 0.2;
+  pair.disorder = 0.3;
+  const std::uint64_t session = pair.near.add(kEdge, pair.near_listener);
+  constexpr std::uint64_t kCount = 300;
+  for (std::uint64_t i = 1; i <= kCount; ++i) {
+    REQUIRE(pair.near.send(numbered(i), session) == Sent::yes);
+    if (i % 3 == 0) pair.tick();
+  }
+  pair.tick(200);
+  CHECK(pair.far_listener.numbers == up_to(kCount));
+  CHECK(pair.near_listener.log.empty());
+  CHECK(pair.far_listener.log.empty());
+}
+
+TEST_CASE("a peer that was started again is another one", "[patterns][dds]") {
+  Pair pair;
+  const std::uint64_t session = pair.near.add(kEdge, pair.near_listener);
+  pair.tick(3);
+  pair.loss = 1.0;
+  REQUIRE(pair.near.send(numbered(1), session) == Sent::yes);  // the peer never gets it
+  pair.loss = 0.0;
+  pair.restart();
+  pair.tick(3);
+  CHECK(pair.near_listener.log == "lost joined ");
+  CHECK(pair.near.send(numbered(2), session) == Sent::cut);  // it was meant for the old one
+  REQUIRE(pair.near.send(numbered(3), pair.near_listener.session) == Sent::yes);
+  pair.carry();
+  CHECK(pair.far_listener.numbers == std::vector<std::uint64_t>{3});
+  CHECK(pair.far_listener.log.empty());
+}
+
+TEST_CASE("what a process has said before it was replaced means nothing afterwards", "[patterns][dds]") {
+  Pair pair;
+  pair.near.add(kEdge, pair.near_listener);
+  pair.tick(3);
+  pair.far->send_now(numbered(1));
+  const std::deque<std::vector<std::byte>> late = pair.to_near();
+  pair.drop_all();
+  pair.restart();
+  pair.tick(3);
+  REQUIRE(pair.near_listener.log == "lost joined ");
+  pair.to_near() = late;
+  pair.carry();
+  pair.tick(3);
+  CHECK(pair.near_listener.numbers.empty());
+  CHECK(pair.near_listener.log == "lost joined ");
+}
+
+TEST_CASE("a silent peer is lost after the liveliness time, and found again", "[patterns][dds]") {
+  Pair pair;
+  pair.near.add(kEdge, pair.near_listener);
+  pair.tick(3);
+  pair.loss = 1.0;
+  pair.tick(13);  // there may have been silence of up to two ticks before
+  CHECK(pair.near_listener.log.empty());
+  pair.tick(4);
+  CHECK(pair.near_listener.log == "lost ");
+  CHECK(pair.far_listener.log == "lost ");
+  pair.loss = 0.0;
+  pair.tick(3);
+  CHECK(pair.near_listener.log == "lost joined ");
+  CHECK(pair.far_listener.log == "lost joined ");
+}
+
+TEST_CASE("a line that was cut joins again if the peer lives", "[patterns][dds]") {
+  Pair pair;
+  pair.near.add(kEdge, pair.near_listener);
+  pair.tick(3);
+  pair.near.lose(fail(Code::unavailable, "it is said to be gone"));
+  CHECK_FALSE(pair.near.is_peer(Origin{std::byte{1}}));
+  pair.tick(3);
+  CHECK(pair.near_listener.log == "lost joined ");
+  CHECK(pair.far_listener.log == "lost joined ");
+}
+
+TEST_CASE("an end that is removed tells the other one", "[patterns][dds]") {
+  Pair pair;
+  pair.near.add(kEdge, pair.near_listener);
+  pair.tick(3);
+  pair.near.remove(kEdge);
+  pair.carry();
+  CHECK(pair.far_listener.log == "closed ");
+}
+
+TEST_CASE("a peer that does not confirm anything is sent no more than fits", "[patterns][dds]") {
+  Pair pair;
+  const std::uint64_t session = pair.near.add(kEdge, pair.near_listener);
+  pair.loss = 1.0;
+  std::vector<std::byte> large = numbered(1);
+  large.resize(std::size_t{3} << 20);
+  CHECK(pair.near.send(large, session, Loss::allowed) == Sent::yes);
+  CHECK(pair.near.send(large, session, Loss::allowed) == Sent::yes);
+  CHECK(pair.near.send(large, session, Loss::allowed) == Sent::no_room);
+  CHECK(pair.near.send(numbered(2), session) == Sent::yes);
+  large.resize(std::size_t{40} << 20);
+  CHECK(pair.near.send(large, session) == Sent::too_large);
+}
+
+TEST_CASE("whatever arrives that is no message is discarded", "[patterns][dds]") {
+  Pair pair;
+  pair.near.add(kEdge, pair.near_listener);
+  pair.tick(3);
+  std::mt19937 random(5);
+  const std::vector<std::byte> good = encode({kFarId, 1, 2, 3, 4, numbered(5)});
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<std::byte> bad = good;
+    bad.resize(random() % (good.size() + 1));
+    for (std::byte& byte : bad)
+      if (random() % 4 == 0) byte = static_cast<std::byte>(random());
+    if (const auto message = decode(bad)) pair.near.receive(*message, Origin{});
+  }
+  pair.drop_all();
+  CHECK(pair.near_listener.numbers.empty());
+  CHECK(pair.near_listener.log.empty());
+  pair.far->send_now(numbered(1));
+  pair.carry();
+  CHECK(pair.near_listener.numbers == up_to(1));
+}
