@@ -25,7 +25,8 @@ namespace orca::test {
 /// Returns the CPU time of all threads of a process that still run.
 [[nodiscard]] Seconds cpu_time_of(pid_t process);
 
-/// Returns what of Orca a machine keeps although no process may use it: files in /dev/shm and Unix sockets with a path.
+/// Returns what of Orca a machine keeps although no process may use it: files in /dev/shm, and Unix sockets of the
+/// programs that this one has started.
 [[nodiscard]] std::vector<std::string> kept_by_system();
 
 }  // namespace orca::test
