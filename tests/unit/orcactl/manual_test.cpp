@@ -4,16 +4,15 @@
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
+#include <iostream>
 
 using namespace orca::orcactl;
 using Catch::Contains;
 
 namespace {
 
-// Returns whether a shell understands the script; true if there is no such shell here.
+// Returns whether a shell understands its script.
 bool is_understood(const std::string& shell) {
-  if (std::system(("command -v " + shell + " > /dev/null").c_str()) != 0) return true;
   std::FILE* const pipe = popen((shell + " -n").c_str(), "w");
   REQUIRE(pipe != nullptr);
   std::fputs(completion_script(shell).c_str(), pipe);
@@ -47,8 +46,15 @@ TEST_CASE("the lines of help fit a terminal", "[orcactl]") {
   }
 }
 
-TEST_CASE("the completion scripts are what their shells understand", "[orcactl]") {
+TEST_CASE("bash understands its completion script, and other shells have none", "[orcactl]") {
   CHECK(is_understood("bash"));
-  CHECK(is_understood("zsh"));
   CHECK(completion_script("fish").empty());
+}
+
+TEST_CASE("zsh understands its completion script, where it is installed", "[orcactl][tool]") {
+  if (std::system("command -v zsh >/dev/null") != 0) {
+    std::cout << "SKIPPED: there is no zsh; apt install zsh\n";
+    return;
+  }
+  CHECK(is_understood("zsh"));
 }
