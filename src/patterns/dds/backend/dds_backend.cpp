@@ -128,7 +128,7 @@ class FastBackend final : public DdsBackend {
   // A message is a sequence<octet>: its length, then the bytes.
   void receive(const Sample& sample) {
     std::uint32_t length = 0;
-    std::span<const std::byte> bytes = sample.bytes;
+    std::span<const std::byte> bytes = sample.contents();
     if (bytes.size() < sizeof length) return;
     std::memcpy(&length, bytes.data(), sizeof length);
     bytes = bytes.subspan(sizeof length);

@@ -9,6 +9,9 @@
 
 namespace orca::dds {
 
+/// Room before the contents of what a reader has received [bytes], so that they can become a frame where they are.
+constexpr std::size_t kHeadroom = 4 * sizeof(std::uint64_t);
+
 /// A message between two processes. On the wire it is its five numbers, 64 bits each, and the parcel.
 struct Message {
   std::uint64_t from = 0;      ///< Identifies the sender by the hash of its name.

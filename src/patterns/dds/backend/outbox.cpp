@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 // A write that DDS refuses is a loss like one of the network: readers count it, or the line repeats it.
 void write(Letter& letter) {
   if (letter.object) {
-    letter.to->write(letter.object, letter.label);
+    letter.to->write(letter.object, letter.size, letter.label);
     letter.to->queued.fetch_sub(letter.size, std::memory_order_relaxed);
   } else {
     letter.to->write(std::move(letter.message));

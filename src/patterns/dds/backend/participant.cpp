@@ -81,14 +81,14 @@ class Writer final : public TopicWriter {
   }
   [[nodiscard]] bool is_there() const { return writer_ != nullptr; }
 
-  bool write(const ObjectRef& object, const Label& label) override {
-    Outgoing outgoing{&object};
+  bool write(const ObjectRef& object, std::size_t size, const Label& label) override {
+    Outgoing outgoing{&object, {}, size};
     rtps::WriteParams with;
     with.related_sample_identity(to_identity(label));
     return writer_->write(&outgoing, with);
   }
   bool write(std::vector<std::byte> message) override {
-    Outgoing outgoing{nullptr, message};
+    Outgoing outgoing{nullptr, message, sizeof(std::uint32_t) + message.size()};
     return writer_->write(&outgoing);
   }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,13 @@ struct Label {
 
 /// What a reader has received.
 struct Sample {
-  std::vector<std::byte> bytes;  ///< The object's XCDR1, or a message.
+  std::vector<std::byte> bytes;  ///< kHeadroom bytes, then the contents.
   Label label;                   ///< Of objects.
   Origin origin;
   std::uint64_t sequence = 0;  ///< Of the writer; a gap means that samples were lost.
+
+  /// Returns the object's XCDR1, or a message.
+  [[nodiscard]] std::span<const std::byte> contents() const { return std::span(bytes).subspan(kHeadroom); }
 };
 
 /// A data writer. It keeps its topic alive.
@@ -38,8 +42,9 @@ struct Sample {
 class TopicWriter {
  public:
   virtual ~TopicWriter() = default;
+  /// @param size  of the object, encoded [bytes].
   /// @return false if it could not be written.
-  virtual bool write(const ObjectRef& object, const Label& label) = 0;
+  virtual bool write(const ObjectRef& object, std::size_t size, const Label& label) = 0;
   virtual bool write(std::vector<std::byte> message) = 0;
 
   std::atomic<std::size_t> queued{0};  ///< Objects on their way to write() [bytes].

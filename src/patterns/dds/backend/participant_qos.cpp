@@ -39,7 +39,7 @@ void keep_last(Qos& qos, std::int32_t depth) {
   qos.resource_limits().max_instances = 1;
   qos.resource_limits().max_samples_per_instance = depth;
   qos.resource_limits().allocated_samples = 1;
-  qos.endpoint().history_memory_policy = rtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = rtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
 }
 
 }  // namespace
@@ -81,7 +81,8 @@ fd::DataWriterQos writer_qos(std::int32_t depth) {
   times.initialHeartbeatDelay = seconds(0.005);
   times.heartbeatPeriod = seconds(0.05);
   times.nackResponseDelay = seconds(0.0);
-  times.nackSupressionDuration = seconds(0.0);
+  // Zero, the default, lets each write wake the thread of events.
+  times.nackSupressionDuration = seconds(0.001);
   return qos;
 }
 

@@ -2,6 +2,8 @@
 #include "push_ends.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <utility>
 
 namespace orca::dds {
@@ -13,15 +15,13 @@ namespace {
 constexpr std::size_t kMostHeld = std::size_t{4} << 20;  // [bytes]
 
 // Returns the frame that the server would have sent.
-std::vector<std::byte> as_frame(const Sample& sample, std::uint64_t subscription) {
-  std::vector<std::byte> bytes;
-  bytes.reserve(4 * sizeof(std::uint64_t) + sample.bytes.size());
-  append(bytes, static_cast<std::uint64_t>(FrameKind::object));
-  append(bytes, subscription);
-  append(bytes, 0);  // nobody waits for it
-  append(bytes, sample.label.layout_hash);
-  bytes.insert(bytes.end(), sample.bytes.begin(), sample.bytes.end());
-  return bytes;
+std::vector<std::byte> as_frame(Sample sample, std::uint64_t subscription) {
+  constexpr std::uint64_t kNobodyWaits = 0;
+  const std::array head{static_cast<std::uint64_t>(FrameKind::object), subscription, kNobodyWaits,
+                        sample.label.layout_hash};
+  static_assert(sizeof head == kHeadroom);
+  std::memcpy(sample.bytes.data(), head.data(), sizeof head);
+  return std::move(sample.bytes);
 }
 
 }  // namespace
@@ -119,15 +119,15 @@ void SubscribingEnd::go_direct(std::span<const std::byte> contents) {
   const std::lock_guard lock(topic_mutex_);
   direct_ = Direct{*subscription, *bit, static_cast<std::uint32_t>(*epoch)};
   held_bytes_ = 0;
-  for (const Held& held : std::exchange(held_, {})) pass_on(held.sample, held.missed);
+  for (Held& held : std::exchange(held_, {})) pass_on(std::move(held.sample), held.missed);
 }
 
-void SubscribingEnd::take_sample(const Sample& sample, std::uint64_t missed) {
+void SubscribingEnd::take_sample(Sample sample, std::uint64_t missed) {
   if (!place().line.is_peer(sample.origin)) return;  // a stranger, or a process that has ended
   report_heard();
   const std::lock_guard lock(topic_mutex_);
-  if (!direct_) return hold(sample, missed);
-  pass_on(sample, missed);
+  if (!direct_) return hold(std::move(sample), missed);
+  pass_on(std::move(sample), missed);
 }
 
 void SubscribingEnd::report_heard() {
@@ -136,10 +136,10 @@ void SubscribingEnd::report_heard() {
   place().line.send(begin_parcel(place().edge, Parcel::heard), session);
 }
 
-void SubscribingEnd::hold(const Sample& sample, std::uint64_t missed) {
+void SubscribingEnd::hold(Sample sample, std::uint64_t missed) {
   if (sample.label.edges == 0) return;
-  held_.push_back({sample, missed});
   held_bytes_ += sample.bytes.size();
+  held_.push_back({std::move(sample), missed});
   while (held_bytes_ > kMostHeld && held_.size() > 1) drop_oldest_held();
 }
 
@@ -150,12 +150,12 @@ void SubscribingEnd::drop_oldest_held() {
   held_.front().missed += lost;
 }
 
-void SubscribingEnd::pass_on(const Sample& sample, std::uint64_t missed) {
+void SubscribingEnd::pass_on(Sample sample, std::uint64_t missed) {
   if (sample.label.epoch < direct_->epoch) return;
   report_missed(missed / multiple_);
   if ((sample.label.edges & direct_->bit) == 0) return;
   if (is_behind()) return report_missed(1);
-  deliver(as_frame(sample, direct_->subscription));
+  deliver(as_frame(std::move(sample), direct_->subscription));
 }
 
 void SubscribingEnd::report_missed(std::uint64_t missed) {

@@ -61,7 +61,7 @@ class SubscribingEnd final : public DdsEnd, public SampleSink {
   void arrived(Parcel kind, std::span<const std::byte> contents) override;
   void line_joined(std::uint64_t session) override;
 
-  void take_sample(const Sample& sample, std::uint64_t missed) override;
+  void take_sample(Sample sample, std::uint64_t missed) override;
 
  private:
   // From which sample on the topic counts, and for which subscription.
@@ -80,9 +80,9 @@ class SubscribingEnd final : public DdsEnd, public SampleSink {
   void forget_direct();
   void report_heard();
   // Called with topic_mutex_ held.
-  void hold(const Sample& sample, std::uint64_t missed);
+  void hold(Sample sample, std::uint64_t missed);
   void drop_oldest_held();
-  void pass_on(const Sample& sample, std::uint64_t missed);
+  void pass_on(Sample sample, std::uint64_t missed);
   void report_missed(std::uint64_t missed);
 
   const std::shared_ptr<Subscription> subscription_;

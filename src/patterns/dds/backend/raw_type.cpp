@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "message.hpp"
+
 namespace orca::dds {
 namespace {
 
@@ -12,11 +14,6 @@ constexpr std::size_t kEncapsulation = 4;
 // Plain CDR, little-endian, without options: what XCDR version 1 of final and appendable types begins with.
 constexpr std::array<std::uint8_t, kEncapsulation> kPlainLittleEndian{0x00, 0x01, 0x00, 0x00};
 constexpr std::uint32_t kSmall = 512;  // [bytes] for the first sample; more is taken where it is needed
-
-std::size_t size_of(const Outgoing& sample) {
-  if (sample.object == nullptr) return sizeof(std::uint32_t) + sample.bytes.size();
-  return sample.object->type().write(sample.object->get(), {});
-}
 
 void write(const Outgoing& sample, std::span<std::byte> to) {
   if (sample.object != nullptr) {
@@ -40,12 +37,11 @@ RawType::RawType(const std::string& name) {
 
 bool RawType::serialize(void* data, Payload* payload) {
   const Outgoing& sample = *static_cast<const Outgoing*>(data);
-  const std::size_t size = size_of(sample);
-  if (payload->max_size < kEncapsulation + size) return false;
+  if (payload->max_size < kEncapsulation + sample.size) return false;
   std::memcpy(payload->data, kPlainLittleEndian.data(), kEncapsulation);
-  write(sample, {reinterpret_cast<std::byte*>(payload->data) + kEncapsulation, size});
+  write(sample, {reinterpret_cast<std::byte*>(payload->data) + kEncapsulation, sample.size});
   payload->encapsulation = CDR_LE;
-  payload->length = static_cast<std::uint32_t>(kEncapsulation + size);
+  payload->length = static_cast<std::uint32_t>(kEncapsulation + sample.size);
   return true;
 }
 
@@ -57,13 +53,15 @@ bool RawType::deserialize(Payload* payload, void* data) {
       std::memcmp(payload->data, kPlainLittleEndian.data(), 2) != 0)  // the other two are options
     return false;
   const auto* const begin = reinterpret_cast<const std::byte*>(payload->data);
-  bytes.assign(begin + kEncapsulation, begin + payload->length);
+  bytes.reserve(kHeadroom + payload->length - kEncapsulation);
+  bytes.resize(kHeadroom);
+  bytes.insert(bytes.end(), begin + kEncapsulation, begin + payload->length);
   return true;
 }
 
 std::function<std::uint32_t()> RawType::getSerializedSizeProvider(void* data) {
   return [data] {
-    return static_cast<std::uint32_t>(kEncapsulation + size_of(*static_cast<const Outgoing*>(data)));
+    return static_cast<std::uint32_t>(kEncapsulation + static_cast<const Outgoing*>(data)->size);
   };
 }
 

@@ -16,10 +16,11 @@ namespace orca::dds {
 struct Outgoing {
   const ObjectRef* object = nullptr;  ///< Null: the bytes.
   std::span<const std::byte> bytes{};
+  std::size_t size = 0;  ///< As it is written, without encapsulation [bytes].
 };
 
 /// A type of DDS whose samples Orca encodes and decodes itself. A writer takes Outgoing, a reader fills a
-/// std::vector<std::byte> with what follows the encapsulation.
+/// std::vector<std::byte> with kHeadroom bytes, and then what follows the encapsulation.
 ///
 /// Thread contract: constant once it is registered.
 class RawType final : public eprosima::fastdds::dds::TopicDataType {

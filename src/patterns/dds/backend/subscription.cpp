@@ -6,7 +6,7 @@
 namespace orca::dds {
 
 Status Subscription::open(Participant& participant, const TopicOptions& topic) {
-  auto reader = participant.make_reader(topic, [this](const Sample& sample) { take(sample); });
+  auto reader = participant.make_reader(topic, [this](Sample sample) { take(std::move(sample)); });
   if (!reader) return reader.error();
   reader_ = std::move(reader).value();
   return ok();
@@ -22,10 +22,12 @@ void Subscription::remove(SampleSink& sink) {
   std::erase(sinks_, &sink);
 }
 
-void Subscription::take(const Sample& sample) {
+void Subscription::take(Sample sample) {
   const std::lock_guard lock(mutex_);
   const std::uint64_t missed = missed_before(sample);
-  for (SampleSink* const sink : sinks_) sink->take_sample(sample, missed);
+  if (sinks_.empty()) return;
+  for (std::size_t i = 0; i + 1 < sinks_.size(); ++i) sinks_[i]->take_sample(sample, missed);
+  sinks_.back()->take_sample(std::move(sample), missed);
 }
 
 // Others may write to the topic, too; for them nothing is counted.

@@ -17,7 +17,7 @@ class SampleSink {
  public:
   virtual ~SampleSink() = default;
   /// @param missed  samples that were lost before this one.
-  virtual void take_sample(const Sample& sample, std::uint64_t missed) = 0;
+  virtual void take_sample(Sample sample, std::uint64_t missed) = 0;
 };
 
 /// The reader of a topic, for all edges of this process that get objects from it.
@@ -34,7 +34,7 @@ class Subscription {
   void remove(SampleSink& sink);
 
  private:
-  void take(const Sample& sample);
+  void take(Sample sample);
   std::uint64_t missed_before(const Sample& sample);
 
   std::mutex mutex_;
