@@ -5,30 +5,19 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <string>
 #include <thread>
 
 #include "deployer.hpp"
+#include "number_file.hpp"
 #include "process_table.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
 
 namespace {
-
-using Numbers = std::vector<std::int64_t>;
-
-Numbers read_numbers(const std::filesystem::path& path) {
-  Numbers numbers(std::filesystem::file_size(path) / sizeof(std::int64_t));
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(numbers.data()),
-            static_cast<std::streamsize>(numbers.size() * sizeof(std::int64_t)));
-  REQUIRE(file);
-  return numbers;
-}
 
 std::uintmax_t size_of(const std::filesystem::path& path) {
   std::error_code none;
@@ -37,10 +26,10 @@ std::uintmax_t size_of(const std::filesystem::path& path) {
 }
 
 // Returns what the deployer has to be told for a tally in a folder.
-Words tally(const TempFolder& folder, int count) {
+Words tally(const TempFolder& folder, int count, const std::string& link) {
   return Words{system_graph("tally.xml")} + with_test_plugins() +
-         Words{"--set", "count=" + std::to_string(count),   "--set", "sent=" + folder.file("sent"),
-               "--set", "handled=" + folder.file("handled")};
+         Words{"--set", "count=" + std::to_string(count),    "--set", "sent=" + folder.file("sent"),
+               "--set", "handled=" + folder.file("handled"), "--set", "link=" + link};
 }
 
 // Waits until so many numbers were handled, then kills the taker.
@@ -58,9 +47,9 @@ void kill_taker_after(Subprocess& program, const std::filesystem::path& handled,
 }
 
 // Sends so many numbers, kills the taker so often meanwhile, and compares what both say.
-void send_and_kill(int count, int kills) {
+void send_and_kill(int count, int kills, const std::string& link) {
   const TempFolder folder;
-  Subprocess program(deployer(tally(folder, count)));
+  Subprocess program(deployer(tally(folder, count, link)));
   for (int i = 1; i <= kills; ++i)
     kill_taker_after(program, folder.path() / "handled", count * i / (kills + 1));
   const Run run = finish(program, Seconds(120));
@@ -73,7 +62,8 @@ void send_and_kill(int count, int kills) {
   Numbers lost;
   std::set_difference(sent.begin(), sent.end(), handled.begin(), handled.end(), std::back_inserter(lost));
   CHECK(lost == Numbers{});
-  std::printf("%d numbers, %d kills: %zu sent, %zu handled\n", count, kills, sent.size(), handled.size());
+  std::printf("%s: %d numbers, %d kills: %zu sent, %zu handled\n", link.c_str(), count, kills, sent.size(),
+              handled.size());
   CHECK(sent.size() > static_cast<std::size_t>(count) / 2);
   CHECK(handled.size() <
         static_cast<std::size_t>(count));  // some came while nobody was there, and the sender was told
@@ -82,10 +72,12 @@ void send_and_kill(int count, int kills) {
 }  // namespace
 
 TEST_CASE("nothing that counts as sent is lost or doubled while the receiver is killed", "[system][send]") {
-  send_and_kill(10'000, 4);
+  const std::string link = GENERATE("shm", "dds");
+  send_and_kill(10'000, 4, link);
 }
 
 TEST_CASE("nothing of 100,000 is lost or doubled while the receiver is killed 20 times",
           "[system][.][slow]") {
-  send_and_kill(100'000, 20);
+  const std::string link = GENERATE("shm", "dds");
+  send_and_kill(100'000, 20, link);
 }

@@ -19,6 +19,7 @@ class TallySender final : public orca::Component {
   }
 
   orca::Status start() override { return sent_.open_at(*path_); }
+  void stop() override { sent_.end(); }
 
   orca::Outcome work() override {
     while (number_ < *count_) {

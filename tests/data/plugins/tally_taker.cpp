@@ -17,6 +17,7 @@ class TallyTaker final : public orca::Component {
   }
 
   orca::Status start() override { return handled_.open_at(*path_); }
+  void stop() override { handled_.end(); }
 
   orca::Status on_number(const orca::ObjectPtr<orca::idl::TurretCommand>& number) {
     return handled_.add(static_cast<std::int64_t>(number->angle()));

@@ -66,6 +66,7 @@ OrderDesk::~OrderDesk() {
   ending_.store(true);
   eventfd_write(wake_.number(), 1);
   thread_.join();
+  heartbeat_.store(0);  // from here on silence is no hang
 }
 
 void OrderDesk::work() {

@@ -341,7 +341,6 @@ class SupervisedRun {
   void take_down() {
     end_ = steady_now();
     for (const auto& member : members_) {
-      beats_.forget(member->index());
       const auto answered = [this, &member = *member](const Status& outcome) { taken_down(member, outcome); };
       member->end(now(), stop_.requested() ? kHurry : kLeisure, answered);
     }
