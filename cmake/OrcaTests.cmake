@@ -8,6 +8,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "RelWithDe
   list(APPEND ORCA_TEST_OPTIONS -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
+set(ORCA_TEST_ENVIRONMENT)
+if(ORCA_SANITIZE STREQUAL "thread")
+  set(ORCA_TEST_ENVIRONMENT "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/tsan.supp")
+endif()
+
 # orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [OPTIMISED])
 #
 # Adds a Catch2 program with one ctest entry. TIMEOUT [s] is a bound on hangs in the release build; the default is 60 s.
@@ -36,7 +41,8 @@ function(orca_add_test name)
   target_compile_definitions(${name} PRIVATE
     ORCA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ORCA_BINARY_DIR="${CMAKE_BINARY_DIR}")
   add_test(NAME ${name} COMMAND ${name} --use-colour no "~[.]~[data]~[tool]")
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT}
+                       ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
 endfunction()
 
 # orca_add_optional_cases(TEST TAG [LABELS ...] [TIMEOUT seconds])
@@ -53,5 +59,6 @@ function(orca_add_optional_cases test tag)
   endif()
   string(REGEX REPLACE "_test$" "_${tag}_test" name ${test})
   add_test(NAME ${name} COMMAND ${test} --use-colour no "[${tag}]~[.]")
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} SKIP_REGULAR_EXPRESSION "SKIPPED: ")
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} SKIP_REGULAR_EXPRESSION "SKIPPED: "
+                       ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
 endfunction()

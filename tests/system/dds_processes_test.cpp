@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <set>
 
 #include "hosted_system.hpp"
+#include "internet_sockets.hpp"
 
 using namespace orca::test;
 
@@ -29,30 +29,14 @@ struct Traces {
   bool socket = false;  // of the Internet
 };
 
-// Returns the inodes of all Internet sockets of this network namespace.
-std::set<std::string> internet_sockets() {
-  std::set<std::string> inodes;
-  for (const char* table : {"/proc/net/udp", "/proc/net/udp6", "/proc/net/tcp", "/proc/net/tcp6"})
-    for (const std::string& line : split_lines(read(table))) {
-      std::istringstream words(line);
-      std::vector<std::string> fields{std::istream_iterator<std::string>(words), {}};
-      if (fields.size() > 9) inodes.insert("socket:[" + fields[9] + "]");
-    }
-  return inodes;
-}
-
 Traces traces_of(pid_t pid) {
   const std::filesystem::path folder = "/proc/" + std::to_string(pid);
   Traces traces;
   traces.library = read(folder / "maps").find("libfastrtps") != std::string::npos;
   for (const auto& task : std::filesystem::directory_iterator(folder / "task"))
     traces.thread = traces.thread || read(task.path() / "comm").starts_with("dds");
-  const std::set<std::string> internet = internet_sockets();
-  for (const auto& descriptor : std::filesystem::directory_iterator(folder / "fd")) {
-    std::error_code gone;
-    const auto target = std::filesystem::read_symlink(descriptor.path(), gone);
-    traces.socket = traces.socket || internet.contains(target.string());
-  }
+  for (const std::string table : {"udp", "udp6", "tcp", "tcp6"})
+    traces.socket = traces.socket || !ports_of(pid, table).empty();
   return traces;
 }
 

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Malformed packets for a process that has DDS: it may die of them, and nobody else.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "hosted_system.hpp"
+#include "internet_sockets.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+using Packet = std::vector<std::uint8_t>;
+
+constexpr std::size_t kHeader = 20;             // [bytes] of an RTPS message: DDSI-RTPS 2.3, section 8.3.3.1
+constexpr std::uint16_t kDiscoveryPort = 7400;  // of domain 0, section 9.6.1.1
+
+sockaddr_in loopback(std::uint16_t port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return address;
+}
+
+// A UDP socket on the loopback interface.
+class Socket {
+ public:
+  Socket() : fd_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) { REQUIRE(fd_ >= 0); }
+  ~Socket() { close(fd_); }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+
+  // Listens to what participants announce to all.
+  void join_discovery() const {
+    const int yes = 1;
+    setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    const timeval limit{2, 0};
+    setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+    sockaddr_in all = loopback(kDiscoveryPort);
+    all.sin_addr.s_addr = htonl(INADDR_ANY);
+    REQUIRE(bind(fd_, reinterpret_cast<const sockaddr*>(&all), sizeof all) == 0);
+    ip_mreq group{};
+    REQUIRE(inet_pton(AF_INET, "239.255.0.1", &group.imr_multiaddr) == 1);
+    group.imr_interface.s_addr = htonl(INADDR_LOOPBACK);
+    REQUIRE(setsockopt(fd_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) == 0);
+  }
+  [[nodiscard]] Packet receive() const {
+    Packet packet(65536);
+    const ssize_t size = recv(fd_, packet.data(), packet.size(), 0);
+    REQUIRE(size > static_cast<ssize_t>(kHeader));
+    packet.resize(static_cast<std::size_t>(size));
+    return packet;
+  }
+  void send(const Packet& packet, std::uint16_t port) const {
+    const sockaddr_in to = loopback(port);
+    (void)sendto(fd_, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  }
+
+ private:
+  const int fd_;
+};
+
+// Makes bad packets of good ones.
+class Spoiler {
+ public:
+  Spoiler(unsigned seed, std::vector<Packet> good) : random_(seed), good_(std::move(good)) {}
+
+  // An announcement with some bytes changed, cut off or put in; or a header, and then anything.
+  Packet next() {
+    Packet packet = good_[below(good_.size())];
+    if (below(4) == 0) {
+      packet.resize(kHeader);
+      for (std::size_t i = below(400); i > 0; --i) packet.push_back(byte());
+    }
+    for (std::size_t i = 1 + below(8); i > 0 && packet.size() > kHeader; --i)
+      packet[kHeader + below(packet.size() - kHeader)] = byte();
+    if (below(4) == 0) packet.resize(kHeader + below(packet.size() - kHeader + 1));
+    return packet;
+  }
+
+ private:
+  std::size_t below(std::size_t limit) { return random_() % limit; }
+  std::uint8_t byte() {
+    constexpr std::uint8_t kExtreme[] = {0x00, 0x01, 0x7f, 0x80, 0xff};
+    return below(2) == 0 ? kExtreme[below(std::size(kExtreme))] : static_cast<std::uint8_t>(random_());
+  }
+
+  std::mt19937 random_;
+  const std::vector<Packet> good_;
+};
+
+// Throws bad packets at a process of a flow, and checks that the others live and that objects come again.
+void bombard(int rounds, int packets) {
+  constexpr unsigned kSeed = 20041112;
+  Socket discovery;
+  discovery.join_discovery();
+  System system(flow("dds"));
+  system.when("flow ", 0, Seconds(10));
+  std::vector<Packet> good;
+  for (int i = 0; i < 20; ++i) good.push_back(discovery.receive());
+  Spoiler spoiler(kSeed, good);
+  const pid_t source = system.process("source");
+  const pid_t sink = system.process("sink");
+  std::vector<double> outages;
+  for (int round = 0; round < rounds; ++round) {
+    CAPTURE(kSeed, round);
+    const pid_t relay = system.process("relay");
+    const std::vector<std::uint16_t> ports = ports_of(relay, "udp");
+    REQUIRE_FALSE(ports.empty());
+    const std::size_t mark = system.mark();
+    for (int i = 0; i < packets; ++i)
+      discovery.send(spoiler.next(), ports[static_cast<std::size_t>(i) % ports.size()]);
+    const Seconds thrown = since_boot();
+    std::this_thread::sleep_for(Seconds(0.1));
+    if (const auto children = system.children(); children.contains("relay") && children.at("relay") == relay)
+      continue;
+    outages.push_back((system.flows_without(relay, mark) - thrown).count());
+  }
+  CHECK(system.process("source") == source);
+  CHECK(system.process("sink") == sink);
+  kill_one(system, "sink");  // the others still find each other
+  const Run run = stop(system);
+  CHECK_FALSE(run.says("GAVE_UP"));
+  std::printf("%d rounds of %d bad packets: %zu deaths\n", rounds, packets, outages.size());
+  if (!outages.empty()) print("packets to objects again", outages);
+}
+
+}  // namespace
+
+TEST_CASE("bad packets for one process of DDS harm no other", "[system][dds]") { bombard(3, 300); }
+
+TEST_CASE("a million bad packets for one process of DDS harm no other", "[.][slow][dds]") {
+  bombard(1000, 1000);
+}
