@@ -10,7 +10,9 @@ endif()
 
 set(ORCA_TEST_ENVIRONMENT)
 if(ORCA_SANITIZE STREQUAL "thread")
-  set(ORCA_TEST_ENVIRONMENT "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/tsan.supp")
+  # Without the second, each process sleeps for a second at its end.
+  set(ORCA_TEST_ENVIRONMENT
+      "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/tsan.supp:atexit_sleep_ms=0")
 endif()
 
 # orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [OPTIMISED])

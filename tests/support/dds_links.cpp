@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
@@ -42,13 +41,14 @@ std::string fresh_run() {
   return std::to_string(getpid()) + "_" + std::to_string(++runs);
 }
 
-// Ends the help for a port before the link's end itself goes, because the port destroys it first.
+// Ends all help for a port's strand before the link's end itself goes, because the port destroys it first. The other
+// ports of the strand go together with it.
 class DdsLinks::Helped final : public LinkEnd {
  public:
   Helped(DdsLinks& links, Strand& strand) : links_(links), strand_(strand) {}
   ~Helped() override {
     const std::lock_guard lock(links_.mutex_);
-    links_.helped_.erase(std::find(links_.helped_.begin(), links_.helped_.end(), &strand_));
+    std::erase(links_.helped_, &strand_);
   }
   Helped(const Helped&) = delete;
   Helped& operator=(const Helped&) = delete;

@@ -62,10 +62,11 @@ void Member::heard_last_words(const std::string& words, Moment now) {
 
 void Member::look(Moment now) {
   if (process_ == nullptr) return;
-  const bool is_big = node_.memory && process_->memory().value_or(0) > *node_.memory;
-  if (is_big && phase_ != Phase::going_down) process_->end_by_force(Force::memory, now);
-  if (deaf_since_ && now >= *deaf_since_ + kDeafLimit) process_->end_by_force(Force::channel, now);
   process_->look(now);
+  if (phase_ == Phase::going_down) return;  // it has a limit for that, and ends its channel before itself
+  const bool is_big = node_.memory && process_->memory().value_or(0) > *node_.memory;
+  if (is_big) process_->end_by_force(Force::memory, now);
+  if (deaf_since_ && now >= *deaf_since_ + kDeafLimit) process_->end_by_force(Force::channel, now);
 }
 
 std::string Member::last_words(Moment now) const { return now - words_at_ < kJustBefore ? words_ : ""; }
