@@ -23,6 +23,7 @@ namespace orca::bench {
 namespace {
 
 namespace fd = eprosima::fastdds::dds;
+namespace fr = eprosima::fastrtps;
 namespace rtps = eprosima::fastrtps::rtps;
 
 constexpr std::size_t kEncapsulation = 4;          // [bytes]
@@ -60,28 +61,16 @@ class BytesType final : public fd::TopicDataType {
   const std::size_t size_;
 };
 
-// A participant that writes one topic and reads another.
+// A participant that writes some topics and reads others, all of one type.
 class End {
  public:
-  End(std::size_t size, std::uint32_t domain, const std::string& out, const std::string& in)
+  End(std::size_t size, std::uint32_t domain)
       : participant_(fd::DomainParticipantFactory::get_instance()->create_participant(domain, loopback())),
+        publisher_(participant_->create_publisher(fd::PUBLISHER_QOS_DEFAULT)),
+        subscriber_(participant_->create_subscriber(fd::SUBSCRIBER_QOS_DEFAULT)),
         sample_(size) {
     const fd::TypeSupport type(new BytesType(size));
     type.register_type(participant_);
-    fd::DataWriterQos writer;
-    writer.reliability().kind = fd::RELIABLE_RELIABILITY_QOS;
-    // As Orca's link, which loses less time so than with the defaults.
-    auto& times = writer.reliable_writer_qos().times;
-    times.heartbeatPeriod = {0, 50'000'000};
-    times.nackResponseDelay = {0, 0};
-    times.nackSupressionDuration = {0, 1'000'000};
-    writer_ =
-        participant_->create_publisher(fd::PUBLISHER_QOS_DEFAULT)
-            ->create_datawriter(participant_->create_topic(out, "Bytes", fd::TOPIC_QOS_DEFAULT), writer);
-    fd::DataReaderQos reader;
-    reader.reliability().kind = fd::RELIABLE_RELIABILITY_QOS;
-    reader_ = participant_->create_subscriber(fd::SUBSCRIBER_QOS_DEFAULT)
-                  ->create_datareader(participant_->create_topic(in, "Bytes", fd::TOPIC_QOS_DEFAULT), reader);
   }
   ~End() {
     participant_->delete_contained_entities();
@@ -90,16 +79,35 @@ class End {
   End(const End&) = delete;
   End& operator=(const End&) = delete;
 
-  void write() { writer_->write(sample_.data()); }
-  // Waits for a sample and takes it; false if none comes within 100 ms.
-  bool take() {
+  void add_writer(const std::string& name) {
+    fd::DataWriterQos qos;
+    qos.reliability().kind = fd::RELIABLE_RELIABILITY_QOS;
+    // As Orca's link, which loses less time so than with the defaults.
+    auto& times = qos.reliable_writer_qos().times;
+    times.heartbeatPeriod = {0, 50'000'000};
+    times.nackResponseDelay = {0, 0};
+    times.nackSupressionDuration = {0, 1'000'000};
+    writers_.push_back(publisher_->create_datawriter(topic(name), qos));
+  }
+  void add_reader(const std::string& name) {
+    fd::DataReaderQos qos;
+    qos.reliability().kind = fd::RELIABLE_RELIABILITY_QOS;
+    readers_.push_back(subscriber_->create_datareader(topic(name), qos));
+  }
+
+  void write(std::size_t writer = 0) { writers_[writer]->write(sample_.data()); }
+  // Waits for a sample and takes it; false if none comes in time.
+  bool take(std::size_t reader = 0, fr::Duration_t limit = {0, 100'000'000}) {
     fd::SampleInfo info;
-    return reader_->wait_for_unread_message({0, 100'000'000}) &&
-           reader_->take_next_sample(sample_.data(), &info) ==
-               eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+    return readers_[reader]->wait_for_unread_message(limit) &&
+           readers_[reader]->take_next_sample(sample_.data(), &info) == fr::types::ReturnCode_t::RETCODE_OK;
   }
 
  private:
+  fd::Topic* topic(const std::string& name) {
+    return participant_->create_topic(name, "Bytes", fd::TOPIC_QOS_DEFAULT);
+  }
+
   static fd::DomainParticipantQos loopback() {
     fd::DomainParticipantQos qos;
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
@@ -112,20 +120,26 @@ class End {
   }
 
   fd::DomainParticipant* const participant_;
+  fd::Publisher* const publisher_;
+  fd::Subscriber* const subscriber_;
   std::vector<std::byte> sample_;
-  fd::DataWriter* writer_ = nullptr;
-  fd::DataReader* reader_ = nullptr;
+  std::vector<fd::DataWriter*> writers_;
+  std::vector<fd::DataReader*> readers_;
 };
 
 }  // namespace
 
 class BareDdsPair::Inside {
  public:
-  Inside(std::size_t size, std::uint32_t domain)
-      : one_(size, domain, "there", "back"), other_(size, domain, "back", "there"), echo_([this] {
-          while (!ending_)
-            if (other_.take()) other_.write();
-        }) {
+  Inside(std::size_t size, std::uint32_t domain) : one_(size, domain), other_(size, domain) {
+    one_.add_writer("there");
+    one_.add_reader("back");
+    other_.add_writer("back");
+    other_.add_reader("there");
+    echo_ = std::thread([this] {
+      while (!ending_)
+        if (other_.take()) other_.write();
+    });
     do one_.write();
     while (!one_.take());
     while (one_.take()) continue;  // what else was written until both were matched
@@ -157,6 +171,20 @@ double BareDdsPair::time(int round_trips) {
   for (int i = 0; i < round_trips; ++i) inside_->round_trip();
   const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
   return taken.count() / (2 * round_trips);
+}
+
+void start_bare_dds(int topics, std::size_t size, std::uint32_t domain) {
+  End from(size, domain);
+  End to(size, domain);
+  for (int i = 0; i < topics; ++i) {
+    const std::string name = "many" + std::to_string(i);
+    from.add_writer(name);
+    to.add_reader(name);
+  }
+  const auto count = static_cast<std::size_t>(topics);
+  for (std::size_t i = 0; i < count; ++i) from.write(i);
+  for (std::size_t i = 0; i < count; ++i)
+    while (!to.take(i, {0, 1'000'000})) from.write(i);  // what is written before both know each other is lost
 }
 
 }  // namespace orca::bench

@@ -10,6 +10,7 @@ void register_isolation();
 void register_query();
 void register_shm();
 void register_dds();
+void register_start();
 void register_throughput();
 void register_graph();
 void register_sim_cast();

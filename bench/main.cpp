@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   register_query();
   register_shm();
   register_dds();
+  register_start();
   register_throughput();
   register_graph();
   register_sim_cast();
