@@ -125,7 +125,7 @@ class FastBackend final : public DdsBackend {
     return lines_.emplace(hash_of(process), std::move(line)).first->second.get();
   }
 
-  // A message is a sequence<octet>: its length, then the bytes.
+  // A sample is a sequence<octet>, its length, then the bytes, which are messages.
   void receive(const Sample& sample) {
     std::uint32_t length = 0;
     std::span<const std::byte> bytes = sample.contents();
@@ -133,9 +133,9 @@ class FastBackend final : public DdsBackend {
     std::memcpy(&length, bytes.data(), sizeof length);
     bytes = bytes.subspan(sizeof length);
     if (length > bytes.size()) return;
-    const auto message = decode(bytes.first(length));
-    if (!message) return;
-    if (Line* const line = find_line(message->from)) line->receive(*message, sample.origin);
+    bytes = bytes.first(length);
+    while (const auto message = take_message(bytes))
+      if (Line* const line = find_line(message->from)) line->receive(*message, sample.origin);
   }
 
   Line* find_line(std::uint64_t process) {

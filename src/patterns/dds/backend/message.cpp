@@ -24,7 +24,8 @@ std::optional<std::uint64_t> take_number(std::span<const std::byte>& bytes) {
 }
 
 std::vector<std::byte> encode(const Message& message) {
-  const std::array head{message.from, message.own, message.peer, message.sequence, message.received};
+  const std::uint64_t size = 5 * sizeof(std::uint64_t) + message.parcel.size();
+  const std::array head{size, message.from, message.own, message.peer, message.sequence, message.received};
   std::vector<std::byte> bytes;
   bytes.reserve(sizeof head + message.parcel.size());
   for (const std::uint64_t number : head) append(bytes, number);
@@ -32,7 +33,11 @@ std::vector<std::byte> encode(const Message& message) {
   return bytes;
 }
 
-std::optional<Message> decode(std::span<const std::byte> bytes) {
+std::optional<Message> take_message(std::span<const std::byte>& sample) {
+  const auto size = take_number(sample);
+  if (!size || *size > sample.size()) return std::nullopt;
+  std::span<const std::byte> bytes = sample.first(*size);
+  sample = sample.subspan(*size);
   std::array<std::uint64_t, 5> head{};
   for (std::uint64_t& number : head) {
     const auto taken = take_number(bytes);

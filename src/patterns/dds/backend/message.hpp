@@ -12,7 +12,8 @@ namespace orca::dds {
 /// Room before the contents of what a reader has received [bytes], so that they can become a frame where they are.
 constexpr std::size_t kHeadroom = 4 * sizeof(std::uint64_t);
 
-/// A message between two processes. On the wire it is its five numbers, 64 bits each, and the parcel.
+/// A message between two processes. On the wire it is its size without this number, its five numbers, 64 bits each, and the
+/// parcel. A sample of DDS holds one message or several.
 struct Message {
   std::uint64_t from = 0;      ///< Identifies the sender by the hash of its name.
   std::uint64_t own = 0;       ///< The number by which the sender takes part at present.
@@ -25,8 +26,8 @@ struct Message {
 /// Returns the encoded message.
 [[nodiscard]] std::vector<std::byte> encode(const Message& message);
 
-/// Decodes a message, whose parcel is a view of the bytes. Nothing if it is none.
-[[nodiscard]] std::optional<Message> decode(std::span<const std::byte> bytes);
+/// Takes the first message off a sample. Its parcel is a view of the bytes. Nothing if there is none, or none that is whole.
+[[nodiscard]] std::optional<Message> take_message(std::span<const std::byte>& sample);
 
 /// What a parcel tells the end of an edge. On the wire a parcel is the number of the edge, the kind, 64 bits each, and the
 /// contents.

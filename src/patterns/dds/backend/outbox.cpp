@@ -4,6 +4,7 @@
 #include <pthread.h>
 
 #include <chrono>
+#include <span>
 #include <utility>
 
 namespace orca::dds {
@@ -11,13 +12,34 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A write that DDS refuses is a loss like one of the network: readers count it, or the line repeats it.
-void write(Letter& letter) {
-  if (letter.object) {
+using Letters = std::span<Letter>;
+
+constexpr std::size_t kMostTogether = 60'000;  // [bytes] what one packet of UDP carries
+
+// Takes the message off the first letter, and those that follow it to the same reader: a sample takes far longer than its bytes.
+std::vector<std::byte> take_messages(Letters& letters) {
+  const auto& to = letters.front().to;
+  std::vector<std::byte> messages = std::move(letters.front().message);
+  letters = letters.subspan(1);
+  while (!letters.empty() && letters.front().to == to &&
+         messages.size() + letters.front().message.size() <= kMostTogether) {
+    const std::vector<std::byte>& next = letters.front().message;
+    messages.insert(messages.end(), next.begin(), next.end());
+    letters = letters.subspan(1);
+  }
+  return messages;
+}
+
+// Writes one letter or several. A write that DDS refuses is a loss like one of the network: readers count it, or the line
+// repeats it.
+void write_some(Letters& letters) {
+  const Letter& letter = letters.front();
+  if (!letter.object) {
+    letter.to->write(take_messages(letters));
+  } else {
     letter.to->write(letter.object, letter.size, letter.label);
     letter.to->queued.fetch_sub(letter.size, std::memory_order_relaxed);
-  } else {
-    letter.to->write(std::move(letter.message));
+    letters = letters.subspan(1);
   }
 }
 
@@ -59,7 +81,7 @@ void Outbox::work() {
   std::vector<Letter> letters;
   Clock::time_point next_tick = Clock::now();
   while (wait(letters, next_tick)) {
-    for (Letter& letter : letters) write(letter);
+    for (Letters left = letters; !left.empty();) write_some(left);
     letters.clear();
     if (const Clock::time_point now = Clock::now(); now >= next_tick) {
       tick_();

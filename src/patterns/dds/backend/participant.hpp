@@ -45,7 +45,7 @@ class TopicWriter {
   /// @param size  of the object, encoded [bytes].
   /// @return false if it could not be written.
   virtual bool write(const ObjectRef& object, std::size_t size, const Label& label) = 0;
-  virtual bool write(std::vector<std::byte> message) = 0;
+  virtual bool write(std::vector<std::byte> messages) = 0;
 
   std::atomic<std::size_t> queued{0};  ///< Objects on their way to write() [bytes].
 };

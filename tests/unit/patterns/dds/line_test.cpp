@@ -94,7 +94,8 @@ class Pair {
     if (way.empty()) return;
     const std::vector<std::byte> bytes = std::move(way.front());
     way.pop_front();
-    if (const auto message = decode(bytes)) line.receive(*message, from);
+    std::span<const std::byte> rest = bytes;
+    while (const auto message = take_message(rest)) line.receive(*message, from);
   }
 
   const Duration liveliness_;
@@ -229,6 +230,25 @@ TEST_CASE("a peer that does not confirm anything is sent no more than fits", "[p
   CHECK(pair.near.send(large, session) == Sent::too_large);
 }
 
+TEST_CASE("messages that come in one sample are taken one by one, up to one that is cut short",
+          "[patterns][dds]") {
+  std::vector<std::byte> sample = encode({kFarId, 1, 2, 3, 4, numbered(5)});
+  for (const std::vector<std::byte>& more :
+       {encode({kFarId, 1, 2, 4, 4, {}}), encode({kFarId, 1, 2, 5, 4, numbered(6)})})
+    sample.insert(sample.end(), more.begin(), more.end());
+  sample.pop_back();
+  std::span<const std::byte> rest = sample;
+  const auto first = take_message(rest);
+  REQUIRE(first);
+  CHECK(first->sequence == 3);
+  CHECK(std::ranges::equal(first->parcel, numbered(5)));
+  const auto second = take_message(rest);
+  REQUIRE(second);
+  CHECK(second->sequence == 4);
+  CHECK(second->parcel.empty());
+  CHECK_FALSE(take_message(rest));
+}
+
 TEST_CASE("whatever arrives that is no message is discarded", "[patterns][dds]") {
   Pair pair;
   pair.near.add(kEdge, pair.near_listener);
@@ -240,7 +260,8 @@ TEST_CASE("whatever arrives that is no message is discarded", "[patterns][dds]")
     bad.resize(random() % (good.size() + 1));
     for (std::byte& byte : bad)
       if (random() % 4 == 0) byte = static_cast<std::byte>(random());
-    if (const auto message = decode(bad)) pair.near.receive(*message, Origin{});
+    std::span<const std::byte> rest = bad;
+    while (const auto message = take_message(rest)) pair.near.receive(*message, Origin{});
   }
   pair.drop_all();
   CHECK(pair.near_listener.numbers.empty());
