@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "orca/base/own_library.hpp"
 #include "orca/supervisor/bulletin.hpp"
 #include "orca/supervisor/own_process.hpp"
 
@@ -24,9 +25,9 @@ struct Opener {
   decltype(&orca_open_bulletin) open;
 };
 
-// Loads the library, which lies beside Orca's others. It stays in memory.
+// Loads the library. It stays in memory.
 Result<Opener> load_opener() {
-  void* const library = dlopen("liborca_bulletin.so", RTLD_NOW | RTLD_LOCAL);
+  void* const library = dlopen(beside_own_library("liborca_bulletin.so").c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const opener = library != nullptr ? dlsym(library, "orca_open_bulletin") : nullptr;
   if (opener == nullptr) return fail(Code::unavailable, dlerror());
   return Opener{reinterpret_cast<decltype(&orca_open_bulletin)>(opener)};

@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "orca/base/network_address.hpp"
+#include "orca/base/own_library.hpp"
 #include "orca/graph/placement.hpp"
 
 namespace orca::host {
 namespace {
 
 constexpr Duration kPatience = 5s;  // with a network that is cut while this process is started again
-constexpr const char* kDdsLibrary = "liborca_dds.so";  // found beside Orca's other libraries
+constexpr const char* kDdsLibrary = "liborca_dds.so";
 
 // An edge at this process, whose end here is `port`.
 struct Joint {
@@ -130,7 +131,7 @@ Status OuterEdges::connect_dds(std::size_t index, Endpoint& port) {
   if (dds_ == nullptr) {
     const Result<DdsOptions> options = dds_options();
     if (!options) return options.error();
-    Result<std::unique_ptr<DdsBackend>> opened = open_dds(kDdsLibrary, *options);
+    Result<std::unique_ptr<DdsBackend>> opened = open_dds(beside_own_library(kDdsLibrary), *options);
     if (!opened) return opened.error();
     dds_ = std::move(opened).value();
   }
