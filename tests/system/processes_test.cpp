@@ -161,9 +161,6 @@ TEST_CASE("SIGINT to all and SIGTERM to the deployer end everything with 0", "[s
   }
 }
 
-// The sanitizers' memory does not fit into the limit of that process, and they take its signals.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-
 TEST_CASE("a process that hangs when the run ends does not hold it up", "[system][processes]") {
   System system(flow() + Words{"--until", "2 s"});
   system.when("flow ", 0, Seconds(10));
@@ -175,6 +172,9 @@ TEST_CASE("a process that hangs when the run ends does not hold it up", "[system
   CHECK(run.says("process sink hung"));
   CHECK(system.left() == Nobody{});
 }
+
+// The sanitizers' memory does not fit into the limit of that process, and they take its signals.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 TEST_CASE("a second SIGTERM ends everything within half a second", "[system][processes]") {
   System system(hooligan({"where=stop", "deed=hang"}));
