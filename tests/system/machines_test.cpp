@@ -52,6 +52,13 @@ class Pair {
   void start_both() {
     for (const int machine : {0, 1}) start(machine);
   }
+  // Kills the deployer of a machine, and starts another one. What the first has started may live on.
+  void replace(int machine) {
+    at(machine).send(SIGKILL);
+    REQUIRE(at(machine).wait(Seconds(2)));
+    killed_.push_back(std::move(programs_[machine]));
+    start(machine);
+  }
   void flow(int machine) { says(machine, "flow ", 0, Seconds(15)); }
 
   Subprocess& at(int machine) { return *programs_[machine]; }
@@ -87,6 +94,7 @@ class Pair {
   const Words settings_;
   const TwoMachines network_;
   std::unique_ptr<Subprocess> programs_[2];
+  std::vector<std::unique_ptr<Subprocess>> killed_;  // end what they have started
 };
 
 // Tells why the test is skipped, if it is.
@@ -270,6 +278,28 @@ TEST_CASE("a robot stands while its commands are cut off, and then drives on", "
   INFO("base:\n" << base.err << "\nbrain:\n" << brain.err);
   CHECK(base.exit_code() == 0);
   CHECK(brain.arrivals().size() == 1);
+}
+
+TEST_CASE("a robot drives on while the deployers of both machines are killed and replaced",
+          "[system][machines][tool]") {
+  if (is_skipped()) return;
+  Pair pair({"interface=orca0", kNear, "on_supervisor_loss=continue"}, kDrive);
+  pair.start_both();
+  pair.says(1, "machine base is there", 0, Seconds(10));
+  std::this_thread::sleep_for(Seconds(4));
+  for (const int machine : {0, 1}) {
+    pair.replace(machine);
+    pair.says(machine, "is adopted", 0, Seconds(10));
+    pair.says(1 - machine, "machine " + kMachines[machine] + " was started again");
+  }
+  const Run base = pair.finish(0, Seconds(60));
+  const Run brain = pair.finish(1, Seconds(5));
+  INFO("base:\n" << base.err << "\nbrain:\n" << brain.err);
+  CHECK(base.exit_code() == 0);
+  CHECK(brain.exit_code() == 0);
+  CHECK(brain.arrivals().size() == 1);
+  CHECK_FALSE(base.says("PROCESS_ENDED"));
+  CHECK_FALSE(brain.says("PROCESS_ENDED"));
 }
 
 TEST_CASE("the deployer must know which machine it is on", "[system][machines]") {

@@ -265,13 +265,6 @@ TEST_CASE("a process that never comes up ends the start with 3", "[system][proce
   CHECK(system.left() == Nobody{});
 }
 
-TEST_CASE("what does not exist yet is refused before anything starts", "[system][processes]") {
-  const Run run = run_deployer(Words{system_graph("adopted.xml")} + with_test_plugins());
-  INFO(run.err);
-  CHECK(run.exit_code() == 2);
-  CHECK(run.says("on_supervisor_loss=\"continue\" is not available yet"));
-}
-
 TEST_CASE("twenty restarts leave nothing in the deployer", "[system][processes]") {
   System system(flow());
   system.when("flow ", 0, Seconds(10));

@@ -112,12 +112,6 @@ Result<std::string> machine_of_run(const graph::Graph& graph, const Options& opt
 }
 
 Status check_for_processes(const graph::Graph& graph, const Options& options) {
-  if (graph.supervision.on_supervisor_loss == graph::OnLoss::go_on)
-    return fail(
-        Code::invalid_argument,
-        "on_supervisor_loss=\"continue\" is not available yet; take it out, and the processes stop the robot "
-        "and end when the deployer is gone",
-        options.file);
   const bool is_baton = options.run.executive.backend == Backend::baton;
   if (is_baton && graph::processes_of(graph).size() > 1)
     return fail(Code::invalid_argument,

@@ -3,6 +3,7 @@
 #include "asking.hpp"
 
 #include <cstdio>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -11,6 +12,7 @@
 #include "client.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
+#include "orphans.hpp"
 #include "table.hpp"
 
 namespace orca::orcactl {
@@ -106,7 +108,11 @@ ExitCode report(const Failure& failure) {
 
 ExitCode ask(const Call& call) {
   std::variant<Client, Failure> connected = Client::connect(call.system);
-  if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
+  if (auto* const failure = std::get_if<Failure>(&connected)) {
+    const bool has_no_deployer = failure->code == ExitCode::no_deployer;
+    const std::optional<ExitCode> obeyed = has_no_deployer ? order_orphans(call) : std::nullopt;
+    return obeyed ? *obeyed : report(*failure);
+  }
   for (;;) {
     const Status outcome = ask_once(call, std::get<Client>(connected));
     if (!outcome.ok()) return report({outcome.error()});

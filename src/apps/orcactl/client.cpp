@@ -9,6 +9,7 @@
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
 #include "orca/xml/names.hpp"
+#include "orphans.hpp"
 
 namespace orca::orcactl {
 namespace {
@@ -23,7 +24,7 @@ std::variant<Client, Failure> Client::connect(const std::string& system) {
   std::string name = system;
   if (name.empty()) {
     const std::vector<std::string> running = supervisor::running_systems();
-    if (running.empty()) return no_system("no system runs");
+    if (running.empty()) return no_system("no system runs" + hint_at_orphans(name));
     if (running.size() > 1)
       return Failure{fail(Code::invalid_argument, "several systems run: " + listed(running) +
                                                       "; choose one: --system " + running.front()),
@@ -33,7 +34,7 @@ std::variant<Client, Failure> Client::connect(const std::string& system) {
   Result<Descriptor> socket = supervisor::connect_to_system(name);
   if (socket) return Client(std::move(socket).value());
   const auto nearest = xml::nearest_name(name, supervisor::running_systems());
-  return no_system(socket.error().message + xml::did_you_mean(nearest));
+  return no_system(socket.error().message + xml::did_you_mean(nearest) + hint_at_orphans(name));
 }
 
 Status Client::ask(const supervisor::Ask& ask, const Taker& taker, Duration limit) {

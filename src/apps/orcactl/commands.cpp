@@ -124,7 +124,9 @@ std::vector<Command> operating_commands() {
                   "refuses commands to move; a process that is started meanwhile is held, too. After the "
                   "release nothing "
                   "moves before the next command."},
-      {.name = "stop", .text = "end the system: motors first, then everything else"},
+      {.name = "stop",
+       .text = "end the system: motors first, then everything else",
+       .details = "Processes that go on after their deployer was killed obey this and estop themselves."},
       {.name = "restart",
        .arguments = {{"NAME", Names::process}},
        .tells = true,

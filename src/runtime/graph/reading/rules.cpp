@@ -59,6 +59,9 @@ constexpr std::array kGraph{
     AttributeRule{"on_supervisor_loss", false,
                   "What the processes do when their supervisor is gone; stop if not given.",
                   one_of(kSupervisorLoss)},
+    AttributeRule{"adoption_wait", false,
+                  "Longest time that they go on without one and wait for another; no limit if not given.",
+                  seconds(0.1)},
     AttributeRule{"machine_wait", false,
                   "Longest time that a machine waits for the others at the start; 60 s if not given.",
                   seconds(0.1)}};

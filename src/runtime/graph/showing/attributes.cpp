@@ -39,6 +39,8 @@ void add(Attributes& attributes, const Supervision& supervision) {
     add(attributes, "restarts", std::to_string(supervision.restarts));
   if (supervision.within != standard.within) add(attributes, "within", seconds_text(supervision.within));
   if (supervision.on_supervisor_loss == OnLoss::go_on) add(attributes, "on_supervisor_loss", "continue");
+  if (supervision.adoption_wait != standard.adoption_wait)
+    add(attributes, "adoption_wait", seconds_text(supervision.adoption_wait));
   if (supervision.machine_wait != standard.machine_wait)
     add(attributes, "machine_wait", seconds_text(supervision.machine_wait));
 }

@@ -30,6 +30,9 @@ void fields(auto& archive, ForgetAlarm& m) { transfer_all(archive, m.kind, m.sou
 void fields(auto& archive, Meet& m) { transfer_all(archive, m.topic, m.address, m.interface, m.others); }
 void fields(auto& archive, Say& m) { transfer(archive, m.state); }
 
+void fields(auto& archive, Outlive& m) { transfer_all(archive, m.output, m.wait); }
+void fields(auto& /*archive*/, Adopt& /*m*/) {}
+
 void fields(auto& archive, Answer& m) { transfer_all(archive, m.outcome, m.records); }
 void fields(auto& archive, Built& m) { transfer(archive, m.robots); }
 void fields(auto& archive, StateChange& m) {
@@ -50,6 +53,12 @@ void fields(auto& archive, Prompting& m) { transfer(archive, m.begins); }
 void fields(auto& archive, MissionStep& m) {
   transfer_all(archive, m.mission, m.time, m.port, m.type, m.seq, m.cause_origin, m.cause_seq);
 }
+
+void fields(auto& archive, Orphaned& m) {
+  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.output);
+}
+void fields(auto& archive, Standing& m) { transfer_all(archive, m.alarms, m.motors_held, m.params); }
+void fields(auto& /*archive*/, Leaving& /*m*/) {}
 
 Message encode(Order order, std::uint64_t request) { return encode_any(order, request); }
 Message encode(Report report, std::uint64_t request) { return encode_any(report, request); }

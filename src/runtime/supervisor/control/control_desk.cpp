@@ -43,23 +43,22 @@ Result<LogWish> read_log_wish(const std::vector<std::string>& words) {
 
 ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
                          const std::vector<Member*>& members, Ledger& ledger, RunLevers levers)
-    : system_(graph.name),
-      ledger_(ledger),
+    : ledger_(ledger),
       names_(graph, facts.ports, members),
       showing_(graph, facts, members, ledger),
       operating_(graph, facts, names_, std::move(levers)),
       motors_(members) {}
 
-Status ControlDesk::open() {
-  Result<ControlSocket> socket = ControlSocket::open(system_);
-  if (!socket && socket.error().code == Code::already_exists) return socket.error();
-  if (!socket) {
-    log::warning("supervisor", "orcactl cannot reach this system: " + socket.error().text());
-    return ok();
-  }
+void ControlDesk::open(Result<ControlSocket> socket) {
+  if (!socket)
+    return log::warning("supervisor", "orcactl cannot reach this system: " + socket.error().text());
   server_.emplace(std::move(socket).value(),
                   [this](const Ask& ask, const ReplyPtr& reply) { handle(ask, reply); });
-  return ok();
+}
+
+void ControlDesk::recall(const Standing& standing) {
+  if (standing.motors_held) motors_.recall();
+  operating_.recall(standing.params);
 }
 
 void ControlDesk::add_to(std::vector<pollfd>& all) const {

@@ -31,9 +31,8 @@ class ControlDesk {
   ControlDesk(const graph::Graph& graph, const SystemFacts& facts, const std::vector<Member*>& members,
               Ledger& ledger, RunLevers levers);
 
-  /// Opens the system's socket. If that is not possible, nobody can reach the system, and the log says so.
-  /// @errors  already_exists if a system of this name runs.
-  Status open();
+  /// Takes the system's socket. If it could not be made, nobody can reach the system, and the log says so.
+  void open(Result<ControlSocket> socket);
   /// Adds what it waits for.
   void add_to(std::vector<pollfd>& all) const;
   /// Carries out what clients ask, and passes on what they follow. Never waits.
@@ -41,6 +40,8 @@ class ControlDesk {
 
   /// Notes that processes are built, before they open their hardware.
   void built(const std::vector<Member*>& members);
+  /// Goes on with what an earlier supervisor has ordered a process.
+  void recall(const Standing& standing);
   /// Notes that processes work.
   void came_up(const std::vector<Member*>& members) { operating_.came_up(members); }
 
@@ -55,7 +56,6 @@ class ControlDesk {
   void show_missions(const Ask& ask, Reply& reply) const;
   void open_line(const Ask& ask, const ReplyPtr& reply);
 
-  const std::string system_;
   Ledger& ledger_;
   const SystemNames names_;
   const Showing showing_;

@@ -14,7 +14,7 @@ void MotorHold::ask_all(const ReplyPtr& reply, const std::function<Order()>& mak
   for (Member* const member : members_) {
     if (!member->is_built()) continue;
     member->ask(make(), [reply](const Status& outcome) {
-      if (!outcome.ok()) reply->refuse(outcome.error());
+      if (!outcome.ok() && reply != nullptr) reply->refuse(outcome.error());
     });
   }
 }
@@ -31,6 +31,13 @@ void MotorHold::release(const ReplyPtr& reply) {
   holds_ = false;
   ask_all(reply, [] { return ReleaseMotors{}; });
   log::warning("supervisor", "the emergency stop is released; motors obey commands again");
+}
+
+void MotorHold::recall() {
+  if (holds_) return;
+  holds_ = true;
+  ask_all(nullptr, [] { return StopMotors{kReason}; });
+  log::warning("supervisor", "the emergency stop holds all motors until orcactl estop --release");
 }
 
 void MotorHold::take_in(Member& member) const {

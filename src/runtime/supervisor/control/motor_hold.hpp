@@ -27,6 +27,9 @@ class MotorHold {
   /// Holds the motors of a process that has just been built, if all are held.
   void take_in(Member& member) const;
 
+  /// Goes on with a stop that an operator has ordered an earlier supervisor.
+  void recall();
+
   [[nodiscard]] bool holds() const { return holds_; }
 
  private:

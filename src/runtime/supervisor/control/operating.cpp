@@ -113,6 +113,17 @@ void Operating::stop(const ReplyPtr& reply) {
   levers_.stop();
 }
 
+void Operating::recall(const std::vector<std::pair<std::string, Pairs>>& params) {
+  for (const auto& [component, values] : params) {
+    const auto contract = facts_.contracts.find(component);
+    if (contract == facts_.contracts.end()) continue;
+    const Result<graph::Params> read =
+        graph::read_settings(contract->second.params, {values.begin(), values.end()});
+    if (!read) continue;
+    for (const auto& [param, value] : *read) changed_[component].insert_or_assign(param, value);
+  }
+}
+
 void Operating::came_up(const std::vector<Member*>& members) {
   for (const Member* const member : members) {
     for (const graph::ComponentNode& node : graph_.components)

@@ -42,6 +42,8 @@ class Operating {
   /// Ends the run. The answer does not end before.
   void stop(const ReplyPtr& reply);
 
+  /// Notes what an operator has changed through an earlier supervisor.
+  void recall(const std::vector<std::pair<std::string, Pairs>>& params);
   /// Notes that processes work again. Parameters that were changed have the graph's values there.
   void came_up(const std::vector<Member*>& members);
 

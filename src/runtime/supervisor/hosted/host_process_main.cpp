@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "graph_mark.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
@@ -17,6 +18,7 @@
 #include "orca/host/stop_signal.hpp"
 #include "orca/plugin/index.hpp"
 #include "orca/supervisor/channel.hpp"
+#include "orca/supervisor/meeting_place.hpp"
 #include "orca/supervisor/own_process.hpp"
 #include "orca/supervisor/run_page.hpp"
 #include "order_desk.hpp"
@@ -75,37 +77,45 @@ Result<std::optional<std::uint64_t>> await_build(Channel& channel, Memory& memor
 // The life of a host process, step by step.
 class Life {
  public:
-  Life(Channel& channel, const std::vector<std::string>& plugin_folders, host::StopSignal& stop)
-      : stop_(stop), channel_(channel), catalogue_(plugin::PluginIndex(plugin_folders)) {}
+  Life(std::shared_ptr<Channel> channel, const std::vector<std::string>& plugin_folders,
+       host::StopSignal& stop)
+      : stop_(stop), channel_(std::move(channel)), catalogue_(plugin::PluginIndex(plugin_folders)) {}
   ~Life() { LiveLine::on_pause(nullptr); }
   Life(const Life&) = delete;
   Life& operator=(const Life&) = delete;
 
   Status live(Setup setup, std::uint64_t request) {
     Status made = prepare(setup);
-    reports_->send(Answer{made}, request);
+    answer(made, request);
     if (!made.ok()) return made;
     Memory memory = memory_of(setup.edges);
-    const auto build = await_build(channel_, memory);
+    const auto build = await_build(*channel_, memory);
     if (!build) return build.error();
     if (!build->has_value()) return ok();
     made = part_->build(std::move(memory));
     if (made.ok()) reports_->send(Built{robots()});
-    reports_->send(Answer{made}, **build);
+    answer(made, **build);
     if (!made.ok()) return made;
     work();
+    reports_->send_last(Leaving{});
     return ok();
   }
 
  private:
+  void answer(const Status& outcome, std::uint64_t request) {
+    (void)channel_->post(encode(Report(Answer{outcome}), request));  // its end is seen elsewhere
+  }
+
   Status prepare(Setup& setup) {
     const Result<RunWishes> wishes = read_wishes(setup.options);
     if (!wishes) return wishes.error();
+    options_ = setup.options;
+    mark_ = mark_of(setup.graph);
     set_process_name(setup.process);
     set_steady_epoch(wishes->epoch);
     log::set_level(log::Level::off);  // the supervisor writes the log
     log::set_clock([start = wishes->start] { return TimePoint(steady_now() - start); });
-    reports_.emplace(channel_, wishes->log_level);
+    reports_.emplace(channel_, setup.process, *wishes);
     LiveLine::on_pause([this](bool begins) { reports_->send(Prompting{begins}); });
     if (Status loaded = load(setup); !loaded.ok()) return loaded;
     if (Status placed = place(setup.process); !placed.ok()) return placed;
@@ -193,11 +203,21 @@ class Life {
     return {robots.begin(), robots.end()};
   }
 
+  // For a supervisor that has not started this process. The output is the desk's.
+  [[nodiscard]] Orphaned introduction() const {
+    return {processes_[index_].name, mark_, options_, page_->descriptor(), {}};
+  }
+
   void work() {
-    stop_.on_crash([this] { part_->prepare_for_death(); });
+    stop_.on_crash([this] {
+      part_->prepare_for_death();
+      remove_meeting_place();
+    });
     stop_.on_request([this] { part_->order({.kind = host::PartOrder::Kind::take_down}); });
     {
-      const OrderDesk desk(channel_, *part_, *reports_, page_->heartbeat(index_), shows_);
+      const OrderDesk desk(channel_, *part_, *reports_,
+                           {whole_->name, processes_[index_].name, page_->heartbeat(index_), shows_,
+                            [this] { return introduction(); }});
       die_with_supervisor(false);  // the desk sees its end, and stops the motors first
       part_->run();
       part_->write_outputs();
@@ -208,7 +228,7 @@ class Life {
   }
 
   host::StopSignal& stop_;
-  Channel& channel_;
+  const std::shared_ptr<Channel> channel_;  // to the supervisor that has started this process
   host::PluginCatalogue catalogue_;
   std::optional<ReportSender> reports_;
   std::optional<graph::Graph> whole_;
@@ -217,6 +237,8 @@ class Life {
   std::size_t index_ = 0;                      // of this process among them
   std::optional<Backend> executor_;            // that the command line asks for
   bool shows_ = false;
+  Pairs options_;  // of the run
+  std::uint64_t mark_ = 0;
   std::unique_ptr<Executive> executive_;
   std::optional<host::HostedPart> part_;
 };
@@ -227,14 +249,14 @@ int host_process_main(Descriptor socket, const std::vector<std::string>& plugin_
   // First of all, since all threads inherit the signals that it blocks, and never destroyed, so that it also ends
   // destructors and atexit handlers that hang.
   static auto& stop = *new host::StopSignal(EXIT_SUCCESS, EXIT_FAILURE, host::StopSignal::Terminal::ignored);
-  Channel channel(std::move(socket));
+  const auto channel = std::make_shared<Channel>(std::move(socket));
   die_with_supervisor(true);
-  Result<Numbered> first = next_order(channel);
+  Result<Numbered> first = next_order(*channel);
   Status lived = first ? wrong_sequence() : first.error();
   if (auto* const setup = first ? std::get_if<Setup>(&first->order) : nullptr)
     lived = Life(channel, plugin_folders, stop).live(std::move(*setup), first->request);
   else if (const auto* const meet = first ? std::get_if<Meet>(&first->order) : nullptr)
-    lived = carry_states(channel, *meet, first->request);
+    lived = carry_states(*channel, *meet, first->request);
   return lived.ok() ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "order_desk.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
 #include <sys/eventfd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "counter_records.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/idl/system.hpp"
+#include "orca/supervisor/meeting_place.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -48,13 +52,12 @@ std::optional<host::PartOrder> part_order(const Order& order) {
 
 }  // namespace
 
-OrderDesk::OrderDesk(Channel& channel, host::HostedPart& part, ReportSender& reports,
-                     std::atomic<std::uint32_t>& heartbeat, bool shows)
-    : channel_(channel),
+OrderDesk::OrderDesk(std::shared_ptr<Channel> channel, host::HostedPart& part, ReportSender& reports,
+                     Site site)
+    : channel_(std::move(channel)),
       part_(part),
       reports_(reports),
-      heartbeat_(heartbeat),
-      shows_(shows),
+      site_(std::move(site)),
       lines_(part),
       wake_(make_wake()),
       thread_([this] {
@@ -66,59 +69,73 @@ OrderDesk::~OrderDesk() {
   ending_.store(true);
   eventfd_write(wake_.number(), 1);
   thread_.join();
-  heartbeat_.store(0);  // from here on silence is no hang
+  site_.heartbeat.store(0);  // from here on silence is no hang
 }
 
 void OrderDesk::work() {
   for (int beats = 0; !ending_.load(); ++beats) {
-    if (shows_) show_now_and_then(beats);
-    heartbeat_.fetch_add(1, std::memory_order_relaxed);
+    if (site_.shows) show_now_and_then(beats);
+    site_.heartbeat.fetch_add(1, std::memory_order_relaxed);
     wait();
-    (void)channel_.flush();  // its error comes back from receive()
-    receive();
+    channel_ != nullptr ? hear_supervisor() : keep_vigil();
   }
 }
 
 void OrderDesk::wait() const {
-  const short events = channel_.has_unsent() ? POLLIN | POLLOUT : POLLIN;
-  pollfd fds[] = {{channel_.descriptor(), events, 0}, {wake_.number(), POLLIN, 0}};
-  poll(fds, 2, kBeatMs);
+  std::vector<pollfd> all{{wake_.number(), POLLIN, 0}};
+  if (channel_ != nullptr)
+    all.push_back(
+        {channel_->descriptor(), static_cast<short>(channel_->has_unsent() ? POLLIN | POLLOUT : POLLIN), 0});
+  if (vigil_) vigil_->add_to(all);
+  poll(all.data(), all.size(), kBeatMs);
 }
 
 void OrderDesk::show_now_and_then(int beats) {
   if (beats % kBeatsToGlance == 0) reports_.show(part_.look());
 }
 
-void OrderDesk::receive() {
+void OrderDesk::hear_supervisor() {
+  (void)channel_->flush();  // its error comes back from receive()
   for (;;) {
-    Result<std::optional<Message>> message = channel_.receive();
-    if (!message) leave(message.error());
-    if (!message->has_value()) return;
+    Result<std::optional<Message>> message = channel_->receive();
+    if (!message) return lose_supervisor(message.error());
+    if (!message->has_value()) break;
     const std::uint64_t request = (*message)->request;
     Result<Order> order = decode_order(std::move(**message));
     if (!order) leave(order.error());
-    carry_out(std::move(order).value(), request);
+    carry_out({std::move(order).value(), request, channel_});
   }
+  while (place_ && place_->accept())
+    continue;  // nobody has anything to say to a process that has a supervisor
 }
 
-void OrderDesk::carry_out(Order order, std::uint64_t request) {
-  if (std::optional<host::PartOrder> for_part = part_order(order))
-    return pass_on(std::move(*for_part), request);
+void OrderDesk::carry_out(Told told) {
+  Order& order = told.order;
+  if (std::holds_alternative<TakeDown>(order)) is_taken_down_ = true;
+  if (std::optional<host::PartOrder> for_part = part_order(order)) return pass_on(std::move(*for_part), told);
   if (const auto* cut = std::get_if<CutEdge>(&order))
     return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
   if (const auto* alarm = std::get_if<TellAlarm>(&order)) return hear(*alarm);
-  if (const auto* alarm = std::get_if<ForgetAlarm>(&order))
+  if (const auto* alarm = std::get_if<ForgetAlarm>(&order)) {
+    reports_.remember([&](Recollection& all) { all.forget_alarm(*alarm); });
     return part_.forget_alarm(alarm->kind, alarm->source, alarm->process);
+  }
   std::optional<Answer> answer = answer_of(order);
-  reports_.send(
-      answer ? std::move(*answer) : Answer{fail(Code::failed_precondition, "this order comes too late")},
-      request);
+  if (!answer) answer = Answer{fail(Code::failed_precondition, "this order comes too late")};
+  (void)told.by->post(encode(Report(std::move(*answer)), told.request));
 }
 
 // Carries out an order that takes no time. Returns nothing if it is none of these.
 std::optional<Answer> OrderDesk::answer_of(Order& order) {
-  if (const auto* stop = std::get_if<StopMotors>(&order)) return part_.hold(stop->reason), Answer{};
-  if (std::holds_alternative<ReleaseMotors>(order)) return part_.let_go(), Answer{};
+  if (const auto* stop = std::get_if<StopMotors>(&order)) {
+    reports_.remember([](Recollection& all) { all.note_held(true); });
+    return part_.hold(stop->reason), Answer{};
+  }
+  if (std::holds_alternative<ReleaseMotors>(order)) {
+    reports_.remember([](Recollection& all) { all.note_held(false); });
+    return part_.let_go(), Answer{};
+  }
+  if (auto* outlive = std::get_if<Outlive>(&order)) return Answer{prepare_to_outlive(*outlive)};
   if (std::holds_alternative<Count>(order)) return Answer{ok(), to_records(part_.counters())};
   if (auto* line = std::get_if<OpenLine>(&order)) return Answer{lines_.open(std::move(*line))};
   if (auto* renew = std::get_if<RenewEdge>(&order))
@@ -130,18 +147,69 @@ void OrderDesk::hear(const TellAlarm& told) {
   idl::Alarm alarm;
   if (const Status read = object_type<idl::Alarm>().deserialize(told.object, &alarm); !read.ok())
     leave(read.error());
+  reports_.remember([&](Recollection& all) { all.note_alarm(alarm, told.process); });
   part_.hear(alarm, told.process);
 }
 
-void OrderDesk::pass_on(host::PartOrder order, std::uint64_t request) {
-  order.done = [this, request](const Status& outcome) { reports_.send(Answer{outcome}, request); };
+// The answer goes to whoever has given the order, even if there is another supervisor by then.
+void OrderDesk::pass_on(host::PartOrder order, const Told& told) {
+  const auto* const set = std::get_if<SetParams>(&told.order);
+  order.done = [this, by = told.by, request = told.request,
+                set = set == nullptr ? SetParams{} : *set](const Status& outcome) {
+    if (outcome.ok() && !set.component.empty())
+      reports_.remember([&](Recollection& all) { all.note_params(set.component, set.values); });
+    (void)by->post(encode(Report(Answer{outcome}), request));
+  };
   part_.order(std::move(order));
+}
+
+// ---- Without a supervisor
+
+Status OrderDesk::prepare_to_outlive(Outlive& order) {
+  Result<ControlSocket> place = open_meeting_place(site_.system, site_.process);
+  if (!place) return place.error();
+  place_.emplace(std::move(place).value());
+  will_.emplace(std::move(order));
+  return ok();
+}
+
+void OrderDesk::lose_supervisor(const Error& reason) {
+  if (!will_ || is_taken_down_ || reason.code != Code::unavailable) leave(reason);
+  channel_.reset();
+  reports_.lose_supervisor();
+  vigil_.emplace(*place_, [this] { return introduction(); });
+  vigil_ends_at_ = Moment::clock::now() + std::chrono::nanoseconds(will_->wait);
+  log::warning(site_.process, "the deployer is gone; this process goes on, and waits for another one");
+}
+
+void OrderDesk::keep_vigil() {
+  const Moment now = Moment::clock::now();
+  if (will_->wait > 0 && now >= vigil_ends_at_)
+    leave(fail(Code::deadline_exceeded, "no other deployer came"));
+  std::optional<Told> told = vigil_->turn(now);
+  if (!told) return;
+  std::holds_alternative<Adopt>(told->order) ? adopt(*told) : carry_out(std::move(*told));
+}
+
+void OrderDesk::adopt(const Told& told) {
+  vigil_.reset();
+  channel_ = told.by;
+  reports_.greet(channel_);
+  (void)channel_->post(encode(Report(Answer{}), told.request));
+}
+
+Orphaned OrderDesk::introduction() const {
+  Orphaned self = site_.introduce();
+  self.output = Descriptor(fcntl(will_->output.number(), F_DUPFD_CLOEXEC, 0));
+  if (!self.output) throw_if_exhausted(errno);
+  return self;
 }
 
 // Nobody is left who could stop this process, so it stops itself: the motors first.
 void OrderDesk::leave(const Error& reason) {
   part_.prepare_for_death();
   log::error("supervisor", reason.message + "; the robot is stopped and this process ends");
+  remove_meeting_place();
   std::_Exit(EXIT_FAILURE);
 }
 

@@ -3,28 +3,42 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "orca/base/descriptor.hpp"
 #include "orca/host/hosted_part.hpp"
 #include "orca/supervisor/channel.hpp"
+#include "orca/supervisor/control_socket.hpp"
+#include "orca/supervisor/moment.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 #include "port_lines.hpp"
 #include "report_sender.hpp"
+#include "vigil.hpp"
 
 namespace orca::supervisor {
 
 /// The thread of a host process that listens to the supervisor: it passes orders on to the part, sends the answers, and
-/// beats. If the supervisor is gone, it stops the motors and ends the process.
+/// beats. If the supervisor is gone, it stops the motors and ends the process; if the supervisor has said Outlive before, it
+/// lets the part go on, and waits for another supervisor.
 ///
 /// Thread contract: one object per process, made and destroyed by the main thread.
 class OrderDesk {
  public:
-  /// @param heartbeat  word of this process in the run page.
-  /// @param shows      whether to report again and again what the part is like.
-  OrderDesk(Channel& channel, host::HostedPart& part, ReportSender& reports,
-            std::atomic<std::uint32_t>& heartbeat, bool shows);
+  /// What the desk must know of its process.
+  struct Site {
+    std::string system;                     ///< Name of the graph.
+    std::string process;                    ///< Its name there.
+    std::atomic<std::uint32_t>& heartbeat;  ///< Its word in the run page.
+    bool shows = false;                     ///< Whether to report again and again what the part is like.
+    /// Makes what the process says of itself if it has no supervisor, but for the output.
+    std::function<Orphaned()> introduce;
+  };
+
+  OrderDesk(std::shared_ptr<Channel> channel, host::HostedPart& part, ReportSender& reports, Site site);
   ~OrderDesk();
   OrderDesk(const OrderDesk&) = delete;
   OrderDesk& operator=(const OrderDesk&) = delete;
@@ -33,19 +47,28 @@ class OrderDesk {
   void work();
   void wait() const;
   void show_now_and_then(int beats);
-  void receive();
-  void carry_out(Order order, std::uint64_t request);
+  void hear_supervisor();
+  void keep_vigil();
+  void lose_supervisor(const Error& reason);
+  void carry_out(Told told);
+  void adopt(const Told& told);
+  Status prepare_to_outlive(Outlive& order);
   void hear(const TellAlarm& told);
-  void pass_on(host::PartOrder order, std::uint64_t request);
+  void pass_on(host::PartOrder order, const Told& told);
   [[nodiscard]] std::optional<Answer> answer_of(Order& order);
+  [[nodiscard]] Orphaned introduction() const;
   [[noreturn]] void leave(const Error& reason);
 
-  Channel& channel_;
+  std::shared_ptr<Channel> channel_;  // null: there is no supervisor
   host::HostedPart& part_;
   ReportSender& reports_;
-  std::atomic<std::uint32_t>& heartbeat_;
-  const bool shows_;
+  const Site site_;
   PortLines lines_;
+  std::optional<Outlive> will_;         // what to do without a supervisor; none: to end
+  std::optional<ControlSocket> place_;  // while there is a will
+  std::optional<Vigil> vigil_;          // while there is no supervisor
+  Moment vigil_ends_at_{};
+  bool is_taken_down_ = false;
   const Descriptor wake_;
   std::atomic<bool> ending_{false};
   std::thread thread_;  // the last member: it uses the others

@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "orca/base/steady_clock.hpp"
 #include "orca/idl/object_type.hpp"
+#include "orca/supervisor/meeting_place.hpp"
 #include "tallying.hpp"
 
 namespace orca::supervisor {
@@ -22,14 +24,57 @@ std::vector<std::byte> bytes_of(const T& object) {
 
 }  // namespace
 
-ReportSender::ReportSender(Channel& channel, log::Level level)
-    : channel_(channel), log_([this, level](const log::Line& line) {
+ReportSender::ReportSender(std::shared_ptr<Channel> channel, const std::string& process,
+                           const RunWishes& wishes)
+    : start_(wishes.start),
+      channel_(std::move(channel)),
+      recollection_(process),
+      log_([this, level = wishes.log_level](const log::Line& line) {
         if (line.level < level) return;
         send(Logged{line.level, std::string(line.who), std::string(line.text)});
       }) {}
 
-void ReportSender::send(Report report, std::uint64_t request) {
-  (void)channel_.post(encode(std::move(report), request));  // without the supervisor nobody is left to tell
+void ReportSender::send(Report report) {
+  const std::lock_guard lock(mutex_);
+  tell(std::move(report));
+}
+
+// Called with the mutex locked.
+void ReportSender::tell(Report report) {
+  const bool is_state = recollection_.note_state(report);
+  if (channel_ != nullptr) {
+    recollection_.note_told(report);
+    (void)channel_->post(encode(std::move(report)));  // its end is seen elsewhere
+  } else if (!is_state) {
+    backlog_.keep(std::move(report), steady_now() - start_);
+  }
+}
+
+void ReportSender::send_last(Report report) {
+  std::shared_ptr<Channel> channel;
+  {
+    const std::lock_guard lock(mutex_);
+    channel = channel_;
+  }
+  if (channel != nullptr) (void)channel->send(encode(std::move(report)), kLastLimit);
+}
+
+void ReportSender::lose_supervisor() {
+  const std::lock_guard lock(mutex_);
+  channel_.reset();
+}
+
+void ReportSender::greet(std::shared_ptr<Channel> channel) {
+  const std::lock_guard lock(mutex_);
+  for (Report& report : recollection_.reports()) (void)channel->post(encode(std::move(report)));
+  channel_ = std::move(channel);
+  shown_.clear();
+  for (Report& report : backlog_.take()) tell(std::move(report));
+}
+
+void ReportSender::remember(const std::function<void(Recollection&)>& note) {
+  const std::lock_guard lock(mutex_);
+  note(recollection_);
 }
 
 void ReportSender::component_changed(const std::string& component, const host::ComponentReport& report) {
@@ -58,20 +103,19 @@ void ReportSender::counted(const host::RunCounters& counters, const std::vector<
   send(to_tally(counters, ways));
 }
 
-// The last thing that a process says, so it waits until it is said.
-void ReportSender::output_failed(const Error& error) {
-  (void)channel_.send(encode(Report(OutputFailed{error})), kLastLimit);
-}
+void ReportSender::output_failed(const Error& error) { send_last(OutputFailed{error}); }
 
 void ReportSender::show(const host::RunGlance& glance) {
   Message message = encode(Report(to_report(glance)));
-  if (message.body == shown_) return;
+  const std::lock_guard lock(mutex_);
+  if (channel_ == nullptr || message.body == shown_) return;
   shown_ = message.body;
-  (void)channel_.post(std::move(message));
+  (void)channel_->post(std::move(message));
 }
 
 void ReportSender::abandon(const host::RunResult& result) {
-  (void)channel_.send(encode(Report(LastWordsReport{result.error ? result.error->text() : ""})), kLastLimit);
+  send_last(LastWordsReport{result.error ? result.error->text() : ""});
+  remove_meeting_place();
   std::_Exit(EXIT_FAILURE);
 }
 

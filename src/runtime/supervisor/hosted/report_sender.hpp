@@ -2,27 +2,44 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "backlog.hpp"
 #include "orca/base/log.hpp"
 #include "orca/host/hosted_part.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/vocabulary.hpp"
+#include "recollection.hpp"
+#include "run_wishes.hpp"
 
 namespace orca::supervisor {
 
 /// The listener of a part that tells the supervisor everything. It never waits: while the supervisor does not read,
-/// lines of the log are lost, and with them, beyond the channel's bound, everything else.
+/// lines of the log are lost, and with them, beyond the channel's bound, everything else. While there is no supervisor, it
+/// keeps for the next one what a Backlog keeps.
 ///
-/// Thread contract: as RunListener; send() from any thread.
+/// Thread contract: as RunListener; the rest from any thread, but show().
 class ReportSender final : public host::PartListener {
  public:
-  ReportSender(Channel& channel, log::Level level);
+  /// @param channel  to the supervisor.
+  /// @param process  name of this one.
+  ReportSender(std::shared_ptr<Channel> channel, const std::string& process, const RunWishes& wishes);
 
   /// Sends a report.
-  /// @param request  of an answer, the number of its order.
-  void send(Report report, std::uint64_t request = 0);
+  void send(Report report);
+  /// Sends the last report of this process, and waits for a moment until it is sent.
+  void send_last(Report report);
+
+  /// Notes that there is no supervisor any more.
+  void lose_supervisor();
+  /// Tells a new supervisor how things are and what was kept for it. From now on it is told everything.
+  void greet(std::shared_ptr<Channel> channel);
+  /// Notes what a supervisor has told this process, and the next one must know.
+  void remember(const std::function<void(Recollection&)>& note);
 
   void component_changed(const std::string& component, const host::ComponentReport& report) override;
   void rest_changed(bool at_rest) override;
@@ -39,9 +56,17 @@ class ReportSender final : public host::PartListener {
   [[noreturn]] void abandon(const host::RunResult& result) override;
 
  private:
-  Channel& channel_;
+  void tell(Report report);
+
+  const TimePoint start_;  // of the run
+  std::mutex mutex_;
+  // Below: guarded by mutex_.
+  std::shared_ptr<Channel> channel_;  // null: there is no supervisor
+  Recollection recollection_;
+  Backlog backlog_;
   std::vector<std::byte> shown_;  // the last Glance
-  const log::Listener log_;
+
+  const log::Listener log_;  // the last member: it uses the others
 };
 
 }  // namespace orca::supervisor

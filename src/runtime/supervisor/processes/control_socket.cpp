@@ -31,9 +31,9 @@ bool is_folder(const char* path) {
   return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
 }
 
-std::string path_of(const std::string& system) {
-  return control_folder() + "/" + system + std::string(kSuffix);
-}
+std::string file_of(const std::string& system) { return system + std::string(kSuffix); }
+
+std::string path_of(const std::string& file) { return control_folder() + "/" + file; }
 
 Error refused(const std::string& what, int reason) {
   throw_if_exhausted(reason);
@@ -112,15 +112,19 @@ std::string control_folder() {
 }
 
 Result<ControlSocket> ControlSocket::open(const std::string& system) {
-  const std::string path = path_of(system);
+  return open_file(
+      file_of(system),
+      fail(Code::already_exists, "a system named \"" + system +
+                                     "\" runs already; stop it first: orcactl --system " + system + " stop"));
+}
+
+Result<ControlSocket> ControlSocket::open_file(const std::string& file, const Error& taken) {
+  const std::string path = path_of(file);
   const std::optional<sockaddr_un> address = address_of(path);
   if (!address) return too_long(path);
   const Result<Descriptor> lock = lock_folder();  // two deployers may begin at the same time
   if (!lock) return lock.error();
-  if (connect_to(make_socket(), *address) == 0)
-    return fail(Code::already_exists, "a system named \"" + system +
-                                          "\" runs already; stop it first: orcactl --system " + system +
-                                          " stop");
+  if (connect_to(make_socket(), *address) == 0) return taken;
   unlink(path.c_str());
   Descriptor socket = make_socket();
   if (!socket) return refused("cannot make a socket", errno);
@@ -142,16 +146,31 @@ Descriptor ControlSocket::accept() const {
   }
 }
 
-Result<Descriptor> connect_to_system(const std::string& system) {
-  const std::string path = path_of(system);
+Result<Descriptor> connect_to_file(const std::string& file) {
+  const std::string path = path_of(file);
   const std::optional<sockaddr_un> address = address_of(path);
   if (!address) return too_long(path);
   Descriptor socket = make_socket();
   const int reason = connect_to(socket, *address);
   if (reason == 0) return socket;
   if (reason == ENOENT || reason == ECONNREFUSED)
-    return fail(Code::not_found, "no system named \"" + system + "\" runs");
+    return fail(Code::not_found, "nobody listens at the socket " + path);
   return refused("cannot connect to " + path, reason);
+}
+
+// Somebody who is just about to listen holds the lock.
+void remove_dead_file(const std::string& file) {
+  const Result<Descriptor> lock = lock_folder();
+  if (!lock) return;
+  const Result<Descriptor> socket = connect_to_file(file);
+  if (!socket && socket.error().code == Code::not_found) unlink(path_of(file).c_str());
+}
+
+Result<Descriptor> connect_to_system(const std::string& system) {
+  Result<Descriptor> socket = connect_to_file(file_of(system));
+  if (!socket && socket.error().code == Code::not_found)
+    return fail(Code::not_found, "no system named \"" + system + "\" runs");
+  return socket;
 }
 
 std::vector<std::string> running_systems() {

@@ -23,6 +23,7 @@ std::string ExitReason::text() const {
     case Force::overdue: return "did not end when asked to and was killed";
     case Force::none: break;
   }
+  if (is_guess) return status == 0 ? "ended as it had said" : "ended, and its new supervisor cannot tell how";
   if (signal == 0) return "exited with status " + std::to_string(status);
   std::string text = "was ended by " + name_of(signal);
   if (dumped_core) text += " (core dumped)";

@@ -13,6 +13,11 @@ void Heartbeats::watch(std::size_t process, Duration limit) {
   watched_.at(process) = Watched{.limit = limit};
 }
 
+void Heartbeats::watch_working(std::size_t process, Duration limit) {
+  page_.heartbeat(process).store(1, std::memory_order_relaxed);
+  watched_.at(process) = Watched{.limit = limit};
+}
+
 void Heartbeats::forget(std::size_t process) { watched_.at(process).reset(); }
 
 std::vector<std::size_t> Heartbeats::look(Moment now) {

@@ -2,6 +2,7 @@
 #include "orca/supervisor/host_process.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,6 +24,7 @@ namespace orca::supervisor {
 namespace {
 
 constexpr std::size_t kReadAtOnce = 64 * 1024;  // [bytes]
+constexpr int kKillMs = 1000;                   // longest wait for a process that was killed
 
 // Returns how many processes the system has killed since it started because memory ran out; 0 if it does not tell.
 std::uint64_t oom_kills() {
@@ -51,6 +53,12 @@ Result<std::unique_ptr<HostProcess>> HostProcess::start(const HostStart& start) 
   return std::unique_ptr<HostProcess>(new HostProcess(std::move(parts)));
 }
 
+std::unique_ptr<HostProcess> HostProcess::adopt(AdoptedProcess process) {
+  Launched running{process.pid, std::move(process.pidfd), std::move(process.output), {}};
+  Parts parts{std::move(process.name), std::move(running), std::move(process.channel)};
+  return std::unique_ptr<HostProcess>(new HostProcess(std::move(parts)));
+}
+
 HostProcess::HostProcess(Parts parts)
     : name_(std::move(parts.name)),
       pid_(parts.launched.pid),
@@ -64,7 +72,9 @@ HostProcess::HostProcess(Parts parts)
 HostProcess::~HostProcess() {
   if (exit()) return;
   send(SIGKILL);
-  waitpid(pid_, nullptr, 0);
+  pollfd end{pidfd_.number(), POLLIN, 0};
+  poll(&end, 1, kKillMs);
+  (void)exit();
 }
 
 void HostProcess::send(int signal) const {
@@ -126,9 +136,15 @@ std::optional<Moment> HostProcess::due() const {
 }
 
 const std::optional<ExitReason>& HostProcess::exit() {
-  if (exit_) return exit_;
+  if (!exit_) exit_ = look_for_end();
+  return exit_;
+}
+
+std::optional<ExitReason> HostProcess::look_for_end() const {
   siginfo_t end{};
-  if (waitid(P_PID, static_cast<id_t>(pid_), &end, WEXITED | WNOHANG) != 0 || end.si_pid == 0) return exit_;
+  if (waitid(P_PIDFD, static_cast<id_t>(pidfd_.number()), &end, WEXITED | WNOHANG) != 0)
+    return errno == ECHILD ? guess_end() : std::nullopt;
+  if (end.si_pid == 0) return std::nullopt;
   ExitReason reason;
   reason.force = force_;
   const bool was_terminated = kill_at_ && !term_at_;
@@ -142,8 +158,22 @@ const std::optional<ExitReason>& HostProcess::exit() {
     reason.out_of_memory =
         reason.signal == SIGKILL && force_ == Force::none && oom_kills() > oom_kills_before_;
   }
-  exit_ = reason;
-  return exit_;
+  return reason;
+}
+
+// Only its parent learns how a process has ended.
+std::optional<ExitReason> HostProcess::guess_end() const {
+  pollfd end{pidfd_.number(), POLLIN, 0};
+  if (poll(&end, 1, 0) != 1) return std::nullopt;
+  ExitReason reason;
+  reason.status = is_leaving_ ? 0 : 1;
+  reason.force = force_;
+  reason.is_guess = true;
+  return reason;
+}
+
+Descriptor HostProcess::share_output() const {
+  return Descriptor(output_ ? fcntl(output_.number(), F_DUPFD_CLOEXEC, 0) : -1);
 }
 
 std::optional<std::uint64_t> HostProcess::memory() const {

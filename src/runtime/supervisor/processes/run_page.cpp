@@ -31,6 +31,12 @@ std::size_t size_of(std::size_t processes, std::size_t components) {
 
 Head& head_of(const SharedMemory& memory) { return *reinterpret_cast<Head*>(memory.bytes().data()); }
 
+Descriptor copy_of(int descriptor) {
+  Descriptor copy(fcntl(descriptor, F_DUPFD_CLOEXEC, 0));
+  if (!copy) throw_if_exhausted(errno);
+  return copy;
+}
+
 // A wrong index would be a wrong place in memory that processes share.
 std::size_t checked(std::size_t index, std::size_t count) {
   if (index < count) return index;
@@ -46,9 +52,7 @@ Result<RunPage> RunPage::create(std::size_t processes, std::size_t components) {
   auto memory = SharedMemory::map(file->descriptor());
   if (!memory) return memory.error();
   head_of(*memory).magic = kMagic;
-  RunPage page(std::move(*memory), processes, components);
-  page.file_.emplace(std::move(*file));
-  return page;
+  return RunPage(copy_of(file->descriptor()), std::move(*memory), processes, components);
 }
 
 Result<RunPage> RunPage::map(Descriptor file, std::size_t processes, std::size_t components) {
@@ -56,7 +60,7 @@ Result<RunPage> RunPage::map(Descriptor file, std::size_t processes, std::size_t
   if (!memory) return fail(Code::data_loss, "the run page: " + memory.error().message);
   if (memory->bytes().size() != size_of(processes, components) || head_of(*memory).magic != kMagic)
     return fail(Code::data_loss, "the run page is for another graph, or of another version of the deployer");
-  return RunPage(std::move(*memory), processes, components);
+  return RunPage(std::move(file), std::move(*memory), processes, components);
 }
 
 std::atomic<std::uint64_t>& RunPage::missions() const { return head_of(memory_).missions; }
@@ -77,10 +81,6 @@ std::atomic<std::uint32_t>& RunPage::word(std::size_t line) const {
   return *reinterpret_cast<std::atomic<std::uint32_t>*>(memory_.bytes().data() + line * kLine);
 }
 
-Descriptor RunPage::descriptor() const {
-  Descriptor copy(fcntl(file_.value().descriptor(), F_DUPFD_CLOEXEC, 0));
-  if (!copy) throw_if_exhausted(errno);
-  return copy;
-}
+Descriptor RunPage::descriptor() const { return copy_of(file_.number()); }
 
 }  // namespace orca::supervisor

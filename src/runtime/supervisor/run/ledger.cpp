@@ -69,6 +69,7 @@ Status Ledger::take_figures(const Report& report, const std::string& process) {
     return ok();
   }
   if (const auto* step = std::get_if<MissionStep>(&report)) return missions_.note(*step), ok();
+  if (const auto* standing = std::get_if<Standing>(&report)) return recall(*standing);
   return take_object(report, process);
 }
 
@@ -130,6 +131,23 @@ Status Ledger::acknowledge(std::uint64_t number) {
   const auto known = std::ranges::find(alarms_.kept(), number, &host::KeptAlarm::number);
   if (known != alarms_.kept().end() && relay_ != nullptr) relay_->tell_acknowledged(*known);
   return alarms_.acknowledge(number);
+}
+
+void Ledger::recall(const idl::Alarm& alarm, const std::string& process) {
+  const auto is_same = [&](const host::KeptAlarm& kept) {
+    return kept.process == process && kept.alarm.kind() == alarm.kind() &&
+           kept.alarm.source() == alarm.source();
+  };
+  if (std::ranges::none_of(alarms_.kept(), is_same)) alarms_.take(alarm, process);
+}
+
+Status Ledger::recall(const Standing& standing) {
+  for (const auto& [process, object] : standing.alarms) {
+    idl::Alarm alarm;
+    if (Status read = object_type<idl::Alarm>().deserialize(object, &alarm); !read.ok()) return read;
+    recall(alarm, process);
+  }
+  return ok();
 }
 
 void Ledger::lose(const std::string& process, const std::string& why) {

@@ -24,6 +24,10 @@ Status take_one(Member& member, const Report& report, std::uint64_t request, con
     member.heard_last_words(words->text, now);
     return ok();
   }
+  if (std::holds_alternative<Leaving>(report)) {
+    member.process()->note_leaving();
+    return ok();
+  }
   return take(report);
 }
 

@@ -5,6 +5,8 @@
 
 #include <string_view>
 
+#include "orca/graph/placement.hpp"
+
 namespace orca::supervisor {
 namespace {
 
@@ -21,6 +23,13 @@ Status Member::start(const HostStart& start) {
   phase_ = Phase::coming_up;
   ++starts_;
   return ok();
+}
+
+void Member::adopt(std::unique_ptr<HostProcess> process) {
+  process_ = std::move(process);
+  phase_ = Phase::up;
+  is_built_ = true;
+  ++starts_;
 }
 
 void Member::ask(Order order, Answered answered) {
@@ -98,6 +107,19 @@ void Member::forget() {
   prompts_.reset();
   phase_ = Phase::absent;
   is_built_ = false;
+}
+
+std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph, const std::string& machine) {
+  std::vector<std::unique_ptr<Member>> members;
+  for (graph::ProcessNode& node : graph::processes_on(graph, machine))
+    members.push_back(std::make_unique<Member>(std::move(node), members.size()));
+  return members;
+}
+
+Members pointers_to(const std::vector<std::unique_ptr<Member>>& members) {
+  Members pointers;
+  for (const auto& member : members) pointers.push_back(member.get());
+  return pointers;
 }
 
 }  // namespace orca::supervisor

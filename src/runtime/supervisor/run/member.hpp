@@ -12,6 +12,7 @@
 
 #include "orca/base/live_line.hpp"
 #include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
 #include "orca/graph/process.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/host_process.hpp"
@@ -41,6 +42,9 @@ class Member {
   /// Starts a host process.
   /// @errors  as HostProcess::start().
   Status start(const HostStart& start);
+
+  /// Takes over a host process that works already.
+  void adopt(std::unique_ptr<HostProcess> process);
 
   /// Sends an order. `answered` is called when the answer is there, unless the process ends before.
   void ask(Order order, Answered answered);
@@ -105,5 +109,11 @@ class Member {
 };
 
 using Members = std::vector<Member*>;
+
+/// Makes the members of a machine, in the order of graph::processes_of().
+[[nodiscard]] std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph,
+                                                                const std::string& machine);
+
+[[nodiscard]] Members pointers_to(const std::vector<std::unique_ptr<Member>>& members);
 
 }  // namespace orca::supervisor

@@ -2,12 +2,10 @@
 #include "starter.hpp"
 
 #include <algorithm>
-#include <random>
 #include <set>
 #include <utility>
 
 #include "hosted/run_wishes.hpp"
-#include "orca/base/hash.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/graph/placement.hpp"
@@ -19,28 +17,15 @@ namespace {
 
 constexpr std::uint64_t kReserved = std::uint64_t{1} << 30;  // [bytes] of stacks and the like
 
-// The name of a run on several machines is the same for all of them, and for one that is started again.
-std::string run_name(const graph::Graph& graph, const std::string& text) {
-  if (graph.machines.size() > 1) {
-    Fnv1a hash;
-    hash.add_text(text);
-    return std::to_string(hash.value());
-  }
-  std::random_device device;
-  return std::to_string((std::uint64_t{device()} << 32) | device());
-}
-
 }  // namespace
 
-Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunPage& page,
-                 const Members& all, TimePoint start)
+Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunIdentity& run,
+                 const Members& all)
     : graph_(graph),
       options_(options),
-      page_(page),
+      run_(run),
       all_(all),
-      start_(start),
       graph_text_(graph::print(graph)),
-      run_(run_name(graph, graph_text_)),
       wiring_(graph) {}
 
 Result<std::vector<Setup>> Starter::start(const Members& members) {
@@ -78,18 +63,18 @@ Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
   const RunWishes wishes{options_.seed.value_or(graph_.seed.value_or(1)),
                          options_.log_level,
                          steady_epoch(),
-                         start_,
+                         run_.start,
                          options_.executor,
                          options_.planned_failures,
                          outputs_for(member),
-                         run_};
-  return {member.name(), graph_text_, to_pairs(wishes), page_.descriptor(), std::move(edges)};
+                         run_.name};
+  return {member.name(), graph_text_, to_pairs(wishes), run_.page.descriptor(), std::move(edges)};
 }
 
 // A process that is started again would overwrite what was written before.
 host::RunOutputs Starter::outputs_for(const Member& member) {
   host::RunOutputs outputs = outputs_of(graph_, member.name(), options_.outputs);
-  if (started_.insert(member.name()).second) return outputs;
+  if (started_.insert(member.name()).second && !run_.is_inherited) return outputs;
   const bool writes =
       !outputs.trace_file.empty() || !outputs.recordings.empty() || !outputs.picture.file.empty();
   if (writes)

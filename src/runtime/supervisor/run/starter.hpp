@@ -10,8 +10,8 @@
 #include "member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
-#include "orca/supervisor/run_page.hpp"
 #include "orca/supervisor/supervised_run.hpp"
+#include "run_identity.hpp"
 #include "wiring.hpp"
 
 namespace orca::supervisor {
@@ -22,9 +22,8 @@ namespace orca::supervisor {
 class Starter {
  public:
   /// All of these outlive the object.
-  /// @param start  of the run, which the log counts from.
-  Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunPage& page,
-          const Members& all, TimePoint start);
+  Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunIdentity& run,
+          const Members& all);
 
   /// Starts processes that do not run, all together, and renews the edges to those that do. The bring-up begins when
   /// the caller calls begin() with the returned setups.
@@ -50,11 +49,9 @@ class Starter {
 
   const graph::Graph& graph_;
   const SupervisedOptions& options_;
-  const RunPage& page_;
+  const RunIdentity& run_;
   const Members& all_;
-  const TimePoint start_;
   const std::string graph_text_;
-  const std::string run_;
   const Wiring wiring_;
   std::set<std::string> started_;  // processes that have been started once
 };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "adoption.hpp"
 #include "alarm_relay.hpp"
 #include "bring_up.hpp"
 #include "conclusion.hpp"
@@ -20,10 +21,12 @@
 #include "orca/host/alarm.hpp"
 #include "orca/host/idleness.hpp"
 #include "orca/supervisor/heartbeats.hpp"
+#include "orca/supervisor/meeting_place.hpp"
 #include "orca/supervisor/restart_policy.hpp"
-#include "orca/supervisor/run_page.hpp"
 #include "poller.hpp"
+#include "run_identity.hpp"
 #include "starter.hpp"
+#include "taking_down.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -35,31 +38,6 @@ constexpr Duration kStartLimit = 15s;
 constexpr Duration kRestLimit = 1s;
 constexpr Duration kLook = 50ms;  // between two looks at everything
 constexpr int kMostReads = 32;    // of what a process has printed, after its end
-// What a process may take to end, and if there is no hurry and it has much to write.
-constexpr EndLimits kHurry{1900ms, 500ms};
-constexpr EndLimits kLeisure{30s, 500ms};
-constexpr EndLimits kImpatience{1s, 500ms};  // if somebody wants it to end who has waited already
-// If that is asked for twice: time for the motors, and less than the deployer itself then has.
-constexpr EndLimits kUrgency{150ms, 100ms};
-
-std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph, const std::string& machine) {
-  std::vector<std::unique_ptr<Member>> members;
-  for (graph::ProcessNode& node : graph::processes_on(graph, machine))
-    members.push_back(std::make_unique<Member>(std::move(node), members.size()));
-  return members;
-}
-
-Members pointers_to(const std::vector<std::unique_ptr<Member>>& members) {
-  Members pointers;
-  for (const auto& member : members) pointers.push_back(member.get());
-  return pointers;
-}
-
-std::vector<graph::ProcessNode> nodes_of(const std::vector<std::unique_ptr<Member>>& members) {
-  std::vector<graph::ProcessNode> nodes;
-  for (const auto& member : members) nodes.push_back(member->node());
-  return nodes;
-}
 
 // Returns whether the end of the run waits for a component of the process.
 bool runs_an_end(const graph::Graph& graph, const Member& member) {
@@ -71,20 +49,20 @@ bool runs_an_end(const graph::Graph& graph, const Member& member) {
 // One run, from the first process to the last.
 class SupervisedRun {
  public:
-  SupervisedRun(const graph::Graph& graph, const SupervisedOptions& options, RunPage page,
+  SupervisedRun(const graph::Graph& graph, const SupervisedOptions& options, Beginning beginning,
                 host::StopSignal& stop, host::RunListener& listener)
       : graph_(graph),
         here_(graph::part_on(graph, options.machine)),
         options_(options),
         stop_(stop),
         listener_(listener),
-        start_(steady_now()),
-        page_(std::move(page)),
+        run_(std::move(beginning.run)),
+        inherited_(std::move(beginning.processes)),
         members_(make_members(graph, options.machine)),
         all_(pointers_to(members_)),
-        starter_(graph, options, page_, all_, start_),
-        ledger_(here_, listener, start_, options.log_name),
-        policy_(nodes_of(members_), graph.supervision),
+        starter_(graph, options, run_, all_),
+        ledger_(here_, listener, run_.start, options.log_name),
+        policy_(graph::processes_on(graph, options.machine), graph.supervision),
         control_(here_, options.facts, all_, ledger_, levers()) {
     ledger_.relay_to(relay_);
     if (graph.machines.size() < 2) return;
@@ -94,12 +72,13 @@ class SupervisedRun {
         [this](RunOutcome outcome, const std::string& why) { neighbours_->conclude(outcome, why, now()); });
   }
 
-  host::RunResult execute() {
+  host::RunResult execute(Result<ControlSocket> socket) {
     stop_.on_request([this] { poller_.wake(); });
     if (options_.outputs.looks_on) listener_.built(ledger_);
-    if (const Status alone = control_.open(); !alone.ok()) refuse(alone.error());
+    control_.open(std::move(socket));
+    const Members missing = inherited_.empty() ? all_ : take_over();
     gather();
-    if (!conclusion_.is_over()) start(all_);
+    if (!conclusion_.is_over() && !missing.empty()) start(missing);
     while (!is_over()) turn(next_time());
     if (conclusion_.has_closing_phase()) wait_for_rest();
     const bool was_well = !conclusion_.has_failed();
@@ -135,6 +114,26 @@ class SupervisedRun {
   void gather() {
     while (!is_over() && neighbours_ && !neighbours_->have_gathered()) turn(next_time());
     began_at_ = steady_now();
+    if (neighbours_ && conclusion_.has_come_up()) neighbours_->gathering().enter(idl::MACHINE_WORKING);
+  }
+
+  // Goes on with the processes of a supervisor that is gone. Returns those that do not run any more.
+  Members take_over() {
+    Members missing = adopt(std::move(inherited_), all_, [this](const Member& member) {
+      log::info(options_.log_name, "process " + member.name() + " is adopted");
+      ledger_.introduce();
+    });
+    for (const Member* member : all_)
+      if (member->process() != nullptr) beats_.watch_working(member->index(), member->node().hang_limit);
+    up_since_ = steady_now();
+    conclusion_.came_up();
+    std::erase_if(missing, [this](const Member* member) {
+      const Error gone = note_gone(*member, ledger_, policy_);
+      const bool stays_away = policy_.has_finished(member->index());
+      if (stays_away && runs_an_end(graph_, *member)) conclusion_.fail_with(gone);
+      return stays_away;
+    });
+    return missing;
   }
 
   // Starts processes that do not run, all together.
@@ -171,6 +170,7 @@ class SupervisedRun {
       if (member->phase() != Phase::up) continue;
       if (conclusion_.has_come_up()) log::info(options_.log_name, "process " + member->name() + " is back");
       AlarmRelay::brief(*member, ledger_.alarms(), !conclusion_.has_come_up());
+      let_outlive(*member, graph_.supervision);
     }
     if (!conclusion_.has_come_up()) up_since_ = steady_now();
     conclusion_.came_up();
@@ -235,6 +235,7 @@ class SupervisedRun {
       if (!prompting->begins) read_output(member, now());  // the question may have been answered at once
       return member.prompt(prompting->begins), ok();
     }
+    if (const auto* standing = std::get_if<Standing>(&report)) control_.recall(*standing);
     return ledger_.take(report, member.name());
   }
 
@@ -328,7 +329,8 @@ class SupervisedRun {
       conclusion_.conclude(outcome, is_bad ? Status(fail(Code::unavailable, verdict->why)) : ok());
       return true;
     }
-    if (neighbours_->have_gathered() || steady_now() < start_ + graph_.supervision.machine_wait) return false;
+    if (neighbours_->have_gathered() || steady_now() < called_at_ + graph_.supervision.machine_wait)
+      return false;
     refuse(fail(Code::deadline_exceeded, neighbours_->awaited() + " did not come in time"));
     return true;
   }
@@ -340,33 +342,10 @@ class SupervisedRun {
 
   void take_down() {
     end_ = steady_now();
-    for (const auto& member : members_) {
-      const auto answered = [this, &member = *member](const Status& outcome) { taken_down(member, outcome); };
-      member->end(now(), stop_.requested() ? kHurry : kLeisure, answered);
-    }
-    const auto is_gone = [](const auto& member) { return member->process() == nullptr; };
-    for (bool hurries = stop_.requested(); !std::ranges::all_of(members_, is_gone); turn(now() + kLook)) {
-      if (stop_.is_urgent()) {
-        for (Member* const member : running()) member->process()->end(now(), kUrgency);
-      } else if (!std::exchange(hurries, stop_.requested()) && hurries) {
-        for (Member* const member : running()) member->process()->end(now(), kImpatience);
-      }
-    }
+    TakingDown all(all_, stop_);
+    all.begin(now());
+    while (!all.is_done(now())) turn(now() + kLook);
     while (neighbours_ && !neighbours_->take_leave(now())) turn(now() + kLook);
-  }
-
-  [[nodiscard]] Members running() const {
-    Members running;
-    for (Member* const member : all_)
-      if (member->process() != nullptr) running.push_back(member);
-    return running;
-  }
-
-  // Ends a process by force that cannot end all its strands.
-  void taken_down(Member& member, const Status& outcome) {
-    if (outcome.ok()) return;
-    log::error(member.name(), outcome.error().text() + "; the process is ended without it");
-    member.process()->end_by_force(Force::overdue, now());
   }
 
   // Says what did not happen in a run that went well.
@@ -401,8 +380,9 @@ class SupervisedRun {
   const SupervisedOptions& options_;
   host::StopSignal& stop_;
   host::RunListener& listener_;
-  const TimePoint start_;
-  RunPage page_;
+  const TimePoint called_at_ = steady_now();
+  const RunIdentity run_;
+  std::vector<AdoptedProcess> inherited_;  // until take_over()
   const std::vector<std::unique_ptr<Member>> members_;
   const Members all_;
   Members polled_ = all_;
@@ -413,30 +393,37 @@ class SupervisedRun {
   const host::Reports reports_ = ledger_.reports();
   RestartPolicy policy_;
   Poller poller_;
-  Heartbeats beats_{page_};
+  Heartbeats beats_{run_.page};
   ControlDesk control_;
   std::vector<std::unique_ptr<BringUp>> began_;
   Conclusion conclusion_{here_, reports_, options_.log_name};
   std::optional<TimePoint> began_at_;  // when all machines were there
-  TimePoint up_since_ = start_;
-  TimePoint end_ = start_;
+  TimePoint up_since_ = called_at_;
+  TimePoint end_ = called_at_;
 };
+
+host::RunResult refuse(const Error& error, const std::string& log_name, host::RunListener& listener) {
+  log::error(log_name, error.text());
+  host::RunResult result;
+  result.outcome = RunOutcome::not_started;
+  result.error = error;
+  listener.ended(result);
+  return result;
+}
 
 }  // namespace
 
 host::RunResult run_supervised(const graph::Graph& graph, const SupervisedOptions& options,
                                host::StopSignal& stop, host::RunListener& listener) {
-  Result<RunPage> page =
-      RunPage::create(graph::processes_on(graph, options.machine).size(), graph.components.size());
-  if (!page) {
-    log::error(options.log_name, page.error().text());
-    host::RunResult result;
-    result.outcome = RunOutcome::not_started;
-    result.error = page.error();
-    return result;
-  }
-  log::set_clock([start = steady_now()] { return TimePoint(steady_now() - start); });
-  host::RunResult result = SupervisedRun(graph, options, std::move(page).value(), stop, listener).execute();
+  Result<ControlSocket> socket = ControlSocket::open(graph.name);
+  if (!socket && socket.error().code == Code::already_exists)
+    return refuse(socket.error(), options.log_name, listener);
+  Result<Beginning> beginning = begin_or_go_on(graph, options.machine);
+  if (!beginning) return refuse(beginning.error(), options.log_name, listener);
+  log::set_clock([start = beginning->run.start] { return TimePoint(steady_now() - start); });
+  host::RunResult result =
+      SupervisedRun(graph, options, std::move(beginning).value(), stop, listener).execute(std::move(socket));
+  clear_meeting_places(graph.name);
   log::set_clock(nullptr);
   return result;
 }

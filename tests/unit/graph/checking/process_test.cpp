@@ -83,9 +83,9 @@ TEST_CASE("the rules for restarts are those of the graph, or the usual ones", "[
   CHECK(must_load("<graph name='g'/>").supervision == Supervision{});
   const Supervision read = must_load(
                                "<graph name='g' strategy='rest_for_one' restarts='5' within='1 min' "
-                               "on_supervisor_loss='continue' machine_wait='5 s'/>")
+                               "on_supervisor_loss='continue' machine_wait='5 s' adoption_wait='1 min'/>")
                                .supervision;
-  CHECK(read == Supervision{Strategy::rest_for_one, 5, 60s, OnLoss::go_on, 5s});
+  CHECK(read == Supervision{Strategy::rest_for_one, 5, 60s, OnLoss::go_on, 5s, 60s});
   CHECK(must_load("<graph name='g' strategy='one_for_all'/>").supervision.strategy == Strategy::one_for_all);
 }
 

@@ -52,7 +52,8 @@ class RandomGraph {
   std::string supervision() {
     return " strategy='" + choice({"one_for_one", "rest_for_one", "one_for_all"}) + "' restarts='" +
            integer(0, 9) + "' within='" + real(0.1, 99) + "' on_supervisor_loss='" +
-           choice({"stop", "continue"}) + "'" + maybe(" machine_wait='" + real(0.1, 99) + "'");
+           choice({"stop", "continue"}) + "'" + maybe(" machine_wait='" + real(0.1, 99) + "'") +
+           maybe(" adoption_wait='" + real(0.1, 99) + "'");
   }
 
   // Two processes beside "main", on a machine each if there are any.

@@ -1,53 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/supervisor/control_socket.hpp"
 
-#include <sys/stat.h>
-
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
 #include "open_descriptors.hpp"
+#include "runtime_folder.hpp"
 
 using namespace orca;
 using namespace orca::supervisor;
+using orca::test::mode_of;
 using orca::test::open_descriptors;
+using orca::test::RuntimeFolder;
 namespace fs = std::filesystem;
-
-namespace {
-
-// A runtime folder of one test.
-class RuntimeFolder {
- public:
-  RuntimeFolder() {
-    char path[] = "/tmp/orca-test-XXXXXX";
-    REQUIRE(mkdtemp(path) != nullptr);
-    path_ = path;
-    setenv("XDG_RUNTIME_DIR", path, 1);
-  }
-  ~RuntimeFolder() {
-    unsetenv("XDG_RUNTIME_DIR");
-    fs::remove_all(path_);
-  }
-  RuntimeFolder(const RuntimeFolder&) = delete;
-  RuntimeFolder& operator=(const RuntimeFolder&) = delete;
-  [[nodiscard]] fs::path socket(const std::string& system) const {
-    return path_ / "orca" / (system + ".sock");
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-unsigned mode_of(const fs::path& path) {
-  struct stat found {};
-  REQUIRE(lstat(path.c_str(), &found) == 0);
-  return found.st_mode & 0777;
-}
-
-}  // namespace
 
 TEST_CASE("a system's socket is for its user alone, and is gone with the system", "[supervisor][control]") {
   const RuntimeFolder folder;

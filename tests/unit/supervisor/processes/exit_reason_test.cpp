@@ -17,7 +17,10 @@ TEST_CASE("The end of a process is told in words", "[supervisor][processes]") {
       {ExitReason{.signal = SIGKILL, .force = Force::memory},
        "used more memory than the graph allows and was killed"},
       {ExitReason{.status = 0, .force = Force::overdue}, "did not end when asked to and was killed"},
+      {ExitReason{.status = 1, .is_guess = true}, "ended, and its new supervisor cannot tell how"},
+      {ExitReason{.status = 1, .force = Force::hang, .is_guess = true}, "hung and was killed"},
+      {ExitReason{.status = 0, .is_guess = true}, "ended as it had said"},
   }));
   CHECK(reason.text() == text);
-  CHECK(reason.is_normal() == (text == "exited with status 0"));
+  CHECK(reason.is_normal() == (text == "exited with status 0" || text == "ended as it had said"));
 }

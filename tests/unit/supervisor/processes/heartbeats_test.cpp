@@ -100,3 +100,12 @@ TEST_CASE("A hang is reported once, and one who ends is not watched", "[supervis
   CHECK_FALSE(bench.heartbeats.due());
   CHECK(bench.look_after(10s).empty());
 }
+
+TEST_CASE("A process that has worked before is judged although it does not beat any more",
+          "[supervisor][heartbeats]") {
+  Bench bench;
+  bench.heartbeats.watch_working(1, 500ms);
+  const auto [hung, after] = bench.wait_for_hang(10s);
+  CHECK(hung == Hung{1});
+  CHECK(after <= 600ms);
+}

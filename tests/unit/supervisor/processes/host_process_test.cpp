@@ -6,6 +6,7 @@
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -64,6 +65,39 @@ std::unique_ptr<HostProcess> ready(const std::string& what) {
 ExitReason looked_after(HostProcess& process) {
   while (!is_readable(process.end_descriptor(), 5ms)) process.look(now());
   return end_of(process);
+}
+
+// A process that this one has not started, which sleeps.
+struct Stranger {
+  pid_t pid = -1;
+  Descriptor pidfd;
+};
+
+Stranger make_stranger() {
+  int ends[2] = {-1, -1};
+  REQUIRE(pipe2(ends, O_CLOEXEC) == 0);
+  const Descriptor reading(ends[0]);
+  const Descriptor writing(ends[1]);
+  const pid_t middle = fork();
+  if (middle == 0) {
+    signal(SIGTERM, SIG_DFL);
+    const pid_t stranger = fork();
+    if (stranger == 0) sleep(60);
+    _exit(stranger == 0 || write(ends[1], &stranger, sizeof stranger) < 0 ? 1 : 0);
+  }
+  Stranger made;
+  REQUIRE(read(ends[0], &made.pid, sizeof made.pid) == sizeof made.pid);
+  REQUIRE(waitpid(middle, nullptr, 0) == middle);
+  made.pidfd = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, made.pid, 0)));
+  REQUIRE(made.pidfd);
+  return made;
+}
+
+std::unique_ptr<HostProcess> adopted(Stranger stranger) {
+  Result<SocketPair> sockets = make_socket_pair();
+  REQUIRE(sockets);
+  return HostProcess::adopt(
+      {"base", stranger.pid, std::move(stranger.pidfd), {}, std::move(sockets->supervisor)});
 }
 
 std::string line_of(const std::string& text, const std::string& start) {
@@ -267,4 +301,31 @@ TEST_CASE("A host process gets its priority, or a warning says why not", "[super
   } else {
     CHECK(process->warnings()[0] == "the priority is not that of the graph: Operation not permitted");
   }
+}
+
+TEST_CASE("of a process that another one has started only the end is known", "[supervisor][processes]") {
+  const auto process = adopted(make_stranger());
+  CHECK_FALSE(process->exit());
+  CHECK(process->memory());
+  const bool says = GENERATE(true, false);
+  if (says) process->note_leaving();
+  kill(process->pid(), SIGKILL);
+  const ExitReason reason = end_of(*process);
+  CHECK(reason.is_guess);
+  CHECK(reason.is_normal() == says);
+}
+
+TEST_CASE("an adopted process is ended by force as any other", "[supervisor][processes]") {
+  const auto process = adopted(make_stranger());
+  process->end_by_force(Force::hang, now(), 10s);
+  const ExitReason reason = end_of(*process);
+  CHECK(reason.force == Force::hang);
+  CHECK(reason.is_guess);
+}
+
+TEST_CASE("an adopted process does not outlive its object", "[supervisor][processes]") {
+  Stranger stranger = make_stranger();
+  const Descriptor end(fcntl(stranger.pidfd.number(), F_DUPFD_CLOEXEC, 0));
+  adopted(std::move(stranger)).reset();
+  CHECK(is_readable(end.number(), 0ms));
 }

@@ -131,3 +131,23 @@ TEST_CASE("alarms of a process stay when it is lost, until they are acknowledged
   REQUIRE(ledger.alarms().size() == 1);
   CHECK(ledger.alarms()[0].alarm.kind() == "PROCESS_ENDED");
 }
+
+TEST_CASE("an alarm from before this supervisor is kept once, and told to nobody", "[supervisor][ledger]") {
+  const graph::Graph graph = system();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  idl::Alarm alarm;
+  alarm.kind("FAILED");
+  alarm.source("goto");
+  alarm.active(true);
+  Standing standing;
+  standing.alarms.emplace_back("behaviours", bytes_of(alarm));
+  REQUIRE(ledger.take(standing, "base").ok());
+  REQUIRE(ledger.take(standing, "behaviours").ok());
+  CHECK(hearing.alarms.empty());
+  REQUIRE(ledger.alarms().size() == 1);
+  CHECK(ledger.alarms()[0].process == "behaviours");
+  CHECK(ledger.alarms()[0].times == 1);
+  standing.alarms.emplace_back("base", std::vector<std::byte>{std::byte{1}});
+  CHECK_FALSE(ledger.take(standing, "base").ok());
+}

@@ -140,6 +140,7 @@ Supervision read_supervision(const Node& root, Report& report) {
   read_time(root, "within", supervision.within, report);
   if (read_attribute<std::string>(root, "on_supervisor_loss", report) == "continue")
     supervision.on_supervisor_loss = OnLoss::go_on;
+  read_time(root, "adoption_wait", supervision.adoption_wait, report);
   read_time(root, "machine_wait", supervision.machine_wait, report);
   return supervision;
 }

@@ -91,6 +91,9 @@ struct Supervision {
   Duration machine_wait{
       std::chrono::seconds(60)};  ///< Longest time [s] to wait for all machines at the start.
 
+  /// Longest time [s] that they go on without one, if that is what they do; 0: no limit.
+  Duration adoption_wait{0};
+
   friend bool operator==(const Supervision&, const Supervision&) = default;
 };
 

@@ -28,6 +28,11 @@ class ControlSocket {
   /// @errors  already_exists if a system of this name runs; unavailable, with the reason, if the socket cannot be made.
   ///          Throws std::system_error if there are no descriptors left (orca/base/exhaustion.hpp).
   [[nodiscard]] static Result<ControlSocket> open(const std::string& system);
+  /// Makes a socket for another purpose in the same folder. One at which nobody listens is replaced.
+  /// @param file   its name there.
+  /// @param taken  the error if somebody listens there.
+  /// @errors  `taken`; unavailable as above.
+  [[nodiscard]] static Result<ControlSocket> open_file(const std::string& file, const Error& taken);
   ~ControlSocket();
   ControlSocket(ControlSocket&&) = default;
   ControlSocket& operator=(ControlSocket&&) = delete;
@@ -36,6 +41,7 @@ class ControlSocket {
   [[nodiscard]] Descriptor accept() const;
   /// Returns the number of the socket, for poll().
   [[nodiscard]] int descriptor() const { return listening_.number(); }
+  [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
   ControlSocket(Descriptor listening, std::string path)
@@ -49,6 +55,15 @@ class ControlSocket {
 /// @errors  not_found if none of this name runs; unavailable with the system's reason.
 /// @thread  any.
 [[nodiscard]] Result<Descriptor> connect_to_system(const std::string& system);
+
+/// Connects to a socket of ControlSocket::open_file().
+/// @errors  not_found if nobody listens there; unavailable with the system's reason.
+/// @thread  any.
+[[nodiscard]] Result<Descriptor> connect_to_file(const std::string& file);
+
+/// Removes such a socket if nobody listens there.
+/// @thread  any.
+void remove_dead_file(const std::string& file);
 
 /// Returns the names of the systems of this user that run, sorted.
 /// @thread  any.

@@ -21,6 +21,9 @@ struct ExitReason {
   bool dumped_core = false;    ///< Whether the system wrote a core file.
   bool out_of_memory = false;  ///< Whether the system probably killed it because memory ran out.
   Force force = Force::none;
+  /// Whether the system does not tell how it ended, because another supervisor had started it. Then status is 0 if the process
+  /// has said that it ends, and 1 otherwise.
+  bool is_guess = false;
 
   /// Returns whether it ended by itself with status 0.
   [[nodiscard]] bool is_normal() const { return force == Force::none && signal == 0 && status == 0; }

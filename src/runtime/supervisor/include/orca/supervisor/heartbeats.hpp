@@ -30,6 +30,10 @@ class Heartbeats {
   /// @param limit  [s] silence that counts as a hang, > 0.
   /// @pre  process < page.processes(), and nothing else beats for it.
   void watch(std::size_t process, Duration limit = kDefaultLimit);
+  /// Watches a process that works already, and is judged at once.
+  /// @param limit  as above.
+  /// @pre  process < page.processes().
+  void watch_working(std::size_t process, Duration limit = kDefaultLimit);
   /// Watches a process no longer, because it is ending or has ended.
   void forget(std::size_t process);
 

@@ -27,7 +27,17 @@ struct EndLimits {
   Duration when_terminated = 500ms;  ///< From SIGTERM until SIGKILL.
 };
 
-/// A host process that the supervisor has started, and its control channel. The destructor kills it if it still runs.
+/// A host process that another supervisor has started, and what is needed to supervise it.
+struct AdoptedProcess {
+  std::string name;
+  pid_t pid = -1;
+  Descriptor pidfd;
+  Descriptor output;   ///< The reading end of its stdout and stderr; reading never waits.
+  Descriptor channel;  ///< A new control channel.
+};
+
+/// A host process that the supervisor has started or adopted, and its control channel. The destructor kills it if it still
+/// runs.
 ///
 /// The process has only these descriptors: stdin is /dev/null or that of the supervisor, stdout and stderr are one pipe that never makes it wait (what
 /// finds no room is lost), and the control channel is taken by take_channel() (orca/supervisor/own_process.hpp). Signals
@@ -42,6 +52,8 @@ class HostProcess {
   /// @errors  not_found if the program cannot be executed. Throws std::system_error if the system gives no more
   ///          processes, memory or descriptors (orca/base/exhaustion.hpp).
   [[nodiscard]] static Result<std::unique_ptr<HostProcess>> start(const HostStart& start);
+  /// Takes over a process that runs already. It is no child of this one, so the way in which it ends is a guess.
+  [[nodiscard]] static std::unique_ptr<HostProcess> adopt(AdoptedProcess process);
   ~HostProcess();
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;
@@ -62,6 +74,12 @@ class HostProcess {
 
   /// Returns what it has written of a line that has no end yet, such as a question to the user, and takes it out.
   [[nodiscard]] std::string take_unfinished_line();
+
+  /// Returns another descriptor of its output, for whoever supervises it later; empty if the process has closed its end.
+  [[nodiscard]] Descriptor share_output() const;
+
+  /// Notes that the process has said that it ends.
+  void note_leaving() { is_leaving_ = true; }
 
   /// Orders the process to end (TakeDown), and begins to count its time. If it is already being ended, the limits can only
   /// shorten its time.
@@ -85,6 +103,8 @@ class HostProcess {
   struct Parts;
   explicit HostProcess(Parts parts);
   void send(int signal) const;
+  [[nodiscard]] std::optional<ExitReason> look_for_end() const;
+  [[nodiscard]] std::optional<ExitReason> guess_end() const;
 
   const std::string name_;
   const pid_t pid_;
@@ -98,6 +118,7 @@ class HostProcess {
   std::optional<Moment> term_at_;  // when SIGTERM is due
   std::optional<Moment> kill_at_;  // when SIGKILL is due
   Force force_ = Force::none;
+  bool is_leaving_ = false;
   std::optional<ExitReason> exit_;
 };
 

@@ -31,6 +31,8 @@ enum class Kind : std::uint16_t {
   open_line,
   meet = 31,
   say,
+  outlive = 41,
+  adopt,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,
@@ -48,6 +50,9 @@ enum class Kind : std::uint16_t {
   prompting,
   mission_step,
   heard = 131,
+  orphaned = 141,
+  standing,
+  leaving,
   // Words of an operator's program and the answers: see orca/supervisor/control.hpp.
   ask = 201,
   record_answer = 301,

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 #include "orca/base/descriptor.hpp"
@@ -46,17 +45,16 @@ class RunPage {
   [[nodiscard]] std::size_t processes() const { return processes_; }
   [[nodiscard]] std::size_t components() const { return components_; }
 
-  /// Returns a new descriptor of the page, to give to a host process.
-  /// @pre  made by create().
+  /// Returns a new descriptor of the page, to give to another process.
   /// @errors  throws std::system_error if there are no descriptors left (orca/base/exhaustion.hpp).
   [[nodiscard]] Descriptor descriptor() const;
 
  private:
-  RunPage(SharedMemory memory, std::size_t processes, std::size_t components)
-      : memory_(std::move(memory)), processes_(processes), components_(components) {}
+  RunPage(Descriptor file, SharedMemory memory, std::size_t processes, std::size_t components)
+      : file_(std::move(file)), memory_(std::move(memory)), processes_(processes), components_(components) {}
   [[nodiscard]] std::atomic<std::uint32_t>& word(std::size_t line) const;
 
-  std::optional<MemoryFile> file_;  // of the process that has made it
+  Descriptor file_;
   SharedMemory memory_;
   std::size_t processes_;
   std::size_t components_;

@@ -137,9 +137,21 @@ struct Say {
   std::vector<std::byte> state;  ///< An idl::MachineState, encoded as XCDR1.
 };
 
+/// Asks to go on if the supervisor is gone, and to wait for another one at a meeting place
+/// (orca/supervisor/meeting_place.hpp). Until then the loss of the supervisor ends the process.
+struct Outlive {
+  static constexpr Kind kKind = Kind::outlive;
+  Descriptor output;  ///< The reading end of its own stdout and stderr, to be kept for the next supervisor.
+  std::uint64_t wait = 0;  ///< Longest wait for another supervisor [ns]; 0: no limit.
+};
+/// Takes over a process that has lost its supervisor. The answer comes after all reports that a new supervisor must have.
+struct Adopt {
+  static constexpr Kind kKind = Kind::adopt;
+};
+
 using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
                            Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors,
-                           Count, OpenLine, Meet, Say>;
+                           Count, OpenLine, Meet, Say, Outlive, Adopt>;
 
 // ---- Reports, from a host process to the supervisor.
 
@@ -235,9 +247,31 @@ struct MissionStep {
   std::uint64_t cause_seq = 0;
 };
 
+/// What a process without a supervisor says first to whoever comes.
+struct Orphaned {
+  static constexpr Kind kKind = Kind::orphaned;
+  std::string process;      ///< Its name in the graph.
+  std::uint64_t graph = 0;  ///< mark_of() the expanded graph.
+  Pairs options;            ///< Of the run, as in Setup.
+  Descriptor run_page;
+  Descriptor output;  ///< The reading end of its stdout and stderr.
+};
+/// What an earlier supervisor has ordered and kept, for the one that adopts the process.
+struct Standing {
+  static constexpr Kind kKind = Kind::standing;
+  /// Alarms that nobody has acknowledged: the process that each is about, and an idl::Alarm, encoded as XCDR1.
+  std::vector<std::pair<std::string, std::vector<std::byte>>> alarms;
+  bool motors_held = false;                           ///< By StopMotors.
+  std::vector<std::pair<std::string, Pairs>> params;  ///< By component: those that SetParams has changed.
+};
+/// Everything is taken down on order or at a signal, and the process ends.
+struct Leaving {
+  static constexpr Kind kKind = Kind::leaving;
+};
+
 using Report = std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport,
                             ContactReport, AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance,
-                            Prompting, MissionStep, HeardReport>;
+                            Prompting, MissionStep, HeardReport, Orphaned, Standing, Leaving>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "orphans.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "asking.hpp"
+#include "orca/base/text.hpp"
+#include "orca/supervisor/channel.hpp"
+#include "orca/supervisor/control_socket.hpp"
+#include "orca/supervisor/meeting_place.hpp"
+#include "orca/supervisor/vocabulary.hpp"
+
+namespace orca::orcactl {
+namespace {
+
+using supervisor::Order;
+using supervisor::Waiting;
+
+constexpr Duration kAnswerLimit = 5s;
+constexpr int kEndMs = 3000;
+
+// Returns the systems of which processes run without a deployer.
+std::vector<std::string> orphaned_systems(const std::string& system) {
+  std::vector<std::string> orphaned = supervisor::waiting_systems();
+  const std::vector<std::string> running = supervisor::running_systems();
+  std::erase_if(orphaned, [&](const std::string& name) {
+    return std::ranges::find(running, name) != running.end() || (!system.empty() && name != system);
+  });
+  return orphaned;
+}
+
+std::optional<Order> order_of(const Call& call) {
+  if (call.command->name == "stop") return supervisor::TakeDown{};
+  if (call.command->name != "estop") return std::nullopt;
+  if (call.has("--release")) return supervisor::ReleaseMotors{};
+  return supervisor::StopMotors{"emergency stop; an operator releases it with: orcactl estop --release"};
+}
+
+Result<supervisor::Report> next_report(supervisor::Channel& channel) {
+  Result<supervisor::Message> message = channel.wait_for_message(kAnswerLimit);
+  if (!message) return message.error();
+  return supervisor::decode_report(std::move(message).value());
+}
+
+// Gives an order to a process, and waits until it is carried out. Returns the name of the process.
+Result<std::string> give(Waiting& waiting, Order order) {
+  const bool is_end = std::holds_alternative<supervisor::TakeDown>(order);
+  supervisor::Channel channel(std::move(waiting.connection));
+  const Result<supervisor::Report> first = next_report(channel);
+  if (!first) return first.error();
+  const auto* const self = std::get_if<supervisor::Orphaned>(&*first);
+  if (self == nullptr) return fail(Code::data_loss, "it does not say who it is");
+  if (Status sent = channel.send(supervisor::encode(std::move(order), 1), kAnswerLimit); !sent.ok())
+    return sent.error();
+  const Result<supervisor::Report> answer = next_report(channel);
+  if (!answer) return answer.error();
+  const auto* const said = std::get_if<supervisor::Answer>(&*answer);
+  if (said == nullptr) return fail(Code::data_loss, "it does not answer");
+  if (!said->outcome.ok()) return said->outcome.error();
+  pollfd end{waiting.pidfd.number(), POLLIN, 0};
+  if (is_end && poll(&end, 1, kEndMs) == 0) return fail(Code::deadline_exceeded, "it does not end");
+  return self->process;
+}
+
+ExitCode give_all(const std::string& system, const Call& call) {
+  std::vector<std::string> obeyed;
+  ExitCode code = ExitCode::done;
+  for (Waiting& waiting : supervisor::connect_to_waiting(system)) {
+    const Result<std::string> name = give(waiting, *order_of(call));
+    if (name)
+      obeyed.push_back(*name);
+    else
+      code = report({fail(name.error().code, "process " + std::to_string(waiting.pid) + " of " + system +
+                                                 ": " + name.error().message)});
+  }
+  if (!obeyed.empty())
+    std::fprintf(stderr, "orcactl: no deployer runs; obeyed by the processes themselves: %s\n",
+                 listed(obeyed).c_str());
+  return code;
+}
+
+}  // namespace
+
+std::string hint_at_orphans(const std::string& system) {
+  const std::vector<std::string> orphaned = orphaned_systems(system);
+  if (orphaned.empty()) return "";
+  return "; but processes of " + listed(orphaned) +
+         " go on without a deployer: start it again, or end them: orcactl --system " + orphaned.front() +
+         " stop";
+}
+
+std::optional<ExitCode> order_orphans(const Call& call) {
+  if (!order_of(call)) return std::nullopt;
+  const std::vector<std::string> orphaned = orphaned_systems(call.system);
+  if (orphaned.empty()) return std::nullopt;
+  if (orphaned.size() == 1) return give_all(orphaned.front(), call);
+  return report({fail(Code::invalid_argument,
+                      "processes of several systems run without a deployer: " + listed(orphaned) +
+                          "; choose one: --system " + orphaned.front()),
+                 ExitCode::usage});
+}
+
+}  // namespace orca::orcactl

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/adoption.hpp"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "channel/samples.hpp"
+#include "hosted/graph_mark.hpp"
+#include "hosted/run_wishes.hpp"
+#include "hosted/vigil.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "orca/graph/placement.hpp"
+#include "orca/graph/print.hpp"
+#include "orca/host/run_listener.hpp"
+#include "orca/supervisor/meeting_place.hpp"
+#include "runtime_folder.hpp"
+
+using namespace orca;
+using namespace orca::supervisor;
+using orca::test::null_device;
+using orca::test::RuntimeFolder;
+
+namespace {
+
+class Deaf final : public host::RunListener {
+ public:
+  [[noreturn]] void abandon(const host::RunResult& /*result*/) override { std::abort(); }
+};
+
+graph::Graph system() {
+  graph::Graph graph;
+  graph.name = "scout";
+  graph::ComponentNode node;
+  node.name = "avoid";
+  node.process = "main";
+  graph.components.push_back(node);
+  return graph;
+}
+
+// A run that another supervisor has begun, whose only process waits.
+class Lonely {
+ public:
+  Lonely(std::uint64_t mark, std::string run) : mark_(mark), run_(std::move(run)) {}
+  ~Lonely() {
+    ending_ = true;
+    thread_.join();
+  }
+  Lonely(const Lonely&) = delete;
+  Lonely& operator=(const Lonely&) = delete;
+
+ private:
+  void work() {
+    while (!ending_) {
+      (void)vigil_.turn(Moment::clock::now());
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  Orphaned introduce() {
+    RunWishes wishes;
+    wishes.epoch = steady_epoch();
+    wishes.start = TimePoint{42s};
+    wishes.run = run_;
+    return {"main", mark_, to_pairs(wishes), page_.descriptor(), null_device()};
+  }
+
+  const std::uint64_t mark_;
+  const std::string run_;
+  const RunPage page_ = *RunPage::create(1, 1);
+  const ControlSocket place_ = *open_meeting_place("scout", "main");
+  Vigil vigil_{place_, [this] { return introduce(); }};
+  std::atomic<bool> ending_{false};
+  std::thread thread_{[this] { work(); }};
+};
+
+}  // namespace
+
+TEST_CASE("where nobody waits a new run begins", "[supervisor][adoption]") {
+  const RuntimeFolder folder;
+  const Result<Beginning> beginning = begin_or_go_on(system(), "");
+  REQUIRE(beginning);
+  CHECK_FALSE(beginning->run.is_inherited);
+  CHECK(beginning->processes.empty());
+  CHECK(begin_or_go_on(system(), "")->run.name != beginning->run.name);
+}
+
+TEST_CASE("the run of processes that wait goes on", "[supervisor][adoption]") {
+  const RuntimeFolder folder;
+  const Lonely waiting(mark_of(graph::print(system())), "seven");
+  const Result<Beginning> beginning = begin_or_go_on(system(), "");
+  REQUIRE(beginning);
+  CHECK(beginning->run.is_inherited);
+  CHECK(beginning->run.name == "seven");
+  CHECK(beginning->run.start == TimePoint{42s});
+  REQUIRE(beginning->processes.size() == 1);
+  CHECK(beginning->processes[0].name == "main");
+  CHECK(beginning->processes[0].pid == getpid());
+}
+
+TEST_CASE("processes of another graph are no part of this one", "[supervisor][adoption]") {
+  const RuntimeFolder folder;
+  const Lonely waiting(mark_of(graph::print(system())) + 1, "seven");
+  const Result<Beginning> beginning = begin_or_go_on(system(), "");
+  REQUIRE_FALSE(beginning);
+  CHECK(beginning.error().code == Code::failed_precondition);
+  CHECK_THAT(beginning.error().message,
+             Catch::Contains("main") && Catch::Contains("orcactl --system scout stop"));
+}
+
+TEST_CASE("what was gone is started again unless its rule is never to", "[supervisor][adoption]") {
+  const graph::Graph graph = system();
+  Deaf deaf;
+  Ledger ledger(graph, deaf, TimePoint{});
+  graph::ProcessNode node;
+  node.name = "main";
+  node.restart = GENERATE(graph::Restart::permanent, graph::Restart::transient, graph::Restart::temporary);
+  RestartPolicy policy({node}, {});
+  CHECK(note_gone(Member(node, 0), ledger, policy).message ==
+        "process main was gone when this deployer came");
+  CHECK(policy.has_finished(0) == (node.restart == graph::Restart::temporary));
+  REQUIRE(ledger.alarms().size() == 1);
+  CHECK(ledger.alarms()[0].alarm.kind() == "PROCESS_ENDED");
+}
