@@ -43,6 +43,19 @@ Result<double> parse_quantity(std::string_view text, std::string_view si) {
   return value;
 }
 
+Result<Measured> parse_measured(std::string_view text) {
+  const Result<LeadingNumber> number = parse_leading_number(text);
+  if (!number) return number.error();
+  if (number->rest.empty()) return Measured{number->value, {}};
+  const Unit* const unit = find_unit(number->rest);
+  if (unit == nullptr)
+    return fail(Code::invalid_argument, "\"" + std::string(text) + "\": \"" + std::string(number->rest) +
+                                            "\" is not a unit that Orca knows");
+  const Result<double> value = to_si(number->value, number->rest, unit->si);
+  if (!value) return value.error();
+  return Measured{*value, std::string(unit->si)};
+}
+
 Result<Duration> parse_duration(std::string_view text) {
   constexpr double kLongest = 100.0 * 365.25 * 86400.0;
   const Result<double> seconds = parse_quantity(text, "s");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What each component of each shipped graph is for: without it the run gets worse, in the way that the comment of the graph
 // says. scout_teleop is in teleop_test.cpp, because it needs a person at the keys. scout_goto_processes and two_machines are
-// the same run as scout_goto, to which placement_test.cpp compares them.
+// the same run as scout_goto, to which placement_test.cpp compares them, and scout_goto_two_localizers is in trading_test.cpp.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cctype>
@@ -92,7 +92,8 @@ const std::vector<Case> kCases{
 const std::set<std::string> kLeavesGoals{"scout_rounds", "scout_odometry"};
 
 // Shipped graphs that other tests look at.
-const std::set<std::string> kElsewhere{"scout_teleop", "scout_goto_processes", "two_machines"};
+const std::set<std::string> kElsewhere{"scout_teleop", "scout_goto_processes", "scout_goto_two_localizers",
+                                       "two_machines"};
 
 // Shipped graphs of several robots, and of how many. Each robot has the components of scout_goto under its own prefix.
 const std::map<std::string, std::size_t> kOfSeveral{{"two_robots", 2}, {"five_robots", 5}};

@@ -26,14 +26,23 @@ struct Robot {
 };
 
 const std::vector<Robot> kRobots{
-    {"scout_goto", "", {"goto", "avoid"}},         {"scout_goto_processes", "", {"goto", "avoid"}},
-    {"two_machines", "", {"goto", "avoid"}},       {"scout_gallery", "", {"goto", "avoid"}},
-    {"scout_rounds", "", {"goto", "avoid"}},       {"scout_odometry", "", {"goto", "avoid"}},
-    {"scout_hospital", "", {"goto", "avoid"}},     {"pioneer_laser_goto", "", {"goto", "avoid"}},
-    {"random_walk", "", {"walk", "avoid"}},        {"two_robots", "dewey/", {"goto", "avoid"}},
-    {"two_robots", "huey/", {"goto", "avoid"}},    {"five_robots", "dewey/", {"goto", "avoid"}},
-    {"five_robots", "huey/", {"goto", "avoid"}},   {"five_robots", "louie/", {"goto", "avoid"}},
-    {"five_robots", "donald/", {"goto", "avoid"}}, {"five_robots", "daisy/", {"goto", "avoid"}},
+    {"scout_goto", "", {"goto", "avoid"}},
+    {"scout_goto_processes", "", {"goto", "avoid"}},
+    {"scout_goto_two_localizers", "", {"goto", "avoid"}},
+    {"two_machines", "", {"goto", "avoid"}},
+    {"scout_gallery", "", {"goto", "avoid"}},
+    {"scout_rounds", "", {"goto", "avoid"}},
+    {"scout_odometry", "", {"goto", "avoid"}},
+    {"scout_hospital", "", {"goto", "avoid"}},
+    {"pioneer_laser_goto", "", {"goto", "avoid"}},
+    {"random_walk", "", {"walk", "avoid"}},
+    {"two_robots", "dewey/", {"goto", "avoid"}},
+    {"two_robots", "huey/", {"goto", "avoid"}},
+    {"five_robots", "dewey/", {"goto", "avoid"}},
+    {"five_robots", "huey/", {"goto", "avoid"}},
+    {"five_robots", "louie/", {"goto", "avoid"}},
+    {"five_robots", "donald/", {"goto", "avoid"}},
+    {"five_robots", "daisy/", {"goto", "avoid"}},
 };
 
 // Driven by a person, in real time.

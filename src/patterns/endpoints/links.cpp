@@ -24,7 +24,7 @@ bool fits(const PortContract& from, const PortContract& to) {
 
 template <class Client>
 Status check_free(const Client& client) {
-  if (!client.connected() || client.contract().many) return ok();
+  if (!client.connected() || client.contract().many || client.can_move()) return ok();
   return fail(Code::already_exists, client.path() + " is connected already");
 }
 

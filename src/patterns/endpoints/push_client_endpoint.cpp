@@ -11,6 +11,8 @@ PushClientEndpoint::PushClientEndpoint(PortHome& home, PortContract contract)
     : Endpoint(home, std::move(contract)) {}
 
 PushEdge& PushClientEndpoint::connect(PushSource& source, const QueuePolicy& policy) {
+  if (alternatives_) alternatives_->add(source);
+  if (alternatives_ && !edges_.empty()) return *edges_.back();
   assert(contract().many || edges_.empty());
   edges_.push_back(std::make_unique<PushEdge>(*this, source, policy));
   return *edges_.back();
@@ -37,7 +39,17 @@ TimePoint PushClientEndpoint::watch_deadlines() {
   return next;
 }
 
+void PushClientEndpoint::allow_moves() {
+  assert(!contract().many && edges_.empty());
+  alternatives_.emplace(home().strand, [this](PushSource& source) { edges_.front()->move_to(source); });
+}
+
+bool PushClientEndpoint::move_to(const std::string& server) {
+  return alternatives_ && alternatives_->want(server);
+}
+
 void PushClientEndpoint::subscribe_all() {
+  if (alternatives_) (void)alternatives_->take_in();
   for (const auto& edge : edges_) edge->subscribe();
 }
 

@@ -28,7 +28,7 @@ std::string described(const QueuePolicy& policy) {
 PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy)
     : client_(client),
       strand_(client.home().strand),
-      source_(source),
+      source_(&source),
       policy_(policy),
       mutex_(client.home().strand.executive()),
       ring_(policy.depth) {
@@ -41,9 +41,30 @@ void PushEdge::subscribe() {
   if (subscribed()) return;
   if (policy_.deadline > Duration{0}) expect_first();
   subscribed_.store(true, std::memory_order_release);
+  tell_of_link(true);
+  source().attach(*this, rate());
+}
+
+void PushEdge::tell_of_link(bool connected) const {
   if (LinkObserver* observer = client_.home().observer)
-    observer->link_changed(client_.path(), source_.path(), true);
-  source_.attach(*this, rate());
+    observer->link_changed(client_.path(), source_path(), connected);
+}
+
+void PushEdge::move_to(PushSource& next) {
+  if (&next == &source()) return;
+  const bool moves = subscribed();
+  if (moves) {
+    source().detach();
+    tell_of_link(false);
+  }
+  source_.store(&next, std::memory_order_release);
+  if (!moves) return;
+  {
+    const std::lock_guard lock(mutex_);
+    publisher_waits_ = subscriber_stuck_ = false;
+  }
+  tell_of_link(true);
+  next.attach(*this, rate());
 }
 
 void PushEdge::expect_first() {
@@ -54,9 +75,8 @@ void PushEdge::expect_first() {
 
 void PushEdge::unsubscribe() {
   if (!subscribed()) return;
-  source_.detach();
-  if (LinkObserver* observer = client_.home().observer)
-    observer->link_changed(client_.path(), source_.path(), false);
+  source().detach();
+  tell_of_link(false);
   if (policy_.deadline > Duration{0}) counts_.missed_deadlines = missed_until(now());
   subscribed_.store(false, std::memory_order_release);
   const std::lock_guard lock(mutex_);
@@ -69,7 +89,7 @@ void PushEdge::unsubscribe() {
 
 void PushEdge::ask(const UpdateRate& rate) {
   asked_ = rate;
-  if (subscribed()) source_.change(this->rate());
+  if (subscribed()) source().change(this->rate());
 }
 
 UpdateRate PushEdge::rate() const {
@@ -151,7 +171,7 @@ void PushEdge::report_drops(std::uint64_t drops) const {
 
 void PushEdge::report(LinkTrouble kind, const std::string& text) const {
   if (LinkObserver* observer = client_.home().observer)
-    observer->trouble(kind, source_.path(), client_.path(), text);
+    observer->trouble(kind, source_path(), client_.path(), text);
 }
 
 // Puts the object into the queue, which holds `count` objects.
@@ -211,7 +231,7 @@ void PushEdge::lost(std::uint64_t objects) {
     subscriber_stuck_ = false;
     waited_for = std::exchange(publisher_waits_, false);
   }
-  if (waited_for) source_.room();
+  if (waited_for) source().room();
   return object;
 }
 

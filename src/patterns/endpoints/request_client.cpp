@@ -26,15 +26,51 @@ RequestClient<Answer>::RequestClient(PortHome& home, PortContract contract, cons
     : Endpoint(home, std::move(contract)), words_(words) {}
 
 template <class Answer>
+void RequestClient<Answer>::connect(RequestTarget<Answer>& target) {
+  if (alternatives_) alternatives_->add(target);
+  if (!alternatives_ || target_ == nullptr) target_ = &target;
+}
+
+template <class Answer>
+void RequestClient<Answer>::allow_moves() {
+  alternatives_.emplace(home().strand, [this](RequestTarget<Answer>& target) { move(target); });
+}
+
+template <class Answer>
+bool RequestClient<Answer>::move_to(const std::string& server) {
+  return alternatives_ && alternatives_->want(server);
+}
+
+// What was offered to the old server is still answered by it, or withdrawn from it.
+template <class Answer>
+void RequestClient<Answer>::move(RequestTarget<Answer>& target) {
+  if (&target == target_) return;
+  const std::uint64_t restarts = restarts_before_ + target_->renewals().value_or(0);
+  left_.push_back({first_id_, target_});
+  first_id_ = last_id_ + 1;
+  target_ = &target;
+  restarts_before_ = restarts + 1 - target.renewals().value_or(0);
+}
+
+template <class Answer>
+RequestTarget<Answer>& RequestClient<Answer>::target_of(RequestId id) const {
+  if (id >= first_id_) return *target_;
+  for (auto era = left_.rbegin(); era != left_.rend(); ++era)
+    if (id >= era->first) return *era->target;
+  return *target_;
+}
+
+template <class Answer>
 Result<typename RequestClient<Answer>::Offered> RequestClient<Answer>::offer(ObjectLoan loan,
                                                                              const Provenance* provenance,
                                                                              bool may_wait) {
   if (!admits_caller()) return foreign_call();
+  if (alternatives_) (void)alternatives_->take_in();
   if (target_ == nullptr)
     return fail(Code::failed_precondition, "port " + path() + " is not connected; add <connect from=\"" +
                                                path() + "\" to=\"...\"/> to the graph");
   stamp(loan, provenance);
-  const RequestId id = pending_.add();
+  const RequestId id = last_id_ = pending_.add();
   ++sent_;
   const ObjectRef object = std::move(loan).seal();
   if (LinkObserver* observer = home().observer) observer->requested(component(), contract().name, object);
@@ -55,7 +91,7 @@ std::optional<Answer> RequestClient<Answer>::receive(RequestId id) {
   if (!*answer) leave_if_ending();
   if (const ObjectRef object = object_of(*answer)) home().provenance.note(object.header());
   ++(*answer ? answered_ : failed_);
-  if (!*answer) report("refused: " + answer->error().text());
+  if (!*answer) report(target_of(id), "refused: " + answer->error().text());
   return answer;
 }
 
@@ -63,14 +99,15 @@ template <class Answer>
 Answer RequestClient<Answer>::receive_until(RequestId id, TimePoint deadline) {
   home().strand.wait_for(deadline, [&] { return pending_.state(id) != Pending::State::waiting; });
   if (std::optional<Answer> answer = receive(id)) return std::move(*answer);
-  target_->withdraw(id);
+  RequestTarget<Answer>& target = target_of(id);
+  target.withdraw(id);
   if (std::optional<Answer> answer = receive(id)) return std::move(*answer);  // it came at the last moment
   pending_.forget(id);
   leave_if_ending();
   ++timed_out_;
   const Error late = fail(Code::deadline_exceeded,
-                          target_->path() + " " + words_.late + " " + path() + " " + words_.late_ending);
-  report(late.message);
+                          target.path() + " " + words_.late + " " + path() + " " + words_.late_ending);
+  report(target, late.message);
   return late;
 }
 
@@ -80,14 +117,14 @@ void RequestClient<Answer>::leave_if_ending() const {
 }
 
 template <class Answer>
-void RequestClient<Answer>::report(const std::string& failure) const {
+void RequestClient<Answer>::report(const RequestTarget<Answer>& server, const std::string& failure) const {
   if (LinkObserver* observer = home().observer)
-    observer->trouble(LinkTrouble::refused, path(), target_->path(), failure);
+    observer->trouble(LinkTrouble::refused, path(), server.path(), failure);
 }
 
 template <class Answer>
 void RequestClient<Answer>::withdraw(RequestId id) {
-  if (target_ != nullptr) target_->withdraw(id);
+  if (target_ != nullptr) target_of(id).withdraw(id);
   pending_.forget(id);
 }
 
@@ -95,7 +132,8 @@ template <class Answer>
 std::optional<std::uint64_t> RequestClient<Answer>::server_restarts() const {
   if (target_ == nullptr) return std::nullopt;
   home().strand.take_in();
-  return target_->renewals();
+  const std::optional<std::uint64_t> renewals = target_->renewals();
+  return alternatives_ ? restarts_before_ + renewals.value_or(0) : renewals;
 }
 
 template <class Answer>

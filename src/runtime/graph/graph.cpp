@@ -38,14 +38,14 @@ bool operator==(const HardwareNode& a, const HardwareNode& b) {
 bool operator==(const ComponentNode& a, const ComponentNode& b) {
   const auto content = [](const ComponentNode& n) {
     return std::tie(n.name, n.type, n.hardware, n.process, n.priority, n.autonomous, n.on_demand, n.stay_warm,
-                    n.idle_time, n.may_fail, n.trigger, n.start_after, n.params, n.ports);
+                    n.idle_time, n.may_fail, n.trigger, n.start_after, n.params, n.properties, n.ports);
   };
   return content(a) == content(b);
 }
 
 bool operator==(const Edge& a, const Edge& b) {
   const auto content = [](const Edge& e) {
-    return std::tie(e.from, e.to, e.pattern, e.queue, e.interval, e.late_bound, e.link);
+    return std::tie(e.from, e.to, e.pattern, e.queue, e.interval, e.late_bound, e.link, e.choice);
   };
   return content(a) == content(b);
 }

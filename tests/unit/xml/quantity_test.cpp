@@ -60,6 +60,17 @@ TEST_CASE("a value that overflows in SI is refused", "[xml][quantity]") {
   CHECK_FALSE(parse_quantity("1.7e308 km", "m"));
 }
 
+TEST_CASE("a number is read together with what it measures", "[xml][quantity]") {
+  CHECK(parse_measured("190 mm")->value == 0.19);
+  CHECK(parse_measured("190 mm")->si == "m");
+  CHECK(parse_measured("0.5")->si.empty());
+  CHECK(parse_measured("20 %")->value == 0.2);
+  CHECK(parse_measured("20 %")->si.empty());
+  CHECK(parse_measured("3 ft").error().message == "\"3 ft\": \"ft\" is not a unit that Orca knows");
+  CHECK_FALSE(parse_measured("soon"));
+  CHECK_FALSE(parse_measured("1.7e308 km"));
+}
+
 TEST_CASE("a duration is a time with or without a blank before the unit", "[xml][quantity]") {
   CHECK(*parse_duration("60s") == 60s);
   CHECK(*parse_duration("60 s") == 60s);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "candidates.hpp"
 
+#include "checking/trading/providers.hpp"
 #include "endpoints.hpp"
 #include "orca/base/text.hpp"
 #include "ports.hpp"
 #include "reading/codes.hpp"
+#include "reading/naming.hpp"
+#include "reading/trading/constraint.hpp"
 
 namespace orca::graph {
 namespace {
@@ -28,12 +31,18 @@ std::optional<std::string> fitting_port(const CheckedComponent& candidate, const
 
 }  // namespace
 
-bool candidates_are_names(const LateBinding& late, Report& report) {
-  if (late.candidates.value.find_first_of("=<>\"'") == std::string::npos) return true;
-  report.error(codes::kUnsupported, late.candidates.position,
-               "candidates: " + in_quotes(late.candidates.value) +
-                   " is a trading query, which is not supported yet; name the candidates");
-  return false;
+std::optional<std::vector<std::string>> candidate_names(const CheckedComponent& component,
+                                                        const LateBinding& late, const Model& model,
+                                                        Report& report) {
+  if (!looks_like_constraint(late.candidates.value)) return split_names(late.candidates.value);
+  const Wish wish{{component.value.name, late.port},
+                  *component.contract->port(late.port),
+                  "candidates",
+                  late.candidates,
+                  nullptr,
+                  nullptr,
+                  late.context};
+  return find_providers(wish, model, report);
 }
 
 std::optional<Node> candidate_connection(const CheckedComponent& component, const LateBinding& late,

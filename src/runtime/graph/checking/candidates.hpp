@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model.hpp"
 #include "reading/node.hpp"
@@ -10,8 +11,10 @@
 
 namespace orca::graph {
 
-// Reports candidates that are a trading query, and returns false for them.
-bool candidates_are_names(const LateBinding& late, Report& report);
+// Returns the names of the candidates, of which some may be found by what they must be like; nothing after a report.
+std::optional<std::vector<std::string>> candidate_names(const CheckedComponent& component,
+                                                        const LateBinding& late, const Model& model,
+                                                        Report& report);
 
 // Returns the <connect> that a candidate stands for; nothing after a report. `name` is component.port, or a
 // component alone if only one of its ports fits.

@@ -11,6 +11,7 @@
 #include "reading/naming.hpp"
 #include "reading/node_name.hpp"
 #include "reading/parameters.hpp"
+#include "reading/trading/properties.hpp"
 #include "reading/values.hpp"
 
 namespace orca::graph {
@@ -217,6 +218,7 @@ class ComponentReader {
       checked_.sound = params.sound();
       if (params.sound()) checked_.value.params = std::move(params.values);
     }
+    checked_.value.properties = read_properties(node_, report_);
   }
 
   const Node& node_;

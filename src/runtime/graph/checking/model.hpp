@@ -36,6 +36,7 @@ struct SharedThing {
 struct LateBinding {
   std::string port;  // its name in the graph
   Text candidates;
+  std::string context;  // of the file that names them
 };
 
 // A name that the graph gives a port.

@@ -127,7 +127,7 @@ class PortReader {
   void read_candidates(const Node& node, const std::string& name, const PortContract& port) {
     const Text* candidates = node.known("candidates");
     if (candidates == nullptr) return;
-    if (port.many) return checked_.late.push_back({name, *candidates});
+    if (port.many) return checked_.late.push_back({name, *candidates, node.context});
     report_.error(codes::kNoLateBinding, candidates->position,
                   title_ + " (" + described(port) +
                       ") takes no candidates: only a port array chooses whom it listens to at run time; "

@@ -9,11 +9,14 @@
 
 #include "candidates.hpp"
 #include "checking/placing/links.hpp"
+#include "checking/trading/choices.hpp"
+#include "checking/trading/providers.hpp"
 #include "edges.hpp"
 #include "endpoints.hpp"
 #include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
+#include "reading/values.hpp"
 
 namespace orca::graph {
 namespace {
@@ -41,29 +44,23 @@ class Wiring {
  public:
   Wiring(const Model& model, Report& report) : model_(model), report_(report) {}
 
-  void connect(const Node& connection, bool late_bound = false) {
-    const Endpoint from = resolve_endpoint(connection, "from", model_, report_);
-    const Endpoint to = resolve_endpoint(connection, "to", model_, report_);
-    touch(from, to);
-    touch(to, from);
-    if (from.port == nullptr || to.port == nullptr) return doubt(from, to);
-    auto edge = make_edge(connection, from, to, report_);
-    if (!edge) doubt(from, to);
-    if (!edge || connection.duplicate) return;
-    edge->late_bound = late_bound;
-    edge->link = link_of(connection, *edge, model_, report_);
-    if (late_bound && is_there_already(*edge)) return;
-    if (takes_one_more(*edge, from, to)) edges_.push_back(*std::move(edge));
+  void connect(const Node& connection) {
+    const bool has_both = connection.find("from") != nullptr && connection.find("to") != nullptr;
+    if (connection.find("seek") != nullptr && !has_both) return trade(connection);
+    check_no_trade(connection);
+    join(connection);
   }
 
   // Connects the candidates of late-bound ports, after all written connections.
   void connect_candidates() {
     for (const CheckedComponent& component : model_.components) {
       for (const LateBinding& late : component.late) {
-        if (component.duplicate || !candidates_are_names(late, report_)) continue;
-        for (const std::string& name : split_names(late.candidates.value)) {
+        if (component.duplicate) continue;
+        const auto names = candidate_names(component, late, model_, report_);
+        if (!names) doubtful_.insert(component.value.name);
+        for (const std::string& name : names.value_or(std::vector<std::string>{})) {
           const auto connection = candidate_connection(component, late, name, model_, report_);
-          if (connection) connect(*connection, true);
+          if (connection) join(*connection, true);
           if (!connection) doubtful_.insert(component.value.name);
         }
       }
@@ -88,6 +85,108 @@ class Wiring {
   }
 
  private:
+  void join(const Node& connection, bool late_bound = false) {
+    const Endpoint from = resolve_endpoint(connection, "from", model_, report_);
+    const Endpoint to = resolve_endpoint(connection, "to", model_, report_);
+    touch(from, to);
+    touch(to, from);
+    if (from.port == nullptr || to.port == nullptr) return doubt(from, to);
+    auto edge = make_edge(connection, from, to, report_);
+    if (!edge) doubt(from, to);
+    if (!edge || connection.duplicate) return;
+    edge->late_bound = late_bound;
+    edge->choice = read_choice(connection, from.port->role == Role::proxy ? from : to);
+    edge->link = link_of(connection, *edge, model_, report_);
+    if (late_bound && is_there_already(*edge)) return;
+    if (takes_one_more(*edge, from, to)) edges_.push_back(*std::move(edge));
+  }
+
+  // --- Trading
+
+  // Connects a proxy with everything that fits what it seeks.
+  void trade(const Node& connection) {
+    const char* const attribute = connection.find("from") != nullptr ? "from" : "to";
+    if (connection.find(attribute) == nullptr)
+      return doubt({}, {});  // it has no end at all, which is reported
+    const Endpoint client = resolve_endpoint(connection, attribute, model_, report_);
+    touch(client, {});
+    if (client.port == nullptr) return doubt(client, {});
+    if (connection.duplicate) return;
+    const bool good = check_trader(connection, client, attribute);
+    for (const Node& choice : good ? choices_of(connection, client, attribute) : std::vector<Node>{}) {
+      const std::size_t errors = report_.diagnostics().error_count();
+      join(choice);
+      if (report_.diagnostics().error_count() != errors) return;  // what is wrong with one is with the others
+    }
+    if (!good) doubt(client, {});
+  }
+
+  // Returns the connections that a proxy with a wish chooses from.
+  std::vector<Node> choices_of(const Node& connection, const Endpoint& client, const char* attribute) {
+    const Text* const seek = connection.known("seek");
+    if (seek == nullptr) return doubt(client, {}), std::vector<Node>{};
+    const Wish wish{client.ref,
+                    *client.port,
+                    "seek",
+                    *seek,
+                    connection.known("seek_port"),
+                    connection.known("prefer"),
+                    connection.context};
+    const auto providers = find_providers(wish, model_, report_);
+    if (!providers) return doubt(client, {}), std::vector<Node>{};
+    std::vector<Node> choices;
+    for (const std::string& provider : *providers) {
+      Node choice = connection;
+      const char* const other = std::string_view(attribute) == "from" ? "to" : "from";
+      choice.attributes.insert_or_assign(other, Text{provider, seek->position, true, seek->named_in});
+      choice.attributes.insert_or_assign(
+          "choice", Text{std::to_string(choices.size() + 1), seek->position, true, seek->named_in});
+      choices.push_back(std::move(choice));
+    }
+    return choices;
+  }
+
+  // Returns false after a report that the port cannot seek anything.
+  bool check_trader(const Node& connection, const Endpoint& client, const char* attribute) {
+    const auto refuse = [&](const char* place, const std::string& why) {
+      report_.error(codes::kTrade, connection.place(place), why);
+      return false;
+    };
+    const bool is_from = std::string_view(attribute) == "from";
+    if (client.port->role != Role::proxy || is_from_end(*client.port) != is_from)
+      return refuse(attribute,
+                    std::string(attribute) + ": " + described(client) +
+                        " seeks nothing; a PushProxy does as to, a QueryProxy or SendProxy as from");
+    if (client.port->many)
+      return refuse("seek", described(client) +
+                                " takes any number of connections; say in its component which: " +
+                                "<port name=" + in_quotes(client.ref.port) + " candidates=\"...\"/>");
+    if (connection.find("choice") != nullptr)
+      return refuse("choice", "choice: seek numbers its connections itself; remove choice");
+    return true;
+  }
+
+  void check_no_trade(const Node& connection) {
+    if (connection.find("seek") != nullptr) return;  // there is one end too many, which is reported
+    for (const char* name : {"seek_port", "prefer"})
+      if (connection.find(name) != nullptr)
+        report_.error(codes::kTrade, connection.place(name),
+                      std::string(name) + " has a meaning only with seek; remove it");
+  }
+
+  std::uint32_t read_choice(const Node& connection, const Endpoint& proxy) {
+    const Text* const text = connection.find("choice");
+    if (text == nullptr) return 0;
+    const auto read = read_value(*text, connection.rule->attribute("choice")->value, "choice", report_);
+    if (!proxy.port->many) return read ? static_cast<std::uint32_t>(std::get<std::int64_t>(*read)) : 0;
+    report_.error(
+        codes::kTrade, connection.place("choice"),
+        "choice has no meaning for " + described(proxy) + ", which uses all its connections; remove it");
+    return 0;
+  }
+
+  // --- What may be missing
+
   // Notes which components may lack the connection between these ends, of which at least one is wrong.
   void doubt(const Endpoint& from, const Endpoint& to) {
     doubt_end(from, to);
@@ -146,15 +245,7 @@ class Wiring {
 
   bool takes_one_more(const Edge& edge, const Endpoint& from, const Endpoint& to) {
     const Endpoint& proxy = from.port->role == Role::proxy ? from : to;
-    if (proxy.port->many) return true;
-    const auto [first, fresh] = single_.try_emplace(proxy.ref, edge);
-    if (fresh) return true;
-    report_.error(codes::kTooManyEdges, edge.position,
-                  described(proxy) + " takes one connection and gets two: from " +
-                      in_quotes(edge.from.text()) + " to " + in_quotes(edge.to.text()) + " here, from " +
-                      in_quotes(first->second.from.text()) + " to " + in_quotes(first->second.to.text()) +
-                      " at " + first->second.position.text());
-    return false;
+    return proxy.port->many || single_.add(edge, proxy);
   }
 
   void check_connected(const CheckedComponent& component, const PortContract& port) {
@@ -208,7 +299,7 @@ class Wiring {
   std::set<PortRef> touched_;
   std::vector<Loose> loose_;
   std::map<Plug, std::vector<std::string>> offers_;  // ports, by the plug that fits them
-  std::map<PortRef, Edge> single_;                   // the first edge at each proxy that takes only one
+  Choices single_{report_};                          // the edges at proxies that use one at a time
 };
 
 }  // namespace

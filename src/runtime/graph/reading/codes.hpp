@@ -9,7 +9,6 @@ inline constexpr const char* kWrongRoot = "G001";
 inline constexpr const char* kVersion = "G002";
 inline constexpr const char* kUnknownElement = "G003";
 inline constexpr const char* kMisplacedElement = "G004";
-inline constexpr const char* kUnsupported = "G005";
 inline constexpr const char* kUnknownAttribute = "G006";
 inline constexpr const char* kMissingAttribute = "G007";
 inline constexpr const char* kStrayText = "G008";
@@ -70,5 +69,9 @@ inline constexpr const char* kNoMachine = "G065";
 inline constexpr const char* kSplit = "G066";
 inline constexpr const char* kLink = "G067";
 inline constexpr const char* kNothingRuns = "G068";
+inline constexpr const char* kConstraint = "G069";
+inline constexpr const char* kUnknownProperty = "G070";
+inline constexpr const char* kNothingFits = "G071";
+inline constexpr const char* kTrade = "G072";
 
 }  // namespace orca::graph::codes

@@ -38,6 +38,7 @@ struct Node {
   // Whether its name is taken. Such a node is checked, but never found by name.
   bool duplicate = false;
   const Origin* origin = nullptr;  // null: the file on the command line
+  std::string context{};           // that <use> has put before the names in it, with a '/' at its end
 
   [[nodiscard]] bool is(std::string_view element) const { return rule->name == element; }
   [[nodiscard]] const Text* find(std::string_view attribute) const;

@@ -3,6 +3,7 @@
 
 #include "naming.hpp"
 #include "orca/graph/process.hpp"
+#include "trading/constraint.hpp"
 
 namespace orca::graph {
 namespace {
@@ -38,6 +39,7 @@ void prefix_component(Node& node, const std::string& context) {
 }  // namespace
 
 void put_prefix(Node& node, const std::string& context) {
+  node.context.insert(0, context);
   if (node.is("machine")) prefix_name(node, "name", context);
   if (node.is("process")) {
     prefix_process(node, "name", context);
@@ -48,7 +50,8 @@ void put_prefix(Node& node, const std::string& context) {
     prefix_name(node, "from", context);
     prefix_name(node, "to", context);
   }
-  if (node.is("port")) prefix_names(node, "candidates", context);
+  if (node.is("port") && !looks_like_constraint(node.value("candidates")))
+    prefix_names(node, "candidates", context);
   for (Node& child : node.children) put_prefix(child, context);
 }
 

@@ -156,9 +156,25 @@ constexpr std::array kComponent{
 constexpr std::array kParam{
     AttributeRule{"name", true, ""},
     AttributeRule{"value", true, "Value with a unit (0.5 m, 22.5 deg); a bare number is in SI."}};
+constexpr std::array kProperty{
+    AttributeRule{"name", true, "Name of the property: letters, digits and '_'."},
+    AttributeRule{"value", true,
+                  "true, false, a number with its unit (0.1 m), or a text; a text that begins like one of "
+                  "these is put between quotes."}};
 constexpr std::array kConnect{
-    AttributeRule{"from", true, "component.port: a PushServer, QueryProxy or SendProxy."},
-    AttributeRule{"to", true, "component.port: a PushProxy, QueryServer or SendServer."},
+    AttributeRule{"from", false, "component.port: a PushServer, QueryProxy or SendProxy."},
+    AttributeRule{"to", false, "component.port: a PushProxy, QueryServer or SendServer."},
+    AttributeRule{"seek", false,
+                  "Instead of the serving end, what its component must be like: terms such as "
+                  "quality >= 0.5; platform == 'Dewey'."},
+    AttributeRule{"seek_port", false, "Name of the port that is sought; needed if several ports fit."},
+    AttributeRule{"prefer", false,
+                  "Of the components that fit, which one is taken first: max or min and a property; in the "
+                  "order of the file if not given."},
+    AttributeRule{"choice", false,
+                  "Rank of the connection, from 1, among several of one proxy, of which it uses one at a "
+                  "time; seek gives it by itself.",
+                  integer(1, 10'000)},
     AttributeRule{"queue", false, "Number of objects that can wait, or latest: only the newest waits.",
                   integer(1, 100'000)},
     AttributeRule{"overflow", false, "What happens when the queue is full.", one_of(kOverflow)},
@@ -190,7 +206,8 @@ constexpr std::array kPort{
                   kBoolean},
     AttributeRule{
         "candidates", false,
-        "Components or component.ports that a port array may be connected to at run time, by name."}};
+        "What a port array may be connected to at run time, by name: components, component.ports, or terms "
+        "as in seek that the components meet."}};
 constexpr std::array kInclude{
     AttributeRule{"file", true, "Path of the graph file, relative to the folder of this file."}};
 constexpr std::array kUse{
@@ -208,11 +225,9 @@ constexpr ElementRule kGivenArgRule{
 constexpr ElementRule kParamRule{.name = "param",
                                  .attributes = kParam,
                                  .text = "A parameter's value; deployer --describe PLUGIN.so lists them."};
-constexpr ElementRule kPropertyRule{
-    .name = "property",
-    .attributes = kParam,
-    .text = "no component is found by its properties until there is a directory; remove it",
-    .planned = true};
+constexpr ElementRule kPropertyRule{.name = "property",
+                                    .attributes = kProperty,
+                                    .text = "Something that the component exports about itself."};
 constexpr ElementRule kPortRule{
     .name = "port", .attributes = kPort, .text = "A change to a port of the component, in this system only."};
 constexpr ElementRule kConnectRule{

@@ -46,7 +46,22 @@ class Reader {
     read_children(element, node);
     drop_duplicates(node);
     if (node.is("component") && node.value("name").empty()) result_.names_incomplete = true;
+    if (node.is("connect")) check_ends(node);
     return node;
+  }
+
+  // A connection has two ends, and what it seeks can stand for one of them.
+  void check_ends(const Node& node) {
+    const bool from = node.find("from") != nullptr;
+    const bool to = node.find("to") != nullptr;
+    const bool seeks = node.find("seek") != nullptr;
+    if (from && to && seeks)
+      return report_.error(codes::kTrade, node.place("seek"),
+                           "<connect>: seek stands for the end that serves; remove that end, or seek");
+    if (seeks && (from || to)) return;
+    if (!from)
+      report_.error(codes::kMissingAttribute, node.position, "<connect> needs the attribute \"from\"");
+    if (!to) report_.error(codes::kMissingAttribute, node.position, "<connect> needs the attribute \"to\"");
   }
 
   void read_attributes(const xml::Element& element, Node& node) {
@@ -62,9 +77,7 @@ class Reader {
   // @param rule  the rule that was probably meant; null: unknown
   void read_child(const xml::Element& element, const xml::ElementRule* rule, Node& parent) {
     if (rule == nullptr) return excuse(element);
-    if (!rule->planned) return parent.children.push_back(read(element, *rule));
-    report_.error(codes::kUnsupported, element.position(),
-                  tag(rule->name) + " is not supported yet: " + std::string(rule->text));
+    parent.children.push_back(read(element, *rule));
   }
 
   void excuse(const xml::Element& element) {
@@ -73,7 +86,9 @@ class Reader {
   }
 
   // Returns whether the node is a setting: it may stand once inside an element, under its name.
-  static bool is_setting(const Node& node) { return node.is("param") || node.is("port") || node.is("arg"); }
+  static bool is_setting(const Node& node) {
+    return node.is("param") || node.is("property") || node.is("port") || node.is("arg");
+  }
 
   void drop_duplicates(Node& node) {
     std::map<std::pair<std::string_view, std::string>, xml::Position> seen;

@@ -141,6 +141,7 @@ Attributes attributes_of(const Edge& edge) {
   if (edge.queue.confirm == QueuePolicy::Confirm::handled)
     add(result, "confirm", to_string(edge.queue.confirm));
   if (edge.link != Link::local) add(result, "link", to_string(edge.link));
+  if (edge.choice > 0) add(result, "choice", std::to_string(edge.choice));
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "attributes.hpp"
 #include "orca/base/json.hpp"
+#include "reading/trading/properties.hpp"
 
 namespace orca::graph {
 namespace {
@@ -37,6 +38,7 @@ Fields fields_of(const ComponentNode& node) {
   std::ranges::sort(sorted.start_after);
   Fields fields = fields_of(attributes_of(sorted));
   add_params(node.params, fields);
+  for (const auto& [name, value] : node.properties) fields["property " + name] = property_text(value);
   for (auto [name, setting] : node.ports) {
     std::ranges::sort(setting.candidates);
     fields["port " + name] = port_text(setting);

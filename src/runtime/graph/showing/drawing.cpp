@@ -24,6 +24,7 @@ std::string label_of(const Edge& edge) {
   if (edge.pattern == Pattern::send) label += " (send)";
   if (edge.pattern == Pattern::query) label += " (query)";
   if (edge.late_bound) label += " (candidate)";
+  if (edge.choice > 0) label += " (choice " + std::to_string(edge.choice) + ")";
   if (edge.link == Link::dds) label += " (dds)";
   return label;
 }
@@ -63,8 +64,8 @@ class Draughtsman {
   }
 
   void add(const Edge& edge) {
-    drawing_.edges.push_back(
-        {ids_[edge.from.component], ids_[edge.to.component], label_of(edge), edge.late_bound});
+    drawing_.edges.push_back({ids_[edge.from.component], ids_[edge.to.component], label_of(edge),
+                              edge.late_bound || edge.choice > 1});
   }
 
   template <class Part>

@@ -20,6 +20,20 @@ void write(const Params& params, JsonWriter& json) {
   json.end();
 }
 
+// Writes properties in SI. Numbers and flags keep their type.
+void write(const Properties& properties, JsonWriter& json) {
+  json.key("properties").begin_object();
+  for (const auto& [name, value] : properties) {
+    if (const auto* number = std::get_if<Quantity>(&value))
+      json.member(name, number->value);
+    else if (const auto* flag = std::get_if<bool>(&value))
+      json.member(name, *flag);
+    else
+      json.member(name, std::get<std::string>(value));
+  }
+  json.end();
+}
+
 // Writes machines or processes.
 template <class Node>
 void write(const char* key, const std::vector<Node>& nodes, JsonWriter& json) {
@@ -38,6 +52,7 @@ void write(const ComponentNode& node, JsonWriter& json) {
   json.member("name", node.name);
   write(attributes_of(node), json);
   write(node.params, json);
+  write(node.properties, json);
   json.key("ports").begin_object();
   for (const auto& [name, setting] : node.ports) {
     json.key(name).begin_object();

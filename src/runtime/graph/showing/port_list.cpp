@@ -30,8 +30,10 @@ ListedPort listed(const ComponentNode& node, const PortContract& contract) {
 
 std::string name(const PortRef& ref) { return ref.text(); }
 std::string name(const ListedPeer& peer) {
-  const std::string link = peer.link == Link::local ? "" : std::string(" (") + to_string(peer.link) + ")";
-  return peer.ref.text() + link;
+  std::string how = peer.choice == 0 ? "" : "choice " + std::to_string(peer.choice);
+  if (peer.in_use) how += ", in use";
+  if (peer.link != Link::local) how += (how.empty() ? "" : ", ") + std::string(to_string(peer.link));
+  return peer.ref.text() + (how.empty() ? "" : " (" + how + ")");
 }
 
 template <class Named>
@@ -65,13 +67,24 @@ std::vector<std::string> texts(const std::vector<PortRef>& refs) {
   return result;
 }
 
+template <class Value>
+void write(const char* key, const std::vector<Value>& values, JsonWriter& json) {
+  json.key(key).begin_array();
+  for (const Value value : values) json.value(value);
+  json.end();
+}
+
 void write(const ListedPort& port, JsonWriter& json) {
   json.begin_object();
   std::vector<PortRef> peers;
   std::vector<std::string> links;
+  std::vector<std::int64_t> choices;
+  std::vector<bool> in_use;
   for (const ListedPeer& peer : port.peers) {
     peers.push_back(peer.ref);
     links.emplace_back(to_string(peer.link));
+    choices.push_back(peer.choice);
+    in_use.push_back(peer.in_use);
   }
   json.member("port", port.ref.text());
   json.member("declared_as", port.contract.name);
@@ -85,6 +98,8 @@ void write(const ListedPort& port, JsonWriter& json) {
   json.member("disabled", port.disabled);
   json.member("connected_to", texts(peers));
   json.member("links", links);
+  write("choices", choices, json);
+  write("in_use", in_use, json);
   json.member("candidates", texts(port.candidates));
   json.member("text", port.contract.text);
   json.end();
@@ -95,8 +110,8 @@ void write(const ListedPort& port, JsonWriter& json) {
 std::vector<ListedPort> list_ports(const Graph& graph, Catalogue& catalogue) {
   std::map<PortRef, std::vector<ListedPeer>> peers;
   for (const Edge& edge : graph.edges) {
-    peers[edge.from].push_back({edge.to, edge.link});
-    if (!edge.late_bound) peers[edge.to].push_back({edge.from, edge.link});
+    peers[edge.from].push_back({edge.to, edge.link, edge.choice});
+    if (!edge.late_bound) peers[edge.to].push_back({edge.from, edge.link, edge.choice});
   }
   std::vector<ListedPort> ports;
   for (const ComponentNode& node : graph.components) {
@@ -108,6 +123,15 @@ std::vector<ListedPort> list_ports(const Graph& graph, Catalogue& catalogue) {
     }
   }
   return ports;
+}
+
+void mark_in_use(std::vector<ListedPort>& ports, const std::vector<const Edge*>& edges) {
+  for (ListedPort& port : ports)
+    for (ListedPeer& peer : port.peers)
+      peer.in_use = std::ranges::any_of(edges, [&](const Edge* edge) {
+        return (edge->from == port.ref && edge->to == peer.ref) ||
+               (edge->to == port.ref && edge->from == peer.ref);
+      });
 }
 
 std::string ports_text(const std::vector<ListedPort>& ports) {

@@ -2,6 +2,7 @@
 #include "orca/graph/print.hpp"
 #include "attributes.hpp"
 #include "orca/xml/document.hpp"
+#include "reading/trading/properties.hpp"
 
 namespace orca::graph {
 namespace {
@@ -42,6 +43,8 @@ std::string plain_text(const char* name, const Node& node) {
 
 std::string component_text(const ComponentNode& node) {
   std::string content = params_text(node.params);
+  for (const auto& [name, value] : node.properties)
+    content += named_value("property", name, property_text(value));
   for (const auto& [name, setting] : node.ports)
     content += "    <port" + attribute("name", name) + text_of(attributes_of(setting)) + "/>\n";
   return element("component", attribute("name", node.name) + text_of(attributes_of(node)), content);

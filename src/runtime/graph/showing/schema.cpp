@@ -40,7 +40,6 @@ std::string attribute_text(const AttributeRule& rule) {
 std::string children_text(const ElementRule& rule) {
   std::string text;
   for (const ElementRule* child : rule.children) {
-    if (child->planned) continue;
     const std::string name(child->name);
     text += "      <xs:element name=\"" + name + "\" type=\"" + (brings_file(rule) ? "given_" : "") + name +
             "\"/>\n";
@@ -68,8 +67,7 @@ std::string schema() {
       "    <xs:restriction base=\"xs:string\"><xs:pattern value=\".*[$]\\{.*\\}.*\"/></xs:restriction>\n"
       "  </xs:simpleType>\n"
       "  <xs:element name=\"graph\" type=\"graph\"/>\n";
-  for (const ElementRule* rule : graph_rules().elements)
-    if (!rule->planned) text += type_text(std::string(rule->name), *rule);
+  for (const ElementRule* rule : graph_rules().elements) text += type_text(std::string(rule->name), *rule);
   return text + type_text("given_arg", *graph_rules().find("include")->child("arg")) + "</xs:schema>\n";
 }
 

@@ -30,9 +30,22 @@ Status connect(const graph::Graph& graph, const std::function<ComponentInstance*
                   edge.position.text());
     QueuePolicy policy = edge.queue;
     policy.min_interval = edge.interval;
+    Endpoint& client = edge.pattern == Pattern::push ? *to : *from;
+    prepare_choice(edge, client);
     if (Status connected = links.connect(*from, *to, policy); !connected.ok()) return connected;
+    take_first_choice(edge, client);
   }
   return ok();
+}
+
+void prepare_choice(const graph::Edge& edge, Endpoint& client) {
+  auto* const port = dynamic_cast<MovablePort*>(&client);
+  if (edge.choice > 0 && port != nullptr && !port->can_move()) port->allow_moves();
+}
+
+void take_first_choice(const graph::Edge& edge, Endpoint& client) {
+  auto* const port = dynamic_cast<MovablePort*>(&client);
+  if (edge.choice == 1 && port != nullptr) (void)port->move_to(edge.server().text());
 }
 
 bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline,

@@ -21,6 +21,13 @@ namespace orca::host {
 Status connect(const graph::Graph& graph, const std::function<ComponentInstance*(const std::string&)>& find,
                Links& links);
 
+/// Lets the port at an edge move if the graph gives it several edges to choose from.
+/// @pre  the edge is not connected yet.
+void prepare_choice(const graph::Edge& edge, Endpoint& client);
+/// Moves the port to the edge if that is the first of several that it chooses from.
+/// @pre  the edge is connected.
+void take_first_choice(const graph::Edge& edge, Endpoint& client);
+
 /// Waits until `done` holds, and evaluates it each time something changes.
 /// @return false if it does not hold at the deadline.
 bool wait_until_holds(Executive& executive, Event& changed, TimePoint deadline,

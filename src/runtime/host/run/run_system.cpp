@@ -14,6 +14,7 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
+#include "orca/host/edge_choice.hpp"
 #include "orca/host/idleness.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/host/robot_finder.hpp"
@@ -71,7 +72,8 @@ class Run {
       return refuse_output(opened.error());
     if (options_.looks_on) reporter().look_on(sightings_);
     if (!options_.recordings.empty()) reporter().record(files_.recorder());
-    if (const Status built = watched_.build(); !built.ok()) return refuse(built.error());
+    if (const Status built = watched_.build(); !built.ok())
+      return fail_with(RunOutcome::not_started, built.error());
     reporter().introduce(find_robots(graph_, system().robots()));
     if (options_.looks_on)
       listener_.built(view_.emplace(executive_, start_, system(), reporter(), sightings_));
@@ -94,8 +96,6 @@ class Run {
     reporter().log_error(error.text());
     if (!error_) conclude(RunOutcome::failed, error);
   }
-
-  void refuse(const Error& error) { fail_with(RunOutcome::not_started, error); }
 
   // A component that has failed has said itself why.
   void refuse_start(const Error& error) {
@@ -160,14 +160,25 @@ class Run {
   void supervise() {
     const TimePoint end = options_.until ? executive_.now() + *options_.until : kForever;
     bool all_wait = false;
-    while (!stop_.requested() && executive_.now() < end && !has_ended() && !report_standstill(all_wait))
+    while (!stop_.requested() && executive_.now() < end && !has_ended() && !report_standstill(all_wait)) {
+      choose_edges();
       all_wait = !watched_.changed().wait_until(end) && end == kForever && executive_.is_virtual();
+    }
     if (error_ || has_ended()) return;
     outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
     if (outcome_ == RunOutcome::time_is_up && !graph_.ends.empty()) report_time_limit();
     if (const std::string signal = stop_.failure(); !signal.empty())
       fail_with(RunOutcome::failed,
                 fail(Code::failed_precondition, "the signal " + signal + " ended the run"));
+  }
+
+  // Moves ports whose server is not up any more to another one.
+  void choose_edges() {
+    const auto standings = [this](const std::string& name) { return standing_of(reports_(name)); };
+    for (const EdgeChoice::Move& move : choice_.look(standings)) {
+      reporter().log(log::Level::warning, move.edge->client().component, move.text);
+      (void)system().move(*move.edge);
+    }
   }
 
   // Reports that virtual time cannot pass any more, and returns whether that is so.
@@ -298,6 +309,7 @@ class Run {
   WatchedSystem watched_;
   const TimePoint start_ = watched_.start();
   const Reports reports_ = [this](const std::string& name) { return system().component(name)->report(); };
+  EdgeChoice choice_{graph_};
   std::optional<LiveView> view_;         // of the system
   std::optional<TimePoint> end_;         // when the taking down began
   std::optional<RunCounters> counters_;  // of the run until it was taken down

@@ -152,6 +152,12 @@ void System::let_go() {
     if (hw::MotionHW* const motion = hardware->container().motion()) motion->let_go();
 }
 
+Status System::move(const graph::Edge& edge) {
+  auto* const client = dynamic_cast<MovablePort*>(endpoint(edge.client()));
+  if (client != nullptr && client->move_to(edge.server().text())) return ok();
+  return fail(Code::not_found, edge.client().text() + " has no choice of " + edge.server().text());
+}
+
 Endpoint* System::endpoint(const graph::PortRef& port) const {
   const ComponentInstance* const owner = find(port.component);
   return owner == nullptr ? nullptr : owner->endpoint(port.port);

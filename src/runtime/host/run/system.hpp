@@ -77,6 +77,11 @@ class System {
   Status set_params(const std::string& component, const std::map<std::string, std::string>& texts,
                     Event& changed, TimePoint deadline);
 
+  /// Lets the client of an edge use it from now on, of those that it chooses from.
+  /// @errors  not_found: the client is not in this process, or does not choose.
+  /// @thread  any, once the system is built.
+  Status move(const graph::Edge& edge);
+
   /// Returns the endpoint of a port; null if there is none.
   [[nodiscard]] Endpoint* endpoint(const graph::PortRef& port) const;
   [[nodiscard]] const ComponentInstance* component(const std::string& name) const;

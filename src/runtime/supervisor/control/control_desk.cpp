@@ -45,7 +45,7 @@ ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
                          const std::vector<Member*>& members, Ledger& ledger, RunLevers levers)
     : ledger_(ledger),
       names_(graph, facts.ports, members),
-      showing_(graph, facts, members, ledger),
+      showing_(graph, facts, members, ledger, levers.edges_in_use),
       operating_(graph, facts, names_, std::move(levers)),
       motors_(members) {}
 

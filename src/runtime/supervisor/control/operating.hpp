@@ -19,6 +19,8 @@ namespace orca::supervisor {
 struct RunLevers {
   std::function<void()> stop;              ///< Ends the run.
   std::function<Status(Member&)> restart;  ///< Ends a process and starts it again.
+  /// Returns the edges in use of those that ports choose from.
+  std::function<std::vector<const graph::Edge*>()> edges_in_use;
 };
 
 /// Carries out what an operator orders: pauses, new parameters, restarts, the end.

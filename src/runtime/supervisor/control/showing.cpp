@@ -54,7 +54,9 @@ void Showing::graph(Reply& reply) const {
 }
 
 void Showing::ports(Reply& reply) const {
-  reply.add(reply.as_json() ? graph::ports_json(facts_.ports) : graph::ports_text(facts_.ports));
+  std::vector<graph::ListedPort> ports = facts_.ports;
+  graph::mark_in_use(ports, edges_in_use_());
+  reply.add(reply.as_json() ? graph::ports_json(ports) : graph::ports_text(ports));
 }
 
 void Showing::plugins(Reply& reply) const {

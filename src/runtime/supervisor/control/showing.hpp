@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "control/reply.hpp"
@@ -17,15 +19,20 @@ namespace orca::supervisor {
 class Showing {
  public:
   /// All of these outlive the object.
+  /// @param edges_in_use  returns the edges in use of those that ports choose from.
   Showing(const graph::Graph& graph, const SystemFacts& facts, const std::vector<Member*>& members,
-          const Ledger& ledger)
-      : graph_(graph), facts_(facts), members_(members), ledger_(ledger) {}
+          const Ledger& ledger, std::function<std::vector<const graph::Edge*>()> edges_in_use)
+      : graph_(graph),
+        facts_(facts),
+        members_(members),
+        ledger_(ledger),
+        edges_in_use_(std::move(edges_in_use)) {}
 
   /// A line for each component: where it runs and how it is.
   void components(Reply& reply) const;
   /// The graph, as `deployer --print` shows it.
   void graph(Reply& reply) const;
-  /// All ports, as `deployer --list-ports` shows them.
+  /// All ports, as `deployer --list-ports` shows them, and which choices are in use.
   void ports(Reply& reply) const;
   /// A line for each plugin, with the types and components that need it.
   void plugins(Reply& reply) const;
@@ -41,6 +48,7 @@ class Showing {
   const SystemFacts& facts_;
   const std::vector<Member*>& members_;
   const Ledger& ledger_;
+  const std::function<std::vector<const graph::Edge*>()> edges_in_use_;
 };
 
 }  // namespace orca::supervisor

@@ -140,6 +140,7 @@ std::optional<Answer> OrderDesk::answer_of(Order& order) {
   if (auto* line = std::get_if<OpenLine>(&order)) return Answer{lines_.open(std::move(*line))};
   if (auto* renew = std::get_if<RenewEdge>(&order))
     return Answer{part_.renew_edge(renew->edge.edge, std::move(renew->edge.memory))};
+  if (const auto* move = std::get_if<MoveEdge>(&order)) return Answer{part_.move_edge(move->edge)};
   return std::nullopt;
 }
 

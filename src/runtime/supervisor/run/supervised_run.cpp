@@ -27,6 +27,7 @@
 #include "run_identity.hpp"
 #include "starter.hpp"
 #include "taking_down.hpp"
+#include "trading.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -106,7 +107,7 @@ class SupervisedRun {
       end_for_restart(member);
       return ok();
     };
-    return {stop, restart};
+    return {stop, restart, [this] { return trading_.in_use(); }};
   }
 
   // ---- Starting
@@ -127,6 +128,7 @@ class SupervisedRun {
       if (member->process() != nullptr) beats_.watch_working(member->index(), member->node().hang_limit);
     up_since_ = steady_now();
     conclusion_.came_up();
+    trading_.brief(all_);  // nobody knows any more what they use
     std::erase_if(missing, [this](const Member* member) {
       const Error gone = note_gone(*member, ledger_, policy_);
       const bool stays_away = policy_.has_finished(member->index());
@@ -162,6 +164,7 @@ class SupervisedRun {
 
   void built(const Members& members) {
     control_.built(members);
+    trading_.brief(members);
     if (!conclusion_.has_come_up()) ledger_.introduce();
   }
 
@@ -209,6 +212,7 @@ class SupervisedRun {
     if (conclusion_.is_over()) return;
     for (const auto& bring_up : began_) bring_up->go_on();
     start_due();
+    if (conclusion_.has_come_up()) trading_.look();
   }
 
   void look_after(Member& member) {
@@ -391,6 +395,7 @@ class SupervisedRun {
   Ledger ledger_;
   std::optional<Neighbours> neighbours_;  // if the graph has several machines
   const host::Reports reports_ = ledger_.reports();
+  Trading trading_{graph_, all_, reports_, neighbours_};
   RestartPolicy policy_;
   Poller poller_;
   Heartbeats beats_{run_.page};

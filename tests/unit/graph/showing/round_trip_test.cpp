@@ -86,11 +86,12 @@ class RandomGraph {
            maybe(" priority='" + integer(-100, 100) + "'") +
            (pick(2) == 0 ? loading() : maybe(" autonomous='true'")) + maybe(" start_after='base fuser'") +
            maybe(" may_fail='true'") + (by_stamps ? stamps() : maybe(trigger())) + ">" +
-           maybe(param("stop_distance", real(0.05, 5.0))) + maybe(param("sector", integer(0, 180) + " deg")) +
-           maybe(param("gain", real(0.0, 1e6))) + maybe(param("samples", integer(1, 64))) +
-           maybe(param("verbose", "true")) + maybe(param("mode", "turn")) +
-           maybe(param("label", free_text())) + maybe(param("map", free_text())) +
-           maybe(param("zones", "a; b $$ c ;d&amp;e")) + "</component>" +
+           maybe("<property name='range' value='" + real(0, 9) + " m'/>") +
+           maybe("<property name='room' value=\"'4 m'\"/>") + maybe(param("stop_distance", real(0.05, 5.0))) +
+           maybe(param("sector", integer(0, 180) + " deg")) + maybe(param("gain", real(0.0, 1e6))) +
+           maybe(param("samples", integer(1, 64))) + maybe(param("verbose", "true")) +
+           maybe(param("mode", "turn")) + maybe(param("label", free_text())) +
+           maybe(param("map", free_text())) + maybe(param("zones", "a; b $$ c ;d&amp;e")) + "</component>" +
            connect("base.SonarRangeReadingsPush", name + ".sonar",
                    (by_stamps ? queue(2) : maybe(queue(1))) + maybe(" interval='" + real(0, 10) + "'") +
                        maybe(" deadline='" + real(10, 20) + "'") +

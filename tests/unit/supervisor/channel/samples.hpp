@@ -42,7 +42,7 @@ inline std::vector<supervisor::Order> all_orders() {
                         ForgetAlarm{"FAILED", "avoid", "behaviours"}, ReleaseMotors{}, Count{},
                         OpenLine{"base", "OdometryPush", true, false, null_device()},
                         Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}}, Say{some_bytes()},
-                        Outlive{null_device(), 60'000'000'000}, Adopt{});
+                        Outlive{null_device(), 60'000'000'000}, Adopt{}, MoveEdge{7});
 }
 
 /// Returns at least one of each report.

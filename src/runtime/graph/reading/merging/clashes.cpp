@@ -18,6 +18,13 @@ std::vector<const Origin*> way_of(const Node& node) {
   return way;
 }
 
+std::string ends_of(const Node& node) {
+  const std::string from = node.value("from");
+  const std::string to = node.value("to");
+  if (node.find("seek") != nullptr) return "that " + in_quotes(from.empty() ? to : from) + " seeks";
+  return "from " + in_quotes(from) + " to " + in_quotes(to);
+}
+
 std::string component_of(const std::string& end) { return end.substr(0, end.rfind('.')); }
 
 }  // namespace
@@ -46,8 +53,7 @@ void Clashes::report_one(const Clash& clash, Report& report) {
   const std::string first = clash.first->whereabouts();
   if (node.is("connect")) {
     report.error(codes::kDuplicateEdge, node.position,
-                 "the connection from " + in_quotes(node.value("from")) + " to " +
-                     in_quotes(node.value("to")) + here + " exists already at " + first);
+                 "the connection " + ends_of(node) + here + " exists already at " + first);
   } else {
     report.error(codes::kDuplicateName, node.place("name"),
                  "the name of " + node.title() + here + " is taken already at " + first);

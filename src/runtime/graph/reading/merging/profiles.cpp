@@ -15,12 +15,15 @@
 namespace orca::graph {
 namespace {
 
-// Returns what identifies a node: its name, or both ends of a connection; nothing if that is not known.
+// Returns what identifies a node: its name, or both ends of a connection; nothing if that is not known. A port seeks once.
 std::optional<std::string> identity(const Node& node) {
-  const bool edge = node.is("connect");
-  const std::string name = edge ? node.value("from") : node.value("name");
-  if (name.empty() || (edge && node.value("to").empty())) return std::nullopt;
-  return edge ? name + " to " + node.value("to") : name;
+  if (!node.is("connect"))
+    return node.value("name").empty() ? std::nullopt : std::optional(node.value("name"));
+  const std::string from = node.value("from");
+  const std::string to = node.value("to");
+  if (node.find("seek") != nullptr && from.empty() != to.empty()) return from + to + " seeks";
+  if (from.empty() || to.empty()) return std::nullopt;
+  return from + " to " + to;
 }
 
 void override_child(Node& base, const Node& child) {

@@ -30,6 +30,17 @@ bool only_serves(const std::string& component, const graph::Graph& graph) {
   return serves;
 }
 
+// Returns whether others may choose the component, and nobody depends on it alone: it may never have been chosen.
+bool only_stands_by(const std::string& component, const graph::Graph& graph) {
+  bool stands_by = false;
+  for (const graph::Edge& edge : graph.edges) {
+    if (edge.server().component != component) continue;
+    if (edge.choice == 0) return false;
+    stands_by = true;
+  }
+  return stands_by;
+}
+
 // Returns the components that could have subscribed to this one.
 std::vector<std::string> listeners_of(const std::string& component, const graph::Graph& graph) {
   std::vector<std::string> listeners;
@@ -62,7 +73,8 @@ std::vector<Idleness> find_idleness(const graph::Graph& graph, const Reports& re
   for (const graph::ComponentNode& node : graph.components) {
     const ComponentReport report = reports(node.name);
     const bool did_something = report.has_worked || report.has_failed || has_served(node.name, counters);
-    if (did_something || node.on_demand || only_serves(node.name, graph)) continue;
+    if (did_something || node.on_demand || only_serves(node.name, graph) || only_stands_by(node.name, graph))
+      continue;
     found.push_back({node.name, "has never worked in this run: " + reason(node, graph)});
   }
   if (!graph.edges.empty() && nothing_moved(counters))

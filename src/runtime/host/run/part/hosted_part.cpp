@@ -82,6 +82,11 @@ class HostedPart::Inside {
     close_outputs();
   }
 
+  Status move(std::size_t edge) {
+    if (edge >= whole_.edges.size()) return fail(Code::not_found, "an edge that the graph does not have");
+    return watched_.system().move(whole_.edges[edge]);
+  }
+
   void prepare_for_death() {
     watched_.stop_motors();
     files_.close_at_once();
@@ -309,5 +314,7 @@ void HostedPart::cut_edge(std::size_t edge, const Error& reason) { inside_->oute
 Status HostedPart::renew_edge(std::size_t edge, const Descriptor& memory) {
   return inside_->outer().renew(edge, memory);
 }
+
+Status HostedPart::move_edge(std::size_t edge) { return inside_->move(edge); }
 
 }  // namespace orca::host

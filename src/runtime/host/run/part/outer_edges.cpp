@@ -8,6 +8,7 @@
 #include "orca/base/network_address.hpp"
 #include "orca/base/own_library.hpp"
 #include "orca/graph/placement.hpp"
+#include "run/component_making.hpp"
 
 namespace orca::host {
 namespace {
@@ -104,10 +105,13 @@ Status OuterEdges::connect(System& system) {
     if (port == nullptr)
       return fail(Code::internal,
                   "port " + here.text() + " was there when the graph was checked, and is not there now");
+    const bool is_client = here == whole_.edges[edge].client();
+    if (is_client) prepare_choice(whole_.edges[edge], *port);
     const auto memory = memory_.find(edge);
     const Status connected =
         memory == memory_.end() ? connect_dds(edge, *port) : connect_memory(edge, memory->second, *port);
     if (!connected.ok()) return connected;
+    if (is_client) take_first_choice(whole_.edges[edge], *port);
   }
   memory_.clear();
   return ok();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "orca/base/result.hpp"
@@ -21,6 +22,16 @@ namespace orca::xml {
 /// Reads "190 mm", "22.5 deg", "10 Hz" or "0.5" as a value in SI; `si` as in to_si().
 /// @errors  as parse_leading_number() and to_si().
 [[nodiscard]] Result<double> parse_quantity(std::string_view text, std::string_view si);
+
+/// A number in SI and the SI unit of what it measures; empty: a plain number.
+struct Measured {
+  double value = 0.0;
+  std::string si;
+};
+
+/// Reads "190 mm", "22.5 deg" or "0.5", whatever it measures.
+/// @errors  invalid_argument: no number, a unit that Orca does not know, or a value that is too large in SI.
+[[nodiscard]] Result<Measured> parse_measured(std::string_view text);
 
 /// Reads a span of time, "60s", "50 ms", "1.5" (seconds): not negative, at most a hundred years, to the
 /// nanosecond.

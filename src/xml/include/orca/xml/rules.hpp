@@ -42,7 +42,6 @@ struct ElementRule {
   std::span<const AttributeRule> attributes = {};
   std::span<const ElementRule* const> children = {};
   std::string_view text = {};  ///< For people: what the element is.
-  bool planned = false;        ///< The element is not supported yet, and `text` says what to do.
   /// Attributes that identify the element: an unknown element with all of them is taken for this one. Empty:
   /// only the name identifies it.
   std::span<const std::string_view> telling = {};

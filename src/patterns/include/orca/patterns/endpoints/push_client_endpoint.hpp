@@ -2,8 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "orca/patterns/endpoints/alternatives.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/push_edge.hpp"
 
@@ -11,12 +14,16 @@ namespace orca {
 
 /// The client side of Push: the edges that end at one PushProxy. There is at most one unless the port is an
 /// array.
-class PushClientEndpoint final : public Endpoint {
+class PushClientEndpoint final : public Endpoint, public MovablePort {
  public:
   PushClientEndpoint(PortHome& home, PortContract contract);
   ~PushClientEndpoint() override { cut_links(); }
 
-  /// Adds an edge, not yet subscribed.
+  void allow_moves() override;
+  [[nodiscard]] bool can_move() const override { return alternatives_.has_value(); }
+  bool move_to(const std::string& server) override;
+
+  /// Adds an edge, not yet subscribed. If the port can move, all its connections are one edge, with the policy of the first.
   PushEdge& connect(PushSource& source, const QueuePolicy& policy);
 
   [[nodiscard]] bool connected() const { return !edges_.empty(); }
@@ -36,6 +43,7 @@ class PushClientEndpoint final : public Endpoint {
 
  private:
   std::vector<std::unique_ptr<PushEdge>> edges_;
+  std::optional<Alternatives<PushSource>> alternatives_;  // if the port can move
 };
 
 }  // namespace orca

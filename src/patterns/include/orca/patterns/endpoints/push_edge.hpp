@@ -28,6 +28,10 @@ class PushEdge final : public PushSink {
   void unsubscribe();
   [[nodiscard]] bool subscribed() const { return subscribed_.load(std::memory_order_acquire); }
 
+  /// Moves the edge to another server, and with it the subscription if there is one. What waits stays, and so does the newest
+  /// object until one comes from the new server.
+  void move_to(PushSource& source);
+
   /// Requests another update rate, from now on or from the next subscription on. The rate that the graph
   /// gives the edge is the limit.
   void ask(const UpdateRate& rate);
@@ -66,8 +70,9 @@ class PushEdge final : public PushSink {
 
   [[nodiscard]] EdgeCounters counters() const;
   [[nodiscard]] const QueuePolicy& policy() const { return policy_; }
-  [[nodiscard]] std::string source_path() const { return source_.path(); }
-  [[nodiscard]] Duration base_period() const { return source_.base_period(); }
+  /// Returns "component.port" of the present server.
+  [[nodiscard]] std::string source_path() const { return source().path(); }
+  [[nodiscard]] Duration base_period() const { return source().base_period(); }
 
  private:
   // The numbers of EdgeCounters, each readable at any time.
@@ -85,6 +90,8 @@ class PushEdge final : public PushSink {
   };
 
   void look() const { strand_.take_in(); }
+  [[nodiscard]] PushSource& source() const { return *source_.load(std::memory_order_acquire); }
+  void tell_of_link(bool connected) const;
   [[nodiscard]] ObjectRef pop();
   bool make_room();
   void drop(Published<std::uint64_t>& reason, std::uint64_t objects);
@@ -100,7 +107,7 @@ class PushEdge final : public PushSink {
 
   Endpoint& client_;
   Strand& strand_;  // of the client: each push and each look needs it
-  PushSource& source_;
+  std::atomic<PushSource*> source_;
   const QueuePolicy policy_;
   UpdateRate asked_;
   std::atomic<bool> subscribed_{false};

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "orca/patterns/counters.hpp"
+#include "orca/patterns/endpoints/alternatives.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/pending_answers.hpp"
 #include "orca/patterns/endpoints/published.hpp"
@@ -19,10 +22,18 @@ namespace orca {
 /// Thread contract: reply() from the server's side of the link, counters() from any thread, the rest from the
 /// client's strand.
 template <class Answer>
-class RequestClient : public Endpoint, public ReplySink<Answer> {
+class RequestClient : public Endpoint, public MovablePort, public ReplySink<Answer> {
  public:
-  void connect(RequestTarget<Answer>& target) { target_ = &target; }
+  void connect(RequestTarget<Answer>& target);
   [[nodiscard]] bool connected() const { return target_ != nullptr; }
+
+  void allow_moves() override;
+  [[nodiscard]] bool can_move() const override { return alternatives_.has_value(); }
+  bool move_to(const std::string& server) override;
+  /// Returns "component.port" of the present server.
+  /// @pre  connected()
+  /// @thread  the component's strand.
+  [[nodiscard]] std::string server() const { return target_->path(); }
 
   /// Returns the answer, or nothing while there is none yet. An answer that is an error goes to the observer,
   /// too.
@@ -41,7 +52,8 @@ class RequestClient : public Endpoint, public ReplySink<Answer> {
   /// Withdraws the object. Its answer is discarded, now or when it comes.
   void withdraw(RequestId id);
 
-  /// Takes in what has arrived, and returns RequestTarget::renewals(); nothing if not connected.
+  /// Takes in what has arrived, and returns RequestTarget::renewals(); nothing if not connected. If the port can move, a move
+  /// counts as well, and there is always a number.
   [[nodiscard]] std::optional<std::uint64_t> server_restarts() const;
 
   void reply(RequestId id, Answer answer) override;
@@ -70,11 +82,24 @@ class RequestClient : public Endpoint, public ReplySink<Answer> {
  private:
   using Pending = PendingAnswers<Answer>;
 
-  void report(const std::string& failure) const;
+  // What was offered from an id on went to a target, until the next one took over.
+  struct Era {
+    RequestId first;
+    RequestTarget<Answer>* target;
+  };
+
+  void move(RequestTarget<Answer>& target);
+  [[nodiscard]] RequestTarget<Answer>& target_of(RequestId id) const;
+  void report(const RequestTarget<Answer>& server, const std::string& failure) const;
   void leave_if_ending() const;
 
   const Words words_;
   RequestTarget<Answer>* target_ = nullptr;
+  std::optional<Alternatives<RequestTarget<Answer>>> alternatives_;  // if the port can move
+  std::vector<Era> left_;              // the targets before this one, and the first id that each got
+  RequestId first_id_ = 1;             // of the present target
+  RequestId last_id_ = 0;              // that was given
+  std::uint64_t restarts_before_ = 0;  // to be added to the renewals of the present target
   Pending pending_;
   Published<std::uint64_t> sent_;
   Published<std::uint64_t> answered_;

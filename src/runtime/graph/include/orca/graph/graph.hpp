@@ -10,6 +10,7 @@
 #include "orca/base/contract.hpp"
 #include "orca/base/time.hpp"
 #include "orca/graph/process.hpp"
+#include "orca/graph/property.hpp"
 #include "orca/xml/diagnostics.hpp"
 
 namespace orca::graph {
@@ -62,6 +63,7 @@ struct ComponentNode {
   std::optional<Trigger> trigger;  ///< Starts a lap; nothing: the author's choice.
   std::vector<std::string> start_after;  ///< Components that must be up before this one.
   Params params;
+  Properties properties;                     ///< Those that the graph declares.
   std::map<std::string, PortSetting> ports;  ///< By the author's name; only ports with settings.
   xml::Position position;                    ///< Place of its element; not compared.
 
@@ -96,6 +98,13 @@ struct Edge {
   xml::Position position;   ///< Place of its element; not compared.
   bool late_bound = false;  ///< Made from a candidate: subscribed to only once the component names it.
   Link link = Link::local;  ///< What the graph says; else chosen by the processes and machines of its ends.
+  /// Rank, from 1, among the edges of a proxy that uses one of them at a time; 0: it uses this edge only, or all.
+  std::uint32_t choice = 0;
+
+  /// Returns the end that asks for objects, sends them or asks questions: the PushProxy, QueryProxy or SendProxy.
+  [[nodiscard]] const PortRef& client() const { return pattern == Pattern::push ? to : from; }
+  /// Returns the end that serves it.
+  [[nodiscard]] const PortRef& server() const { return pattern == Pattern::push ? from : to; }
 
   friend bool operator==(const Edge& a, const Edge& b);
 };

@@ -159,6 +159,9 @@ class HostedPart {
   /// without the components' doing.
   /// @errors  not_found; invalid_argument if it is no memory for an edge.
   Status renew_edge(std::size_t edge, const Descriptor& memory);
+  /// Lets a port of this process use an edge from now on, of those that it chooses from.
+  /// @errors  not_found.
+  Status move_edge(std::size_t edge);
 
  private:
   class Inside;

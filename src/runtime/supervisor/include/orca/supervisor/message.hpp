@@ -33,6 +33,7 @@ enum class Kind : std::uint16_t {
   say,
   outlive = 41,
   adopt,
+  move_edge,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,

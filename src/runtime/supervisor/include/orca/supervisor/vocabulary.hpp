@@ -148,10 +148,15 @@ struct Outlive {
 struct Adopt {
   static constexpr Kind kKind = Kind::adopt;
 };
+/// Lets a port use an edge from now on, of those that it chooses from.
+struct MoveEdge {
+  static constexpr Kind kKind = Kind::move_edge;
+  std::uint64_t edge = 0;
+};
 
 using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
                            Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors,
-                           Count, OpenLine, Meet, Say, Outlive, Adopt>;
+                           Count, OpenLine, Meet, Say, Outlive, Adopt, MoveEdge>;
 
 // ---- Reports, from a host process to the supervisor.
 

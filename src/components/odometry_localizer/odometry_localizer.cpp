@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <utility>
+
+#include "orca/component.hpp"
+#include "orca/geometry/objects/covariance.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/idl/sensing.hpp"
+
+namespace {
+
+using orca::idl::Odometry;
+using orca::idl::RobotPose;
+
+/// A localizer by dead reckoning: the odometry, seen from the frame of the world, in which the robot's start is known. It
+/// remembers nothing, so one that is started on the way knows as much as one that was there from the start.
+class OdometryLocalizer final : public orca::Component {
+ public:
+  explicit OdometryLocalizer(orca::ComponentHost& host) : Component(host) {}
+
+ private:
+  orca::Status configure() override {
+    lap_on("odometry");
+    return orca::ok();
+  }
+
+  orca::Outcome work() override {
+    const auto odometry = odometry_.get_update();
+    auto pose = poses_.loan();
+    fill(*odometry, *pose);
+    poses_.push(std::move(pose));
+    return orca::again();
+  }
+
+  void fill(const Odometry& odometry, RobotPose& pose) const {
+    orca::idl::Pose2D X_WO;
+    X_WO.x(*start_x_);
+    X_WO.y(*start_y_);
+    X_WO.orientation(*start_yaw_);
+    orca::idl::Pose2D X_OR;
+    X_OR.x(odometry.x());
+    X_OR.y(odometry.y());
+    X_OR.orientation(odometry.steer_angle());
+    X_OR.covariance(odometry.covariance());
+    const orca::idl::Pose2D X_WR = orca::compose(X_WO, X_OR);
+    pose.x(X_WR.x());
+    pose.y(X_WR.y());
+    pose.orientation(X_WR.orientation());
+    pose.covariance(X_WR.covariance());
+    pose.translational_velocity(odometry.translational_velocity());
+    pose.sideways_velocity(odometry.sideways_velocity());
+    pose.steering_velocity(odometry.steering_velocity());
+    pose.stamp(odometry.stamp());
+  }
+
+  orca::PushProxy<Odometry> odometry_{
+      *this, "odometry", {.text = "What the base measures, from the robot's start on."}};
+  orca::PushServer<RobotPose> poses_{
+      *this, "RobotPosePush", {.text = "Pose of the robot in the frame of the world, once per lap."}};
+  orca::Param<double> start_x_{
+      *this, "start_x", 0.0, {.unit = "m", .text = "Start of the robot in the world."}};
+  orca::Param<double> start_y_{
+      *this, "start_y", 0.0, {.unit = "m", .text = "Start of the robot in the world."}};
+  orca::Param<double> start_yaw_{
+      *this, "start_yaw", 0.0, {.unit = "rad", .text = "Direction of the robot's x axis there."}};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(OdometryLocalizer, "orca.OdometryLocalizer")
