@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
+#include "hosted_system.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -92,4 +93,31 @@ TEST_CASE("what configure() refuses only at the start is told once", "[system][l
           return line.find("Is a directory") != std::string::npos;
         }) == 1);
   CHECK(run.says("log: configure() said: parameter \"file\": /tmp: cannot be written: Is a directory"));
+}
+
+TEST_CASE("the log server keeps the lines of all processes and of the deployer, each once", "[system][log]") {
+  const TempFolder folder;
+  System system(Words{system_graph("flow_log.xml"), "--set", "file=" + folder.file("robot.log")} +
+                with_test_plugins());
+  system.when("flow ", 0, Seconds(10));
+  const std::size_t mark = system.mark();
+  REQUIRE(kill(system.process("relay"), SIGKILL) == 0);
+  system.when("process relay is back", mark, Seconds(10));
+  system.when("flow ", mark, Seconds(10));
+  const auto kept = [&] { return read_text(folder.file("robot.log")); };
+  const auto is_complete = [&] {
+    const std::string text = kept();
+    return text.find(" info deployer: process relay is back") != std::string::npos &&
+           text.find(" info sink: flow ", text.find("is back")) != std::string::npos;
+  };
+  CHECK(comes_true(is_complete, Seconds(3)));
+  stop(system);
+  INFO(kept());
+  CHECK(kept().find(" error deployer: alarm PROCESS_ENDED: process relay was ended by SIGKILL") !=
+        std::string::npos);
+  for (const std::string& line : split_lines(kept())) {
+    const std::size_t begin = line.find(" info sink: flow ");
+    if (begin != std::string::npos)
+      CHECK(kept().find(line.substr(begin), kept().find(line) + line.size()) == std::string::npos);
+  }
 }

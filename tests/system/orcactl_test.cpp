@@ -69,6 +69,8 @@ class System {
     CHECK(order.exit_code() == 0);
     const Run run = finish(program_, Seconds(5));
     CHECK(run.exit_code() == 0);
+    CHECK(run.says(" deployer: an operator ends the run"));
+    CHECK_FALSE(run.says(" supervisor: "));
     CHECK(living_in_group(program_.pid()).empty());
   }
 
@@ -236,7 +238,13 @@ TEST_CASE("an emergency stop holds the robot whatever is commanded, until it is 
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }
+  CHECK_THAT(run_orcactl({"alarms"}).out, Contains("ESTOP"));
+  CHECK(run_orcactl({"alarms", "ack", "all"}).exit_code() == 1);
+  CHECK_THAT(run_orcactl({"alarms"}).out, Contains("ESTOP"));
   CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);
+  CHECK_THAT(run_orcactl({"alarms"}).out, Contains("the emergency stop is released"));
+  CHECK(run_orcactl({"alarms", "ack", "all"}).exit_code() == 0);
+  CHECK_THAT(run_orcactl({"alarms"}).out, !Contains("ESTOP"));
   CHECK(comes_true([] { return speed() > 0.1; }, Seconds(10)));
   const Run again = run_orcactl({"estop", "--release"});
   CHECK(again.exit_code() == 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A graph in several host processes: each of them may die at any moment, in any way, and so may the deployer.
 #include <signal.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -66,6 +67,25 @@ TEST_CASE("the loss of each process is seen at once, and objects flow again", "[
   const Run run = stop(system);
   CHECK_FALSE(run.says("GAVE_UP"));
   CHECK(kept_by_system() == before);
+}
+
+TEST_CASE("a process that cannot be started again for lack of descriptors is, as soon as there are some",
+          "[system][processes]") {
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  const pid_t lost = system.process("sink");
+  const pid_t deployer = system.program().pid();
+  rlimit before{};
+  REQUIRE(prlimit(deployer, RLIMIT_NOFILE, nullptr, &before) == 0);
+  const rlimit few{11, before.rlim_max};  // what it polls; others are open
+  REQUIRE(prlimit(deployer, RLIMIT_NOFILE, &few, nullptr) == 0);
+  const std::size_t mark = system.mark();
+  REQUIRE(kill(lost, SIGKILL) == 0);
+  system.when("process sink could not be started: ", mark);
+  REQUIRE(prlimit(deployer, RLIMIT_NOFILE, &before, nullptr) == 0);
+  system.when("process sink is back", mark);
+  system.flows_without(lost, mark);
+  stop(system);
 }
 
 TEST_CASE("processes that are lost together come back together", "[system][processes]") {

@@ -8,6 +8,7 @@
 
 #include "heard_lines.hpp"
 #include "log_file.hpp"
+#include "orca/base/distant_log.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
@@ -33,7 +34,7 @@ orca::idl::LogLevel level_of(Level level) {
 }
 
 /// A component that collects log records in a file and passes them on to its subscribers (thesis, list of
-/// components): every line that this process writes to its log, and what other components send. A full disk stops no
+/// components): every line that the processes of the run write to the log, and what other components send. A full disk stops no
 /// component: lines that cannot be written are counted, and a line gives their number when there is room again.
 class LogServer final : public orca::Component {
  public:
@@ -43,6 +44,7 @@ class LogServer final : public orca::Component {
   // What is logged while the system is taken down is written as well.
   ~LogServer() override {
     listener_.reset();
+    distant_.reset();
     if (file_) write_heard();
   }
 
@@ -53,6 +55,7 @@ class LogServer final : public orca::Component {
     if (*own_lines_) {
       heard_.emplace(*orca::log::parse_level(*lowest_level_));
       listener_.emplace([this](const orca::log::Line& line) { heard_->hear(line); });
+      if (*other_processes_) distant_.emplace([this](const orca::log::Line& line) { heard_->hear(line); });
       stay_active(true);
     }
     return orca::ok();
@@ -127,13 +130,19 @@ class LogServer final : public orca::Component {
       "own_lines",
       true,
       {.fixed = true, .text = "Whether every line of this process's log is a record."}};
+  orca::Param<bool> other_processes_{*this,
+                                     "other_processes",
+                                     true,
+                                     {.fixed = true,
+                                      .text = "With own_lines: whether the lines of all other processes, the "
+                                              "deployer's too, are records as well."}};
   orca::Param<std::string> lowest_level_{
       *this,
       "lowest_level",
       "info",
       {.choices = kLevels,
        .fixed = true,
-       .text = "Lowest level of these lines; --log has no influence on them."}};
+       .text = "Lowest level of these lines; --log has no influence on those of this process."}};
   orca::Param<std::int64_t> most_bytes_{
       *this,
       "most_bytes",
@@ -148,6 +157,7 @@ class LogServer final : public orca::Component {
   std::optional<orca::logs::LogFile> file_;
   std::optional<orca::logs::HeardLines> heard_;
   std::optional<orca::log::Listener> listener_;
+  std::optional<orca::log::DistantListener> distant_;
   bool failing_ = false;
 };
 

@@ -41,4 +41,8 @@ Result<RingSegment> RingSegment::map(int descriptor) {
 
 std::size_t RingSegment::capacity() const { return (memory_.bytes().size() - shm::kControlSize) / 2; }
 
+std::uint64_t RingSegment::written_by_client() const {
+  return shm::ring_in(memory_.bytes(), 0).control->written.load(std::memory_order_relaxed);
+}
+
 }  // namespace orca

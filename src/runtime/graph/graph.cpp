@@ -18,7 +18,7 @@ const Node* find(const std::vector<Node>& nodes, const std::string& wanted) {
 bool operator==(const ProcessNode& a, const ProcessNode& b) {
   const auto content = [](const ProcessNode& n) {
     return std::tie(n.name, n.machine, n.executor, n.spin, n.processors, n.priority, n.lock_memory, n.memory,
-                    n.restart, n.hang_limit);
+                    n.restart, n.on_demand, n.idle_time, n.hang_limit);
   };
   return content(a) == content(b);
 }

@@ -76,6 +76,11 @@ std::vector<ProcessNode> processes_of(const Graph& graph) {
   return processes;
 }
 
+bool starts_on_demand(const Graph& graph, const std::string& process) {
+  const auto node = std::ranges::find(graph.processes, process, &ProcessNode::name);
+  return node != graph.processes.end() && node->on_demand;
+}
+
 ProcessPart part_of(const Graph& graph, const std::string& process) {
   ProcessPart part;
   for (const HardwareNode& node : graph.hardware)

@@ -162,24 +162,27 @@ TEMPLATE_LIST_TEST_CASE(
   });
 }
 
-TEMPLATE_LIST_TEST_CASE("a question that waits at the old server is withdrawn from there", "[contract][move]",
+TEMPLATE_LIST_TEST_CASE("an object that waits at the old server is withdrawn from there", "[contract][move]",
                         LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    Asker asker(kit.executive);
-    Clerk one(kit.executive, "one", 1);
-    Clerk two(kit.executive, "two", 2);
-    movable(asker, "question").allow_moves();
-    kit.connect(asker.endpoint("question"), one.endpoint("server"));
-    kit.connect(asker.endpoint("question"), two.endpoint("server"));
+    Sender sender(kit.executive);
+    Store one(kit.executive, "one");
+    Store two(kit.executive, "two");
+    movable(sender, "out").allow_moves();
+    const QueuePolicy policy{
+        .depth = 4, .overflow = QueuePolicy::Overflow::refuse, .confirm = QueuePolicy::Confirm::handled};
+    kit.connect(sender.endpoint("out"), one.endpoint("in"), policy);
+    kit.connect(sender.endpoint("out"), two.endpoint("in"), policy);
     one.open();
     two.open();
-    const auto& server = static_cast<QueryServerEndpoint&>(one.endpoint("server"));
-    const Result<QueryId> open = asker.question.query_request(asker.about("x"));
-    REQUIRE(open);
-    REQUIRE(eventually(kit.executive, [&] { return server.counters().accepted == 1; }));
-    CHECK(movable(asker, "question").move_to("two.server"));
-    CHECK_FALSE(asker.question.query_receive_wait(*open, 10ms));
+    const auto& server = static_cast<SendServerEndpoint&>(one.endpoint("in"));
+    const Result<SendId> sent = sender.out.send_request(numbered(1));
+    REQUIRE(sent);
+    REQUIRE(eventually(kit.executive, [&] { return server.counters().queued == 1; }));
+    CHECK(movable(sender, "out").move_to("two.in"));
+    CHECK_FALSE(sender.out.send_receive_wait(*sent, 10ms).ok());
     CHECK(eventually(kit.executive, [&] { return server.counters().withdrawn == 1; }));
+    CHECK_FALSE(one.handle_one());
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "checking/placing/demand.hpp"
 #include "checking/placing/placement.hpp"
 #include "checking/placing/processes.hpp"
 #include "components.hpp"
@@ -102,6 +103,7 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   WiredEdges wired = check_wiring(parts.connections, model, report);
   graph.edges = std::move(wired.edges);
   check_waiting_room(model, graph.edges, report);
+  check_demand(model, graph, report);
   note_candidates(model, graph.edges);
   if (report.no_errors()) {
     check_influence(model, graph, report);

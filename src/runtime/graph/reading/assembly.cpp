@@ -100,6 +100,7 @@ class Assembler {
 
   // Returns null after a report, or if there has been one.
   const xml::Document* open(const Node& node, const Text& name) {
+    if (name.value.empty()) return refuse_empty(node, name);
     const std::string path = shown_path(name);
     if (std::ranges::find(chain_, path) != chain_.end()) return report_cycle(name, path);
     if (chain_.size() == kDeepest) return refuse(codes::kExpansion, node, name, "more than 50 files deep");
@@ -123,6 +124,14 @@ class Assembler {
     report_.error(code, name.position,
                   "<" + std::string(node.rule->name) + "> cannot read " + in_quotes(shown_path(name)) + ": " +
                       reason + chain);
+    return nullptr;
+  }
+
+  const xml::Document* refuse_empty(const Node& node, const Text& name) {
+    const std::string attribute = file_attribute(*node.rule);
+    report_.error(codes::kCannotInclude, name.position,
+                  "<" + std::string(node.rule->name) + ">: " + attribute +
+                      " is empty; name a graph file, as in " + attribute + "=\"behaviours.xml\"");
     return nullptr;
   }
 

@@ -98,6 +98,15 @@ constexpr std::array kProcess{
                   "When it is started again: whenever it has ended, only after a fault, or never; permanent "
                   "if not given.",
                   one_of(kRestart)},
+    AttributeRule{"start", false,
+                  "When it is started; on_demand: when a component of another process first uses one of its "
+                  "components.",
+                  one_of(kStart)},
+    AttributeRule{"stay", false,
+                  "Whether an on_demand process ends when nobody uses it any more (cold) or stays (warm).",
+                  one_of(kStay)},
+    AttributeRule{"idle_time", false,
+                  "Time without use after which an on_demand process ends; 10 s if not given.", seconds(0.1)},
     AttributeRule{"hang_limit", false,
                   "Time without a sign of life after which it is killed; 0.5 s if not given.", seconds(0.01)},
     AttributeRule{"text", false, "Purpose of the process, for people."}};

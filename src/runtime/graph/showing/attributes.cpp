@@ -90,6 +90,9 @@ Attributes attributes_of(const ProcessNode& node) {
   if (node.lock_memory) add(result, "lock_memory", "true");
   if (node.memory) add(result, "memory", std::to_string(*node.memory) + " B");
   if (node.restart != standard.restart) add(result, "restart", to_string(node.restart));
+  add(result, "start", node.on_demand ? "on_demand" : "");
+  if (node.on_demand && node.idle_time == Duration{0}) add(result, "stay", "warm");
+  if (node.idle_time > Duration{0}) add(result, "idle_time", seconds_text(node.idle_time));
   if (node.hang_limit != standard.hang_limit) add(result, "hang_limit", seconds_text(node.hang_limit));
   return result;
 }

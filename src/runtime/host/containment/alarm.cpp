@@ -11,15 +11,17 @@ namespace {
 
 // By the number of the enumerator.
 constexpr auto kNames = std::to_array<const char*>(
-    {"FAILED", "HARDWARE_FAULT", "STALLED", "PLUGIN_PINNED", "FORK", "FOREIGN_THREAD", "FLOATING_POINT",
-     "LOCALE", "TERMINATE_HANDLER", "SIGNAL_MASK", "SIGNAL_HANDLER", "WORKING_FOLDER", "UMASK",
-     "RESOURCE_LIMIT", "REDIRECTION", "DESCRIPTORS", "PROCESS_ENDED", "GAVE_UP", "MACHINE_LOST"});
-static_assert(kNames.size() == static_cast<std::size_t>(AlarmKind::machine_lost) + 1);
+    {"FAILED",         "HARDWARE_FAULT", "STALLED", "PLUGIN_PINNED",     "FORK",
+     "FOREIGN_THREAD", "FLOATING_POINT", "LOCALE",  "TERMINATE_HANDLER", "SIGNAL_MASK",
+     "SIGNAL_HANDLER", "WORKING_FOLDER", "UMASK",   "RESOURCE_LIMIT",    "REDIRECTION",
+     "DESCRIPTORS",    "PROCESS_ENDED",  "GAVE_UP", "MACHINE_LOST",      "ESTOP"});
+static_assert(kNames.size() == static_cast<std::size_t>(AlarmKind::estop) + 1);
 
 idl::AlarmSeverity severity_of(AlarmKind kind) {
   switch (kind) {
     case AlarmKind::hardware_fault:
     case AlarmKind::machine_lost:
+    case AlarmKind::estop:
     case AlarmKind::gave_up: return idl::ALARM_CRITICAL;
     case AlarmKind::failed:
     case AlarmKind::process_ended:

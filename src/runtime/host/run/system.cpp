@@ -109,6 +109,12 @@ bool System::at_rest() const {
                      [](const auto& h) { return h->container().state() != hw::HardwareState::active; });
 }
 
+Status System::check_unused() const {
+  for (const auto& component : components_)
+    if (component->is_in_use()) return fail(Code::failed_precondition, "it is in use", component->name());
+  return ok();
+}
+
 std::vector<std::string> System::take_down(TimePoint deadline) {
   for (const auto& component : components_) component->announce_exit();
   for (const auto& hardware : hardware_) hardware->container().shut_down();

@@ -50,6 +50,10 @@ class System {
   /// Returns whether nothing is in use any more: components are at rest, hardware is idle.
   [[nodiscard]] bool at_rest() const;
 
+  /// Checks that no component is in use: none has a client, and nothing that was sent or asked is left.
+  /// @errors  failed_precondition with the name of one that is.
+  [[nodiscard]] Status check_unused() const;
+
   /// Stops the motors and ends all strands.
   /// @return the names of those that did not end in time, with what they are doing.
   std::vector<std::string> take_down(TimePoint deadline);

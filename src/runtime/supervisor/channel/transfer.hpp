@@ -59,6 +59,13 @@ void transfer(auto& archive, Cell& cell) {
   transfer_up_to(archive, cell.kind, Cell::Kind::flag);
 }
 
+void transfer(auto& archive, LogLine& line) {
+  transfer(archive, line.level);
+  transfer(archive, line.who);
+  transfer(archive, line.text);
+  transfer(archive, line.time);
+}
+
 void transfer(auto& archive, Counts& counts);
 
 template <class A, class B>

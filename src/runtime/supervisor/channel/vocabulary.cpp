@@ -33,6 +33,8 @@ void fields(auto& archive, MoveEdge& m) { transfer(archive, m.edge); }
 
 void fields(auto& archive, Outlive& m) { transfer_all(archive, m.output, m.wait); }
 void fields(auto& /*archive*/, Adopt& /*m*/) {}
+void fields(auto& /*archive*/, AskUse& /*m*/) {}
+void fields(auto& archive, TellLines& m) { transfer(archive, m.lines); }
 
 void fields(auto& archive, Answer& m) { transfer_all(archive, m.outcome, m.records); }
 void fields(auto& archive, Built& m) { transfer(archive, m.robots); }
@@ -60,6 +62,7 @@ void fields(auto& archive, Orphaned& m) {
 }
 void fields(auto& archive, Standing& m) { transfer_all(archive, m.alarms, m.motors_held, m.params); }
 void fields(auto& /*archive*/, Leaving& /*m*/) {}
+void fields(auto& archive, LogWished& m) { transfer(archive, m.is_wanted); }
 
 Message encode(Order order, std::uint64_t request) { return encode_any(order, request); }
 Message encode(Report report, std::uint64_t request) { return encode_any(report, request); }

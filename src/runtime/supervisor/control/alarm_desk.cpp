@@ -42,6 +42,13 @@ void acknowledge(const std::string& word, Ledger& ledger, Reply& reply) {
   if (const Status taken = ledger.acknowledge(number); !taken.ok()) reply.refuse(taken.error());
 }
 
+void acknowledge_all(Ledger& ledger, Reply& reply) {
+  std::vector<std::uint64_t> numbers;
+  for (const host::KeptAlarm& kept : ledger.alarms()) numbers.push_back(kept.number);
+  for (const std::uint64_t number : numbers)
+    if (const Status taken = ledger.acknowledge(number); !taken.ok()) reply.refuse(taken.error());
+}
+
 }  // namespace
 
 void handle_alarms(const std::vector<std::string>& words, Ledger& ledger, Reply& reply) {
@@ -56,7 +63,7 @@ void handle_alarms(const std::vector<std::string>& words, Ledger& ledger, Reply&
       acknowledge(words[i], ledger, reply);
       continue;
     }
-    while (!ledger.alarms().empty()) (void)ledger.acknowledge(ledger.alarms().front().number);
+    acknowledge_all(ledger, reply);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "control/alarm_desk.hpp"
 #include "orca/base/text.hpp"
+#include "orca/supervisor/log_name.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -47,11 +48,10 @@ ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
       names_(graph, facts.ports, members),
       showing_(graph, facts, members, ledger, levers.edges_in_use),
       operating_(graph, facts, names_, std::move(levers)),
-      motors_(members) {}
+      motors_(members, ledger) {}
 
 void ControlDesk::open(Result<ControlSocket> socket) {
-  if (!socket)
-    return log::warning("supervisor", "orcactl cannot reach this system: " + socket.error().text());
+  if (!socket) return log::warning(kLogName, "orcactl cannot reach this system: " + socket.error().text());
   server_.emplace(std::move(socket).value(),
                   [this](const Ask& ask, const ReplyPtr& reply) { handle(ask, reply); });
 }

@@ -36,7 +36,8 @@ class ControlServer {
 
   /// Adds what it waits for.
   void add_to(std::vector<pollfd>& all) const;
-  /// Takes in new clients and what they ask, and sends what waits for them. Never waits.
+  /// Takes in new clients and what they ask, and sends what waits for them. Never waits. While there are no descriptors
+  /// left, new clients wait, and nothing is done for them but a look now and then.
   void serve(Moment now);
 
   [[nodiscard]] std::size_t clients() const { return clients_.size(); }
@@ -47,12 +48,14 @@ class ControlServer {
     Moment second{};  // the beginning of the second in which requests are counted
     int asks = 0;     // since then
   };
-  void take_in_clients();
+  void take_in_clients(Moment now);
   [[nodiscard]] bool is_served(Client& client, Moment now);
 
   const ControlSocket socket_;
   const Handler handler_;
   std::list<Client> clients_;  // the oldest first
+  Moment accept_at_{};         // not before, because there were no descriptors left
+  bool is_full_ = false;       // meanwhile
 };
 
 }  // namespace orca::supervisor

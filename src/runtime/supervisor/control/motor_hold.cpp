@@ -2,6 +2,7 @@
 #include "control/motor_hold.hpp"
 
 #include "orca/base/log.hpp"
+#include "orca/supervisor/log_name.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -22,7 +23,7 @@ void MotorHold::ask_all(const ReplyPtr& reply, const std::function<Order()>& mak
 void MotorHold::stop(const ReplyPtr& reply) {
   holds_ = true;
   ask_all(reply, [] { return StopMotors{kReason}; });
-  log::warning("supervisor", "emergency stop: all motors are held until orcactl estop --release");
+  ledger_.raise(host::AlarmKind::estop, "", "all motors are held until orcactl estop --release");
 }
 
 void MotorHold::release(const ReplyPtr& reply) {
@@ -30,7 +31,9 @@ void MotorHold::release(const ReplyPtr& reply) {
     return reply->refuse(fail(Code::failed_precondition, "there is no emergency stop to be released"));
   holds_ = false;
   ask_all(reply, [] { return ReleaseMotors{}; });
-  log::warning("supervisor", "the emergency stop is released; motors obey commands again");
+  const std::string text = "the emergency stop is released; motors obey commands again";
+  log::warning(kLogName, text);
+  ledger_.settle(host::AlarmKind::estop, "", text);
 }
 
 void MotorHold::recall() {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "control/reply.hpp"
+#include "run/ledger.hpp"
 #include "run/member.hpp"
 
 namespace orca::supervisor {
@@ -16,10 +17,10 @@ namespace orca::supervisor {
 /// Thread contract: the supervisor's thread.
 class MotorHold {
  public:
-  /// @param members  all; outlives the object.
-  explicit MotorHold(const std::vector<Member*>& members) : members_(members) {}
+  /// @param members  all; outlives the object, as the ledger does, which keeps the alarm.
+  MotorHold(const std::vector<Member*>& members, Ledger& ledger) : members_(members), ledger_(ledger) {}
 
-  /// Stops all motors. The answer ends when they are held in all processes.
+  /// Stops all motors, and raises the alarm ESTOP. The answer ends when they are held in all processes.
   void stop(const ReplyPtr& reply);
   /// Lets them obey commands again. Nothing moves before the next command.
   void release(const ReplyPtr& reply);
@@ -36,6 +37,7 @@ class MotorHold {
   void ask_all(const ReplyPtr& reply, const std::function<Order()>& make) const;
 
   const std::vector<Member*>& members_;
+  Ledger& ledger_;
   bool holds_ = false;
 };
 

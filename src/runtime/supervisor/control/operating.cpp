@@ -7,6 +7,7 @@
 #include "orca/base/text.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/graph/settings.hpp"
+#include "orca/supervisor/log_name.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::supervisor {
@@ -102,13 +103,13 @@ void Operating::set(const std::string& what, const std::string& value, const Rep
 void Operating::restart(const std::string& name, const ReplyPtr& reply) {
   const Result<Member*> member = names_.process(name);
   if (!member) return reply->refuse(member.error());
-  log::info("supervisor", "an operator restarts process " + (*member)->name());
+  log::info(kLogName, "an operator restarts process " + (*member)->name());
   if (const Status begun = levers_.restart(**member); !begun.ok()) return reply->refuse(begun.error());
   awaited_.emplace(*member, reply);
 }
 
 void Operating::stop(const ReplyPtr& reply) {
-  log::info("supervisor", "an operator ends the run");
+  log::info(kLogName, "an operator ends the run");
   until_end_.push_back(reply);
   levers_.stop();
 }

@@ -17,6 +17,11 @@ std::string text_of(const std::set<std::string>& names) {
   return joined(std::vector<std::string>(names.begin(), names.end()), " ");
 }
 
+// Returns the state of a component; "on demand" if its process is asleep.
+std::string state_of(const Member& member, host::ComponentState state) {
+  return member.phase() == Member::Phase::asleep ? "on demand" : host::to_string(state);
+}
+
 Cell pid_of(const Member& member) {
   if (member.process() != nullptr) return {"pid", member.process()->pid()};
   Cell none{"pid", ""};
@@ -42,7 +47,7 @@ void Showing::components(Reply& reply) const {
                      {"type", node.type},
                      {"process", node.process},
                      pid_of(**member),
-                     {"state", host::to_string(reports(node.name).state)},
+                     {"state", state_of(**member, reports(node.name).state)},
                      {"plugin", plugin.file},
                      {"build_id", plugin.build_id},
                      {"restarts", (*member)->restarts()}});

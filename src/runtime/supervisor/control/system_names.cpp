@@ -55,6 +55,10 @@ Member& SystemNames::member_of(const graph::ComponentNode& component) const {
 Result<Member*> SystemNames::ready_member_of(const graph::ComponentNode& component) const {
   Member& member = member_of(component);
   if (member.phase() == Member::Phase::up) return &member;
+  if (member.phase() == Member::Phase::asleep)
+    return fail(Code::unavailable, "process " + member.name() +
+                                       " does not run, because nobody needs it; orcactl restart " +
+                                       member.name() + " starts it");
   return fail(Code::unavailable, "process " + member.name() + " does not work at present; try again later");
 }
 

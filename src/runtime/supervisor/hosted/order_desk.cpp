@@ -14,9 +14,11 @@
 #include <vector>
 
 #include "counter_records.hpp"
+#include "orca/base/distant_log.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/idl/system.hpp"
+#include "orca/supervisor/log_name.hpp"
 #include "orca/supervisor/meeting_place.hpp"
 
 namespace orca::supervisor {
@@ -41,6 +43,7 @@ std::optional<host::PartOrder> part_order(const Order& order) {
   if (std::holds_alternative<OpenHardware>(order)) return about(Kind::open_hardware);
   if (std::holds_alternative<OpenGates>(order)) return about(Kind::open_gates);
   if (std::holds_alternative<TakeDown>(order)) return about(Kind::take_down);
+  if (std::holds_alternative<AskUse>(order)) return about(Kind::check_unused);
   if (const auto* configure = std::get_if<Configure>(&order))
     return about(Kind::configure, configure->component);
   if (const auto* suspend = std::get_if<Suspend>(&order)) return about(Kind::suspend, suspend->component);
@@ -75,6 +78,7 @@ OrderDesk::~OrderDesk() {
 void OrderDesk::work() {
   for (int beats = 0; !ending_.load(); ++beats) {
     if (site_.shows) show_now_and_then(beats);
+    tell_log_wish();
     site_.heartbeat.fetch_add(1, std::memory_order_relaxed);
     wait();
     channel_ != nullptr ? hear_supervisor() : keep_vigil();
@@ -94,6 +98,11 @@ void OrderDesk::show_now_and_then(int beats) {
   if (beats % kBeatsToGlance == 0) reports_.show(part_.look());
 }
 
+void OrderDesk::tell_log_wish() {
+  const bool is_wanted = log::wants_distant();
+  if (std::exchange(wants_lines_, is_wanted) != is_wanted) reports_.send(LogWished{is_wanted});
+}
+
 void OrderDesk::hear_supervisor() {
   (void)channel_->flush();  // its error comes back from receive()
   for (;;) {
@@ -105,8 +114,15 @@ void OrderDesk::hear_supervisor() {
     if (!order) leave(order.error());
     carry_out({std::move(order).value(), request, channel_});
   }
-  while (place_ && place_->accept())
-    continue;  // nobody has anything to say to a process that has a supervisor
+  if (place_) turn_away_all();
+}
+
+// Nobody has anything to say to a process that has a supervisor.
+void OrderDesk::turn_away_all() {
+  for (;;) {
+    const Result<Descriptor> visitor = place_->accept();
+    if (!visitor || !*visitor) return;
+  }
 }
 
 void OrderDesk::carry_out(Told told) {
@@ -116,6 +132,7 @@ void OrderDesk::carry_out(Told told) {
   if (const auto* cut = std::get_if<CutEdge>(&order))
     return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
   if (const auto* alarm = std::get_if<TellAlarm>(&order)) return hear(*alarm);
+  if (const auto* lines = std::get_if<TellLines>(&order)) return hear(*lines);
   if (const auto* alarm = std::get_if<ForgetAlarm>(&order)) {
     reports_.remember([&](Recollection& all) { all.forget_alarm(*alarm); });
     return part_.forget_alarm(alarm->kind, alarm->source, alarm->process);
@@ -150,6 +167,11 @@ void OrderDesk::hear(const TellAlarm& told) {
     leave(read.error());
   reports_.remember([&](Recollection& all) { all.note_alarm(alarm, told.process); });
   part_.hear(alarm, told.process);
+}
+
+void OrderDesk::hear(const TellLines& told) {
+  for (const LogLine& line : told.lines)
+    log::hear_distant({line.level, line.who, line.text, TimePoint(Duration(line.time))});
 }
 
 // The answer goes to whoever has given the order, even if there is another supervisor by then.
@@ -195,6 +217,7 @@ void OrderDesk::keep_vigil() {
 void OrderDesk::adopt(const Told& told) {
   vigil_.reset();
   channel_ = told.by;
+  wants_lines_ = false;
   reports_.greet(channel_);
   (void)channel_->post(encode(Report(Answer{}), told.request));
 }
@@ -209,7 +232,7 @@ Orphaned OrderDesk::introduction() const {
 // Nobody is left who could stop this process, so it stops itself: the motors first.
 void OrderDesk::leave(const Error& reason) {
   part_.prepare_for_death();
-  log::error("supervisor", reason.message + "; the robot is stopped and this process ends");
+  log::error(kLogName, reason.message + "; the robot is stopped and this process ends");
   remove_meeting_place();
   std::_Exit(EXIT_FAILURE);
 }

@@ -48,11 +48,14 @@ class OrderDesk {
   void wait() const;
   void show_now_and_then(int beats);
   void hear_supervisor();
+  void turn_away_all();
   void keep_vigil();
   void lose_supervisor(const Error& reason);
   void carry_out(Told told);
   void adopt(const Told& told);
   Status prepare_to_outlive(Outlive& order);
+  void tell_log_wish();
+  static void hear(const TellLines& told);
   void hear(const TellAlarm& told);
   void pass_on(host::PartOrder order, const Told& told);
   [[nodiscard]] std::optional<Answer> answer_of(Order& order);
@@ -63,6 +66,7 @@ class OrderDesk {
   host::HostedPart& part_;
   ReportSender& reports_;
   const Site site_;
+  bool wants_lines_ = false;  // as the supervisor knows it
   PortLines lines_;
   std::optional<Outlive> will_;         // what to do without a supervisor; none: to end
   std::optional<ControlSocket> place_;  // while there is a will

@@ -76,6 +76,21 @@ void merge(const std::vector<Counts>& all, std::map<std::string, Counters>& by_n
   for (const Counts& counts : all) by_name[counts.name] = counters_from<Counters>(counts.numbers);
 }
 
+// Adds the counters of a later life to those of earlier ones. In all of them they have the same names.
+template <class Counters>
+void add_counts(const std::vector<Counts>& more, std::vector<Counts>& sum) {
+  if (sum.empty()) return void(sum = more);
+  const std::size_t wide = fields_of(Counters{}).wide.size();
+  for (const Counts& counts : more) {
+    const auto known = std::ranges::find(sum, counts.name, &Counts::name);
+    if (known == sum.end()) continue;
+    for (std::size_t i = 0; i < std::min(known->numbers.size(), counts.numbers.size()); ++i) {
+      std::uint64_t& number = known->numbers[i];
+      number = i < wide ? number + counts.numbers[i] : std::max(number, counts.numbers[i]);
+    }
+  }
+}
+
 std::string name_of(const std::string& from, const std::string& to) { return from + " to " + to; }
 
 std::uint64_t first_of(const Counts& counts) { return counts.numbers.empty() ? 0 : counts.numbers.front(); }
@@ -90,6 +105,16 @@ Tally to_tally(const host::RunCounters& counters, const std::vector<host::RunRes
   tally.servers = counts_of(counters.servers);
   for (const auto& way : ways) tally.ways.push_back({way.robot, {to_millimetres(way.length)}});
   return tally;
+}
+
+void add(const Tally& more, Tally& sum) {
+  add_counts<EdgeCounters>(more.edges, sum.edges);
+  add_counts<RequestCounters>(more.clients, sum.clients);
+  add_counts<IntakeCounters>(more.servers, sum.servers);
+  if (sum.ways.empty()) return void(sum.ways = more.ways);
+  for (Counts& way : sum.ways)
+    for (const Counts& other : more.ways)
+      if (other.name == way.name) way.numbers = {first_of(way) + first_of(other)};
 }
 
 host::RunCounters counters_of(const graph::Graph& graph, const std::map<std::string, Tally>& tallies) {

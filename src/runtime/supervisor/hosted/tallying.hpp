@@ -21,6 +21,9 @@ namespace orca::supervisor {
 [[nodiscard]] Tally to_tally(const host::RunCounters& counters,
                              const std::vector<host::RunResult::Way>& ways);
 
+/// Adds what a process has done in a later life to what it had done before.
+void add(const Tally& more, Tally& sum);
+
 /// Puts the tallies of all processes together: edges in the order of the graph, ways by the names of the robots. Of a way
 /// that several processes tell, the longest counts.
 /// @param tallies  from untrusted processes; numbers that are missing count as 0, further ones are ignored.

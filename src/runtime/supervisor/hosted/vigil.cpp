@@ -33,10 +33,10 @@ std::optional<Told> Vigil::turn(Moment now) {
 }
 
 void Vigil::take_in(Moment now) {
-  Descriptor connection = place_.accept();
-  if (!connection) return;
+  Result<Descriptor> connection = place_.accept();
+  if (!connection || !*connection) return;
   try {
-    auto visitor = std::make_shared<Channel>(std::move(connection));
+    auto visitor = std::make_shared<Channel>(std::move(connection).value());
     (void)visitor->post(encode(Report(introduce_())));
     visitor_ = std::move(visitor);
     sent_away_at_ = now + kPatience;

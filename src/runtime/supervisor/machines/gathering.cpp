@@ -102,7 +102,8 @@ void Gathering::tell_arrival(Peer& peer, const idl::MachineState& state) {
   const bool is_known = peer.said && peer.said->run() == state.run();
   if (is_known && !peer.lost) return;
   if (own_.phase() == idl::MACHINE_GATHERING) return tell(Kind::info, title(peer) + " is there");
-  tell(Kind::info, title(peer) + (is_known ? " is heard again" : " was started again"));
+  tell(peer.lost ? Kind::back : Kind::info,
+       title(peer) + (is_known ? " is heard again" : " was started again"), peer.node.name);
 }
 
 void Gathering::hear_end(Peer& peer) {
@@ -126,7 +127,7 @@ void Gathering::lose(Peer& peer, const std::string& how) {
   const std::string text = title(peer) + " " + how;
   if (own_.phase() == idl::MACHINE_GATHERING) return tell(Kind::info, text);
   const bool ends = peer.node.on_loss == graph::OnLoss::stop;
-  tell(Kind::lost, text + (ends ? ", so the run ends" : "; the others go on"));
+  tell(Kind::lost, text + (ends ? ", so the run ends" : "; the others go on"), peer.node.name);
   if (ends) decide(works() ? idl::MACHINE_FAILED : idl::MACHINE_NOT_STARTED, text);
 }
 

@@ -37,10 +37,12 @@ class Gathering {
     enum class Kind {
       info,
       warning,
-      lost,  ///< An alarm.
+      lost,  ///< An alarm about a machine.
+      back,  ///< The reason for that alarm is gone.
     };
     Kind kind = Kind::info;
     std::string text;
+    std::string machine{};  ///< Of the last two kinds.
   };
 
   /// @param graph  with all machines.
@@ -98,7 +100,9 @@ class Gathering {
   void hear_end(Peer& peer);
   void lose(Peer& peer, const std::string& how);
   void decide(idl::MachineEnd end, const std::string& why);
-  void tell(News::Kind kind, const std::string& text) { news_.push_back({kind, text}); }
+  void tell(News::Kind kind, const std::string& text, const std::string& machine = "") {
+    news_.push_back({kind, text, machine});
+  }
   [[nodiscard]] bool works() const { return own_.phase() >= idl::MACHINE_WORKING; }
 
   const std::string here_;

@@ -9,6 +9,7 @@
 
 #include "orca/base/log.hpp"
 #include "orca/idl/object_type.hpp"
+#include "orca/supervisor/log_name.hpp"
 #include "run/listening.hpp"
 
 namespace orca::supervisor {
@@ -84,8 +85,8 @@ Status Messenger::take(const Report& report) const {
 void Messenger::report_end(const ExitReason& reason, Moment now) {
   if (ends_ || !last_error_.empty()) return;  // as it was told to, or it has said why
   const std::string words = member_.last_words(now);
-  log::warning("supervisor", "process " + member_.name() + ", which speaks with the other machines, " +
-                                 reason.text() + (words.empty() ? "" : ": " + words));
+  log::warning(kLogName, "process " + member_.name() + ", which speaks with the other machines, " +
+                             reason.text() + (words.empty() ? "" : ": " + words));
 }
 
 void Messenger::end(Moment now) {

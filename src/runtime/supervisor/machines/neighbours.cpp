@@ -7,6 +7,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/text.hpp"
+#include "orca/supervisor/log_name.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -72,11 +73,13 @@ void Neighbours::turn(Moment now) {
 
 void Neighbours::tell_news() {
   for (const Gathering::News& news : gathering_.take_news()) {
-    if (news.kind == Gathering::News::Kind::lost)
-      ledger_.raise(host::AlarmKind::machine_lost, "", news.text);
-    else
-      log::write(news.kind == Gathering::News::Kind::info ? log::Level::info : log::Level::warning,
-                 "supervisor", news.text);
+    using NewsKind = Gathering::News::Kind;
+    if (news.kind == NewsKind::lost) {
+      ledger_.raise(host::AlarmKind::machine_lost, "", news.text, news.machine);
+      continue;
+    }
+    log::write(news.kind == NewsKind::warning ? log::Level::warning : log::Level::info, kLogName, news.text);
+    if (news.kind == NewsKind::back) ledger_.settle(host::AlarmKind::machine_lost, news.machine, news.text);
   }
 }
 
@@ -102,7 +105,7 @@ bool Neighbours::have_gathered() {
   if (has_gathered_) {
     gathering_.enter(idl::MACHINE_BUILDING);
   } else if (std::exchange(told_, awaited) != awaited) {
-    log::info("supervisor", "waiting for " + awaited);
+    log::info(kLogName, "waiting for " + awaited);
   }
   return has_gathered_;
 }

@@ -136,10 +136,12 @@ ControlSocket::~ControlSocket() {
   if (listening_) unlink(path_.c_str());
 }
 
-Descriptor ControlSocket::accept() const {
+Result<Descriptor> ControlSocket::accept() const {
   for (;;) {
     Descriptor client(accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC));
     if (!client && errno == EINTR) continue;
+    if (!client && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM))
+      return fail(Code::unavailable, std::string("cannot accept a client: ") + std::strerror(errno));
     if (client && !is_of_this_user(client)) continue;
     if (client) make_room(client);
     return client;

@@ -14,12 +14,16 @@ constexpr Duration kLongestDelay = 2s;
 RestartPolicy::RestartPolicy(const std::vector<graph::ProcessNode>& processes,
                              const graph::Supervision& rules)
     : rules_(rules) {
-  for (const graph::ProcessNode& process : processes) processes_.push_back({.rule = process.restart});
+  for (const graph::ProcessNode& process : processes)
+    processes_.push_back({.rule = process.restart,
+                          .on_demand = process.on_demand,
+                          .state = process.on_demand ? State::asleep : State::running});
 }
 
 RestartDecision RestartPolicy::ended(std::size_t process, bool is_normal, Moment now) {
   Process& one = processes_.at(process);
-  if (one.state == State::ending) one.state = State::waiting;
+  if (one.state == State::ending) one.state = to_start_again(one);
+  if (one.state == State::dozing) one.state = State::asleep;
   if (one.state == State::leaving) one.state = State::finished;
   if (one.state != State::running) return {};
   one.state = State::finished;
@@ -62,7 +66,7 @@ std::size_t RestartPolicy::end_of_concerned(std::size_t process) const {
 
 RestartDecision RestartPolicy::restart_from(std::size_t process, Moment start_at) {
   RestartDecision decision{.restarts = true, .gives_up = false, .end = {}};
-  processes_[process].state = State::waiting;
+  processes_[process].state = to_start_again(processes_[process]);
   for (std::size_t i = end_of_concerned(process); i-- > first_concerned(process);) {
     Process& one = processes_[i];
     one.start_at = std::max(one.start_at, start_at);
@@ -78,10 +82,16 @@ RestartDecision RestartPolicy::give_up() {
   for (std::size_t i = processes_.size(); i-- > 0;) {
     State& state = processes_[i].state;
     if (state == State::running) decision.end.push_back(i);
-    const bool lives = state == State::running || state == State::ending || state == State::leaving;
+    const bool lives = state == State::running || state == State::ending || state == State::leaving ||
+                       state == State::dozing;
     state = lives ? State::leaving : State::finished;
   }
   return decision;
+}
+
+void RestartPolicy::put_to_sleep(std::size_t process) {
+  Process& one = processes_[process];
+  if (one.state == State::running) one.state = State::dozing;
 }
 
 bool RestartPolicy::awaits_end() const {
@@ -92,17 +102,21 @@ bool RestartPolicy::awaits_end() const {
 
 void RestartPolicy::restart(std::size_t process, Moment now) {
   Process& one = processes_[process];
-  const bool lives = one.state != State::waiting && one.state != State::finished;
-  one.state = lives ? State::ending : State::waiting;
+  const bool is_gone =
+      one.state == State::waiting || one.state == State::asleep || one.state == State::finished;
+  one.state = is_gone ? to_start_again(one) : State::ending;
   one.start_at = now;
 }
 
-std::vector<std::size_t> RestartPolicy::take_due(Moment now) {
+std::vector<std::size_t> RestartPolicy::take_due(Moment now, const IsNeeded& is_needed) {
   std::vector<std::size_t> due;
   if (awaits_end()) return due;
   for (std::size_t i = 0; i < processes_.size(); ++i) {
-    if (processes_[i].state != State::waiting || processes_[i].start_at > now) continue;
-    processes_[i].state = State::running;
+    Process& one = processes_[i];
+    const bool is_to_start =
+        one.state == State::waiting || (one.state == State::asleep && is_needed && is_needed(i));
+    if (!is_to_start || one.start_at > now) continue;
+    one.state = State::running;
     due.push_back(i);
   }
   return due;

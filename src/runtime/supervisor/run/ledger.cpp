@@ -24,6 +24,14 @@ Result<T> read(const ObjectReport<kind>& report) {
   return object;
 }
 
+// Returns an alarm of the supervisor itself.
+idl::Alarm own_alarm(host::AlarmKind kind, const std::string& source, const std::string& text) {
+  idl::Alarm alarm = host::make_alarm(kind, source, "", text);
+  alarm.creation_time(to_time_value(steady_now()));
+  alarm.stamp(alarm.creation_time());
+  return alarm;
+}
+
 }  // namespace
 
 Ledger::Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start, std::string log_name)
@@ -56,7 +64,7 @@ Status Ledger::take(const Report& report, const std::string& process) {
 
 Status Ledger::take_figures(const Report& report, const std::string& process) {
   if (const auto* tally = std::get_if<Tally>(&report)) {
-    tallies_[process] = *tally;
+    add(*tally, tallies_[process]);  // it may have lived before
     return ok();
   }
   if (const auto* failed = std::get_if<OutputFailed>(&report)) {
@@ -119,16 +127,29 @@ void Ledger::note(idl::Alarm alarm, const std::string& process, const std::strin
   so_far_.alarms.push_back(std::move(alarm));
 }
 
-void Ledger::raise(host::AlarmKind kind, const std::string& process, const std::string& text) {
-  idl::Alarm alarm = host::make_alarm(kind, "", "", text);
-  alarm.creation_time(to_time_value(steady_now()));
-  alarm.stamp(alarm.creation_time());
-  host::log_alarm(alarm, log_name_);
-  note(std::move(alarm), process, "");
+void Ledger::raise(host::AlarmKind kind, const std::string& process, const std::string& text,
+                   const std::string& source) {
+  log::error(log_name_, std::string("alarm ") + host::to_string(kind) + ": " + text);
+  note(own_alarm(kind, source, text), process, "");
+}
+
+void Ledger::settle(host::AlarmKind kind, const std::string& source, const std::string& text) {
+  const auto is_it = [&](const host::KeptAlarm& kept) {
+    return kept.process.empty() && kept.alarm.kind() == host::to_string(kind) &&
+           kept.alarm.source() == source && kept.alarm.active();
+  };
+  if (std::ranges::none_of(alarms_.kept(), is_it)) return;
+  idl::Alarm settled = own_alarm(kind, source, text);
+  settled.active(false);
+  note(std::move(settled), "", "");
 }
 
 Status Ledger::acknowledge(std::uint64_t number) {
   const auto known = std::ranges::find(alarms_.kept(), number, &host::KeptAlarm::number);
+  if (known != alarms_.kept().end() && known->alarm.active() &&
+      known->alarm.kind() == host::to_string(host::AlarmKind::estop))
+    return fail(Code::failed_precondition,
+                "the motors are still held; first let them go: orcactl estop --release");
   if (known != alarms_.kept().end() && relay_ != nullptr) relay_->tell_acknowledged(*known);
   return alarms_.acknowledge(number);
 }
@@ -162,6 +183,15 @@ void Ledger::lose(const std::string& process, const std::string& why) {
   }
 }
 
+bool Ledger::is_in_use(const std::string& process) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(graph_.components, [&](const graph::ComponentNode& node) {
+    const host::ComponentState state = components_.at(node.name).state;
+    return node.process == process && state != host::ComponentState::idle &&
+           state != host::ComponentState::unloaded;
+  });
+}
+
 void Ledger::introduce() {
   robots_ = host::find_robots(graph_, robots_by_hardware_);
   listener_.robots(robots_);
@@ -175,7 +205,8 @@ host::Reports Ledger::reports() const {
 }
 
 std::optional<host::RunCounters> Ledger::counters() const {
-  if (tallies_.size() < graph::processes_of(graph_).size()) return std::nullopt;
+  for (const graph::ProcessNode& node : graph::processes_of(graph_))
+    if (!node.on_demand && !tallies_.contains(node.name)) return std::nullopt;
   return counters_of(graph_, tallies_);
 }
 

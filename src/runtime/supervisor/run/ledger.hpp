@@ -19,6 +19,7 @@
 #include "orca/host/run_result.hpp"
 #include "orca/host/run_view.hpp"
 #include "orca/host/verdict.hpp"
+#include "orca/supervisor/log_name.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 
 namespace orca::supervisor {
@@ -32,7 +33,7 @@ class Ledger final : public host::RunView {
   /// @param start  time of the run's clock, which all stamps refer to.
   /// @param log_name  name in the log for what concerns the run as a whole.
   Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start,
-         std::string log_name = "supervisor");
+         std::string log_name = kLogName);
 
   /// Takes a report of a host process.
   /// @errors  data_loss if it cannot be: the process is not to be trusted any more.
@@ -43,7 +44,13 @@ class Ledger final : public host::RunView {
 
   /// Raises an alarm of the supervisor itself, and writes it to the log.
   /// @param process  that the alarm is about; empty: not one alone.
-  void raise(host::AlarmKind kind, const std::string& process, const std::string& text);
+  /// @param source   what else it is about, such as a machine; empty: nothing.
+  void raise(host::AlarmKind kind, const std::string& process, const std::string& text,
+             const std::string& source = "");
+  /// Reports that the reason for an alarm of the supervisor itself is gone. It is kept until somebody acknowledges it. If
+  /// there is no such alarm, nothing happens.
+  /// @param text  what is so now, for people.
+  void settle(host::AlarmKind kind, const std::string& source, const std::string& text);
 
   /// Returns the alarms of all processes and of the supervisor that nobody has acknowledged yet, by number. They outlive
   /// their sources.
@@ -52,7 +59,7 @@ class Ledger final : public host::RunView {
   /// Returns the time of the run's clock, which all stamps refer to.
   [[nodiscard]] TimePoint start() const { return start_; }
   /// Takes an alarm out.
-  /// @errors  not_found.
+  /// @errors  not_found; failed_precondition for an emergency stop that is not released.
   Status acknowledge(std::uint64_t alarm);
   /// Tells of what happens to alarms from now on.
   /// @param relay  outlives the object.
@@ -66,6 +73,8 @@ class Ledger final : public host::RunView {
   [[nodiscard]] std::optional<host::RunCounters> counters() const;
   /// Returns why an output could not be written; nothing if all could.
   [[nodiscard]] const std::optional<Error>& output_error() const { return output_error_; }
+  /// Returns whether a component of a process has a client, as far as its state tells.
+  [[nodiscard]] bool is_in_use(const std::string& process) const;
   /// Returns whether all processes are at rest.
   [[nodiscard]] bool at_rest() const { return restless_.empty(); }
 

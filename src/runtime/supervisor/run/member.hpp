@@ -28,6 +28,7 @@ class Member {
  public:
   enum class Phase {
     absent,      ///< It does not run.
+    asleep,      ///< It does not run, because nobody needs it: it is started on demand.
     coming_up,   ///< It loads, constructs, configures.
     up,          ///< Its components work.
     going_down,  ///< It has been told to end.

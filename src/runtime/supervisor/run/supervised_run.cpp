@@ -6,13 +6,12 @@
 #include <optional>
 #include <utility>
 
-#include "adoption.hpp"
 #include "alarm_relay.hpp"
-#include "bring_up.hpp"
 #include "conclusion.hpp"
 #include "control/control_desk.hpp"
 #include "ledger.hpp"
 #include "listening.hpp"
+#include "log_relay.hpp"
 #include "machines/neighbours.hpp"
 #include "member.hpp"
 #include "orca/base/steady_clock.hpp"
@@ -24,8 +23,11 @@
 #include "orca/supervisor/meeting_place.hpp"
 #include "orca/supervisor/restart_policy.hpp"
 #include "poller.hpp"
-#include "run_identity.hpp"
-#include "starter.hpp"
+#include "starting/adoption.hpp"
+#include "starting/arrivals.hpp"
+#include "starting/on_demand.hpp"
+#include "starting/run_identity.hpp"
+#include "starting/starter.hpp"
 #include "taking_down.hpp"
 #include "trading.hpp"
 
@@ -77,9 +79,9 @@ class SupervisedRun {
     stop_.on_request([this] { poller_.wake(); });
     if (options_.outputs.looks_on) listener_.built(ledger_);
     control_.open(std::move(socket));
-    const Members missing = inherited_.empty() ? all_ : take_over();
+    const Members missing = inherited_.empty() ? on_demand_.put_others_to_sleep() : take_over();
     gather();
-    if (!conclusion_.is_over() && !missing.empty()) start(missing);
+    if (!conclusion_.is_over() && !missing.empty()) arrivals_.start(missing);
     while (!is_over()) turn(next_time());
     if (conclusion_.has_closing_phase()) wait_for_rest();
     const bool was_well = !conclusion_.has_failed();
@@ -104,6 +106,7 @@ class SupervisedRun {
       if (conclusion_.is_over() || !conclusion_.has_come_up())
         return fail(Code::failed_precondition, "the system is just coming up or ending");
       policy_.restart(member.index(), now());
+      on_demand_.want(member);
       end_for_restart(member);
       return ok();
     };
@@ -126,8 +129,7 @@ class SupervisedRun {
     });
     for (const Member* member : all_)
       if (member->process() != nullptr) beats_.watch_working(member->index(), member->node().hang_limit);
-    up_since_ = steady_now();
-    conclusion_.came_up();
+    arrivals_.take_over();
     trading_.brief(all_);  // nobody knows any more what they use
     std::erase_if(missing, [this](const Member* member) {
       const Error gone = note_gone(*member, ledger_, policy_);
@@ -136,56 +138,6 @@ class SupervisedRun {
       return stays_away;
     });
     return missing;
-  }
-
-  // Starts processes that do not run, all together.
-  void start(const Members& members) {
-    Result<std::vector<Setup>> setups = starter_.start(members);
-    if (!setups) return refuse(setups.error());
-    for (const Member* member : members) {
-      for (const std::string& warning : member->process()->warnings()) log::warning(member->name(), warning);
-      beats_.watch(member->index(), member->node().hang_limit);
-    }
-    began_.push_back(std::make_unique<BringUp>(
-        starter_.plan(members), consent(), [this, members] { built(members); },
-        [this, members](const Status& outcome, const Member* culprit) {
-          outcome.ok() ? came_up(members) : did_not_come_up(outcome.error(), *culprit);
-        }));
-    began_.back()->begin(std::move(setups).value());
-  }
-
-  // Only the start is common to all machines.
-  BringUp::Consent consent() {
-    if (!neighbours_ || conclusion_.has_come_up()) return {};
-    return {
-        [this](const std::string& component) { return neighbours_->gathering().may_configure(component); },
-        [this] { return neighbours_->gathering().may_begin(); }};
-  }
-
-  void built(const Members& members) {
-    control_.built(members);
-    trading_.brief(members);
-    if (!conclusion_.has_come_up()) ledger_.introduce();
-  }
-
-  void came_up(const Members& members) {
-    for (Member* const member : members) {
-      if (member->phase() != Phase::up) continue;
-      if (conclusion_.has_come_up()) log::info(options_.log_name, "process " + member->name() + " is back");
-      AlarmRelay::brief(*member, ledger_.alarms(), !conclusion_.has_come_up());
-      let_outlive(*member, graph_.supervision);
-    }
-    if (!conclusion_.has_come_up()) up_since_ = steady_now();
-    conclusion_.came_up();
-    control_.came_up(members);
-    if (neighbours_) neighbours_->gathering().enter(idl::MACHINE_WORKING);
-  }
-
-  void did_not_come_up(const Error& error, const Member& culprit) {
-    if (conclusion_.is_over()) return;
-    if (!conclusion_.has_come_up()) return conclusion_.refuse_start(error);
-    log::error(culprit.name(), "the process does not come up again: " + error.text());
-    culprit.process()->end_by_force(Force::overdue, now());
   }
 
   void refuse(const Error& error) {
@@ -203,14 +155,15 @@ class SupervisedRun {
     poller_.wait(polled_, clients, until);
     control_.serve(now());
     for (const auto& member : members_) look_after(*member);
+    log_relay_.pass_on(all_);
     if (neighbours_) neighbours_->turn(now());
     for (const std::size_t process : beats_.look(now())) {
       if (members_[process]->process() != nullptr)
         members_[process]->process()->end_by_force(Force::hang, now());
     }
-    std::erase_if(began_, [](const auto& bring_up) { return bring_up->is_over(); });
+    arrivals_.go_on();
     if (conclusion_.is_over()) return;
-    for (const auto& bring_up : began_) bring_up->go_on();
+    if (conclusion_.has_come_up()) on_demand_.look(now());
     start_due();
     if (conclusion_.has_come_up()) trading_.look();
   }
@@ -240,7 +193,12 @@ class SupervisedRun {
       return member.prompt(prompting->begins), ok();
     }
     if (const auto* standing = std::get_if<Standing>(&report)) control_.recall(*standing);
-    return ledger_.take(report, member.name());
+    if (const auto* wish = std::get_if<LogWished>(&report))
+      return log_relay_.note_wish(member, wish->is_wanted), ok();
+    log_relay_.set_source(&member);
+    Status taken = ledger_.take(report, member.name());
+    log_relay_.set_source(nullptr);
+    return taken;
   }
 
   // ---- Losing processes
@@ -250,24 +208,34 @@ class SupervisedRun {
     const std::string words = member.last_words(now());
     const std::string how =
         reason.text() + (words.empty() ? "; it ran " + listed(starter_.components_of(member)) : ": " + words);
-    const bool is_normal = reason.is_normal();
+    lose(member, how, {.is_normal = reason.is_normal(), .is_unasked = unasked});
+  }
+
+  // How a process was lost.
+  struct Loss {
+    bool is_normal;
+    bool is_unasked;
+  };
+
+  void lose(Member& member, const std::string& how, const Loss& loss) {
     beats_.forget(member.index());
     member.forget();
-    for (const auto& bring_up : began_) bring_up->lose(member);
+    arrivals_.lose(member);
     ledger_.lose(member.name(), "its process " + how);
     for (const Wiring::Outer& outer : starter_.wiring().edges_at(member.name())) cut(outer, member, how);
     const std::string text = "process " + member.name() + " " + how;
     if (conclusion_.is_over()) {
-      if (is_normal || stop_.is_urgent()) return;
+      if (loss.is_normal || stop_.is_urgent()) return;
       log::error(options_.log_name, text);
       return conclusion_.fail_late(fail(Code::unavailable, text));
     }
-    if (unasked) ledger_.raise(host::AlarmKind::process_ended, member.name(), text);
+    if (loss.is_unasked) ledger_.raise(host::AlarmKind::process_ended, member.name(), text);
     if (!conclusion_.has_come_up()) return conclusion_.fail_with(fail(Code::unavailable, text));
-    const RestartDecision decision = policy_.ended(member.index(), is_normal, now());
+    const RestartDecision decision = policy_.ended(member.index(), loss.is_normal, now());
     if (policy_.has_finished(member.index()) && !decision.gives_up && runs_an_end(graph_, member))
       return conclusion_.fail_with(fail(Code::unavailable, text));
     obey(decision, text);
+    if (policy_.is_asleep(member.index())) on_demand_.fall_asleep(member);
   }
 
   void cut(const Wiring::Outer& outer, const Member& lost, const std::string& how) {
@@ -291,10 +259,18 @@ class SupervisedRun {
     member.end(now(), kHurry, [](const Status&) {});
   }
 
+  // Ends a process that nobody needs any more.
+  void let_go(Member& member) {
+    log::info(options_.log_name, "process " + member.name() + " ends, because nobody needs it");
+    policy_.put_to_sleep(member.index());
+    end_for_restart(member);
+  }
+
   void start_due() {
     Members due;
-    for (const std::size_t index : policy_.take_due(now())) due.push_back(members_[index].get());
-    if (!due.empty()) start(due);
+    const auto is_needed = [this](std::size_t index) { return on_demand_.is_needed(*members_[index]); };
+    for (const std::size_t index : policy_.take_due(now(), is_needed)) due.push_back(members_[index].get());
+    if (!due.empty()) arrivals_.start(due);
   }
 
   // ---- Ending
@@ -308,7 +284,7 @@ class SupervisedRun {
     } else if (!conclusion_.has_come_up()) {
       if (began_at_ && steady_now() >= *began_at_ + kStartLimit)
         refuse(fail(Code::deadline_exceeded, "not everything came up in time"));
-    } else if (options_.until && steady_now() >= up_since_ + *options_.until) {
+    } else if (options_.until && steady_now() >= *arrivals_.up_since() + *options_.until) {
       conclusion_.run_out_of_time();
     } else {
       look_at_ends();
@@ -355,7 +331,7 @@ class SupervisedRun {
   // Says what did not happen in a run that went well.
   void report_idleness() {
     const auto counters = ledger_.counters();
-    if (!conclusion_.has_come_up() || !counters || end_ - up_since_ < host::kShortRun) return;
+    if (!conclusion_.has_come_up() || !counters || end_ - *arrivals_.up_since() < host::kShortRun) return;
     for (const auto& [who, text] : host::find_idleness(here_, reports_, *counters))
       log::warning(who.empty() ? options_.log_name : who, text);
   }
@@ -364,7 +340,7 @@ class SupervisedRun {
   [[nodiscard]] Moment next_time() const {
     Moment next = now() + kLook;
     if (options_.until && conclusion_.has_come_up())
-      next = std::min(next, to_steady(up_since_ + *options_.until));
+      next = std::min(next, to_steady(*arrivals_.up_since() + *options_.until));
     next = std::min(next, beats_.due().value_or(next));
     return std::min(next, policy_.due().value_or(next));
   }
@@ -393,6 +369,7 @@ class SupervisedRun {
   Starter starter_;
   const AlarmRelay relay_{all_};
   Ledger ledger_;
+  LogRelay log_relay_;
   std::optional<Neighbours> neighbours_;  // if the graph has several machines
   const host::Reports reports_ = ledger_.reports();
   Trading trading_{graph_, all_, reports_, neighbours_};
@@ -400,10 +377,13 @@ class SupervisedRun {
   Poller poller_;
   Heartbeats beats_{run_.page};
   ControlDesk control_;
-  std::vector<std::unique_ptr<BringUp>> began_;
   Conclusion conclusion_{here_, reports_, options_.log_name};
+  Arrivals arrivals_{{starter_, beats_, ledger_, control_, conclusion_, neighbours_, trading_,
+                      graph_.supervision, options_.log_name, [this](Member& member, const Error& error) {
+                        lose(member, "could not be started: " + error.message, {false, true});
+                      }}};
+  OnDemand on_demand_{all_, starter_, ledger_, [this](Member& member) { let_go(member); }};
   std::optional<TimePoint> began_at_;  // when all machines were there
-  TimePoint up_since_ = called_at_;
   TimePoint end_ = called_at_;
 };
 

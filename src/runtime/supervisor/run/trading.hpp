@@ -29,7 +29,7 @@ class Trading {
   /// Moves the ports whose server is not up to one that is. Call it often, once everything has come up.
   void look();
 
-  /// Tells new processes, or adopted ones, which edges their ports use.
+  /// Tells processes which edges their ports use. New ones need it before their components run.
   /// @pre  they are built.
   void brief(const Members& members) const;
 

@@ -4,6 +4,7 @@
 #include "loading.hpp"
 #include "orca/graph/json.hpp"
 #include "orca/graph/placement.hpp"
+#include "orca/graph/print.hpp"
 
 using namespace orca;
 using namespace orca::graph;
@@ -62,6 +63,30 @@ TEST_CASE("a process that says nothing has threads, no limits and is started aga
   CHECK(plain.hang_limit == 500ms);
   CHECK_FALSE(plain.priority);
   CHECK_FALSE(plain.memory);
+}
+
+TEST_CASE("a process that is started on demand ends after 10 s without use unless the graph says otherwise",
+          "[graph][process]") {
+  const auto avoid_in = [](const std::string& attributes) {
+    const Graph graph =
+        must_load(robot("<process name='a' start='on_demand' " + attributes + "/>", "", "process='a'", ""));
+    REQUIRE(graph.processes.size() == 1);
+    CHECK(graph.processes[0].on_demand);
+    CHECK(must_load(print(graph)) == graph);
+    return graph.processes[0].idle_time;
+  };
+  CHECK(avoid_in("") == 10s);
+  CHECK(avoid_in("idle_time='0.5 s'") == 500ms);
+  CHECK(avoid_in("stay='warm'") == 0s);
+}
+
+TEST_CASE("a connection over DDS cannot wake a process, but one from it can be of any kind",
+          "[graph][process]") {
+  const std::string process = "<process name='a' start='on_demand'/>";
+  const std::string here = "process='a'";
+  CHECK(must_load(robot(process, "", here, "", "link='dds'")).edges[0].link == Link::dds);
+  const std::string said = said_about(robot(process, "", here, here, "link='dds'"));
+  CHECK(said.find("no other process uses anything in it") != std::string::npos);
 }
 
 TEST_CASE("the attributes of a machine are read", "[graph][process]") {

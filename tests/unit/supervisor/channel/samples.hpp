@@ -35,31 +35,33 @@ std::vector<Words> list_of(Word... word) {
 /// Returns one of each order.
 inline std::vector<supervisor::Order> all_orders() {
   using namespace supervisor;
-  return list_of<Order>(setup(), Build{}, OpenHardware{}, Configure{"avoid"}, OpenGates{}, TakeDown{},
-                        StopMotors{"estop"}, Suspend{"avoid"}, Resume{"avoid"},
-                        SetParams{"avoid", {{"stop_distance", "0.5 m"}}}, RenewEdge{{4, null_device()}},
-                        CutEdge{4, "process \"base\" has crashed"}, TellAlarm{"base", some_bytes()},
-                        ForgetAlarm{"FAILED", "avoid", "behaviours"}, ReleaseMotors{}, Count{},
-                        OpenLine{"base", "OdometryPush", true, false, null_device()},
-                        Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}}, Say{some_bytes()},
-                        Outlive{null_device(), 60'000'000'000}, Adopt{}, MoveEdge{7});
+  return list_of<Order>(
+      setup(), Build{}, OpenHardware{}, Configure{"avoid"}, OpenGates{}, TakeDown{}, StopMotors{"estop"},
+      Suspend{"avoid"}, Resume{"avoid"}, SetParams{"avoid", {{"stop_distance", "0.5 m"}}},
+      RenewEdge{{4, null_device()}}, CutEdge{4, "process \"base\" has crashed"},
+      TellAlarm{"base", some_bytes()}, ForgetAlarm{"FAILED", "avoid", "behaviours"}, ReleaseMotors{}, Count{},
+      OpenLine{"base", "OdometryPush", true, false, null_device()},
+      Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}}, Say{some_bytes()},
+      Outlive{null_device(), 60'000'000'000}, Adopt{}, MoveEdge{7}, AskUse{},
+      TellLines{{{log::Level::warning, "goto", "lost", 12}, {log::Level::info, "base", "", 13}}});
 }
 
 /// Returns at least one of each report.
 inline std::vector<supervisor::Report> all_reports() {
   using namespace supervisor;
-  return list_of<Report>(
-      Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
-      Built{{{"hardware", "scout"}}}, StateChange{"avoid", 6, "no echo", true, true, true}, RestChange{true},
-      ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()}, ContactReport{{}},
-      AlarmReport{some_bytes()}, HeardReport{some_bytes()}, Logged{log::Level::warning, "avoid", "text"},
-      LastWordsReport{"SIGSEGV"}, Tally{{{"3", {1, 2}}}, {{"goto.send", {4}}}, {}, {{"base", {12'000}}}},
-      OutputFailed{fail(Code::unavailable, "no space", "run.csv")},
-      Glance{{{"scout", "Fault"}}, {{"kitchen", {2'500}}}}, Prompting{false},
-      Answer{ok(), {{{"name", "goto"}, {"restarts", 3}, {"active", true}}, {}}},
-      MissionStep{7, 1'000'000, "command.goto", "GoalPoint", 2, "goto", 5},
-      Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device()},
-      Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}}, Leaving{});
+  return list_of<Report>(Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
+                         Built{{{"hardware", "scout"}}}, StateChange{"avoid", 6, "no echo", true, true, true},
+                         RestChange{true}, ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()},
+                         ContactReport{{}}, AlarmReport{some_bytes()}, HeardReport{some_bytes()},
+                         Logged{log::Level::warning, "avoid", "text"}, LastWordsReport{"SIGSEGV"},
+                         Tally{{{"3", {1, 2}}}, {{"goto.send", {4}}}, {}, {{"base", {12'000}}}},
+                         OutputFailed{fail(Code::unavailable, "no space", "run.csv")},
+                         Glance{{{"scout", "Fault"}}, {{"kitchen", {2'500}}}}, Prompting{false},
+                         Answer{ok(), {{{"name", "goto"}, {"restarts", 3}, {"active", true}}, {}}},
+                         MissionStep{7, 1'000'000, "command.goto", "GoalPoint", 2, "goto", 5},
+                         Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device()},
+                         Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}},
+                         Leaving{}, LogWished{true});
 }
 
 /// Returns one of each word that a client of the control socket hears.

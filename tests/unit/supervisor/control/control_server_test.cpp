@@ -2,6 +2,7 @@
 // The supervisor's side of the socket, with clients in the same process.
 #include "control/control_server.hpp"
 
+#include <sys/resource.h>
 #include <sys/socket.h>
 
 #include <catch2/catch.hpp>
@@ -42,6 +43,12 @@ class Served {
     for (int i = 0; i < times; ++i) server_->serve(now);
   }
   [[nodiscard]] std::size_t clients() const { return server_->clients(); }
+  // Returns whether it waits for something, as poll() sees it.
+  [[nodiscard]] bool has_something_to_do() const {
+    std::vector<pollfd> all;
+    server_->add_to(all);
+    return poll(all.data(), all.size(), 0) > 0;
+  }
   std::vector<ReplyPtr> kept;  // replies to "wait"
   int asked = 0;
 
@@ -157,4 +164,28 @@ TEST_CASE("beyond the greatest number of clients the oldest has to go", "[superv
   REQUIRE(last.post(encode(Ask{"ps", {}, false}, 1)).ok());
   system.serve();
   CHECK(std::holds_alternative<RecordAnswer>(next(last)));
+}
+
+TEST_CASE("a client that waits while there are no descriptors left keeps nobody busy, and is served later",
+          "[supervisor][control]") {
+  Served system;
+  Channel client(system.connect());
+  CHECK(system.has_something_to_do());
+  rlimit before{};
+  getrlimit(RLIMIT_NOFILE, &before);
+  const rlimit none{3, before.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &none);
+  system.serve();
+  CHECK(system.clients() == 0);
+  const bool is_busy = system.has_something_to_do();
+  setrlimit(RLIMIT_NOFILE, &before);
+  CHECK_FALSE(is_busy);
+  system.serve(1, kStart + 199ms);
+  CHECK(system.clients() == 0);
+  system.serve(1, kStart + 200ms);
+  CHECK(system.clients() == 1);
+  REQUIRE(client.post(encode(Ask{"ps", {}, false}, 1)).ok());
+  CHECK(system.has_something_to_do());
+  system.serve(1, kStart + 1s);
+  CHECK(system.asked == 1);
 }

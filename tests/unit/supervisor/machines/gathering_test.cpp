@@ -130,6 +130,8 @@ TEST_CASE("a cut is noticed on both sides, and its end too", "[supervisor][machi
   system.network.part("eye", false);
   system.pass(500ms);
   CHECK(system.at("base").told("machine eye is heard again"));
+  CHECK(system.at("base").is_back("eye"));
+  CHECK_FALSE(system.at("base").is_back("brain"));
   CHECK(system.at("eye").told("machine base is heard again"));
   CHECK(system.all_work());
 }
@@ -158,7 +160,10 @@ TEST_CASE("a machine that was started again is taken in", "[supervisor][machines
   REQUIRE(system.passes_until([&] { return system.all_work(); }, 20s));
   CHECK(system.configured == Words{"b", "d"});
   CHECK(system.at("eye").told("machine base was started again"));
-  if (pause > 1s && loss == 0.0) CHECK(system.at("eye").lost("base"));
+  if (pause > 1s && loss == 0.0) {
+    CHECK(system.at("eye").lost("base"));
+    CHECK(system.at("eye").is_back("base"));
+  }
 }
 
 TEST_CASE("a machine that fails to start again does not end those that go on", "[supervisor][machines]") {

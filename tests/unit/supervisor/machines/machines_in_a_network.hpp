@@ -126,6 +126,12 @@ class Machine {
       return item.kind == Gathering::News::Kind::lost && item.text.find(machine) != std::string::npos;
     });
   }
+  // Returns whether the alarm about a machine was settled.
+  bool is_back(const std::string& machine) const {
+    return std::ranges::any_of(news, [&](const Gathering::News& item) {
+      return item.kind == Gathering::News::Kind::back && item.machine == machine;
+    });
+  }
 
   Gathering gathering;
   std::vector<Gathering::News> news;

@@ -30,12 +30,12 @@ TEST_CASE("a process is met at its place, which is for its user alone and gone w
     CHECK(mode_of(file) == 0600);
     CHECK(waiting_systems() == std::vector<std::string>{"scout"});
     CHECK(running_systems().empty());
-    while (place->accept()) continue;  // what asked who waits
+    while (place->accept().value()) continue;  // what asked who waits
     const std::vector<Waiting> found = connect_to_waiting("scout");
     REQUIRE(found.size() == 1);
     CHECK(found[0].pid == getpid());
     CHECK(syscall(SYS_pidfd_send_signal, found[0].pidfd.number(), 0, nullptr, 0) == 0);
-    CHECK(place->accept());
+    CHECK(place->accept().value());
     CHECK(connect_to_waiting("scou").empty());
     CHECK(connect_to_waiting("scout2").empty());
   }

@@ -270,3 +270,106 @@ TEST_CASE("A process that has finished can be restarted", "[supervisor][restart]
   policy.restart(0, kStart);
   CHECK(policy.take_due(kStart) == Indices{0});
 }
+
+// ---- Processes on demand: of three, the one in the middle.
+
+namespace {
+
+std::vector<graph::ProcessNode> with_sleeper(Restart rule = kPermanent) {
+  std::vector<graph::ProcessNode> processes = nodes({kPermanent, rule, kPermanent});
+  processes[1].on_demand = true;
+  return processes;
+}
+
+bool is_one(std::size_t process) { return process == 1; }
+
+}  // namespace
+
+TEST_CASE("A process on demand starts when it is needed, and not before",
+          "[supervisor][restart][on_demand]") {
+  RestartPolicy policy(with_sleeper(), supervision(Strategy::one_for_one));
+  CHECK(policy.is_asleep(1));
+  CHECK(policy.take_due(kStart, [](std::size_t) { return false; }) == Indices{});
+  CHECK(policy.take_due(kStart) == Indices{});
+  CHECK(policy.take_due(kStart, is_one) == Indices{1});
+  CHECK(policy.take_due(kStart, is_one) == Indices{});
+  CHECK_FALSE(policy.is_asleep(1));
+}
+
+TEST_CASE("The end of a process that nobody needs is no fault", "[supervisor][restart][on_demand]") {
+  RestartPolicy policy(with_sleeper(), supervision(Strategy::one_for_all, 0));
+  for (int i = 0; i < 10; ++i) {
+    CHECK(policy.take_due(kStart, is_one) == Indices{1});
+    policy.put_to_sleep(1);
+    const RestartDecision decision = policy.ended(1, true, kStart);
+    CHECK_FALSE(decision.restarts);
+    CHECK_FALSE(decision.gives_up);
+    CHECK(decision.end == Indices{});
+    CHECK(policy.is_asleep(1));
+  }
+}
+
+TEST_CASE("A process that goes to sleep holds up no restart of another one",
+          "[supervisor][restart][on_demand]") {
+  RestartPolicy policy(with_sleeper(), supervision(Strategy::one_for_one));
+  CHECK(policy.take_due(kStart, is_one) == Indices{1});
+  policy.put_to_sleep(1);
+  CHECK(policy.ended(0, false, kStart).restarts);
+  CHECK(policy.take_due(kStart) == Indices{0});
+}
+
+TEST_CASE("After a fault a process on demand waits to be needed, and for its back-off",
+          "[supervisor][restart][on_demand]") {
+  RestartPolicy policy(with_sleeper(), supervision(Strategy::one_for_one));
+  CHECK(policy.take_due(kStart, is_one) == Indices{1});
+  CHECK(policy.ended(1, false, kStart).restarts);
+  CHECK(policy.take_due(kStart) == Indices{});
+  CHECK_FALSE(policy.due());
+  CHECK(policy.take_due(kStart, is_one) == Indices{1});
+  CHECK(policy.ended(1, false, kStart).restarts);
+  CHECK(policy.take_due(kStart + 49ms, is_one) == Indices{});
+  CHECK(policy.take_due(kStart + 50ms, is_one) == Indices{1});
+  CHECK(policy.ended(1, false, kStart + 50ms).restarts);
+  CHECK(policy.take_due(kStart + 10s, is_one) == Indices{1});
+  CHECK(policy.ended(1, false, kStart + 9s).gives_up);
+}
+
+TEST_CASE("A temporary process on demand sleeps as often as it likes, but has one fault at most",
+          "[supervisor][restart][on_demand]") {
+  RestartPolicy policy(with_sleeper(kTemporary), supervision(Strategy::one_for_one));
+  for (int i = 0; i < 2; ++i) {
+    CHECK(policy.take_due(kStart, is_one) == Indices{1});
+    policy.put_to_sleep(1);
+    CHECK_FALSE(policy.ended(1, true, kStart).restarts);
+  }
+  CHECK(policy.take_due(kStart, is_one) == Indices{1});
+  CHECK_FALSE(policy.ended(1, false, kStart).restarts);
+  CHECK(policy.has_finished(1));
+  CHECK(policy.take_due(kStart, is_one) == Indices{});
+}
+
+TEST_CASE("A process on demand that is ended with another one comes back when it is needed",
+          "[supervisor][restart][on_demand]") {
+  RestartPolicy policy(with_sleeper(), supervision(Strategy::one_for_all));
+  CHECK(policy.ended(0, false, kStart).end == Indices{2});
+  CHECK_FALSE(policy.ended(2, true, kStart).restarts);
+  CHECK(policy.take_due(kStart) == Indices{0, 2});
+  CHECK(policy.take_due(kStart, is_one) == Indices{1});
+  CHECK(policy.ended(0, false, kStart + 20s).end == Indices{2, 1});
+  CHECK_FALSE(policy.ended(1, true, kStart + 20s).restarts);
+  CHECK_FALSE(policy.ended(2, true, kStart + 20s).restarts);
+  CHECK(policy.take_due(kStart + 20s) == Indices{0, 2});
+  CHECK(policy.is_asleep(1));
+}
+
+TEST_CASE("What an operator restarts on demand still waits to be needed",
+          "[supervisor][restart][on_demand]") {
+  RestartPolicy policy(with_sleeper(), supervision(Strategy::one_for_one));
+  policy.restart(1, kStart);
+  CHECK(policy.is_asleep(1));
+  CHECK(policy.take_due(kStart, is_one) == Indices{1});
+  policy.restart(1, kStart);
+  CHECK(policy.take_due(kStart, is_one) == Indices{});  // it must end first
+  CHECK_FALSE(policy.ended(1, true, kStart).restarts);
+  CHECK(policy.is_asleep(1));
+}

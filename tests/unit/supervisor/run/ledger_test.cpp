@@ -151,3 +151,55 @@ TEST_CASE("an alarm from before this supervisor is kept once, and told to nobody
   standing.alarms.emplace_back("base", std::vector<std::byte>{std::byte{1}});
   CHECK_FALSE(ledger.take(standing, "base").ok());
 }
+
+TEST_CASE("an alarm whose reason is gone is not active any more, and stays until it is acknowledged",
+          "[supervisor][ledger][alarms]") {
+  const graph::Graph graph = system();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  ledger.settle(host::AlarmKind::machine_lost, "brain", "machine brain is heard");
+  CHECK(ledger.alarms().empty());
+  ledger.raise(host::AlarmKind::machine_lost, "", "machine brain was not heard", "brain");
+  ledger.raise(host::AlarmKind::machine_lost, "", "machine eye was not heard", "eye");
+  REQUIRE(ledger.alarms().size() == 2);
+  ledger.settle(host::AlarmKind::machine_lost, "brain", "machine brain is heard again");
+  REQUIRE(ledger.alarms().size() == 2);
+  CHECK_FALSE(ledger.alarms()[0].alarm.active());
+  CHECK(ledger.alarms()[0].alarm.text() == "machine brain is heard again");
+  CHECK(ledger.alarms()[1].alarm.active());
+  CHECK(ledger.acknowledge(ledger.alarms()[0].number).ok());
+  CHECK(ledger.alarms().size() == 1);
+}
+
+TEST_CASE("an emergency stop cannot be acknowledged before it is released", "[supervisor][ledger][alarms]") {
+  const graph::Graph graph = system();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  ledger.raise(host::AlarmKind::estop, "", "all motors are held");
+  REQUIRE(ledger.alarms().size() == 1);
+  const std::uint64_t number = ledger.alarms()[0].number;
+  CHECK(ledger.acknowledge(number).error().code == Code::failed_precondition);
+  ledger.settle(host::AlarmKind::estop, "", "released");
+  CHECK(ledger.acknowledge(number).ok());
+  CHECK(ledger.alarms().empty());
+}
+
+TEST_CASE("what a process on demand carried counts for all of its lives, and is not missed if it had none",
+          "[supervisor][ledger][on_demand]") {
+  graph::Graph graph = system();
+  graph.processes = {{.name = "base", .on_demand = true}, {.name = "behaviours"}};
+  graph.hardware.clear();
+  Hearing hearing;
+  Ledger ledger(graph, hearing, TimePoint{});
+  Tally tally;
+  tally.servers = {{"base.in", {3}}};
+  CHECK_FALSE(ledger.counters());
+  REQUIRE(ledger.take(Tally{}, "behaviours").ok());
+  CHECK(ledger.counters());
+  for (int life = 0; life < 2; ++life) {
+    REQUIRE(ledger.take(tally, "base").ok());
+    ledger.lose("base", "nobody needed it");
+  }
+  REQUIRE(ledger.counters());
+  CHECK(ledger.counters()->servers.at("base.in").accepted == 6);
+}

@@ -87,3 +87,20 @@ TEST_CASE("what processes show is put together", "[supervisor][tally]") {
   CHECK(glance.goals[0].name == "kitchen");
   CHECK(glance.goals[0].distance == Approx(2.5));
 }
+
+TEST_CASE("what a process has counted in several lives is added up", "[supervisor][tally][on_demand]") {
+  Tally sum;
+  for (int life = 0; life < 3; ++life) add(to_tally(counted(), {{"base", 2.5}}), sum);
+  const host::RunCounters read = counters_of(two_edges(), {{"base", sum}});
+  REQUIRE(read.edges.size() == 1);
+  CHECK(read.edges[0].counters.delivered == 21);
+  CHECK(read.edges[0].counters.high_water == 5);
+  CHECK(read.clients.at("c.ask").sent == 12);
+  CHECK(read.servers.at("d.take").accepted == 27);
+  REQUIRE(ways_of({{"base", sum}}).size() == 1);
+  CHECK(ways_of({{"base", sum}})[0].length == Approx(7.5));
+  Tally other;
+  other.edges.push_back({"no such edge", {1, 2, 3}});
+  add(other, sum);
+  CHECK(sum.edges.size() == 1);
+}

@@ -3,6 +3,8 @@
 
 #include <exception>
 
+#include "orca/base/result.hpp"
+
 namespace orca {
 
 /// Exhaustion: the system gives this process no more memory, threads, processes or descriptors. Nobody near the
@@ -21,5 +23,19 @@ void throw_if_exhausted(int error_number);
 /// else. It allocates nothing.
 /// @thread  any.
 [[nodiscard]] const char* exhaustion_text(const std::exception_ptr& thrown) noexcept;
+
+/// Calls a function that returns a Status or a Result, where exhaustion is no reason to give everything up.
+/// @errors  those of the function; unavailable, with the sentence for people, for exhaustion. Other exceptions pass.
+/// @thread  as the function.
+template <class Function>
+auto contain_exhaustion(const Function& function) -> decltype(function()) {
+  try {
+    return function();
+  } catch (...) {
+    const char* const text = exhaustion_text(std::current_exception());
+    if (text == nullptr) throw;
+    return fail(Code::unavailable, text);
+  }
+}
 
 }  // namespace orca

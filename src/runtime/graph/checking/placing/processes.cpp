@@ -56,12 +56,32 @@ class ProcessReader {
     if (const auto bytes = read_attribute<double>(node_, "memory", report_))
       value.memory = static_cast<std::uint64_t>(std::llround(*bytes));
     read_choice(node_, "restart", kRestarts, value.restart, report_);
+    read_demand();
     read_processors();
     read_machine();
     return std::move(checked_);
   }
 
  private:
+  void read_demand() {
+    constexpr Duration kIdleTime = std::chrono::seconds(10);
+    ProcessNode& value = checked_.value;
+    const auto start = read_attribute<std::string>(node_, "start", report_);
+    value.on_demand = start == "on_demand";
+    const bool warm = read_attribute<std::string>(node_, "stay", report_) == "warm";
+    const auto idle_time = read_attribute<double>(node_, "idle_time", report_);
+    if (start == "at_once" || node_.find("start") == nullptr) return check_never_idle();
+    if (value.on_demand && !warm) value.idle_time = idle_time ? from_seconds(*idle_time) : kIdleTime;
+  }
+
+  void check_never_idle() {
+    for (const char* name : {"stay", "idle_time"})
+      if (node_.find(name) != nullptr)
+        report_.error(codes::kLoading, node_.place(name),
+                      node_.title() + ": " + name +
+                          " is for a process with start=\"on_demand\"; without that it runs all the time");
+  }
+
   void read_processors() {
     const Text* text = node_.known("processors");
     if (text == nullptr) return;

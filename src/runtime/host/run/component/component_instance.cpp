@@ -35,4 +35,10 @@ bool ComponentInstance::at_rest() const {
   return state() != ComponentState::connect && state() != ComponentState::work;
 }
 
+bool ComponentInstance::is_in_use() const {
+  const ComponentState now = state();
+  return (now != ComponentState::idle && now != ComponentState::unloaded) || parts_.ports.has_intake() ||
+         *current_hook() != '\0';
+}
+
 }  // namespace orca::host

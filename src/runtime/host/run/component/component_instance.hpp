@@ -60,6 +60,8 @@ class ComponentInstance final {
 
   [[nodiscard]] ComponentState state() const { return life_.state(); }
   [[nodiscard]] bool at_rest() const;
+  /// Returns whether a client has subscribed to it, or something that was sent or asked waits or is being handled.
+  [[nodiscard]] bool is_in_use() const;
   /// Returns whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
   [[nodiscard]] bool has_failed() const { return life_.has_failed(); }
   [[nodiscard]] bool has_worked() const { return life_.has_worked(); }

@@ -18,7 +18,7 @@ namespace orca::host {
 /// The ports of one component, owned by the host process. They are made before the component's code is
 /// loaded, stay when it is unloaded or exchanged, and queue meanwhile.
 ///
-/// Thread contract: add() before the system runs; find() from anywhere; the rest on the component's strand.
+/// Thread contract: add() before the system runs; find() and has_intake() from anywhere; the rest on the component's strand.
 class PortSet {
  public:
   template <class Kind>

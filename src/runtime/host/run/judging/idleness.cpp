@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orca/base/text.hpp"
+#include "orca/graph/placement.hpp"
 
 namespace orca::host {
 namespace {
@@ -73,7 +74,8 @@ std::vector<Idleness> find_idleness(const graph::Graph& graph, const Reports& re
   for (const graph::ComponentNode& node : graph.components) {
     const ComponentReport report = reports(node.name);
     const bool did_something = report.has_worked || report.has_failed || has_served(node.name, counters);
-    if (did_something || node.on_demand || only_serves(node.name, graph) || only_stands_by(node.name, graph))
+    const bool on_demand = node.on_demand || graph::starts_on_demand(graph, node.process);
+    if (did_something || on_demand || only_serves(node.name, graph) || only_stands_by(node.name, graph))
       continue;
     found.push_back({node.name, "has never worked in this run: " + reason(node, graph)});
   }

@@ -2,7 +2,6 @@
 #include "orca/host/hosted_part.hpp"
 
 #include <deque>
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -162,19 +161,9 @@ class HostedPart::Inside {
   }
 
   void carry_out(const PartOrder& order) {
-    const Status outcome = try_to_carry_out(order);
+    const Status outcome = contain_exhaustion([&] { return act(order); });
     report_changes();
     if (order.done) order.done(outcome);
-  }
-
-  Status try_to_carry_out(const PartOrder& order) {
-    try {
-      return act(order);
-    } catch (...) {
-      const char* const text = exhaustion_text(std::current_exception());
-      if (text == nullptr) throw;
-      return fail(Code::unavailable, text);
-    }
   }
 
   Status act(const PartOrder& order) {
@@ -192,6 +181,7 @@ class HostedPart::Inside {
         watched_.set_hang_limit(hang_limit_);
         return ok();
       case PartOrder::Kind::take_down: return take_down();
+      case PartOrder::Kind::check_unused: return system.check_unused();
       case PartOrder::Kind::suspend: return system.suspend(order.component, changed, limit);
       case PartOrder::Kind::resume: return system.resume(order.component, changed, limit);
       case PartOrder::Kind::set_params:

@@ -28,6 +28,9 @@ struct ProcessPart {
 /// @param machine  empty: the graph declares no machines, so all of them do.
 [[nodiscard]] std::vector<ProcessNode> processes_on(const Graph& graph, const std::string& machine);
 
+/// Returns whether a process is started only when something in it is needed.
+[[nodiscard]] bool starts_on_demand(const Graph& graph, const std::string& process);
+
 /// Returns what runs in the process of that name, and the edges at its components.
 [[nodiscard]] ProcessPart part_of(const Graph& graph, const std::string& process);
 

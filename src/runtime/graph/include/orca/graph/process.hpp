@@ -64,6 +64,8 @@ struct ProcessNode {
   bool lock_memory = false;               ///< Its memory is never paged out.
   std::optional<std::uint64_t> memory{};  ///< Most memory that it may have [byte]; nothing: no limit.
   Restart restart = Restart::permanent;
+  bool on_demand = false;  ///< Started when something in it is needed.
+  Duration idle_time{0};   ///< Time [s] without use after which an on-demand one ends; 0: it stays.
   Duration hang_limit{std::chrono::milliseconds(500)};  ///< Silence [s] after which it counts as hung.
   xml::Position position{};                             ///< Place of its element; not compared.
 

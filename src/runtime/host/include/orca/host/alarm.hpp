@@ -29,7 +29,8 @@ enum class AlarmKind {
   descriptors,    ///< Descriptors were left open, or none are left.
   process_ended,  ///< A host process has ended although nobody asked it to, or hangs and was ended.
   gave_up,        ///< Processes were restarted too often; the run ends.
-  machine_lost    ///< Another machine of the system is silent, or could not start again.
+  machine_lost,   ///< Another machine of the system is silent, or could not start again.
+  estop           ///< An operator has stopped all motors.
 };
 
 /// Returns the kind in capitals, as in idl::Alarm: "SIGNAL_MASK".

@@ -36,6 +36,7 @@ struct PartOrder {
     suspend,        ///< Pauses a component between two laps.
     resume,         ///< Resumes a component.
     set_params,     ///< Gives a component new parameter values, all or none.
+    check_unused,   ///< Does nothing; refused if a component is in use, with its name.
   };
   /// Takes the outcome, on the part's main task. It must not block.
   using Done = std::function<void(const Status&)>;

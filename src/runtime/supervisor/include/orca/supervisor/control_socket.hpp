@@ -38,7 +38,8 @@ class ControlSocket {
   ControlSocket& operator=(ControlSocket&&) = delete;
 
   /// Accepts the next client that waits; empty if there is none. A client of another user is turned away.
-  [[nodiscard]] Descriptor accept() const;
+  /// @errors  unavailable if there are no descriptors left: the client waits on, and poll() reports it all the time.
+  [[nodiscard]] Result<Descriptor> accept() const;
   /// Returns the number of the socket, for poll().
   [[nodiscard]] int descriptor() const { return listening_.number(); }
   [[nodiscard]] const std::string& path() const { return path_; }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -28,13 +29,18 @@ struct RestartDecision {
 ///   so; one that is not running because it has finished stays so, too.
 /// * The first restart of a process follows at once. After that each waits: 50 ms, then twice as long each time, up to
 ///   2 s. A process that has had no fault for `within` begins anew.
+/// * A process that is started on demand is asleep at first, and again after each end: it is started when it is needed. What
+///   is said above of restarts then says when it may be at the earliest.
 /// * More than `restarts` restarts within `within`, of all processes together, are too many. Processes that are started
 ///   again only because of another one do not count.
 ///
 /// Thread contract: not synchronised.
 class RestartPolicy {
  public:
-  /// All processes run at first, or are about to.
+  /// Returns whether a process is needed.
+  using IsNeeded = std::function<bool(std::size_t process)>;
+
+  /// All processes run at first, or are about to, unless they are started on demand.
   /// @param processes  in the order of the graph, which gives them their indices.
   RestartPolicy(const std::vector<graph::ProcessNode>& processes, const graph::Supervision& rules);
 
@@ -48,14 +54,23 @@ class RestartPolicy {
     return processes_[process].state == State::finished;
   }
 
+  /// Notes that a process on demand is about to be ended, because nobody needs it: that is no fault.
+  void put_to_sleep(std::size_t process);
+  /// Returns whether a process does not run and is to be started when it is needed.
+  [[nodiscard]] bool is_asleep(std::size_t process) const {
+    return processes_[process].state == State::asleep;
+  }
+
   /// Lets a process start again as soon as it has ended, whatever its rule, because somebody wants it so. It counts as no
-  /// fault and concerns no other process. Whoever calls this ends it, if it runs.
+  /// fault and concerns no other process. Whoever calls this ends it, if it runs. One on demand is still to be needed.
   void restart(std::size_t process, Moment now);
 
   /// Returns the processes that are to be started now, in the order of the graph, once each. From here on they count as
-  /// running. None is returned while one that is to be ended still runs.
-  [[nodiscard]] std::vector<std::size_t> take_due(Moment now);
-  /// Returns when take_due() will next have something; nothing if never, or if an end is awaited first.
+  /// running. None is returned while one that is to be ended for a restart still runs.
+  /// @param is_needed  asked of those that are asleep; empty: none is.
+  [[nodiscard]] std::vector<std::size_t> take_due(Moment now, const IsNeeded& is_needed = {});
+  /// Returns when take_due() will next have something, whatever is needed; nothing if never, or if an end is awaited
+  /// first.
   [[nodiscard]] std::optional<Moment> due() const;
 
  private:
@@ -64,17 +79,23 @@ class RestartPolicy {
     ending,    // to be ended, then started again
     leaving,   // to be ended, and not started again
     waiting,   // to be started at start_at
+    dozing,    // to be ended, then asleep
+    asleep,    // to be started when it is needed, not before start_at
     finished,  // not to be started again
   };
   struct Process {
     graph::Restart rule;
+    bool on_demand = false;
     State state = State::running;
-    Moment start_at{};       // while ending or waiting
+    Moment start_at{};       // while ending, waiting or asleep
     std::size_t faults = 0;  // since it last had none for `within`
     Moment last_fault{};
   };
 
   [[nodiscard]] bool is_restarted(const Process& process, bool is_normal) const;
+  [[nodiscard]] static State to_start_again(const Process& process) {
+    return process.on_demand ? State::asleep : State::waiting;
+  }
   [[nodiscard]] bool are_too_many(Moment now);
   Duration delay_after_fault(Process& process, Moment now) const;
   [[nodiscard]] std::size_t first_concerned(std::size_t process) const;

@@ -153,10 +153,26 @@ struct MoveEdge {
   static constexpr Kind kKind = Kind::move_edge;
   std::uint64_t edge = 0;
 };
+/// Asks whether anything in the process is in use: refused, with who is, if something is.
+struct AskUse {
+  static constexpr Kind kKind = Kind::ask_use;
+};
+/// A line of the log that another process has written.
+struct LogLine {
+  log::Level level = log::Level::info;
+  std::string who;
+  std::string text;
+  std::uint64_t time = 0;  ///< [ns of the run's clock]
+};
+/// Tells what other processes have written to the log.
+struct TellLines {
+  static constexpr Kind kKind = Kind::tell_lines;
+  std::vector<LogLine> lines;
+};
 
 using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
                            Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors,
-                           Count, OpenLine, Meet, Say, Outlive, Adopt, MoveEdge>;
+                           Count, OpenLine, Meet, Say, Outlive, Adopt, MoveEdge, AskUse, TellLines>;
 
 // ---- Reports, from a host process to the supervisor.
 
@@ -251,6 +267,11 @@ struct MissionStep {
   std::string cause_origin;  ///< What the object answers; empty: nothing.
   std::uint64_t cause_seq = 0;
 };
+/// Whether somebody in the process wants to hear what other processes write to the log, whenever it changes.
+struct LogWished {
+  static constexpr Kind kKind = Kind::log_wish;
+  bool is_wanted = false;
+};
 
 /// What a process without a supervisor says first to whoever comes.
 struct Orphaned {
@@ -276,7 +297,7 @@ struct Leaving {
 
 using Report = std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport,
                             ContactReport, AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance,
-                            Prompting, MissionStep, HeardReport, Orphaned, Standing, Leaving>;
+                            Prompting, MissionStep, HeardReport, Orphaned, Standing, Leaving, LogWished>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "orca/base/result.hpp"
@@ -34,6 +35,11 @@ class RingSegment {
   /// Returns the capacity of each ring [bytes].
   [[nodiscard]] std::size_t capacity() const;
   [[nodiscard]] const SharedMemory& memory() const { return memory_; }
+
+  /// Returns how much the client of the edge has written so far [bytes], for whoever watches the edge and is no end of it:
+  /// 0, it has used nothing of the server yet. The number is not checked.
+  /// @thread  any.
+  [[nodiscard]] std::uint64_t written_by_client() const;
 
  private:
   explicit RingSegment(SharedMemory memory) : memory_(std::move(memory)) {}

@@ -14,6 +14,7 @@
 #include "orca/host/run_outputs.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/stop_signal.hpp"
+#include "orca/supervisor/log_name.hpp"
 #include "orca/supervisor/system_facts.hpp"
 
 namespace orca::supervisor {
@@ -28,7 +29,7 @@ struct SupervisedOptions {
   std::optional<Backend> executor;  ///< Of all processes; none: as the graph says.
   std::vector<host::PlannedFailure> planned_failures;
   log::Level log_level = log::Level::info;
-  std::string log_name = "supervisor";  ///< Name in the log for what concerns the run as a whole.
+  std::string log_name = kLogName;  ///< Name in the log for what concerns the run as a whole.
   host::RunOutputs outputs;  ///< Checked by check_outputs(). A process that is started again writes none.
   SystemFacts facts;         ///< For operators.
 };

@@ -4,13 +4,14 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bring_up.hpp"
-#include "member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/supervisor/supervised_run.hpp"
+#include "run/member.hpp"
 #include "run_identity.hpp"
 #include "wiring.hpp"
 
@@ -21,14 +22,25 @@ namespace orca::supervisor {
 /// Thread contract: the supervisor's thread.
 class Starter {
  public:
+  /// What has become of processes that were to be started.
+  struct Begun {
+    Members members;            ///< Those that were.
+    std::vector<Setup> setups;  ///< For each of them.
+    /// The others, and why: errors of HostProcess::start() and RingSegment::create(), or exhaustion.
+    std::vector<std::pair<Member*, Error>> failed;
+  };
+
   /// All of these outlive the object.
   Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunIdentity& run,
           const Members& all);
 
-  /// Starts processes that do not run, all together, and renews the edges to those that do. The bring-up begins when
-  /// the caller calls begin() with the returned setups.
-  /// @errors  as HostProcess::start() and RingSegment::create(); the processes that were started then run on.
-  Result<std::vector<Setup>> start(const Members& members);
+  /// Starts processes that do not run, all together, and renews the edges to those that do. One that is asleep takes over
+  /// the edges that wait for it. The bring-up begins when the caller calls begin() with the returned setups.
+  Begun start(const Members& members);
+
+  /// Renews the edges of a process on demand that has ended. They wait for it.
+  /// @errors  as RingSegment::create(); unavailable for exhaustion.
+  Status renew_edges_of(const Member& member);
 
   /// Returns the plan by which these processes come up.
   [[nodiscard]] BringUp::Plan plan(const Members& members) const;
@@ -52,7 +64,7 @@ class Starter {
   const RunIdentity& run_;
   const Members& all_;
   const std::string graph_text_;
-  const Wiring wiring_;
+  Wiring wiring_;
   std::set<std::string> started_;  // processes that have been started once
 };
 

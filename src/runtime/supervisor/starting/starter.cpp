@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hosted/run_wishes.hpp"
+#include "orca/base/exhaustion.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/graph/placement.hpp"
@@ -28,18 +29,35 @@ Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, co
       graph_text_(graph::print(graph)),
       wiring_(graph) {}
 
-Result<std::vector<Setup>> Starter::start(const Members& members) {
+Starter::Begun Starter::start(const Members& members) {
+  Begun begun;
   std::set<std::string> names;
-  for (const Member* member : members) names.insert(member->name());
-  Result<Wiring::Lots> lots = wiring_.deal(names);
-  if (!lots) return lots.error();
-  std::vector<Setup> setups;
-  for (Member* const member : members) {
-    if (const Status started = member->start(host_start(*member)); !started.ok()) return started.error();
-    setups.push_back(setup(*member, std::move(lots->by_process[member->name()])));
+  std::set<std::string> waking;
+  for (const Member* member : members) {
+    names.insert(member->name());
+    if (member->phase() == Member::Phase::asleep) waking.insert(member->name());
   }
-  renew_others(members, *lots);
-  return setups;
+  Result<Wiring::Lots> lots = contain_exhaustion([&] { return wiring_.deal(names, waking); });
+  for (Member* const member : members) {
+    const Status started =
+        lots ? contain_exhaustion([&] { return member->start(host_start(*member)); }) : Status(lots.error());
+    if (!started.ok()) {
+      begun.failed.emplace_back(member, started.error());
+      continue;
+    }
+    begun.members.push_back(member);
+    begun.setups.push_back(setup(*member, std::move(lots->by_process[member->name()])));
+  }
+  if (lots) renew_others(members, *lots);
+  return begun;
+}
+
+Status Starter::renew_edges_of(const Member& member) {
+  Result<Wiring::Lots> lots = contain_exhaustion([&] { return wiring_.deal({member.name()}); });
+  if (!lots) return lots.error();
+  lots->by_process.erase(member.name());
+  renew_others({}, *lots);
+  return ok();
 }
 
 // The supervisor itself sees to the limit of memory. The system counts what is reserved as well, such as stacks: its

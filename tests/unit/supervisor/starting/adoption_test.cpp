@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "run/adoption.hpp"
+#include "starting/adoption.hpp"
 
 #include <atomic>
 #include <catch2/catch.hpp>

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/base/distant_log.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace orca::log {
+namespace {
+
+struct Listeners {
+  std::mutex mutex;
+  std::vector<const DistantListener*> all;  // guarded by the mutex
+};
+
+// Never destroyed: threads may pass lines on while the process ends.
+Listeners& listeners() {
+  static Listeners* const instance = new Listeners;
+  return *instance;
+}
+
+}  // namespace
+
+DistantListener::DistantListener(std::function<void(const Line&)> heard) : heard_(std::move(heard)) {
+  const std::lock_guard lock(listeners().mutex);
+  listeners().all.push_back(this);
+}
+
+DistantListener::~DistantListener() {
+  const std::lock_guard lock(listeners().mutex);
+  std::erase(listeners().all, this);
+}
+
+bool wants_distant() {
+  const std::lock_guard lock(listeners().mutex);
+  return !listeners().all.empty();
+}
+
+void hear_distant(const Line& line) {
+  const std::lock_guard lock(listeners().mutex);
+  for (const DistantListener* const listener : listeners().all) listener->heard_(line);
+}
+
+}  // namespace orca::log

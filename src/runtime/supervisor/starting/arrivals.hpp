@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bring_up.hpp"
+#include "control/control_desk.hpp"
+#include "machines/neighbours.hpp"
+#include "orca/supervisor/heartbeats.hpp"
+#include "run/conclusion.hpp"
+#include "run/ledger.hpp"
+#include "run/member.hpp"
+#include "run/trading.hpp"
+#include "starter.hpp"
+
+namespace orca::supervisor {
+
+/// Brings processes up: all of them at the start of a run, and later those that are started again, or on demand.
+///
+/// Thread contract: the supervisor's thread.
+class Arrivals {
+ public:
+  /// What it works with. All of it outlives the object.
+  struct Place {
+    Starter& starter;
+    Heartbeats& beats;
+    Ledger& ledger;
+    ControlDesk& control;
+    Conclusion& conclusion;
+    std::optional<Neighbours>& neighbours;
+    Trading& trading;
+    const graph::Supervision& rules;
+    const std::string& log_name;
+    /// Takes a process that could not even be started, later than at the start of the run.
+    std::function<void(Member&, const Error&)> could_not_start;
+  };
+
+  explicit Arrivals(Place place) : place_(std::move(place)) {}
+
+  /// Starts processes that do not run, all together. The first ones are those with which the run begins.
+  void start(const Members& members);
+  /// Goes on with a run that another supervisor has begun: none of the processes that are started is of its first ones.
+  void take_over();
+  /// Goes on with those that come up. Call it often.
+  void go_on();
+  /// Goes on without a process, which has ended.
+  void lose(Member& member);
+
+  /// Returns when everything had come up; nothing if it has not yet.
+  [[nodiscard]] std::optional<TimePoint> up_since() const { return up_since_; }
+
+ private:
+  void bring_up(Starter::Begun& begun, bool is_first);
+  void watch(const Members& members);
+  [[nodiscard]] BringUp::Consent consent(bool is_first) const;
+  void built(const Members& members, bool is_first);
+  void came_up(const Members& members, bool is_first);
+  void did_not_come_up(const Error& error, const Member& culprit);
+
+  const Place place_;
+  bool has_begun_ = false;
+  std::optional<TimePoint> up_since_;
+  std::vector<std::unique_ptr<BringUp>> began_;
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "wiring.hpp"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "orca/base/exhaustion.hpp"
+#include "orca/graph/placement.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+Descriptor copy_of(int descriptor) {
+  Descriptor copy(fcntl(descriptor, F_DUPFD_CLOEXEC, 3));
+  if (!copy) throw_if_exhausted(errno);
+  return copy;
+}
+
+}  // namespace
+
+Wiring::Wiring(const graph::Graph& graph) {
+  for (std::size_t index = 0; index < graph.edges.size(); ++index) {
+    const graph::Edge& edge = graph.edges[index];
+    const std::string& from = graph.find_component(edge.from.component)->process;
+    const std::string& to = graph.find_component(edge.to.component)->process;
+    if (from == to) continue;
+    outer_.push_back({.edge = index,
+                      .name = edge.from.text() + " to " + edge.to.text(),
+                      .from = from,
+                      .to = to,
+                      .needs_memory = edge.link != graph::Link::dds,
+                      .is_kept = graph::starts_on_demand(graph, from) || graph::starts_on_demand(graph, to),
+                      .server = edge.pattern == Pattern::push ? from : to});
+  }
+}
+
+Result<Wiring::Lots> Wiring::deal(const std::set<std::string>& processes,
+                                  const std::set<std::string>& waking) {
+  Lots lots;
+  const auto hand_out = [&](const Outer& outer, const std::string& process, const MemoryFile& file) {
+    lots.by_process[process].push_back({outer.edge, copy_of(file.descriptor())});
+  };
+  for (const Outer& outer : outer_) {
+    if (!outer.needs_memory || !(processes.contains(outer.from) || processes.contains(outer.to))) continue;
+    if (takes_over(outer, processes, waking)) {
+      for (const std::string& process : {outer.from, outer.to})
+        if (waking.contains(process)) hand_out(outer, process, kept_.at(outer.edge).file);
+      continue;
+    }
+    Result<MemoryFile> file = RingSegment::create(outer.name);
+    if (!file) return file.error();
+    for (const std::string& process : {outer.from, outer.to}) hand_out(outer, process, *file);
+    if (const Status kept = keep(outer, std::move(file).value()); !kept.ok()) return kept.error();
+  }
+  return lots;
+}
+
+// Keeps the memory of an edge at a process on demand.
+Status Wiring::keep(const Outer& outer, MemoryFile file) {
+  if (!outer.is_kept) return ok();
+  Result<RingSegment> rings = RingSegment::map(file.descriptor());
+  if (!rings) return rings.error();
+  kept_.insert_or_assign(outer.edge, Kept{std::move(file), std::move(rings).value()});
+  return ok();
+}
+
+// Returns whether the edge has memory that its new ends can take over: none of them is fresh.
+bool Wiring::takes_over(const Outer& outer, const std::set<std::string>& processes,
+                        const std::set<std::string>& waking) const {
+  const auto is_fresh = [&](const std::string& process) {
+    return processes.contains(process) && !waking.contains(process);
+  };
+  return kept_.contains(outer.edge) && !is_fresh(outer.from) && !is_fresh(outer.to);
+}
+
+std::uint64_t Wiring::traffic_to(const std::string& process) const {
+  std::uint64_t sum = 0;
+  for (const Outer& outer : outer_)
+    if (const auto kept = kept_.find(outer.edge); kept != kept_.end() && outer.server == process)
+      sum += kept->second.rings.written_by_client();
+  return sum;
+}
+
+std::vector<Wiring::Outer> Wiring::edges_at(const std::string& process) const {
+  std::vector<Outer> edges;
+  std::ranges::copy_if(outer_, std::back_inserter(edges),
+                       [&](const Outer& outer) { return outer.from == process || outer.to == process; });
+  return edges;
+}
+
+}  // namespace orca::supervisor

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/base/shared_memory.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/patterns/shm/ring_segment.hpp"
+#include "orca/supervisor/vocabulary.hpp"
+#include "run/member.hpp"
+
+namespace orca::supervisor {
+
+/// The edges between the processes of a graph, and the memory that each of them uses.
+///
+/// A process that is started on demand has memory for its edges also while it does not run: its clients write into it, and
+/// find the process there later. So they notice nothing but the delay, and what they write tells that it is needed.
+///
+/// Thread contract: the supervisor's thread.
+class Wiring {
+ public:
+  explicit Wiring(const graph::Graph& graph);
+
+  /// An edge between two processes.
+  struct Outer {
+    std::size_t edge;  ///< Index in the graph.
+    std::string name;  ///< For people: "a.out to b.in".
+    std::string from;  ///< Process of its `from` end.
+    std::string to;
+    bool needs_memory;        ///< Its objects go through shared memory.
+    bool is_kept = false;     ///< One of the processes is started on demand.
+    std::string server = {};  ///< The one of the two processes that the other one uses.
+  };
+
+  /// The new memory of the edges at some processes.
+  struct Lots {
+    std::map<std::string, std::vector<EdgeMemory>> by_process;
+  };
+  /// Makes new memory for all edges that need it and have an end in one of the processes.
+  /// @param waking  those of them that take over the memory which waits for them, where there is some.
+  /// @errors  unavailable if the system gives none.
+  [[nodiscard]] Result<Lots> deal(const std::set<std::string>& processes,
+                                  const std::set<std::string>& waking = {});
+
+  /// Returns how much the clients of a process on demand have written since its edges got new memory [bytes]; 0: nobody
+  /// has used it.
+  [[nodiscard]] std::uint64_t traffic_to(const std::string& process) const;
+
+  /// Returns the edges between this process and others.
+  [[nodiscard]] std::vector<Outer> edges_at(const std::string& process) const;
+
+ private:
+  // The memory of an edge at a process on demand.
+  struct Kept {
+    MemoryFile file;
+    RingSegment rings;
+  };
+
+  [[nodiscard]] bool takes_over(const Outer& outer, const std::set<std::string>& processes,
+                                const std::set<std::string>& waking) const;
+  Status keep(const Outer& outer, MemoryFile file);
+
+  std::vector<Outer> outer_;
+  std::map<std::size_t, Kept> kept_;  // by edge
+};
+
+}  // namespace orca::supervisor

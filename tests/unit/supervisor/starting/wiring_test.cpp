@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "starting/wiring.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "open_descriptors.hpp"
+#include "orca/patterns/shm/ring_segment.hpp"
+
+using namespace orca;
+using namespace orca::supervisor;
+
+namespace {
+
+graph::Edge edge(const std::string& from, const std::string& to) {
+  graph::Edge made;
+  made.from = {from, "out"};
+  made.to = {to, "in"};
+  return made;
+}
+
+// Processes one, two, three; a and b are in one.
+graph::Graph system() {
+  graph::Graph graph;
+  for (const auto& [name, process] : {std::pair("a", "one"), {"b", "one"}, {"c", "two"}, {"d", "three"}}) {
+    graph::ComponentNode node;
+    node.name = name;
+    node.process = process;
+    graph.components.push_back(node);
+  }
+  graph.edges = {edge("a", "b"), edge("a", "c"), edge("d", "b")};
+  return graph;
+}
+
+std::vector<std::size_t> edges_of(const Wiring::Lots& lots, const std::string& process) {
+  std::vector<std::size_t> edges;
+  if (const auto lot = lots.by_process.find(process); lot != lots.by_process.end())
+    for (const EdgeMemory& memory : lot->second) edges.push_back(memory.edge);
+  return edges;
+}
+
+}  // namespace
+
+TEST_CASE("only edges between processes get memory, and both ends get the same", "[supervisor][wiring]") {
+  Wiring wiring(system());
+  const auto lots = wiring.deal({"one", "two", "three"});
+  REQUIRE(lots);
+  CHECK(edges_of(*lots, "one") == std::vector<std::size_t>{1, 2});
+  CHECK(edges_of(*lots, "two") == std::vector<std::size_t>{1});
+  CHECK(edges_of(*lots, "three") == std::vector<std::size_t>{2});
+  const auto here = SharedMemory::map(lots->by_process.at("one")[0].memory.number());
+  const auto there = SharedMemory::map(lots->by_process.at("two")[0].memory.number());
+  REQUIRE(here);
+  REQUIRE(there);
+  here->bytes()[9000] = std::byte{42};
+  CHECK(there->bytes()[9000] == std::byte{42});
+}
+
+TEST_CASE("a process that is started again gets new memory for its edges, and so do its neighbours",
+          "[supervisor][wiring]") {
+  Wiring wiring(system());
+  const auto lots = wiring.deal({"two"});
+  REQUIRE(lots);
+  CHECK(edges_of(*lots, "one") == std::vector<std::size_t>{1});
+  CHECK(edges_of(*lots, "two") == std::vector<std::size_t>{1});
+  CHECK(edges_of(*lots, "three").empty());
+}
+
+TEST_CASE("the edges at a process are known by both of their ends", "[supervisor][wiring]") {
+  Wiring wiring(system());
+  CHECK(wiring.edges_at("one").size() == 2);
+  REQUIRE(wiring.edges_at("three").size() == 1);
+  CHECK(wiring.edges_at("three")[0].name == "d.out to b.in");
+  CHECK(wiring.edges_at("three")[0].from == "three");
+  CHECK(wiring.edges_at("three")[0].to == "one");
+}
+
+TEST_CASE("memory that nobody takes leaves no descriptor behind", "[supervisor][wiring]") {
+  Wiring wiring(system());
+  const std::size_t before = test::open_descriptors();
+  REQUIRE(wiring.deal({"one"}));
+  CHECK(test::open_descriptors() == before);
+}
+
+namespace {
+
+// The same, with process two on demand: a pushes to c, and c sends to e, whose process four is on demand, too.
+graph::Graph with_sleepers() {
+  graph::Graph graph = system();
+  graph.processes = {{.name = "two", .on_demand = true}, {.name = "four", .on_demand = true}};
+  graph::ComponentNode node;
+  node.name = "e";
+  node.process = "four";
+  graph.components.push_back(node);
+  graph.edges.push_back(edge("b", "c"));
+  graph.edges.back().pattern = Pattern::send;
+  graph.edges.push_back(edge("c", "e"));
+  graph.edges.back().pattern = Pattern::query;
+  for (graph::Edge& one : graph.edges) one.link = graph::Link::shm;
+  return graph;
+}
+
+const EdgeMemory& memory_of(const Wiring::Lots& lots, const std::string& process, std::size_t edge) {
+  for (const EdgeMemory& memory : lots.by_process.at(process))
+    if (memory.edge == edge) return memory;
+  throw std::runtime_error("no memory of edge " + std::to_string(edge) + " for " + process);
+}
+
+// Writes what a client would: the position behind its first record stands first in the memory.
+void write_as_client(const EdgeMemory& memory) {
+  const auto mapped = SharedMemory::map(memory.memory.number());
+  REQUIRE(mapped);
+  mapped->bytes()[0] = std::byte{8};
+}
+
+bool has_written(const EdgeMemory& memory) {
+  const auto mapped = SharedMemory::map(memory.memory.number());
+  return mapped && mapped->bytes()[0] == std::byte{8};
+}
+
+}  // namespace
+
+TEST_CASE("what a client has written waits for a process on demand, and is found there",
+          "[supervisor][wiring][on_demand]") {
+  Wiring wiring(with_sleepers());
+  const auto lots = wiring.deal({"one", "three"});
+  REQUIRE(lots);
+  CHECK(wiring.traffic_to("two") == 0);
+  write_as_client(memory_of(*lots, "one", 3));
+  CHECK(wiring.traffic_to("two") == 8);
+  CHECK(wiring.traffic_to("four") == 0);
+  const auto woken = wiring.deal({"two"}, {"two"});
+  REQUIRE(woken);
+  CHECK(has_written(memory_of(*woken, "two", 3)));
+  CHECK_FALSE(woken->by_process.contains("one"));  // it has its end
+  CHECK(edges_of(*woken, "two") == std::vector<std::size_t>{1, 3, 4});
+}
+
+TEST_CASE("what a process on demand writes as a client of another process does not wake it",
+          "[supervisor][wiring][on_demand]") {
+  Wiring wiring(with_sleepers());
+  const auto lots = wiring.deal({"one"});
+  REQUIRE(lots);
+  write_as_client(memory_of(*lots, "one", 1));  // an edge on which two is the client
+  CHECK(wiring.traffic_to("two") == 0);
+}
+
+TEST_CASE("two processes on demand can wake each other", "[supervisor][wiring][on_demand]") {
+  Wiring wiring(with_sleepers());
+  REQUIRE(wiring.deal({"one"}));
+  const auto two = wiring.deal({"two"}, {"two"});
+  REQUIRE(two);
+  write_as_client(memory_of(*two, "two", 4));
+  CHECK(wiring.traffic_to("four") == 8);
+  const auto four = wiring.deal({"four"}, {"four"});
+  REQUIRE(four);
+  CHECK(has_written(memory_of(*four, "four", 4)));
+}
+
+TEST_CASE("after the end of either process its edges are fresh again", "[supervisor][wiring][on_demand]") {
+  Wiring wiring(with_sleepers());
+  const auto first = wiring.deal({"one"});
+  REQUIRE(first);
+  write_as_client(memory_of(*first, "one", 3));
+  const auto restarted = GENERATE(as<std::string>{}, "one", "two");
+  const auto second = wiring.deal({restarted});
+  REQUIRE(second);
+  CHECK(wiring.traffic_to("two") == 0);
+  CHECK_FALSE(has_written(memory_of(*second, "one", 3)));
+  const auto woken = wiring.deal({"two"}, {"two"});
+  REQUIRE(woken);
+  CHECK_FALSE(has_written(memory_of(*woken, "two", 3)));
+}
+
+TEST_CASE("a process on demand that starts together with a neighbour gets what both share",
+          "[supervisor][wiring][on_demand]") {
+  Wiring wiring(with_sleepers());
+  REQUIRE(wiring.deal({"one"}));
+  const auto lots = wiring.deal({"one", "two"}, {"two"});
+  REQUIRE(lots);
+  write_as_client(memory_of(*lots, "one", 3));
+  CHECK(has_written(memory_of(*lots, "two", 3)));
+}
