@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -73,10 +74,19 @@ class Line final : public TrialLine {
   }
 };
 
+// Takes no memory.
+void report_bare(Kind kind) {
+  const char record[] = {static_cast<char>(kind), 0, 0, 0, 0};
+  write_all(record, sizeof record);
+}
+
 void report_terminate() {
   if (std::current_exception() != nullptr) {
     try {
       throw;
+    } catch (const std::bad_alloc&) {
+      report_bare(Kind::impossible);  // the start of the system will say that there is too little memory
+      _exit(0);
     } catch (...) {
       report(Kind::thrown, describe_current_exception());
     }
@@ -85,10 +95,7 @@ void report_terminate() {
 }
 
 // Called in a signal handler.
-void report_effect(int /*system_call*/) {
-  const char record[] = {static_cast<char>(Kind::effect), 0, 0, 0, 0};
-  write_all(record, sizeof record);
-}
+void report_effect(int /*system_call*/) { report_bare(Kind::effect); }
 
 // At exit() the leak checker of AddressSanitizer makes system calls that are forbidden here, and an exit() of the tried
 // code would look like a trace. Does nothing in other builds.

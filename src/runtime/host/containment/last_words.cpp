@@ -301,6 +301,8 @@ std::terminate_handler LastWords::terminate_handler() noexcept {
   return g_armed.load() ? on_terminate : std::get_terminate();
 }
 
+void LastWords::leave_copy() noexcept { g_armed.store(false); }
+
 // exit() calls first what was registered last, and in between it destroys static variables, which the other threads
 // still use.
 void LastWords::catch_exit() { on_exit(on_exit_called, nullptr); }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "component_making.hpp"
+#include "orca/host/last_words.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "orca/plugin/trial.hpp"
 #include "reporter.hpp"
@@ -143,6 +144,7 @@ class Rehearsal {
 // Nothing of it is ever destroyed, because the copy of the process ends here.
 void play(const graph::Graph& graph, const graph::Candidates& candidates, PluginCatalogue& catalogue,
           ClockKind clock, TrialLine& line) {
+  LastWords::leave_copy();
   const Backend backend = clock == ClockKind::steady ? Backend::thread : Backend::fiber;
   Result<std::unique_ptr<Executive>> made = make_executive({clock, backend});
   if (!made) return;

@@ -38,6 +38,10 @@ class LastWords {
   /// @thread  any.
   [[nodiscard]] static std::terminate_handler terminate_handler() noexcept;
 
+  /// Ends the object's work in a copy of the process, which has a handler of its own for std::terminate().
+  /// @thread  the only one of the copy.
+  static void leave_copy() noexcept;
+
   /// Makes sure that exit() ends the process before it destroys anything that has been made so far. Called when the
   /// components begin to work.
   /// @thread  any.
