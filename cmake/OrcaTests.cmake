@@ -8,11 +8,15 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "RelWithDe
   list(APPEND ORCA_TEST_OPTIONS -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
+# What the sanitizers need not report, because it is in Fast DDS.
 set(ORCA_TEST_ENVIRONMENT)
 if(ORCA_SANITIZE STREQUAL "thread")
   # Without the second, each process sleeps for a second at its end.
   set(ORCA_TEST_ENVIRONMENT
       "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/tsan.supp:atexit_sleep_ms=0")
+elseif(ORCA_SANITIZE MATCHES "address")
+  # Its readers are deleted as another type than they were made as.
+  set(ORCA_TEST_ENVIRONMENT "ASAN_OPTIONS=new_delete_type_mismatch=0")
 endif()
 
 # orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [OPTIMISED])
