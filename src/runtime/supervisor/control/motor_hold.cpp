@@ -40,7 +40,7 @@ void MotorHold::recall() {
   if (holds_) return;
   holds_ = true;
   ask_all(nullptr, [] { return StopMotors{kReason}; });
-  log::warning("supervisor", "the emergency stop holds all motors until orcactl estop --release");
+  log::warning(kLogName, "the emergency stop holds all motors until orcactl estop --release");
 }
 
 void MotorHold::take_in(Member& member) const {

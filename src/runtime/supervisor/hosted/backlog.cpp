@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "orca/base/text.hpp"
+#include "orca/supervisor/log_name.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -45,7 +46,7 @@ std::vector<Report> Backlog::take() {
   std::vector<Report> all(std::make_move_iterator(kept_.begin()), std::make_move_iterator(kept_.end()));
   kept_.clear();
   if (given_up_ > 0)
-    all.emplace_back(Logged{log::Level::warning, "supervisor",
+    all.emplace_back(Logged{log::Level::warning, kLogName,
                             std::to_string(std::exchange(given_up_, 0)) +
                                 " more lines were said while no deployer ran, and are lost"});
   return all;

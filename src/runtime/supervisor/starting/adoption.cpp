@@ -20,6 +20,7 @@
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/print.hpp"
+#include "orca/supervisor/log_name.hpp"
 #include "orca/supervisor/meeting_place.hpp"
 
 namespace orca::supervisor {
@@ -62,8 +63,8 @@ class Search {
   void kill_silent() const {
     for (const Waiting& waiting : connect_to_waiting(system_)) {
       if (met_.contains(waiting.pid)) continue;
-      log::warning("supervisor", "process " + std::to_string(waiting.pid) + " of " + in_quotes(system_) +
-                                     " has no deployer and does not answer; it is killed");
+      log::warning(kLogName, "process " + std::to_string(waiting.pid) + " of " + in_quotes(system_) +
+                                 " has no deployer and does not answer; it is killed");
       syscall(SYS_pidfd_send_signal, waiting.pidfd.number(), SIGKILL, nullptr, 0);
     }
   }
