@@ -103,6 +103,31 @@ TEST_CASE("the choice holds for a process that is started again", "[system][trad
   CHECK(run.arrivals().size() == 1);
 }
 
+TEST_CASE("the next deployer knows which partner a port uses", "[system][trading]") {
+  const TempFolder folder;
+  std::string text = std::regex_replace(printed(kName), std::regex(" restart=\"temporary\""), "");
+  text = std::regex_replace(text, std::regex("<process name=\"spare\""), "$& restart=\"temporary\"");
+  text = std::regex_replace(text, std::regex("<graph "), "$&on_supervisor_loss=\"continue\" ");
+  const Words graph{folder.write("lasting.xml", text)};
+  System first(graph);
+  std::this_thread::sleep_for(Seconds(2));
+  kill(first.process("localizing"), SIGKILL);
+  first.when("goto: localizer uses slow.RobotPosePush", 0);
+  first.when("process localizing is back", 0);
+  const pid_t spare = first.process("spare");
+  (void)first.process("base"), (void)first.process("behaviours"), (void)first.process("localizing");
+  first.program().send(SIGKILL);
+  System second(graph);
+  second.when("process behaviours is adopted", 0, Seconds(10));
+  second.when("process spare is adopted", 0);
+  std::this_thread::sleep_for(Seconds(0.5));
+  kill(spare, SIGKILL);
+  const Run run = finish(second.program(), Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.arrivals().size() == 1);
+}
+
 TEST_CASE("in virtual time the robot takes the first choice, and the run is the same each time",
           "[system][trading]") {
   const Run first = run_deployer(Words{kGraph} + virtual_clock(), Seconds(60));
