@@ -4,14 +4,6 @@
 #include "orca/patterns/endpoints/query_client_endpoint.hpp"
 
 namespace orca {
-namespace {
-
-TimePoint deadline_of(const Endpoint& endpoint, Duration limit) {
-  return saturating_add(endpoint.home().strand.executive().now(), limit);
-}
-
-}  // namespace
-
 QueryServerHandle::QueryServerHandle(PortOwner& owner, std::string name, TypeId request, TypeId reply,
                                      QueryHandler handler, const PortOptions& options) {
   PortDeclaration declaration =
@@ -54,7 +46,7 @@ Result<QueryId> QueryProxyHandle::request_loan(ObjectLoan loan) {
 std::optional<Result<ObjectRef>> QueryProxyHandle::receive_ref(QueryId id) { return endpoint().receive(id); }
 
 Result<ObjectRef> QueryProxyHandle::receive_wait_ref(QueryId id, Duration timeout) {
-  return endpoint().receive_until(id, deadline_of(endpoint(), timeout));
+  return endpoint().receive_until(id, endpoint().deadline_in(timeout));
 }
 
 void QueryProxyHandle::withdraw(QueryId id) { endpoint().withdraw(id); }

@@ -4,14 +4,6 @@
 #include "orca/patterns/endpoints/send_client_endpoint.hpp"
 
 namespace orca {
-namespace {
-
-TimePoint deadline_of(const Endpoint& endpoint, Duration limit) {
-  return saturating_add(endpoint.home().strand.executive().now(), limit);
-}
-
-}  // namespace
-
 SendServerHandle::SendServerHandle(PortOwner& owner, std::string name, TypeId type, SendHandler handler,
                                    const PortOptions& options) {
   PortDeclaration declaration =
@@ -44,7 +36,7 @@ Status SendProxyHandle::send_loan(ObjectLoan loan) {
 }
 
 Status SendProxyHandle::send_wait_loan(ObjectLoan loan, std::optional<Duration> limit) {
-  const TimePoint deadline = limit ? deadline_of(endpoint(), *limit) : kForever;
+  const TimePoint deadline = limit ? endpoint().deadline_in(*limit) : kForever;
   return endpoint().send_until(std::move(loan), &endpoint().home().provenance, deadline);
 }
 
@@ -53,7 +45,7 @@ Result<SendId> SendProxyHandle::request_loan(ObjectLoan loan) {
 }
 
 Status SendProxyHandle::send_receive_wait(SendId id, Duration timeout) {
-  return endpoint().receive_until(id, deadline_of(endpoint(), timeout));
+  return endpoint().receive_until(id, endpoint().deadline_in(timeout));
 }
 
 }  // namespace orca

@@ -125,4 +125,10 @@ Status FrameReader::status() const {
                                    " bytes more than expected");
 }
 
+Error unexpected(const FrameReader& frame, std::string_view patterns) {
+  return fail(Code::data_loss, "a frame of kind " + std::to_string(static_cast<int>(frame.kind())) +
+                                   " does not belong to " + std::string(patterns) +
+                                   ", or not in this direction");
+}
+
 }  // namespace orca::frames

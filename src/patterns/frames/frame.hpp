@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "orca/base/result.hpp"
@@ -108,5 +109,9 @@ class FrameReader {
   FrameKind kind_;
   std::uint64_t number_;
 };
+
+/// Makes the error of a frame that should not have come.
+/// @param patterns  that it does not belong to, for people: "Push".
+[[nodiscard]] Error unexpected(const FrameReader& frame, std::string_view patterns);
 
 }  // namespace orca::frames

@@ -8,11 +8,6 @@
 namespace orca::frames {
 namespace {
 
-Error unexpected(const FrameReader& frame) {
-  return fail(Code::data_loss, "a frame of kind " + std::to_string(static_cast<int>(frame.kind())) +
-                                   " does not belong to Push, or not in this direction");
-}
-
 Frame with_rate(FrameKind kind, std::uint64_t subscription, const UpdateRate& rate) {
   Frame frame(kind, subscription);
   // What a component asks for may make no sense; what travels does, or the peer would cut this end off.
@@ -137,7 +132,7 @@ Status PushSourceOverFrames::receive(FrameReader& frame) {
     case FrameKind::granted: return receive_grant(frame);
     case FrameKind::give_up: return receive_give_up(frame);
     case FrameKind::lost: return receive_loss(frame);
-    default: return unexpected(frame);
+    default: return unexpected(frame, "Push");
   }
 }
 
@@ -226,7 +221,7 @@ Status PushSinkOverFrames::receive(FrameReader& frame) {
     case FrameKind::change: return receive_rate(frame);
     case FrameKind::detach: source_.detach(); return ok();
     case FrameKind::taken: return receive_taken(frame);
-    default: return unexpected(frame);
+    default: return unexpected(frame, "Push");
   }
 }
 

@@ -10,11 +10,6 @@ namespace {
 constexpr Duration kConfirmLimit = 1s;
 constexpr std::uint64_t kGood = 0;  // code of an answer that is no error; errors are counted from 1
 
-Error unexpected(const FrameReader& frame) {
-  return fail(Code::data_loss, "a frame of kind " + std::to_string(static_cast<int>(frame.kind())) +
-                                   " does not belong to Query or Send, or not in this direction");
-}
-
 void add_object(Frame& frame, const Result<ObjectRef>& answer) { frame.add(*answer); }
 void add_object(Frame& /*frame*/, const Status& /*outcome*/) {}
 
@@ -124,7 +119,7 @@ Status TargetOverFrames<Answer>::receive(FrameReader& frame) {
     strand_.wake();
     return ok();
   }
-  if (frame.kind() != FrameKind::answer) return unexpected(frame);
+  if (frame.kind() != FrameKind::answer) return unexpected(frame, "Query or Send");
   std::optional<Answer> answer;
   if (Status read = read_answer(frame, types_, answer); !read.ok()) return read;
   if (const auto open = take(frame.number())) open->reply_to->reply(open->id, std::move(*answer));
@@ -166,7 +161,7 @@ CallerOverFrames<Answer>::CallerOverFrames(std::unique_ptr<FrameEnd> end, const 
 template <class Answer>
 Status CallerOverFrames<Answer>::receive(FrameReader& frame) {
   if (frame.kind() == FrameKind::offer) return receive_offer(frame);
-  if (frame.kind() != FrameKind::withdraw) return unexpected(frame);
+  if (frame.kind() != FrameKind::withdraw) return unexpected(frame, "Query or Send");
   withdraw(frame.number());
   return ok();
 }

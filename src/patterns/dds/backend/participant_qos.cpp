@@ -14,12 +14,12 @@ namespace orca::dds {
 namespace {
 
 namespace fd = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps;
+namespace fastrtps = eprosima::fastrtps;
 
 constexpr std::uint32_t kParticipants = 20;        // that are looked for at an address
 constexpr std::uint32_t kSocketBuffer = 4U << 20;  // [bytes]; the system may give less
 
-rtps::Duration_t seconds(double time) { return rtps::Duration_t(static_cast<long double>(time)); }
+fastrtps::Duration_t seconds(double time) { return fastrtps::Duration_t(static_cast<long double>(time)); }
 
 // Writes what Fast DDS complains about to the log.
 class LogConsumer final : public fd::LogConsumer {
@@ -39,7 +39,7 @@ void keep_last(Qos& qos, std::int32_t depth) {
   qos.resource_limits().max_instances = 1;
   qos.resource_limits().max_samples_per_instance = depth;
   qos.resource_limits().allocated_samples = 1;
-  qos.endpoint().history_memory_policy = rtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
 }
 
 }  // namespace
@@ -47,9 +47,9 @@ void keep_last(Qos& qos, std::int32_t depth) {
 void prepare_library() {
   fd::Log::ClearConsumers();
   fd::Log::RegisterConsumer(std::make_unique<LogConsumer>());
-  rtps::LibrarySettingsAttributes settings;
-  settings.intraprocess_delivery = rtps::INTRAPROCESS_OFF;  // a writer would run the readers' callbacks
-  rtps::xmlparser::XMLProfileManager::library_settings(settings);
+  fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery = fastrtps::INTRAPROCESS_OFF;  // a writer would run the readers' callbacks
+  fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
 }
 
 fd::DomainParticipantQos participant_qos(const DdsOptions& options) {
@@ -67,8 +67,8 @@ fd::DomainParticipantQos participant_qos(const DdsOptions& options) {
   discovery.leaseDuration_announcementperiod = seconds(0.5);
   discovery.initial_announcements = {20, seconds(0.05)};
   for (const std::string& other : options.others) {
-    rtps::rtps::Locator_t locator;
-    rtps::rtps::IPLocator::setIPv4(locator, other);
+    fastrtps::rtps::Locator_t locator;
+    fastrtps::rtps::IPLocator::setIPv4(locator, other);
     qos.wire_protocol().builtin.initialPeersList.push_back(locator);
   }
   return qos;

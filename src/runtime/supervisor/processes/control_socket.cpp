@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kSuffix = ".sock";
-constexpr int kWaiting = 16;               // clients that have not been accepted yet
-constexpr int kSocketBuffer = 256 * 1024;  // [bytes]
+constexpr int kWaiting = 16;             // clients that have not been accepted yet
+constexpr int kSendBuffer = 256 * 1024;  // [bytes]
 
 bool is_folder(const char* path) {
   struct stat found {};
@@ -42,7 +42,7 @@ Error refused(const std::string& what, int reason) {
 
 // Gives the socket room for a packet of a Channel.
 void make_room(const Descriptor& socket) {
-  setsockopt(socket.number(), SOL_SOCKET, SO_SNDBUF, &kSocketBuffer, sizeof kSocketBuffer);
+  setsockopt(socket.number(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
 }
 
 Descriptor make_socket() {

@@ -25,7 +25,6 @@ constexpr const char* kValueExpected =
     "a value is expected: a number with its unit, true, false, or a text between quotes, such as 'Dewey'";
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-bool is_quote(char c) { return c == '\'' || c == '"'; }
 bool may_be_in_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }

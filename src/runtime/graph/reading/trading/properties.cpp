@@ -15,8 +15,6 @@ namespace orca::graph {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_quote(char c) { return c == '\'' || c == '"'; }
-
 // Returns whether a text begins like a number: with a digit, after a sign and a point if there are any.
 bool begins_like_number(std::string_view text) {
   if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);

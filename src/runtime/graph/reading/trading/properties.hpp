@@ -18,6 +18,9 @@ inline constexpr std::array<std::string_view, 4> kImplicitProperties{"type", "na
 // Returns the properties that a component node declares. What is wrong with one is reported, and it is left out.
 Properties read_properties(const Node& component, Report& report);
 
+// Returns whether a text may stand between two of these.
+[[nodiscard]] constexpr bool is_quote(char c) { return c == '\'' || c == '"'; }
+
 // Returns the value that is written as a flag, as a number with a unit, or as a text between quotes ('...' or "...").
 // Returns nothing if it begins like none of these.
 // @errors  invalid_argument if it begins like one of them and is none.

@@ -45,6 +45,10 @@ class Endpoint {
   [[nodiscard]] const std::string& component() const { return home_.component; }
   [[nodiscard]] std::string path() const { return home_.component + "." + contract_.name; }
   [[nodiscard]] PortHome& home() const { return home_; }
+  /// Returns the instant that is `limit` [s] from now.
+  [[nodiscard]] TimePoint deadline_in(Duration limit) const {
+    return saturating_add(home_.strand.executive().now(), limit);
+  }
 
   /// Returns whether there is an observer.
   [[nodiscard]] bool observed() const { return home_.observer != nullptr; }
