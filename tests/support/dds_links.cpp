@@ -81,8 +81,12 @@ void DdsLinks::work() {
 void DdsLinks::make_end(DdsBackend& backend, Endpoint& port, const DdsPeer& peer, const QueuePolicy& policy,
                         Duration base_period) {
   const std::lock_guard lock(mutex_);
-  port.adopt(std::make_unique<Helped>(*this, port.home().strand));
-  helped_.push_back(&port.home().strand);
+  const auto* const movable = dynamic_cast<MovablePort*>(&port);
+  if (movable == nullptr ||
+      !movable->can_move()) {  // one that moves changes, and looks for itself when it is used
+    port.adopt(std::make_unique<Helped>(*this, port.home().strand));
+    helped_.push_back(&port.home().strand);
+  }
   must(backend.connect(port, peer, policy, base_period));
 }
 

@@ -58,7 +58,7 @@ class Lonely {
   }
   Orphaned introduce() {
     RunWishes wishes;
-    wishes.epoch = steady_epoch();
+    wishes.epoch = epoch_;
     wishes.start = TimePoint{42s};
     wishes.run = run_;
     return {"main", mark_, to_pairs(wishes), page_.descriptor(), null_device()};
@@ -66,6 +66,7 @@ class Lonely {
 
   const std::uint64_t mark_;
   const std::string run_;
+  const Duration epoch_ = steady_epoch();  // before the test, which plays another process, changes its own
   const RunPage page_ = *RunPage::create(1, 1);
   const ControlSocket place_ = *open_meeting_place("scout", "main");
   Vigil vigil_{place_, [this] { return introduce(); }};
