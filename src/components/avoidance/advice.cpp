@@ -64,17 +64,20 @@ double free_way(std::span<const Vec2> echoes, double direction, const Limits& li
   return std::max(0.0, way);
 }
 
-Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
-  const double ahead = std::min(free_way(echoes, 0.0, limits), free_way(echoes, situation.turning, limits));
-  if (ahead >= limits.safe_distance) return {};
-  Advice advice;
-  advice.needed = true;
-  advice.direction = best_direction(echoes, situation, limits);
+double way_ahead(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
+  return std::min(free_way(echoes, 0.0, limits), free_way(echoes, situation.turning, limits));
+}
+
+double room(double way, const Limits& limits) {
   const double span = limits.safe_distance - limits.stop_distance;
-  const double room = std::clamp((ahead - limits.stop_distance) / span, 0.0, 1.0);
-  advice.speed = limits.max_speed * room;
-  advice.urgency = 1.0 - room;
-  return advice;
+  return std::clamp((way - limits.stop_distance) / span, 0.0, 1.0);
+}
+
+Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
+  const double ahead = way_ahead(echoes, situation, limits);
+  if (ahead >= limits.safe_distance) return {};
+  const double left = room(ahead, limits);
+  return {true, best_direction(echoes, situation, limits), limits.max_speed * left, 1.0 - left};
 }
 
 }  // namespace orca::avoid

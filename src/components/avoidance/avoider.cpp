@@ -35,11 +35,6 @@ Avoider::Avoider(ComponentHost& host, double echo_time)
                      .text = "Radius of the circle that holds the robot, unless the base says it."}),
       margin_(*this, "margin", 0.1,
               {.unit = "m", .min = 0.0, .text = "Free space to keep on both sides of the robot."}),
-      side_distance_(
-          *this, "side_distance", 0.2,
-          {.unit = "m",
-           .min = 0.0,
-           .text = "An echo nearer to the robot's circle than this counts as a wall across its beam."}),
       safe_distance_(
           *this, "safe_distance", 0.8,
           {.unit = "m", .min = 0.1, .text = "Free way ahead from which on there is nothing to avoid."}),
@@ -160,11 +155,12 @@ void Avoider::advise() {
     motion_.push(full_stop());
     return;
   }
-  const Situation situation{last_direction_, twist_.turn_rate * *reaction_time_, goal_direction()};
-  const Advice advice = avoid(memory_.echoes(), situation, limits());
-  last_direction_ = advice.direction;
-  if (advice.needed) {
-    motion_.push(head(advice.direction, advice.speed, *weight_ * insistence(advice.urgency)));
+  const Situation situation{last_direction_, twist_.turn_rate * *reaction_time_, goal_direction(), pose_.yaw,
+                            twist_.forward};
+  const Advice advised = advice(memory_, situation, limits());
+  last_direction_ = advised.direction;
+  if (advised.needed) {
+    motion_.push(head(advised.direction, advised.speed, *weight_ * insistence(advised.urgency)));
   } else {
     motion_.push(dont_care());
   }
@@ -205,7 +201,7 @@ double Avoider::deaf_after() const {
 double Avoider::farthest() const { return radius() + *margin_ + *safe_distance_ + 0.5; }
 
 Limits Avoider::limits() const {
-  return {radius(), *margin_, *side_distance_, *safe_distance_, *stop_distance_, *max_speed_};
+  return {radius(), *margin_, 0.0, *safe_distance_, *stop_distance_, *max_speed_};
 }
 
 }  // namespace orca::avoid

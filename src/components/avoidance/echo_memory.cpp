@@ -29,7 +29,7 @@ void EchoMemory::advance(const Pose2& X_RN, double time, const Limits& limits) {
   for (std::size_t i = echoes_.size(); i-- > 0;) {
     echoes_[i] = seen_from(X_RN, echoes_[i]);
     traces_[i].age += time;
-    if (traces_[i].age > (traces_[i].confirmed ? limits.confirmed_time : limits.single_time)) erase(i);
+    if (traces_[i].age > kept_for(traces_[i], limits)) erase(i);
   }
 }
 
@@ -50,6 +50,15 @@ void EchoMemory::hear(Vec2 echo, const Limits& limits) {
   if (echoes_.size() == kMostEchoes) erase(0);
   echoes_.push_back(echo);
   traces_.push_back(trace);
+}
+
+double EchoMemory::certainty(std::size_t i, const Limits& limits) const {
+  const Trace& trace = traces_[i];
+  return trace.age > 0.0 ? std::max(0.0, 1.0 - trace.age / kept_for(trace, limits)) : 1.0;
+}
+
+double EchoMemory::kept_for(const Trace& trace, const Limits& limits) {
+  return trace.confirmed ? limits.confirmed_time : limits.single_time;
 }
 
 void EchoMemory::clear() {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "orca/avoidance/avoider.hpp"
+#include "orca/avoidance/free_way.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
@@ -36,6 +37,12 @@ class SonarAvoid final : public orca::avoid::Avoider {
     }
   }
 
+  orca::avoid::Advice advice(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,
+                             const orca::avoid::Limits& limits) override {
+    return free_way_.advice(memory, situation, limits);
+  }
+
+  orca::avoid::FreeWay free_way_{*this};
   orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{*this, "sonar", {.text = "Readings of the sonars."}};
 };
 

@@ -79,6 +79,24 @@ TEST_CASE("the free way lies between 0 and the safe distance, and another echo n
   }
 }
 
+TEST_CASE("the way ahead is the shorter of straight on and where the robot will have turned to",
+          "[avoidance]") {
+  const std::vector<Vec2> ahead{{0.7, 0.0}};
+  const std::vector<Vec2> left{{0.0, 0.5}};
+  CHECK(way_ahead(ahead, {.turning = 1.5}, kLimits) == Approx(0.7 - kReach));
+  CHECK(way_ahead(left, {.turning = pi / 2}, kLimits) == Approx(0.5 - kReach));
+  CHECK(way_ahead(left, {}, kLimits) == kLimits.safe_distance);
+}
+
+TEST_CASE(
+    "a free way leaves all of the speed from the safe distance on and nothing from the stop distance down",
+    "[avoidance]") {
+  CHECK(room(kLimits.safe_distance, kLimits) == 1.0);
+  CHECK(room(0.5 * (kLimits.safe_distance + kLimits.stop_distance), kLimits) == Approx(0.5));
+  CHECK(room(kLimits.stop_distance, kLimits) == 0.0);
+  CHECK(room(0.0, kLimits) == 0.0);
+}
+
 TEST_CASE("with a free way ahead there is no advice, whatever was advised before", "[avoidance]") {
   orca::RandomStream random(2, "test", "free");
   for (int i = 0; i < 1000; ++i) {

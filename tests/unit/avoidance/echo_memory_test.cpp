@@ -57,3 +57,25 @@ TEST_CASE("the memory is bounded: the oldest echo makes room", "[avoidance][memo
   CHECK(memory.echoes().size() == 256);
   CHECK(memory.echoes().back().x == Approx(0.2 * 999));
 }
+
+TEST_CASE("an echo is certain when it was just heard, and less and less until it is forgotten",
+          "[avoidance][memory]") {
+  EchoMemory memory;
+  memory.hear({0.5, 0.0}, kLimits);
+  CHECK(memory.certainty(0, kLimits) == 1.0);
+  memory.advance(kStill, 0.1, kLimits);
+  CHECK(memory.certainty(0, kLimits) == Approx(1.0 - 0.1 / 0.25));
+  memory.hear({0.5, 0.0}, kLimits);
+  CHECK(memory.certainty(0, kLimits) == 1.0);
+  memory.advance(kStill, 1.0, kLimits);
+  CHECK(memory.certainty(0, kLimits) == Approx(1.0 - 1.0 / 4.0));
+}
+
+TEST_CASE("where echoes are not kept at all, those of this moment are certain", "[avoidance][memory]") {
+  constexpr EchoMemory::Limits kNone{0.0, 0.0, 0.15, 0.8};
+  EchoMemory memory;
+  memory.hear({0.5, 0.0}, kNone);
+  CHECK(memory.certainty(0, kNone) == 1.0);
+  memory.advance(kStill, 0.01, kNone);
+  CHECK(memory.echoes().empty());
+}

@@ -11,7 +11,8 @@ namespace orca::avoid {
 struct Limits {
   double robot_radius = 0.0;   ///< [m] of the circle that holds the robot.
   double margin = 0.0;         ///< [m] kept free on both sides of it.
-  double side_distance = 0.0;  ///< [m] an echo nearer to the body than this counts as a wall across the beam.
+  double side_distance = 0.0;  ///< [m] an echo nearer to the body than this counts as a wall across the beam;
+                               ///< 0: only one within the body.
   double safe_distance = 0.0;  ///< [m] free way ahead from which on there is nothing to avoid.
   double stop_distance = 0.0;  ///< [m] free way ahead at which the robot does not drive on.
   double max_speed = 0.0;      ///< [m/s] with a free way of safe_distance.
@@ -27,6 +28,9 @@ struct Situation {
   double turning = 0.0;
   /// [rad] robot frame, direction of the goal, if known: the free direction nearest to it is chosen.
   std::optional<double> goal = {};
+  /// [rad] where the robot points, in a frame that does not turn with it; 0 if it does not know.
+  double heading = 0.0;
+  double speed = 0.0;  ///< [m/s] at which it drives, forward positive; 0 if it does not know.
 };
 
 /// What the robot should do: nothing, or drive in a direction.
@@ -44,6 +48,15 @@ struct Advice {
 /// Nothing is heard from the place where the robot will touch it. Therefore a near echo stands for a wall
 /// across its beam.
 [[nodiscard]] double free_way(std::span<const Vec2> echoes, double direction, const Limits& limits);
+
+/// Returns how far [m] the way ahead is free: straight on and where the robot will have turned to, whichever is
+/// shorter; at most safe_distance.
+[[nodiscard]] double way_ahead(std::span<const Vec2> echoes, const Situation& situation,
+                               const Limits& limits);
+
+/// Returns how much of the speed a free way [m] leaves, in [0, 1]: all of it from safe_distance on, nothing from
+/// stop_distance down.
+[[nodiscard]] double room(double way, const Limits& limits);
 
 /// Steers to the nearest direction with a long enough free way when the way ahead is blocked.
 [[nodiscard]] Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits);

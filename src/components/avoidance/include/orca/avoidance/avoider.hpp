@@ -16,7 +16,8 @@
 namespace orca::avoid {
 
 /// The common part of all avoid behaviours (thesis 11.1). It has no opinion while the way is free; otherwise
-/// it wishes for a free direction, slower the nearer the obstacle is. A derived class listens to its sensor.
+/// it wishes for a free direction, slower the nearer the obstacle is. A derived class listens to its sensor and
+/// chooses the direction.
 ///
 /// With odometry it remembers echoes and gives advice as often as odometry comes. Without odometry it gives
 /// advice as often as the sensor delivers, from those readings alone. With a goal it chooses the free
@@ -39,6 +40,14 @@ class Avoider : public Component {
   /// Puts the newest readings of the sensor into the memory.
   /// @pre  sensor() has new data.
   virtual void listen(EchoMemory& memory) = 0;
+  /// Returns what the robot should do. Called once a lap, unless the robot must stand anyway.
+  /// @param limits  those of the parameters, with a side distance of 0.
+  [[nodiscard]] virtual Advice advice(const EchoMemory& memory, const Situation& situation,
+                                      const Limits& limits) = 0;
+
+  // A derived class that overrides these calls them too.
+  Status params_changed() override;
+  Status start() override;
 
   /// Moves a point seen `age` [s] ago into the robot's current frame, using odometry.
   [[nodiscard]] Vec2 moved_since(Vec2 point, double age) const;
@@ -56,8 +65,6 @@ class Avoider : public Component {
   };
 
   Status configure() override;
-  Status params_changed() override;
-  Status start() override;
   Outcome work() override;
   void stop() override;
 
@@ -85,7 +92,6 @@ class Avoider : public Component {
 
   Param<double> robot_radius_;
   Param<double> margin_;
-  Param<double> side_distance_;
   Param<double> safe_distance_;
   Param<double> stop_distance_;
   Param<double> max_speed_;

@@ -55,11 +55,16 @@ class EchoMemory {
   /// Returns all echoes that count now, robot frame. Valid until the next change.
   [[nodiscard]] std::span<const Vec2> echoes() const { return echoes_; }
 
+  /// Returns how sure it is that something is still at `echoes()[i]`: 1 when it was just heard, falling evenly to 0
+  /// when it will be forgotten.
+  [[nodiscard]] double certainty(std::size_t i, const Limits& limits) const;
+
  private:
   struct Trace {
     double age = 0.0;  // [s]
     bool confirmed = false;
   };
+  static double kept_for(const Trace& trace, const Limits& limits);
   void erase(std::size_t i);
 
   // Side by side, so that the echoes can be handed out as they are.

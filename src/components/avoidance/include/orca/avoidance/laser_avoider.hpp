@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "orca/avoidance/avoider.hpp"
+
+namespace orca::avoid {
+
+/// The common part of avoid behaviours that listen to a laser at a port `laser`. A derived class chooses the
+/// direction.
+///
+/// Thread contract: as every component.
+class LaserAvoider : public Avoider {
+ protected:
+  explicit LaserAvoider(ComponentHost& host);
+
+ private:
+  PushProxyHandle& sensor() override { return laser_; }
+  [[nodiscard]] const ObjectType& sensed() const override;
+  void listen(EchoMemory& memory) override;
+
+  PushProxy<idl::LaserRangeReadings> laser_{*this, "laser", {.text = "Scans of the laser."}};
+};
+
+}  // namespace orca::avoid

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/avoidance/laser_avoider.hpp"
+
+#include <numbers>
+
+#include "orca/avoidance/scan.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/idl/time.hpp"
+
+namespace orca::avoid {
+namespace {
+
+constexpr double kEchoTime = 4.0;  // [s] A laser invents no echoes, so one that it saw once is kept as well.
+constexpr double kSector = std::numbers::pi / 36;
+
+}  // namespace
+
+LaserAvoider::LaserAvoider(ComponentHost& host) : Avoider(host, kEchoTime) {}
+
+const ObjectType& LaserAvoider::sensed() const { return object_type<idl::LaserRangeReadings>(); }
+
+// The scan was taken a moment ago, from the robot's pose at that time.
+void LaserAvoider::listen(EchoMemory& memory) {
+  const auto readings = laser_.get_update();
+  const Pose2 mount = plane_pose(readings->pose());
+  const double age = to_seconds(now() - to_time_point(readings->stamp()));
+  const Vec2 place = moved_since(mount.position(), age);
+  const double yaw = mount.yaw - turned_since(age);
+  const Scan scan{readings->ranges(),      readings->min_range(),       readings->max_range(),
+                  readings->angle_start(), readings->angle_increment(), {place.x, place.y, yaw}};
+  see(scan, kSector, farthest(), keep(), memory);
+}
+
+}  // namespace orca::avoid
