@@ -155,9 +155,7 @@ void Avoider::advise() {
     motion_.push(full_stop());
     return;
   }
-  const Situation situation{last_direction_, twist_.turn_rate * *reaction_time_, goal_direction(), pose_.yaw,
-                            twist_.forward};
-  const Advice advised = advice(memory_, situation, limits());
+  const Advice advised = advice(memory_, situation(), limits());
   last_direction_ = advised.direction;
   if (advised.needed) {
     motion_.push(head(advised.direction, advised.speed, *weight_ * insistence(advised.urgency)));
@@ -179,13 +177,25 @@ ObjectPtr<idl::GoalPoint> Avoider::present_goal() const {
   return fresh ? goal : ObjectPtr<idl::GoalPoint>{};
 }
 
-std::optional<double> Avoider::goal_direction() const {
+std::optional<Vec2> Avoider::goal_place() const {
   const auto goal = present_goal();
   const std::optional<Pose2> here = goal ? pose() : std::nullopt;
   if (!here) return std::nullopt;
   const auto& place = goal->coordinate().point();
-  const Vec2 seen = seen_from(*here, Vec2{place.x(), place.y()});
-  return std::atan2(seen.y, seen.x);
+  return seen_from(*here, Vec2{place.x(), place.y()});
+}
+
+Situation Avoider::situation() const {
+  Situation situation;
+  situation.last_direction = last_direction_;
+  situation.turning = twist_.turn_rate * *reaction_time_;
+  situation.heading = pose_.yaw;
+  situation.speed = twist_.forward;
+  if (const auto goal = goal_place()) {
+    situation.goal = std::atan2(goal->y, goal->x);
+    situation.goal_distance = norm(*goal);
+  }
+  return situation;
 }
 
 EchoMemory::Limits Avoider::keep() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -31,6 +32,7 @@ struct Situation {
   /// [rad] where the robot points, in a frame that does not turn with it; 0 if it does not know.
   double heading = 0.0;
   double speed = 0.0;  ///< [m/s] at which it drives, forward positive; 0 if it does not know.
+  double goal_distance = std::numeric_limits<double>::infinity();  ///< [m] to the goal, if known.
 };
 
 /// What the robot should do: nothing, or drive in a direction.

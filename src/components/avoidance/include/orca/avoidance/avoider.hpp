@@ -77,7 +77,9 @@ class Avoider : public Component {
   [[nodiscard]] double deaf_after() const;
   /// Returns the goal that the robot drives to now; null if there is none, or if nobody has said so lately.
   [[nodiscard]] ObjectPtr<idl::GoalPoint> present_goal() const;
-  [[nodiscard]] std::optional<double> goal_direction() const;
+  /// Returns where the goal is, robot frame; nothing if there is none or the robot does not know where it is.
+  [[nodiscard]] std::optional<Vec2> goal_place() const;
+  [[nodiscard]] Situation situation() const;
   [[nodiscard]] std::optional<Pose2> pose() const;
 
   PushProxy<idl::Odometry> odometry_;
