@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LaserServer and LaserAvoid in a whole system, and the graph that ships with them.
+// LaserServer, LaserAvoid and VfhPlus in a whole system, and the graph that ships with them. What happens on its course
+// without any avoid behaviour is in ablation_test.cpp.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
@@ -50,6 +51,38 @@ double first_time(const Run& run, const std::string& text) {
     if (line.starts_with("[") && line.find(text) != std::string::npos)
       return std::strtod(line.c_str() + 1, nullptr);
   return -1.0;
+}
+
+// Checks that the Pioneer reaches the three goals of its graph within the time and touches nothing.
+void check_three_goals(const Words& more) {
+  for (int seed = 1; seed <= 10; ++seed) {
+    const Run run = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--seed",
+                                       std::to_string(seed), "--until", "120 s"} +
+                                 virtual_clock() + more);
+    INFO(run.err);
+    CAPTURE(seed);
+    CHECK(run.exit_code() == 0);
+    const std::vector<Arrival> arrivals = run.arrivals();
+    REQUIRE(arrivals.size() == 3);
+    CHECK(arrivals[0].name == "kitchen");
+    CHECK(arrivals[1].name == "office_2");
+    CHECK(arrivals[2].name == "meeting");
+    CHECK(arrivals[2].t < 120.0);
+    CHECK(run.contacts().empty());
+  }
+}
+
+const Words kVfhPlus{"--set", "avoid=orca.VfhPlus"};
+
+// Returns what a component says of its ports.
+std::string ports_of(const std::string& type) {
+  const Run run = run_deployer({"--describe", type});
+  INFO(run.err);
+  const std::size_t begin = run.out.find("  ports\n");
+  const std::size_t end = run.out.find("  parameters\n");
+  REQUIRE(begin < end);
+  REQUIRE(end != std::string::npos);
+  return run.out.substr(begin, end - begin);
 }
 
 Run behind_the_pillar(const Words& more = {}) {
@@ -111,19 +144,39 @@ TEST_CASE("the same run with LaserAvoid has the same trace", "[system][laser]") 
 TEST_CASE(
     "the Pioneer drives to three goals in different rooms by its laser and touches nothing, for ten seeds",
     "[system][laser][pioneer]") {
-  for (int seed = 1; seed <= 10; ++seed) {
-    const Run run = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--seed",
-                                       std::to_string(seed), "--until", "120 s"} +
-                                 virtual_clock());
-    INFO(run.err);
-    CAPTURE(seed);
-    CHECK(run.exit_code() == 0);
-    const std::vector<Arrival> arrivals = run.arrivals();
-    REQUIRE(arrivals.size() == 3);
-    CHECK(arrivals[0].name == "kitchen");
-    CHECK(arrivals[1].name == "office_2");
-    CHECK(arrivals[2].name == "meeting");
-    CHECK(arrivals[2].t < 120.0);
-    CHECK(run.contacts().empty());
-  }
+  check_three_goals({});
+}
+
+TEST_CASE(
+    "with VfhPlus instead of LaserAvoid the Pioneer reaches the same goals and touches nothing, for ten "
+    "seeds",
+    "[system][laser][pioneer][vfh]") {
+  check_three_goals(kVfhPlus);
+}
+
+TEST_CASE("with VfhPlus the Pioneer reaches its goals at harsh realism too",
+          "[system][laser][pioneer][vfh]") {
+  check_three_goals(kVfhPlus + Words{"--set", "realism=harsh"});
+}
+
+TEST_CASE("VfhPlus has exactly the ports of LaserAvoid", "[system][laser][vfh]") {
+  CHECK(ports_of("orca.VfhPlus") == ports_of("orca.LaserAvoid"));
+}
+
+TEST_CASE("who does not say which avoid behaviour the Pioneer has gets LaserAvoid", "[system][laser][vfh]") {
+  const Words brief =
+      Words{source_file("graphs/pioneer_laser_goto.xml"), "--until", "10 s"} + virtual_clock();
+  const Run by_default = run_deployer(brief);
+  REQUIRE(by_default.trace_hash().has_value());
+  CHECK(by_default.trace_hash() ==
+        run_deployer(brief + Words{"--set", "avoid=orca.LaserAvoid"}).trace_hash());
+  CHECK(by_default.trace_hash() != run_deployer(brief + kVfhPlus).trace_hash());
+}
+
+TEST_CASE("the same run with VfhPlus has the same trace", "[system][laser][vfh]") {
+  const Words run =
+      Words{source_file("graphs/pioneer_laser_goto.xml"), "--until", "60 s"} + virtual_clock() + kVfhPlus;
+  const Run first = run_deployer(run);
+  REQUIRE(first.trace_hash().has_value());
+  CHECK(first.trace_hash() == run_deployer(run).trace_hash());
 }
