@@ -97,26 +97,27 @@ ObjectRef PushProxyHandle::get_update_wait_ref(TimePoint deadline) {
 
 ObjectRef PushProxyHandle::latest_ref() const { return connected() ? edge().latest() : ObjectRef{}; }
 
-TimePoint PushProxyHandle::deadline_in(Duration limit) const {
-  return saturating_add(strand().executive().now(), limit);
-}
+TimePoint PushProxyHandle::deadline_in(Duration limit) const { return endpoint().deadline_in(limit); }
 
-std::string PushSourceHandle::path() const { return edge_->source_path(); }
+PushEdge& PushSourceHandle::edge() const { return port_->edge(index_); }
 
-void PushSourceHandle::subscribe() const { edge_->subscribe(); }
+std::string PushSourceHandle::path() const { return edge().source_path(); }
 
-void PushSourceHandle::unsubscribe() const { edge_->unsubscribe(); }
+void PushSourceHandle::subscribe() const { edge().subscribe(); }
 
-bool PushSourceHandle::new_data_arrived() const { return edge_->has_new(); }
+void PushSourceHandle::unsubscribe() const { edge().unsubscribe(); }
 
-Duration PushSourceHandle::base_period() const { return edge_->base_period(); }
+bool PushSourceHandle::new_data_arrived() const { return edge().has_new(); }
 
-ObjectRef PushSourceHandle::latest_ref() const { return edge_->latest(); }
+Duration PushSourceHandle::base_period() const { return edge().base_period(); }
+
+ObjectRef PushSourceHandle::latest_ref() const { return edge().latest(); }
 
 ObjectRef PushSourceHandle::take_latest_ref() const {
-  while (edge_->take()) {
+  PushEdge& source = edge();
+  while (source.take()) {
   }
-  return edge_->latest();
+  return source.latest();
 }
 
 namespace {

@@ -12,13 +12,9 @@ namespace orca {
 void Synchronizer::add(PushSubject& subject) {
   if (std::find(subjects_.begin(), subjects_.end(), &subject) == subjects_.end())
     subjects_.push_back(&subject);
-  endpoints_.clear();
 }
 
-void Synchronizer::remove(PushSubject& subject) {
-  std::erase(subjects_, &subject);
-  endpoints_.clear();
-}
+void Synchronizer::remove(PushSubject& subject) { std::erase(subjects_, &subject); }
 
 void Synchronizer::wait(PushSubject& subject) {
   assert(std::find(subjects_.begin(), subjects_.end(), &subject) != subjects_.end());
@@ -96,10 +92,11 @@ TimePoint Synchronizer::deadline_in(Duration limit) const {
   return saturating_add(strand().executive().now(), limit);
 }
 
-// The endpoints are known only after the component's constructor, in which it adds its ports.
+// The endpoints are known only after the component's constructor, in which it adds its ports, and they are others once
+// the component's object has taken another one's place.
 const Synchronizer::Endpoints& Synchronizer::endpoints() {
-  if (endpoints_.empty())
-    for (const PushSubject* subject : subjects_) endpoints_.push_back(&subject->endpoint());
+  endpoints_.clear();
+  for (const PushSubject* subject : subjects_) endpoints_.push_back(&subject->endpoint());
   return endpoints_;
 }
 

@@ -3,6 +3,7 @@
 #include "asking.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
@@ -29,9 +30,13 @@ void print(const std::string& text) {
   std::fflush(stdout);
 }
 
-// Returns the request. The options of the command are words, as on the command line.
+// Returns the request. The options of the command are words, as on the command line. Files are named so that the
+// supervisor, which runs in another folder, finds them.
 supervisor::Ask request_of(const Call& call) {
   supervisor::Ask ask{std::string(call.command->name), call.words, call.json};
+  for (std::size_t i = 0; i < ask.words.size() && i < call.command->arguments.size(); ++i)
+    if (call.command->arguments[i].names == Names::file)
+      ask.words[i] = std::filesystem::absolute(ask.words[i]).lexically_normal().string();
   for (const auto& [option, value] : call.options) {
     ask.words.push_back(option);
     if (!value.empty()) ask.words.push_back(value);

@@ -131,6 +131,20 @@ std::vector<Command> operating_commands() {
        .arguments = {{"NAME", Names::process}},
        .tells = true,
        .text = "start the process of a component again, with all that runs in it"},
+      {.name = "swap",
+       .arguments = {kComponent, {"PLUGIN.so[:TYPE]", Names::file}},
+       .options = {{"--probation", "DURATION",
+                    "time in which a failure brings the old code back (default 2 s)"}},
+       .tells = true,
+       .text = "exchange the code of a component while it runs",
+       .details =
+           "The new object is made and configured beside the old one, which works on meanwhile. Between two "
+           "laps it takes over the old one's state, ports and subscriptions; nothing that waits in queues is "
+           "lost. "
+           "The order ends when the probation is over and the old code is out of memory. Without TYPE it is "
+           "the type "
+           "that runs; another type is taken if its ports fit, and begins afresh. A process that is started "
+           "again begins with the code of the graph."},
       {.name = "suspend", .arguments = {kComponent}, .text = "pause a component between two laps"},
       {.name = "resume", .arguments = {kComponent}, .text = "let a suspended component go on"},
   };

@@ -49,6 +49,14 @@ class Goto final : public orca::Component {
     return orca::ok();
   }
 
+  // The legs of a door are laid out anew from where the robot is.
+  void save_state(orca::StateWriter& state) const override {
+    state.write(route_, patience_, before_, posed_at_, doubts_);
+  }
+  Status load_state(orca::StateReader& state) override {
+    return state.read(route_, patience_, before_, posed_at_, doubts_);
+  }
+
   Status on_goal(const ObjectPtr<orca::idl::GoalPoint>& goal) {
     if (route_.is_given_up(*goal))
       return orca::fail(orca::Code::failed_precondition,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <tuple>
 
 #include "orca/base/time.hpp"
 
@@ -26,6 +27,9 @@ class Patience {
 
   /// Returns the smallest distance so far [m], to within 0.1 m.
   [[nodiscard]] double nearest() const { return nearest_; }
+
+  /// Returns all of it, to be passed on to another version of Goto.
+  auto state() { return std::tie(nearest_, since_); }
 
  private:
   static constexpr double kProgress = 0.1;  // [m]

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <tuple>
 
 #include "orca/base/time.hpp"
 #include "orca/idl/navigation.hpp"
@@ -37,6 +38,9 @@ class Route {
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
   /// Returns how long the robot has been on this route [s].
   [[nodiscard]] double age(TimePoint now) const { return to_seconds(now - begun_); }
+
+  /// Returns all of it, to be passed on to another version of Goto.
+  auto state() { return std::tie(points_, begun_, given_up_, changes_); }
 
  private:
   std::deque<Point> points_;

@@ -72,8 +72,8 @@ struct Judgement {
 };
 
 Result<Judgement> judge(const std::string& path, const std::string& file) {
-  const Result<PluginFile> read = PluginFile::read(path);
-  if (!read) return read.error();
+  const Result<PluginFile> read = PluginFile::read(file);
+  if (!read) return fail(read.error().code, read.error().message, path);
   if (const auto faults = read->faults(known_type); !faults.empty())
     return refuse(path, joined(faults, "; it "));
   const auto attempt = [&](const auto& step) { load_and_describe(file, step); };
@@ -106,36 +106,57 @@ void keep_known(std::unique_ptr<LoadedPlugin> plugin) {
 }
 
 Error cannot_load(const std::string& path, const std::string& file, const std::string& words) {
-  const Result<PluginFile> read = PluginFile::read(path);
+  const Result<PluginFile> read = PluginFile::read(file);
   return refuse(path, "cannot be loaded: " + (read ? explain_load_error(read->elf(), file, words) : words));
 }
 
 }  // namespace
+
+// What the dynamic linker is to open, after it was judged.
+struct PluginLibrary::Source {
+  std::string path;         // for people
+  std::string file;         // to open
+  std::string mapped_name;  // in the memory map
+  Judgement judged;
+};
 
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& path) {
   std::error_code unused;
   if (!fs::is_regular_file(path, unused)) return fail(Code::not_found, "there is no such plugin", path);
   // Absolute, because a name without a slash would be searched in the folders of shared libraries.
   const std::string file = fs::absolute(path).string();
-  const Result<Judgement> judged = judge_once(path, file);
+  Result<Judgement> judged = judge_once(path, file);
   if (!judged) return judged.error();
-  errno = 0;
-  void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) {
-    throw_if_exhausted(errno);
-    return cannot_load(path, file, dlerror());
-  }
-  auto library = std::unique_ptr<PluginLibrary>(new PluginLibrary(file, handle, manifest_of(handle)));
-  library->virtual_time_faults_ = judged->virtual_time_faults;
-  library->may_start_threads_ = judged->may_start_threads;
+  return open({file, file, file, std::move(judged).value()});
+}
+
+Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(PluginImage image) {
+  Result<Judgement> judged = judge(image.origin(), image.path());
+  if (!judged) return judged.error();
+  Result<std::unique_ptr<PluginLibrary>> library =
+      open({image.origin(), image.path(), image.mapped_name(), std::move(judged).value()});
+  if (library) (*library)->image_.emplace(std::move(image));
   return library;
 }
 
-PluginLibrary::PluginLibrary(std::string path, void* handle, const Manifest* manifest)
-    : path_(std::move(path)),
+Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Source& source) {
+  errno = 0;
+  void* const handle = dlopen(source.file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) {
+    throw_if_exhausted(errno);
+    return cannot_load(source.path, source.file, dlerror());
+  }
+  return std::unique_ptr<PluginLibrary>(new PluginLibrary(source, handle));
+}
+
+PluginLibrary::PluginLibrary(const Source& source, void* handle)
+    : path_(source.path),
+      mapped_name_(source.mapped_name),
       handle_(handle),
-      manifest_(manifest),
-      entry_(std::make_unique<LoadedPlugin>(path_, manifest)) {}
+      manifest_(manifest_of(handle)),
+      entry_(std::make_unique<LoadedPlugin>(path_, manifest_)),
+      virtual_time_faults_(source.judged.virtual_time_faults),
+      may_start_threads_(source.judged.may_start_threads) {}
 
 PluginLibrary::~PluginLibrary() {
   if (may_start_threads_ && threads_may_run_in(entry_->start(), entry_->end())) {
@@ -151,7 +172,7 @@ PluginLibrary::~PluginLibrary() {
     dlclose(handle_);
   }
   const bool loaded_elsewhere = plugin_at(manifest_) != nullptr;
-  if (!loaded_elsewhere && is_mapped(path_))
+  if (!loaded_elsewhere && is_mapped(mapped_name_))
     tell_pinned("it is still in memory after it was unloaded, and so are its variables");
 }
 

@@ -7,6 +7,7 @@
 #include "orca/component/manifest.hpp"
 #include "orca/component/outcome.hpp"
 #include "orca/component/param.hpp"
+#include "orca/component/state.hpp"
 #include "orca/patterns/push.hpp"
 #include "orca/patterns/query.hpp"
 #include "orca/patterns/send.hpp"

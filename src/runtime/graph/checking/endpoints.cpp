@@ -103,12 +103,6 @@ bool fit_together(const PortContract& a, const PortContract& b) {
   return is_from_end(a) ? is_a(a.type, b.type) : is_a(b.type, a.type);
 }
 
-std::string described(const PortContract& port) {
-  const std::string what =
-      std::string(to_string(port.pattern)) + to_string(port.role) + " of " + port.type.name;
-  return port.reply ? what + " answered by " + port.reply->name : what;
-}
-
 std::string described(const Endpoint& end) {
   return in_quotes(end.ref.text()) + " (" + described(*end.port) + ")";
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "model.hpp"
+#include "orca/graph/port_list.hpp"
 #include "reading/node.hpp"
 #include "reading/report.hpp"
 
@@ -34,7 +35,5 @@ bool fit_together(const PortContract& a, const PortContract& b);
 
 // Returns a text such as "the PushServer of RangeReadings \"base.laser\"".
 std::string described(const Endpoint& end);
-// Returns a text such as "PushServer of RangeReadings".
-std::string described(const PortContract& port);
 
 }  // namespace orca::graph

@@ -107,6 +107,12 @@ void write(const ListedPort& port, JsonWriter& json) {
 
 }  // namespace
 
+std::string described(const PortContract& port) {
+  const std::string what =
+      std::string(to_string(port.pattern)) + to_string(port.role) + " of " + port.type.name;
+  return port.reply ? what + " answered by " + port.reply->name : what;
+}
+
 std::vector<ListedPort> list_ports(const Graph& graph, Catalogue& catalogue) {
   std::map<PortRef, std::vector<ListedPeer>> peers;
   for (const Edge& edge : graph.edges) {

@@ -14,8 +14,9 @@ constexpr auto kNames = std::to_array<const char*>(
     {"FAILED",         "HARDWARE_FAULT", "STALLED", "PLUGIN_PINNED",     "FORK",
      "FOREIGN_THREAD", "FLOATING_POINT", "LOCALE",  "TERMINATE_HANDLER", "SIGNAL_MASK",
      "SIGNAL_HANDLER", "WORKING_FOLDER", "UMASK",   "RESOURCE_LIMIT",    "REDIRECTION",
-     "DESCRIPTORS",    "PROCESS_ENDED",  "GAVE_UP", "MACHINE_LOST",      "ESTOP"});
-static_assert(kNames.size() == static_cast<std::size_t>(AlarmKind::estop) + 1);
+     "DESCRIPTORS",    "PROCESS_ENDED",  "GAVE_UP", "MACHINE_LOST",      "ESTOP",
+     "SWAP_UNDONE"});
+static_assert(kNames.size() == static_cast<std::size_t>(AlarmKind::swap_undone) + 1);
 
 idl::AlarmSeverity severity_of(AlarmKind kind) {
   switch (kind) {
@@ -26,6 +27,7 @@ idl::AlarmSeverity severity_of(AlarmKind kind) {
     case AlarmKind::failed:
     case AlarmKind::process_ended:
     case AlarmKind::stalled:
+    case AlarmKind::swap_undone:
     case AlarmKind::foreign_thread:
     case AlarmKind::descriptors: return idl::ALARM_WARNING;
     default: return idl::ALARM_NOTICE;  // it was restored, or harms nobody yet

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "rehearsal.hpp"
+#include "trial/rehearsal.hpp"
 
 namespace orca::host {
 
@@ -38,6 +38,20 @@ Result<std::shared_ptr<plugin::PluginLibrary>> PluginCatalogue::library_of(const
   return library;
 }
 
+Result<LoadedType> PluginCatalogue::type_in(std::shared_ptr<plugin::PluginLibrary> library, PluginKind kind,
+                                            const std::string& type) {
+  if (const TypeEntry* entry = library->find(kind, type)) return LoadedType{std::move(library), entry};
+  std::string known;
+  for (const TypeEntry* entry : library->types())
+    known += (known.empty() ? "" : ", ") + std::string(entry->type) +
+             (entry->kind == kind                   ? ""
+              : entry->kind == PluginKind::hardware ? " (hardware)"
+                                                    : " (a component)");
+  return fail(Code::not_found, "the plugin " + library->path() + " has no " +
+                                   (kind == PluginKind::component ? "component" : "hardware") + " type \"" +
+                                   type + "\"; it has: " + known);
+}
+
 void PluginCatalogue::raise_pinned(const std::string& file, const std::string& why) const {
   const std::string name = std::filesystem::path(file).filename().string();
   const idl::Alarm alarm = make_alarm(AlarmKind::plugin_pinned, name, "", why);
@@ -48,27 +62,29 @@ void PluginCatalogue::raise_pinned(const std::string& file, const std::string& w
 Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& type) {
   if (const TypeEntry* own = own_type(kind, type)) return LoadedType{nullptr, own};
   const std::lock_guard lock(mutex_);
-  const Result<std::shared_ptr<plugin::PluginLibrary>> library = library_of(type);
+  Result<std::shared_ptr<plugin::PluginLibrary>> library = library_of(type);
   if (!library) return library.error();
-  if (const TypeEntry* entry = (*library)->find(kind, type)) return LoadedType{*library, entry};
-  std::string known;
-  for (const TypeEntry* entry : (*library)->types())
-    known += (known.empty() ? "" : ", ") + std::string(entry->type) +
-             (entry->kind == kind                   ? ""
-              : entry->kind == PluginKind::hardware ? " (hardware)"
-                                                    : " (a component)");
-  return fail(Code::not_found, "the plugin " + (*library)->path() + " has no " +
-                                   (kind == PluginKind::component ? "component" : "hardware") + " type \"" +
-                                   type + "\"; it has: " + known);
+  return type_in(std::move(library).value(), kind, type);
+}
+
+Result<LoadedType> PluginCatalogue::acquire(plugin::PluginImage image, PluginKind kind,
+                                            const std::string& type) {
+  const std::lock_guard lock(mutex_);
+  Result<std::unique_ptr<plugin::PluginLibrary>> library = plugin::PluginLibrary::load(std::move(image));
+  if (!library) return library.error();
+  (*library)->on_pinned(
+      [this, path = (*library)->path()](const std::string& why) { raise_pinned(path, why); });
+  return type_in(std::move(library).value(), kind, type);
 }
 
 Status PluginCatalogue::release(LoadedType type) {
   if (!type.library) return ok();
   const std::lock_guard lock(mutex_);
   const std::string file = type.library->path();
+  const std::string mapped_name = type.library->mapped_name();
   const std::weak_ptr<plugin::PluginLibrary> rest = type.library;
   type.library.reset();
-  if (!rest.expired() || !plugin::is_mapped(file)) return ok();
+  if (!rest.expired() || !plugin::is_mapped(mapped_name)) return ok();
   return fail(Code::failed_precondition,
               "PLUGIN_PINNED: nobody uses this plugin any more, but it cannot be unloaded; is it built with "
               "orca_add_component(), and do its threads end?",

@@ -85,8 +85,8 @@ Status System::open_hardware(Event& changed, TimePoint deadline) {
 }
 
 Status System::configure(const std::string& name, Event& changed, TimePoint deadline) {
-  ComponentInstance* const component = find(name);
-  return component == nullptr ? Status(no_such(name)) : configure(*component, changed, deadline);
+  const Result<ComponentInstance*> component = instance(name);
+  return component ? configure(**component, changed, deadline) : component.error();
 }
 
 Status System::configure(ComponentInstance& component, Event& changed, TimePoint deadline) {
@@ -185,9 +185,9 @@ Status System::resume(const std::string& name, Event& changed, TimePoint deadlin
 
 Status System::set_params(const std::string& name, const std::map<std::string, std::string>& texts,
                           Event& changed, TimePoint deadline) {
-  ComponentInstance* const component = find(name);
-  if (component == nullptr) return no_such(name);
-  Result<graph::Params> values = graph::read_settings(component->param_contracts(), texts);
+  const Result<ComponentInstance*> component = instance(name);
+  if (!component) return component.error();
+  Result<graph::Params> values = graph::read_settings((*component)->param_contracts(), texts);
   if (!values) return values.error();
   return carry_out(name, changed, deadline,
                    [&](ComponentInstance& c) { return c.order_params(std::move(values).value()); });
@@ -195,18 +195,19 @@ Status System::set_params(const std::string& name, const std::map<std::string, s
 
 Status System::carry_out(const std::string& name, Event& changed, TimePoint deadline,
                          const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make) {
-  ComponentInstance* const component = find(name);
-  if (component == nullptr) return no_such(name);
-  const std::shared_ptr<Order> order = make(*component);
+  const Result<ComponentInstance*> component = instance(name);
+  if (!component) return component.error();
+  const std::shared_ptr<Order> order = make(**component);
   if (wait_until_holds(run_.executive, changed, deadline, [&] { return order->done(); }))
     return order->result();
-  const std::string hook = component->current_hook();
+  const std::string hook = (*component)->current_hook();
   return fail(Code::deadline_exceeded,
               "it has not come to the end of a lap in time" + (hook.empty() ? "" : "; it is in " + hook),
               name);
 }
 
-Error System::no_such(const std::string& name) const {
+Result<ComponentInstance*> System::instance(const std::string& name) const {
+  if (ComponentInstance* const found = find(name)) return found;
   std::vector<std::string> names;
   for (const auto& component : components_) names.push_back(component->name());
   return fail(Code::not_found, "there is no component \"" + name + "\"; the system has: " + listed(names));
@@ -231,7 +232,7 @@ std::vector<RunGlance::Unwell> System::unwell() const {
   std::vector<RunGlance::Unwell> unwell;
   for (const auto& component : components_) {
     const ComponentState state = component->state();
-    if (component->ended_badly()) {
+    if (component->report().ended_badly) {
       unwell.push_back({component->name(), to_string(ComponentState::work_failed)});
     } else if (is_unsettled(state)) {
       unwell.push_back({component->name(), to_string(state)});

@@ -89,6 +89,9 @@ class System {
   /// Returns the endpoint of a port; null if there is none.
   [[nodiscard]] Endpoint* endpoint(const graph::PortRef& port) const;
   [[nodiscard]] const ComponentInstance* component(const std::string& name) const;
+  /// Returns a component, to change it.
+  /// @errors  not_found with the names that there are.
+  [[nodiscard]] Result<ComponentInstance*> instance(const std::string& name) const;
   [[nodiscard]] const std::vector<std::unique_ptr<ComponentInstance>>& components() const {
     return components_;
   }
@@ -107,7 +110,6 @@ class System {
   Status configure(ComponentInstance& component, Event& changed, TimePoint deadline);
   Status carry_out(const std::string& name, Event& changed, TimePoint deadline,
                    const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make);
-  [[nodiscard]] Error no_such(const std::string& name) const;
   [[nodiscard]] ComponentInstance* find(const std::string& name) const;
   [[nodiscard]] hw::HardwareContainer* container(const std::string& name) const;
 

@@ -86,6 +86,7 @@ class WatchedSystem {
 
   [[nodiscard]] System& system() { return *system_; }
   [[nodiscard]] const System& system() const { return *system_; }
+  [[nodiscard]] RunContext& context() { return context_; }
   [[nodiscard]] Reporter& reporter() { return reporter_; }
   [[nodiscard]] const Reporter& reporter() const { return reporter_; }
   /// Returns the event that is notified whenever an instance has changed its state.

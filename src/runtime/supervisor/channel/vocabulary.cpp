@@ -35,6 +35,9 @@ void fields(auto& archive, Outlive& m) { transfer_all(archive, m.output, m.wait)
 void fields(auto& /*archive*/, Adopt& /*m*/) {}
 void fields(auto& /*archive*/, AskUse& /*m*/) {}
 void fields(auto& archive, TellLines& m) { transfer(archive, m.lines); }
+void fields(auto& archive, SwapCode& m) {
+  transfer_all(archive, m.component, m.type, m.values, m.probation, m.origin, m.plugin);
+}
 
 void fields(auto& archive, Answer& m) { transfer_all(archive, m.outcome, m.records); }
 void fields(auto& archive, Built& m) { transfer(archive, m.robots); }

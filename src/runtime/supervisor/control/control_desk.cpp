@@ -46,7 +46,8 @@ ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
                          const std::vector<Member*>& members, Ledger& ledger, RunLevers levers)
     : ledger_(ledger),
       names_(graph, facts.ports, members),
-      showing_(graph, facts, members, ledger, levers.edges_in_use),
+      exchanging_(graph, facts, names_),
+      showing_(graph, facts, members, ledger, exchanging_, levers.edges_in_use),
       operating_(graph, facts, names_, std::move(levers)),
       motors_(members, ledger) {}
 
@@ -77,6 +78,11 @@ void ControlDesk::built(const std::vector<Member*>& members) {
   }
 }
 
+void ControlDesk::came_up(const std::vector<Member*>& members) {
+  operating_.came_up(members);
+  exchanging_.came_up(members);
+}
+
 const ControlDesk::Handlers& ControlDesk::handlers() {
   static const Handlers all{
       {"ps", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.components(*r); }},
@@ -97,6 +103,7 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.suspend(word(ask, 0), r); }},
       {"resume",
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.resume(word(ask, 0), r); }},
+      {"swap", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.exchanging_.swap(ask.words, r); }},
       {"get", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.get(word(ask, 0), r); }},
       {"set", [](ControlDesk& d, const Ask& ask,
                  const ReplyPtr& r) { d.operating_.set(word(ask, 0), word(ask, 1), r); }},

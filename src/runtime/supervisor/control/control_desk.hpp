@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "control/control_server.hpp"
+#include "control/exchanging.hpp"
 #include "control/log_book.hpp"
 #include "control/motor_hold.hpp"
 #include "control/operating.hpp"
@@ -43,7 +44,7 @@ class ControlDesk {
   /// Goes on with what an earlier supervisor has ordered a process.
   void recall(const Standing& standing);
   /// Notes that processes work.
-  void came_up(const std::vector<Member*>& members) { operating_.came_up(members); }
+  void came_up(const std::vector<Member*>& members);
 
  private:
   using Handler = void (*)(ControlDesk& desk, const Ask& ask, const ReplyPtr& reply);
@@ -58,6 +59,7 @@ class ControlDesk {
 
   Ledger& ledger_;
   const SystemNames names_;
+  Exchanging exchanging_;
   const Showing showing_;
   Operating operating_;
   MotorHold motors_;

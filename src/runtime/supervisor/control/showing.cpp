@@ -31,25 +31,19 @@ Cell pid_of(const Member& member) {
 
 }  // namespace
 
-const PluginFacts& Showing::plugin_of(const std::string& type) const {
-  static const PluginFacts unknown;
-  const auto found = facts_.plugins.find(type);
-  return found == facts_.plugins.end() ? unknown : found->second;
-}
-
 void Showing::components(Reply& reply) const {
   const host::Reports reports = ledger_.reports();
   for (const graph::ComponentNode& node : graph_.components) {
     const auto member = std::ranges::find(members_, node.process, [](const Member* m) { return m->name(); });
     if (member == members_.end()) continue;
-    const PluginFacts& plugin = plugin_of(node.type);
+    const CodeFacts code = exchanging_.code_of(node);
     reply.add(Record{{"name", node.name},
-                     {"type", node.type},
+                     {"type", code.type},
                      {"process", node.process},
                      pid_of(**member),
                      {"state", state_of(**member, reports(node.name).state)},
-                     {"plugin", plugin.file},
-                     {"build_id", plugin.build_id},
+                     {"plugin", code.plugin.file},
+                     {"build_id", code.plugin.build_id},
                      {"restarts", (*member)->restarts()}});
   }
 }
@@ -69,22 +63,25 @@ void Showing::plugins(Reply& reply) const {
     std::string build_id;
     std::set<std::string> types;
     std::set<std::string> users;
+    std::uint64_t swaps = 0;  // that put it in another one's place
   };
   std::map<std::string, Use> uses;
-  const auto add = [&](const std::string& type, const std::string& user) {
-    const PluginFacts& plugin = plugin_of(type);
-    Use& use = uses[plugin.file];
-    use.build_id = plugin.build_id;
-    use.types.insert(type);
+  const auto add = [&](const CodeFacts& code, const std::string& user) {
+    Use& use = uses[code.plugin.file];
+    use.build_id = code.plugin.build_id;
+    use.types.insert(code.type);
     use.users.insert(user);
+    use.swaps += code.swaps;
   };
-  for (const graph::ComponentNode& node : graph_.components) add(node.type, node.name);
-  for (const graph::HardwareNode& node : graph_.hardware) add(node.type, node.name);
+  for (const graph::ComponentNode& node : graph_.components) add(exchanging_.code_of(node), node.name);
+  for (const graph::HardwareNode& node : graph_.hardware)
+    add({node.type, exchanging_.plugin_of(node.type)}, node.name);
   for (const auto& [file, use] : uses)
     reply.add(Record{{"plugin", file},
                      {"build_id", use.build_id},
                      {"types", text_of(use.types)},
-                     {"used_by", text_of(use.users)}});
+                     {"used_by", text_of(use.users)},
+                     {"swaps", use.swaps}});
 }
 
 void Showing::names(Reply& reply) const {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "control/exchanging.hpp"
 #include "control/reply.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/supervisor/system_facts.hpp"
@@ -21,11 +22,13 @@ class Showing {
   /// All of these outlive the object.
   /// @param edges_in_use  returns the edges in use of those that ports choose from.
   Showing(const graph::Graph& graph, const SystemFacts& facts, const std::vector<Member*>& members,
-          const Ledger& ledger, std::function<std::vector<const graph::Edge*>()> edges_in_use)
+          const Ledger& ledger, const Exchanging& exchanging,
+          std::function<std::vector<const graph::Edge*>()> edges_in_use)
       : graph_(graph),
         facts_(facts),
         members_(members),
         ledger_(ledger),
+        exchanging_(exchanging),
         edges_in_use_(std::move(edges_in_use)) {}
 
   /// A line for each component: where it runs and how it is.
@@ -42,12 +45,11 @@ class Showing {
   void counters(const ReplyPtr& reply) const;
 
  private:
-  [[nodiscard]] const PluginFacts& plugin_of(const std::string& type) const;
-
   const graph::Graph& graph_;
   const SystemFacts& facts_;
   const std::vector<Member*>& members_;
   const Ledger& ledger_;
+  const Exchanging& exchanging_;
   const std::function<std::vector<const graph::Edge*>()> edges_in_use_;
 };
 

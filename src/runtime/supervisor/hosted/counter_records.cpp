@@ -30,4 +30,12 @@ std::vector<Record> to_records(const host::RunCounters& counters) {
   return records;
 }
 
+Record to_record(const host::SwapReport& swap) {
+  return {{"was", swap.old_type},
+          {"type", swap.new_type},
+          {"build_id", swap.build_id},
+          {"pause_us", static_cast<std::uint64_t>(swap.pause / 1us)},
+          {"state", swap.state.empty() ? "begun afresh" : swap.state}};
+}
+
 }  // namespace orca::supervisor

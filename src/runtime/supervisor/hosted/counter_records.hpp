@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "orca/host/run_result.hpp"
+#include "orca/host/swap.hpp"
 #include "orca/supervisor/record.hpp"
 
 namespace orca::supervisor {
@@ -11,5 +12,8 @@ namespace orca::supervisor {
 /// Returns the counters of connections for people and programs: a line for each Push edge, for each port that sends or
 /// asks, and for each one that is sent to or asked.
 [[nodiscard]] std::vector<Record> to_records(const host::RunCounters& counters);
+
+/// Returns what has become of a swap.
+[[nodiscard]] Record to_record(const host::SwapReport& swap);
 
 }  // namespace orca::supervisor

@@ -129,6 +129,7 @@ void OrderDesk::carry_out(Told told) {
   Order& order = told.order;
   if (std::holds_alternative<TakeDown>(order)) is_taken_down_ = true;
   if (std::optional<host::PartOrder> for_part = part_order(order)) return pass_on(std::move(*for_part), told);
+  if (auto* swap = std::get_if<SwapCode>(&order)) return pass_on(*swap, told);
   if (const auto* cut = std::get_if<CutEdge>(&order))
     return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
   if (const auto* alarm = std::get_if<TellAlarm>(&order)) return hear(*alarm);
@@ -182,6 +183,22 @@ void OrderDesk::pass_on(host::PartOrder order, const Told& told) {
     if (outcome.ok() && !set.component.empty())
       reports_.remember([&](Recollection& all) { all.note_params(set.component, set.values); });
     (void)by->post(encode(Report(Answer{outcome}), request));
+  };
+  part_.order(std::move(order));
+}
+
+void OrderDesk::pass_on(SwapCode& swap, const Told& told) {
+  host::PartOrder order = about(host::PartOrder::Kind::swap, swap.component);
+  order.swap = std::make_shared<host::SwapOrder>(
+      host::SwapOrder{swap.component,
+                      plugin::PluginImage(std::move(swap.plugin), swap.origin),
+                      swap.type,
+                      {swap.values.begin(), swap.values.end()},
+                      Duration(swap.probation)});
+  order.swapped = [by = told.by, request = told.request](const Result<host::SwapReport>& outcome) {
+    Answer answer{outcome ? Status(ok()) : Status(outcome.error())};
+    if (outcome) answer.records.push_back(to_record(*outcome));
+    (void)by->post(encode(Report(std::move(answer)), request));
   };
   part_.order(std::move(order));
 }

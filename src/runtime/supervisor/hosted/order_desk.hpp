@@ -58,6 +58,7 @@ class OrderDesk {
   static void hear(const TellLines& told);
   void hear(const TellAlarm& told);
   void pass_on(host::PartOrder order, const Told& told);
+  void pass_on(SwapCode& swap, const Told& told);
   [[nodiscard]] std::optional<Answer> answer_of(Order& order);
   [[nodiscard]] Orphaned introduction() const;
   [[noreturn]] void leave(const Error& reason);

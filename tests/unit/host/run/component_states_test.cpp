@@ -25,18 +25,18 @@ constexpr std::array<const char*, kComponentStates> kStateNames = {
 // Rows: states; columns: events; cells: the next state. "." changes nothing, "no" is refused, "!" cannot
 // happen.
 const std::string kSpecification = R"(
-                asked_for wanted  unwanted unused   exit suspend        resume loaded configured started interrupted done failed threw  stop_threw
-unloaded        init      .       .        .        exit no             no     !      !          !       !           !    !      !      !
-init            .         .       .        .        .    no             no     init   idle       !       exit        !    broken broken  !
-idle            .         connect .        unloaded exit idle_suspended no     !      !          !       !           !    !      broken  !
-connect         .         .       .        .        .    no             no     !      !          work    idle        !    failed broken  broken
-work            .         .       idle     .        idle work_suspended no     !      !          !       !           done failed broken  broken
-done            .         .       idle     .        exit no             no     !      !          !       !           !    !      broken  !
-failed          .         .       idle     .        exit no             no     !      !          !       !           !    !      broken  !
-broken          .         .       .        .        exit no             no     !      !          !       !           !    !      broken  !
-idle_suspended  .         .       .        .        idle no             idle   !      !          !       !           !    !      broken  !
-work_suspended  .         .       .        .        work no             work   !      !          !       !           !    !      broken  !
-exit            .         .       .        .        .    no             no     !      !          !       !           !    !      !      !
+                asked_for wanted  unwanted unused   replaced exit suspend        resume loaded configured started interrupted done failed threw  stop_threw
+unloaded        init      .       .        .        .        exit no             no     !      !          !       !           !    !      !      !
+init            .         .       .        .        .        .    no             no     init   idle       !       exit        !    broken broken  !
+idle            .         connect .        unloaded .        exit idle_suspended no     !      !          !       !           !    !      broken  !
+connect         .         .       .        .        .        .    no             no     !      !          work    idle        !    failed broken  broken
+work            .         .       idle     .        .        idle work_suspended no     !      !          !       !           done failed broken  broken
+done            .         .       idle     .        .        exit no             no     !      !          !       !           !    !      broken  !
+failed          .         .       idle     .        idle     exit no             no     !      !          !       !           !    !      broken  !
+broken          .         .       .        .        idle     exit no             no     !      !          !       !           !    !      broken  !
+idle_suspended  .         .       .        .        .        idle no             idle   !      !          !       !           !    !      broken  !
+work_suspended  .         .       .        .        .        work no             work   !      !          !       !           !    !      broken  !
+exit            .         .       .        .        .        .    no             no     !      !          !       !           !    !      !      !
 )";
 
 std::string found(State state, Event event) {

@@ -32,6 +32,7 @@ void LiveSystem::run(const ExecutiveOptions& executive, const std::function<void
 
 void LiveSystem::with(Executive& executive, const std::function<void(LiveSystem&)>& body) {
   PluginCatalogue catalogue{plugin::PluginIndex({ORCA_BINARY_DIR "/tests/host_plugins"})};
+  for (const TypeEntry* const type : own_types_) catalogue.add(*type);
   xml::Diagnostics diagnostics;
   const auto graph = graph::load_text("<graph name=\"live\" version=\"1\">" + elements_ + "</graph>",
                                       "live.xml", {}, catalogue, diagnostics);
@@ -47,6 +48,9 @@ void LiveSystem::with(Executive& executive, const std::function<void(LiveSystem&
   RunContext context{executive, trace, reporter, 1, [this] { changed_->notify(); }, missions};
   System system(*graph, context, [] { return false; });
   system_ = &system;
+  graph_ = &*graph;
+  context_ = &context;
+  catalogue_ = &catalogue;
   const Status built = system.build(catalogue);
   INFO((built.ok() ? "" : built.error().text()));
   REQUIRE(built.ok());

@@ -20,11 +20,17 @@ class LiveSystem {
   /// @param elements  of the graph.
   explicit LiveSystem(std::string elements) : elements_(std::move(elements)) {}
 
+  /// Adds a component type of the test itself, which outlives the object.
+  void add(const TypeEntry& type) { own_types_.push_back(&type); }
+
   /// Brings the system up, calls `body` as the executive's main task, and takes the system down.
   void run(const ExecutiveOptions& executive, const std::function<void(LiveSystem&)>& body);
 
   [[nodiscard]] host::System& system() { return *system_; }
   [[nodiscard]] Event& changed() { return *changed_; }
+  [[nodiscard]] const graph::Graph& graph() const { return *graph_; }
+  [[nodiscard]] host::RunContext& context() { return *context_; }
+  [[nodiscard]] host::PluginCatalogue& catalogue() { return *catalogue_; }
   [[nodiscard]] Executive& executive() { return *executive_; }
   [[nodiscard]] TimePoint soon() const { return executive_->now() + 5s; }
   [[nodiscard]] host::ComponentState state(const std::string& component) const {
@@ -46,9 +52,13 @@ class LiveSystem {
   void with(Executive& executive, const std::function<void(LiveSystem&)>& body);
 
   std::string elements_;
+  std::vector<const TypeEntry*> own_types_;
   Executive* executive_ = nullptr;
   Event* changed_ = nullptr;
   host::System* system_ = nullptr;
+  const graph::Graph* graph_ = nullptr;
+  host::RunContext* context_ = nullptr;
+  host::PluginCatalogue* catalogue_ = nullptr;
   std::size_t read_ = 0;
 };
 

@@ -36,6 +36,7 @@ const Names kComponentEventNames = {
     {"wanted", "It has a client, or it is to stay active."},
     {"not wanted", "It has no client, and it is not to stay active."},
     {"unused", "It is loaded on demand, and nobody has used it for its idle time."},
+    {"replaced", "Another object has taken the place of the present one."},
     {"the end", "The system is being stopped."},
     {"suspend", "An operator asks for a pause."},
     {"resume", "An operator ends the pause."},

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 namespace orca {
 
 /// The places where the runtime calls into a plugin.
@@ -15,6 +18,8 @@ enum class Hook {
   suspend,
   resume,
   params_changed,
+  save_state,
+  load_state,
   handler,  ///< Of a Send or Query server; the port says which.
   strand,   ///< Everything that a hardware container does while the system runs.
   destructor,
@@ -23,23 +28,17 @@ enum class Hook {
 
 /// The hook as it stands in front of a verb: "work()", "its constructor".
 [[nodiscard]] constexpr const char* to_string(Hook hook) {
-  switch (hook) {
-    case Hook::load: return "load()";
-    case Hook::constructor: return "its constructor";
-    case Hook::prepare: return "its prepare()";
-    case Hook::configure: return "configure()";
-    case Hook::start: return "start()";
-    case Hook::work: return "work()";
-    case Hook::stop: return "stop()";
-    case Hook::suspend: return "suspend()";
-    case Hook::resume: return "resume()";
-    case Hook::params_changed: return "params_changed()";
-    case Hook::handler: return "a handler";
-    case Hook::strand: return "its strand";
-    case Hook::destructor: return "its destructor";
-    case Hook::unload: return "its static destruction";
-  }
-  return "?";
+  constexpr std::array kNames{"load()",         "its constructor",
+                              "its prepare()",  "configure()",
+                              "start()",        "work()",
+                              "stop()",         "suspend()",
+                              "resume()",       "params_changed()",
+                              "save_state()",   "load_state()",
+                              "a handler",      "its strand",
+                              "its destructor", "its static destruction"};  // by the number of the enumerator
+  static_assert(kNames.size() == static_cast<std::size_t>(Hook::unload) + 1);
+  const auto number = static_cast<std::size_t>(hook);
+  return number < kNames.size() ? kNames[number] : "?";
 }
 
 }  // namespace orca

@@ -12,6 +12,7 @@
 #include "orca/component/host.hpp"
 #include "orca/component/outcome.hpp"
 #include "orca/component/param.hpp"
+#include "orca/component/state.hpp"
 #include "orca/patterns/port_owner.hpp"
 #include "orca/patterns/push.hpp"
 
@@ -69,6 +70,23 @@ class Component : public PortOwner {
   /// Takes note of new parameter values. They all change at once, between two laps. An error restores the old
   /// values and is returned to whoever requested the new ones.
   virtual Status params_changed() { return ok(); }
+
+  /// Writes what an object that takes this one's place needs to go on as if nothing had happened: counts, estimates, what
+  /// it has begun. Called between two laps when the component is exchanged for another version of itself. Parameters, ports,
+  /// subscriptions and what waits in queues stay anyway.
+  virtual void save_state(StateWriter& /*state*/) const {}
+
+  /// Takes over what the predecessor has written, in the same order. Called once, after configure() and, if the component
+  /// works, after start(). All that was written must be read. An error leaves the predecessor in its place.
+  virtual Status load_state(StateReader& /*state*/) { return ok(); }
+
+  /// Returns the version of what save_state() writes. Count it up whenever that changes.
+  [[nodiscard]] virtual std::uint32_t state_version() const { return 1; }
+
+  /// Returns the states that load_state() can read besides those of the same type and version; StateReader::tag() says
+  /// which one it is. A state of another version of the same type that is not among them keeps the predecessor in its
+  /// place; one of another type is left unread, and the object starts fresh.
+  [[nodiscard]] virtual std::vector<StateTag> accepted_states() const { return {}; }
 
   // Used by the handles that are members of a component.
   void declare_port(PortDeclaration declaration) final { host_.declare_port(std::move(declaration)); }

@@ -16,6 +16,7 @@ namespace orca {
 
 class PushClientEndpoint;
 class PushEdge;
+class PushProxyArrayHandle;
 class PushServerEndpoint;
 class Strand;
 
@@ -185,12 +186,17 @@ class PushSourceHandle {
   friend bool operator==(const PushSourceHandle&, const PushSourceHandle&) = default;
 
  protected:
-  explicit PushSourceHandle(PushEdge& edge) : edge_(&edge) {}
+  PushSourceHandle(const PushProxyArrayHandle& port, std::size_t index) : port_(&port), index_(index) {}
   [[nodiscard]] ObjectRef latest_ref() const;
   [[nodiscard]] ObjectRef take_latest_ref() const;
 
  private:
-  PushEdge* edge_;
+  [[nodiscard]] PushEdge& edge() const;
+
+  // The port's place is the same for the component's whole life, but the edges behind it are those of another port while
+  // a new object of the component is configured beside the old one.
+  const PushProxyArrayHandle* port_;
+  std::size_t index_;
 };
 
 /// One PushServer that the graph connects to a port array.
@@ -199,7 +205,7 @@ class PushSourceHandle {
 template <class T>
 class PushSourceOf : public PushSourceHandle {
  public:
-  explicit PushSourceOf(PushEdge& edge) : PushSourceHandle(edge) {}
+  PushSourceOf(const PushProxyArrayHandle& port, std::size_t index) : PushSourceHandle(port, index) {}
 
   /// Returns the newest object, without taking it; null before the first of this subscription.
   [[nodiscard]] ObjectPtr<T> latest() const { return object_cast<T>(latest_ref()); }
@@ -218,6 +224,10 @@ class PushProxyArrayHandle : public PushSubject {
 
  protected:
   [[nodiscard]] std::size_t edge_count() const;
+
+ private:
+  friend class PushSourceHandle;
+
   [[nodiscard]] PushEdge& edge(std::size_t index) const;
 };
 
@@ -236,7 +246,7 @@ class PushProxyArray : public PushProxyArrayHandle {
   /// Returns the servers that the graph connects here, subscribed to or not, in the graph's order.
   [[nodiscard]] std::vector<Source> sources() const {
     std::vector<Source> all;
-    for (std::size_t i = 0; i < edge_count(); ++i) all.emplace_back(edge(i));
+    for (std::size_t i = 0; i < edge_count(); ++i) all.emplace_back(*this, i);
     return all;
   }
 };

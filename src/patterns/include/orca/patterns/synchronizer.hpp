@@ -86,7 +86,7 @@ class Synchronizer {
   void wait_for_tick(Duration period);
 
   std::vector<PushSubject*> subjects_;
-  Endpoints endpoints_;  // of the subjects, once they are known
+  Endpoints endpoints_;  // of the subjects; kept for its memory
   TimePoint last_tick_{};
 };
 

@@ -9,7 +9,8 @@ ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings
                                      Residency::Unloader unloader, Device* hardware)
     : parts_(run, std::move(settings), hardware),
       residency_(parts_, std::move(loader), std::move(unloader)),
-      life_(parts_, residency_),
+      succession_(parts_, residency_),
+      life_(parts_, residency_, succession_),
       loop_(parts_, residency_, life_) {}
 
 // Destroys the component first, because its destructor may still use any part.
@@ -31,13 +32,25 @@ std::shared_ptr<Order> ComponentInstance::order_params(ParamValues values) {
   return parts_.orders.add([this, values = std::move(values)] { return life_.change_params(values); });
 }
 
+std::shared_ptr<Order> ComponentInstance::order_take_over(ComponentInstance& successor, TakeOver& report) {
+  return parts_.orders.add(
+      [this, &successor, &report] { return life_.take_over(successor.residency_, report); });
+}
+
+std::shared_ptr<Order> ComponentInstance::order_confirmation() {
+  return parts_.orders.add([this] {
+    succession_.confirm();
+    return ok();
+  });
+}
+
 bool ComponentInstance::at_rest() const {
   return state() != ComponentState::connect && state() != ComponentState::work;
 }
 
 bool ComponentInstance::is_in_use() const {
   const ComponentState now = state();
-  return (now != ComponentState::idle && now != ComponentState::unloaded) || parts_.ports.has_intake() ||
+  return (now != ComponentState::idle && now != ComponentState::unloaded) || parts_.ports.is_asked() ||
          *current_hook() != '\0';
 }
 

@@ -11,6 +11,7 @@
 #include "lifecycle.hpp"
 #include "orca/host/component_report.hpp"
 #include "residency.hpp"
+#include "succession.hpp"
 
 namespace orca::host {
 
@@ -37,6 +38,9 @@ class ComponentInstance final {
   /// Returns the endpoint of a declared port, or null.
   [[nodiscard]] Endpoint* endpoint(const std::string& port) const { return parts_.ports.find(port); }
 
+  /// Returns what there is of it apart from its code.
+  [[nodiscard]] const ComponentParts& parts() const { return parts_; }
+
   /// Lets other processes wake its strand.
   /// @pre  it has not been loaded or declared yet.
   void set_doorbell(DoorbellWord& word) { parts_.strand.set_doorbell(word); }
@@ -57,6 +61,14 @@ class ComponentInstance final {
   /// Orders new parameter values. They change all together, or none does.
   /// @param values  checked against the contract.
   std::shared_ptr<Order> order_params(ParamValues values);
+  /// Orders that the successor's object takes the place of this component's, which goes to the successor.
+  /// @param successor  configured, and IDLE with a closed gate. It lives until the order is done and confirm_take_over()
+  ///                   as well, as `report` does.
+  std::shared_ptr<Order> order_take_over(ComponentInstance& successor, TakeOver& report);
+  /// Orders that the old object does not come back from here on.
+  std::shared_ptr<Order> order_confirmation();
+  /// Returns why the old object is back after a take-over; nothing if it is not.
+  [[nodiscard]] std::optional<std::string> take_back_reason() const { return succession_.take_back_reason(); }
 
   [[nodiscard]] ComponentState state() const { return life_.state(); }
   [[nodiscard]] bool at_rest() const;
@@ -64,31 +76,27 @@ class ComponentInstance final {
   [[nodiscard]] bool is_in_use() const;
   /// Returns whether the component has ever been in WORK_FAILED, even if a new client has made it start anew.
   [[nodiscard]] bool has_failed() const { return life_.has_failed(); }
-  [[nodiscard]] bool has_worked() const { return life_.has_worked(); }
-  /// Returns whether its last work ended in WORK_FAILED, whether it is IDLE again or not.
-  [[nodiscard]] bool ended_badly() const { return life_.ended_badly(); }
   /// Returns why it is in WORK_FAILED, or why it could not be configured.
   [[nodiscard]] std::string failure() const { return life_.failure(); }
   /// Returns why it could not be configured; nothing if it could.
   [[nodiscard]] std::optional<Error> refusal() const { return life_.refusal(); }
   /// Returns all of this about its state as one value.
   [[nodiscard]] ComponentReport report() const {
-    return {state(), has_worked(), has_failed(), ended_badly(), failure()};
+    return {state(), life_.has_worked(), has_failed(), life_.ended_badly(), failure()};
   }
   /// Returns the hook that the strand is in now, for people: "work()"; for a handler its port; else "".
   [[nodiscard]] const char* current_hook() const { return parts_.hooks.current(); }
   /// Fills in the mission and cause of what the component works on. To be called on its strand.
   void stamp(idl::OrcaObject& object) const { parts_.home.provenance.stamp(object); }
   /// Returns the contracts of its parameters.
-  [[nodiscard]] const std::vector<ParamContract>& param_contracts() const {
-    return parts_.params.contracts();
-  }
+  [[nodiscard]] std::vector<ParamContract> param_contracts() const { return parts_.params.contracts(); }
   /// Returns the present values of its parameters.
   [[nodiscard]] ParamValues params() const { return parts_.params.values(); }
 
  private:
   ComponentParts parts_;
   Residency residency_;
+  Succession succession_;
   Lifecycle life_;
   ComponentLoop loop_;
 };

@@ -42,7 +42,7 @@ void ComponentLoop::turn() {
   if (!silent && handle_one_intake()) return;
   if (const auto event = look()) return life_.handle(*event);
   if (silent) return parts_.strand.pause_until(kForever);
-  if (life_.state() == ComponentState::work && parts_.laps.is_due(parts_.site.now())) return lap();
+  if (life_.state() == ComponentState::work && parts_.laps.is_due(parts_.now())) return lap();
   parts_.strand.pause_until(next_wake_up());
 }
 
@@ -52,14 +52,14 @@ std::optional<ComponentEvent> ComponentLoop::look() const {
   const ComponentEvent clients = wanted() ? ComponentEvent::wanted : ComponentEvent::unwanted;
   if (leads_on(clients)) return clients;
   if (leads_on(ComponentEvent::asked_for) && asked_for()) return ComponentEvent::asked_for;
-  if (leads_on(ComponentEvent::unused) && parts_.site.now() >= unload_time()) return ComponentEvent::unused;
+  if (leads_on(ComponentEvent::unused) && parts_.now() >= unload_time()) return ComponentEvent::unused;
   return std::nullopt;
 }
 
 // --- Laps -------------------------------------------------------------------------------------------------
 
 void ComponentLoop::lap() {
-  parts_.laps.lap_begins(parts_.site.now());
+  parts_.laps.lap_begins(parts_.now());
   Outcome outcome;
   activity_before_lap_ = parts_.strand.activity();
   parts_.home.provenance.begin_lap();
@@ -93,7 +93,7 @@ bool ComponentLoop::handle_one_intake() {
     if (!handled) handled = handle_sent(*intake.endpoint);
   for (const auto& intake : parts_.ports.query_servers())
     if (!handled) handled = handle_asked(*intake.endpoint);
-  if (handled) last_intake_ = parts_.site.now();
+  if (handled) last_intake_ = parts_.now();
   return handled;
 }
 
@@ -111,8 +111,8 @@ bool ComponentLoop::handle_sent(SendServerEndpoint& endpoint) {
       port.c_str());
   contain(endpoint, fault);
   if (!outcome.ok())
-    parts_.site.write_log(log::Level::warning, port + ": could not handle an object that it had accepted: " +
-                                                   outcome.error().text());
+    parts_.write_log(log::Level::warning,
+                     port + ": could not handle an object that it had accepted: " + outcome.error().text());
   return handled || fault;
 }
 
@@ -140,7 +140,7 @@ void ComponentLoop::contain(const Endpoint& endpoint, const std::optional<Plugin
 bool ComponentLoop::asked_for() const { return wanted() || (is_open() && parts_.ports.has_intake()); }
 
 bool ComponentLoop::wanted() const {
-  return is_open() && (parts_.site.stays_active() || parts_.ports.has_subscribers());
+  return is_open() && (residency_.stays_active() || parts_.ports.has_subscribers());
 }
 
 bool ComponentLoop::must_leave_lap() const {

@@ -5,20 +5,24 @@
 
 namespace orca::host {
 
-ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings settings_of_this, Device* hardware)
+ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings settings_of_this, Device* device)
     : run(run_of_all),
       settings(std::move(settings_of_this)),
+      hardware(device),
       strand(run.executive, {settings.name, settings.priority}),
       home{strand, settings.name, &run.reporter, {}},
       ports(home),
-      site(run, settings, home, laps, hardware),
       hooks(settings.name),
-      injector(settings.failure, site, strand, laps),
+      injector(run, settings, strand, laps),
       params(settings.params),
       orders(strand) {}
 
+void ComponentParts::write_log(log::Level level, std::string_view text) const {
+  run.reporter.log(level, settings.name, text, home.provenance.mission());
+}
+
 void ComponentParts::report_failure(Hook hook, const std::string& text, const char* port) {
-  site.write_log(log::Level::error, text);
+  write_log(log::Level::error, text);
   idl::Alarm alarm = make_alarm(AlarmKind::failed, settings.name, hook_text(hook, port), text);
   home.provenance.stamp(alarm);
   run.reporter.note(std::move(alarm));

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "component_settings.hpp"
-#include "component_site.hpp"
 #include "containment/guard.hpp"
 #include "failure_injector.hpp"
 #include "hook_caller.hpp"
 #include "lap_trigger.hpp"
 #include "orca/base/strand.hpp"
+#include "orca/component/device.hpp"
 #include "order_queue.hpp"
 #include "parameters.hpp"
 #include "port_set.hpp"
@@ -19,10 +20,15 @@ namespace orca::host {
 
 /// The parts of one component in this process, apart from its code. Each part has its own thread contract.
 struct ComponentParts {
-  ComponentParts(RunContext& run_of_all, ComponentSettings settings_of_this, Device* hardware);
+  /// @param device  the hardware that the graph binds to the component, or null.
+  ComponentParts(RunContext& run_of_all, ComponentSettings settings_of_this, Device* device);
   ComponentParts(const ComponentParts&) = delete;
   ComponentParts& operator=(const ComponentParts&) = delete;
 
+  [[nodiscard]] TimePoint now() const { return run.executive.now(); }
+  /// Writes a line to the log. It names the mission at which the component works, if there is one. To be called on its
+  /// strand.
+  void write_log(log::Level level, std::string_view text) const;
   /// Reports a failure of the component: writes a line to the log, and raises an alarm with the mission and
   /// cause of what the component works on. To be called on its strand.
   /// @param port  port of a handler; "" for other hooks.
@@ -30,11 +36,11 @@ struct ComponentParts {
 
   RunContext& run;
   const ComponentSettings settings;
+  Device* const hardware;
   Strand strand;
   PortHome home;
   PortSet ports;
   LapTrigger laps;
-  ComponentSite site;
   HookCaller hooks;
   FailureInjector injector;
   Parameters params;

@@ -5,22 +5,13 @@
 
 namespace orca::host {
 
-ComponentSite::ComponentSite(RunContext& run, const ComponentSettings& settings, PortHome& home,
-                             const LapTrigger& laps, Device* hardware)
-    : run_(run), settings_(settings), home_(home), laps_(laps), hardware_(hardware) {}
-
 void ComponentSite::forget_code() {
   declared_.ports.clear();
   declared_.params.clear();
 }
 
-void ComponentSite::reset() {
-  declared_ = {};
-  stays_active_ = false;
-}
-
 void ComponentSite::declare_port(PortDeclaration declaration) {
-  declaration.contract.name = settings_.name_in_graph(declaration.contract.name);
+  declaration.contract.name = parts_->settings.name_in_graph(declaration.contract.name);
   declared_.ports.push_back(std::move(declaration));
 }
 
@@ -30,27 +21,29 @@ void ComponentSite::declare_param(ParamDeclaration declaration) {
 
 void ComponentSite::set_default_trigger(const Trigger& trigger) {
   declared_.trigger = trigger;
-  for (std::string& port : declared_.trigger.ports) port = settings_.name_in_graph(port);
+  for (std::string& port : declared_.trigger.ports) port = parts_->settings.name_in_graph(port);
 }
 
 RandomStream ComponentSite::random(std::string_view stream) const {
-  return {run_.seed, settings_.name, stream};
+  return {parts_->run.seed, parts_->settings.name, stream};
 }
 
 void ComponentSite::write_log(log::Level level, std::string_view text) const {
-  run_.reporter.log(level, settings_.name, text, home_.provenance.mission());
+  parts_->write_log(level, text);
 }
 
 std::uint64_t ComponentSite::begin_mission() {
-  const std::uint64_t mission = ++run_.missions;
-  home_.provenance.begin_mission(mission);
+  const std::uint64_t mission = ++parts_->run.missions;
+  parts_->home.provenance.begin_mission(mission);
   return mission;
 }
 
 std::vector<idl::Alarm> ComponentSite::take_alarms() {
-  return run_.reporter.alarm_news().since(heard_alarms_);
+  return parts_->run.reporter.alarm_news().since(heard_alarms_);
 }
 
-std::vector<idl::Alarm> ComponentSite::kept_alarms() const { return run_.reporter.alarm_news().kept(); }
+std::vector<idl::Alarm> ComponentSite::kept_alarms() const {
+  return parts_->run.reporter.alarm_news().kept();
+}
 
 }  // namespace orca::host

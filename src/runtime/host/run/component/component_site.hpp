@@ -6,11 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "component_settings.hpp"
-#include "lap_trigger.hpp"
+#include "component_parts.hpp"
 #include "orca/component/host.hpp"
-#include "orca/patterns/endpoints/endpoint.hpp"
-#include "run/run_context.hpp"
 
 namespace orca::host {
 
@@ -22,52 +19,47 @@ struct Declarations {
   Trigger trigger;
 };
 
-/// The process around one component, as the component sees it, and the place for its declarations.
+/// The process around one object of a component, as the object sees it, and the place for its declarations. It goes with
+/// the object when that takes the place of another one.
 ///
 /// Thread contract: as ComponentHost; the rest on the component's strand, or before that starts.
 class ComponentSite final : public ComponentHost {
  public:
-  /// @param home      of the component's ports, with its strand; outlives this object, as does `laps`.
-  /// @param laps      what starts the component's laps.
-  /// @param hardware  the hardware that the graph binds to the component, or null.
-  ComponentSite(RunContext& run, const ComponentSettings& settings, PortHome& home, const LapTrigger& laps,
-                Device* hardware);
+  /// @param parts  of the component; they outlive this object, or it moves.
+  explicit ComponentSite(ComponentParts& parts) : parts_(&parts) {}
+
+  /// Moves to another component.
+  void move_to(ComponentParts& parts) { parts_ = &parts; }
 
   [[nodiscard]] const Declarations& declared() const { return declared_; }
-  /// Returns whether the component is to work without clients: the graph's word counts before its own.
-  [[nodiscard]] bool stays_active() const { return settings_.autonomous.value_or(stays_active_); }
+  /// Returns whether the component wants to work without clients.
+  [[nodiscard]] bool stays_active() const { return stays_active_; }
   /// Drops everything that may lead into the plugin's code.
   void forget_code();
-  /// Restores the state from before a component was constructed here.
-  void reset();
 
   // ComponentHost
   void declare_port(PortDeclaration declaration) override;
   void declare_param(ParamDeclaration declaration) override;
   void set_default_trigger(const Trigger& trigger) override;
-  [[nodiscard]] Duration lap_period() const override { return laps_.period(); }
-  [[nodiscard]] const std::string& name() const override { return settings_.name; }
-  [[nodiscard]] TimePoint now() const override { return run_.executive.now(); }
+  [[nodiscard]] Duration lap_period() const override { return parts_->laps.period(); }
+  [[nodiscard]] const std::string& name() const override { return parts_->settings.name; }
+  [[nodiscard]] TimePoint now() const override { return parts_->now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override;
   /// Writes a line to the log. It names the mission at which the component works, if there is one.
   void write_log(log::Level level, std::string_view text) const override;
-  [[nodiscard]] Device* hardware() override { return hardware_; }
+  [[nodiscard]] Device* hardware() override { return parts_->hardware; }
   void stay_active(bool active) override { stays_active_ = active; }
-  [[nodiscard]] Strand& strand() override { return home_.strand; }
+  [[nodiscard]] Strand& strand() override { return parts_->strand; }
   std::uint64_t begin_mission() override;
-  void end_mission() override { home_.provenance.end_task(); }
-  void note_cause(const idl::OrcaObject& object) override { home_.provenance.note(object); }
+  void end_mission() override { parts_->home.provenance.end_task(); }
+  void note_cause(const idl::OrcaObject& object) override { parts_->home.provenance.note(object); }
   [[nodiscard]] std::vector<idl::Alarm> take_alarms() override;
   [[nodiscard]] std::vector<idl::Alarm> kept_alarms() const override;
 
  private:
-  RunContext& run_;
-  const ComponentSettings& settings_;
-  PortHome& home_;
-  const LapTrigger& laps_;
-  Device* const hardware_;
+  ComponentParts* parts_;
   Declarations declared_;
-  bool stays_active_ = false;       // as the component wants it
+  bool stays_active_ = false;
   std::uint64_t heard_alarms_ = 0;  // position in the news
 };
 

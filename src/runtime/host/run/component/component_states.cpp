@@ -38,6 +38,10 @@ constexpr auto kRows = std::to_array<ComponentTransition>({
     {State::suspended_idle, Event::resume, State::idle, {Action::enter, Action::resume}},
     {State::suspended_work, Event::resume, State::work, {Action::enter, Action::begin_laps, Action::resume}},
 
+    // A new object for one that has failed.
+    {State::work_failed, Event::replaced, State::idle, {Action::open_intake, Action::enter}},
+    {State::broken, Event::replaced, State::idle, {Action::open_intake, Action::enter}},
+
     // Loaded on demand.
     {State::idle, Event::unused, State::unloaded, {Action::hold_intake, Action::unload, Action::enter}},
 

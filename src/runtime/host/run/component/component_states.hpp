@@ -16,6 +16,7 @@ enum class ComponentEvent {
   wanted,     ///< It has a client, or it is to stay active.
   unwanted,   ///< It has no client, and it is not to stay active.
   unused,     ///< An on-demand component has not been used for its idle time.
+  replaced,   ///< Another object has taken the place of the present one.
   exit,       ///< The system is being stopped.
   // Orders.
   suspend,
@@ -52,7 +53,7 @@ enum class ComponentAction {
 };
 
 inline constexpr std::size_t kComponentStates = 11;
-inline constexpr std::size_t kComponentEvents = 15;
+inline constexpr std::size_t kComponentEvents = 16;
 
 using ComponentTransition = Transition<ComponentState, ComponentEvent, ComponentAction>;
 

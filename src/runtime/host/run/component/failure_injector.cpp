@@ -29,13 +29,16 @@ const std::vector<std::string>& failure_names() {
 }
 
 void FailureInjector::begin() {
-  if (planned_) begins_ = saturating_add(site_.now(), planned_->at);
+  const std::optional<PlannedFailure>& planned = settings_.failure;
+  if (planned) begins_ = saturating_add(run_.executive.now(), planned->at);
 }
 
 // Tells people that the failure is no real one when it begins.
 bool FailureInjector::has_begun(Failure failure) {
-  if (!planned_ || planned_->failure != failure || site_.now() < begins_.load()) return false;
-  if (!told_) site_.write_log(log::Level::warning, "fails from now on, because --fail asks for it");
+  const std::optional<PlannedFailure>& planned = settings_.failure;
+  if (!planned || planned->failure != failure || run_.executive.now() < begins_.load()) return false;
+  if (!told_)
+    run_.reporter.log(log::Level::warning, settings_.name, "fails from now on, because --fail asks for it");
   told_ = true;
   return true;
 }
@@ -48,7 +51,7 @@ void FailureInjector::act() {
   if (!hangs && !has_begun(Failure::slow)) return;
   const Duration period = laps_.period() > Duration{0} ? laps_.period() : kPeriodOfNone;
   strand_.note_activity();  // so that the wait is not taken for one that can be begun again
-  strand_.wait_for(hangs ? kForever : saturating_add(site_.now(), kPeriodsLate * period),
+  strand_.wait_for(hangs ? kForever : saturating_add(run_.executive.now(), kPeriodsLate * period),
                    [] { return false; });
 }
 

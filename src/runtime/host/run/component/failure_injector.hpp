@@ -4,10 +4,11 @@
 #include <atomic>
 #include <optional>
 
-#include "component_site.hpp"
+#include "component_settings.hpp"
 #include "lap_trigger.hpp"
 #include "orca/base/strand.hpp"
 #include "orca/host/planned_failure.hpp"
+#include "run/run_context.hpp"
 
 namespace orca::host {
 
@@ -17,9 +18,8 @@ namespace orca::host {
 class FailureInjector {
  public:
   /// All are those of the component, and outlive this object.
-  FailureInjector(const std::optional<PlannedFailure>& planned, const ComponentSite& site, Strand& strand,
-                  const LapTrigger& laps)
-      : planned_(planned), site_(site), strand_(strand), laps_(laps) {}
+  FailureInjector(RunContext& run, const ComponentSettings& settings, Strand& strand, const LapTrigger& laps)
+      : run_(run), settings_(settings), strand_(strand), laps_(laps) {}
 
   /// Starts to count the time.
   void begin();
@@ -32,8 +32,8 @@ class FailureInjector {
  private:
   [[nodiscard]] bool has_begun(Failure failure);
 
-  const std::optional<PlannedFailure>& planned_;
-  const ComponentSite& site_;
+  RunContext& run_;
+  const ComponentSettings& settings_;
   Strand& strand_;
   const LapTrigger& laps_;
   std::atomic<TimePoint> begins_{kForever};  // handlers may look at it before the components begin to work

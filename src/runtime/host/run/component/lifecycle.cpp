@@ -5,9 +5,10 @@
 
 namespace orca::host {
 
-Lifecycle::Lifecycle(ComponentParts& parts, Residency& residency)
+Lifecycle::Lifecycle(ComponentParts& parts, Residency& residency, Succession& succession)
     : parts_(parts),
       residency_(residency),
+      succession_(succession),
       state_(parts.settings.on_demand ? ComponentState::unloaded : ComponentState::init) {}
 
 std::string Lifecycle::failure() const {
@@ -28,6 +29,7 @@ void Lifecycle::handle(ComponentEvent event) {
 }
 
 void Lifecycle::fail_with(ComponentEvent event, Hook hook, const std::string& what, const char* port) {
+  if (succession_.take_back(state(), hook_text(hook, port) + " " + what)) return;
   handle(report(event, hook, what, port));
 }
 
@@ -72,7 +74,7 @@ void Lifecycle::arrange(ComponentAction action) {
     case ComponentAction::hold_intake: return parts_.ports.hold();
     case ComponentAction::close_intake: return parts_.ports.close("it has failed: " + failure());
     case ComponentAction::subscribe: return parts_.ports.subscribe();
-    case ComponentAction::begin_laps: return parts_.laps.begin(parts_.site.now());
+    case ComponentAction::begin_laps: return parts_.laps.begin(parts_.now());
     case ComponentAction::unsubscribe: parts_.ports.unsubscribe(); return parts_.home.provenance.end_task();
     case ComponentAction::end:
       parts_.orders.refuse_all();
@@ -86,7 +88,7 @@ void Lifecycle::enter(ComponentState state) {
   if (state == ComponentState::work) has_worked_.store(true, std::memory_order_release);
   if (is_failed(state) || state == ComponentState::work)
     ended_badly_.store(is_failed(state), std::memory_order_release);
-  entered_ = parts_.site.now();
+  entered_ = parts_.now();
   const ComponentState before = state_.exchange(state, std::memory_order_acq_rel);
   parts_.run.trace.state_changed(parts_.settings.name, to_string(before), to_string(state));
   parts_.run.changed();
@@ -112,7 +114,7 @@ Lifecycle::FollowUp Lifecycle::configure() {
                   fault->text);
   if (configured.ok())
     configured =
-        parts_.laps.choose(parts_.settings.trigger.value_or(parts_.site.declared().trigger), parts_.ports);
+        parts_.laps.choose(parts_.settings.trigger.value_or(residency_.declared().trigger), parts_.ports);
   if (configured.ok()) return ComponentEvent::configured;
   const Error& error = configured.error();
   return refuse(ComponentEvent::failed, error, "said: " + error.text());
@@ -129,21 +131,26 @@ Lifecycle::FollowUp Lifecycle::refuse(ComponentEvent event, Error reason, const 
 
 Lifecycle::FollowUp Lifecycle::start() {
   Status started;
+  residency_.note_started(true);
   const auto fault = parts_.hooks.call(Hook::start, [&] { started = residency_.component()->start(); });
   if (fault && fault->interrupted) return ComponentEvent::interrupted;
-  if (fault) return report(ComponentEvent::threw, Hook::start, fault->text);
-  if (started.ok()) return ComponentEvent::started;
-  return report(ComponentEvent::failed, Hook::start, "said: " + started.error().text());
+  if (!fault && started.ok()) return ComponentEvent::started;
+  const std::string what = fault ? fault->text : "said: " + started.error().text();
+  if (succession_.take_back(state(), "start() " + what)) return start();
+  return report(fault ? ComponentEvent::threw : ComponentEvent::failed, Hook::start, what);
 }
 
 void Lifecycle::try_stop() {
+  residency_.note_started(false);
   const auto fault = parts_.hooks.call(Hook::stop, [this] { residency_.component()->stop(); });
   if (fault && !fault->interrupted) parts_.report_failure(Hook::stop, "stop() " + fault->text);
 }
 
 Lifecycle::FollowUp Lifecycle::call(Hook hook, void (Component::*function)(), ComponentEvent if_it_throws) {
+  if (hook == Hook::stop) residency_.note_started(false);
   const auto fault = parts_.hooks.call(hook, [&] { (residency_.component()->*function)(); });
   if (!fault || fault->interrupted) return std::nullopt;
+  if (succession_.take_back(state(), std::string(to_string(hook)) + " " + fault->text)) return std::nullopt;
   return report(if_it_throws, hook, fault->text);
 }
 
@@ -164,6 +171,18 @@ Status Lifecycle::order(ComponentEvent event, const std::string& only) {
   return ok();
 }
 
+Status Lifecycle::take_over(Residency& successor, TakeOver& report) {
+  const ComponentState now = state();
+  const bool is_loaded = now != ComponentState::init && now != ComponentState::unloaded;
+  if (!is_loaded || now == ComponentState::suspended_idle || now == ComponentState::suspended_work)
+    return fail(Code::failed_precondition,
+                std::string("it is ") + to_string(now) + ", in which nothing can take its place",
+                parts_.settings.name);
+  if (Status taken = succession_.take_over(successor, now, report); !taken.ok()) return taken;
+  handle(ComponentEvent::replaced);
+  return ok();
+}
+
 Status Lifecycle::change_params(const ParamValues& values) {
   const ParamValues old = parts_.params.values();
   ParamValues changed = old;
@@ -176,12 +195,12 @@ Status Lifecycle::change_params(const ParamValues& values) {
 
 // Gives the component the changed values, and the old ones back if it does not accept them.
 Status Lifecycle::offer_params(const ParamValues& changed, const ParamValues& old) {
-  set_params(parts_.site.declared().params, changed);
+  set_params(residency_.declared().params, changed);
   Status accepted;
   const auto fault =
       parts_.hooks.call(Hook::params_changed, [&] { accepted = residency_.component()->params_changed(); });
   if (!fault && accepted.ok()) return ok();
-  set_params(parts_.site.declared().params, old);
+  set_params(residency_.declared().params, old);
   if (!fault) return accepted;
   if (!fault->interrupted) fail_with(ComponentEvent::threw, Hook::params_changed, fault->text);
   return fail(Code::internal, "params_changed() " + fault->text, parts_.settings.name);

@@ -9,6 +9,7 @@
 #include "component_parts.hpp"
 #include "component_states.hpp"
 #include "residency.hpp"
+#include "succession.hpp"
 
 namespace orca::host {
 
@@ -19,7 +20,7 @@ namespace orca::host {
 /// component's strand.
 class Lifecycle {
  public:
-  Lifecycle(ComponentParts& parts, Residency& residency);
+  Lifecycle(ComponentParts& parts, Residency& residency, Succession& succession);
   Lifecycle(const Lifecycle&) = delete;
   Lifecycle& operator=(const Lifecycle&) = delete;
 
@@ -37,6 +38,10 @@ class Lifecycle {
   /// Changes all values together, or none.
   /// @errors  the component's own; internal with what it threw.
   Status change_params(const ParamValues& values);
+  /// Puts the object of a successor in the place of the present one; see Succession::take_over(). A component that has
+  /// failed becomes IDLE.
+  /// @errors  also failed_precondition with the state in which that is not possible.
+  Status take_over(Residency& successor, TakeOver& report);
 
   [[nodiscard]] ComponentState state() const { return state_.load(std::memory_order_acquire); }
   /// Returns when the state was entered.
@@ -74,6 +79,7 @@ class Lifecycle {
 
   ComponentParts& parts_;
   Residency& residency_;
+  Succession& succession_;
   TimePoint entered_{};
   std::atomic<ComponentState> state_;
   std::atomic<bool> has_failed_{false};

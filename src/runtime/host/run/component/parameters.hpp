@@ -16,24 +16,30 @@ using ParamValues = std::map<std::string, ParamValue>;
 /// The parameters of one component: their contracts and their values. They outlive its code.
 ///
 /// Thread contract: declare() before the component's strand starts; values() and contracts() from anywhere;
-/// keep() on the strand.
+/// the rest on the strand.
 class Parameters {
  public:
   /// @param values  the values that the graph gives.
   explicit Parameters(ParamValues values) : values_(std::move(values)) {}
 
-  void declare(std::vector<ParamContract> contracts) { contracts_ = std::move(contracts); }
-  [[nodiscard]] const std::vector<ParamContract>& contracts() const { return contracts_; }
+  void declare(std::vector<ParamContract> contracts);
+  [[nodiscard]] std::vector<ParamContract> contracts() const;
 
   [[nodiscard]] ParamValues values() const;
   /// Sets the values for this object of the component and for those after it.
   void keep(ParamValues values);
+  /// Exchanges contracts and values with those of another component, whose strand does nothing.
+  void trade_places(Parameters& other);
 
  private:
-  std::vector<ParamContract> contracts_;
   mutable std::mutex mutex_;
+  // Below: guarded by mutex_.
+  std::vector<ParamContract> contracts_;
   ParamValues values_;
 };
+
+/// Returns the contracts of declared parameters.
+[[nodiscard]] std::vector<ParamContract> param_contracts(const std::vector<ParamDeclaration>& declared);
 
 /// Sets the values of the parameters that a component's object has declared.
 void set_params(const std::vector<ParamDeclaration>& declared, const ParamValues& values);

@@ -5,14 +5,11 @@
 #include <utility>
 
 namespace orca::host {
-namespace {
 
 bool same_port(const PortContract& a, const PortContract& b) {
   return a.name == b.name && a.pattern == b.pattern && a.role == b.role && a.type == b.type &&
          a.reply == b.reply && a.many == b.many;
 }
-
-}  // namespace
 
 template <class Kind>
 Kind& PortSet::make(const PortContract& contract) {
@@ -23,6 +20,7 @@ Kind& PortSet::make(const PortContract& contract) {
 }
 
 void PortSet::add(const PortContract& contract) {
+  const std::lock_guard lock(mutex_);
   const bool server = contract.role == Role::server;
   if (contract.pattern == Pattern::push && server) {
     push_servers_.push_back(&make<PushServerEndpoint>(contract));
@@ -40,9 +38,17 @@ void PortSet::add(const PortContract& contract) {
 }
 
 Endpoint* PortSet::find(const std::string& port) const {
+  const std::lock_guard lock(mutex_);
   for (const auto& endpoint : endpoints_)
     if (endpoint->contract().name == port) return endpoint.get();
   return nullptr;
+}
+
+std::vector<PortContract> PortSet::contracts() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<PortContract> contracts;
+  for (const auto& endpoint : endpoints_) contracts.push_back(endpoint->contract());
+  return contracts;
 }
 
 Status PortSet::bind(const std::vector<PortDeclaration>& declarations) {
@@ -97,6 +103,11 @@ bool PortSet::has_intake() const {
   const auto waits = [](const auto& intake) { return intake.endpoint->has_waiting(); };
   return std::any_of(send_servers_.begin(), send_servers_.end(), waits) ||
          std::any_of(query_servers_.begin(), query_servers_.end(), waits);
+}
+
+bool PortSet::is_asked() const {
+  const std::lock_guard lock(mutex_);
+  return has_intake();
 }
 
 bool PortSet::has_subscribers() const {

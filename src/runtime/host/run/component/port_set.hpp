@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,13 @@
 
 namespace orca::host {
 
+/// Returns whether the same connections may end at both ports, which have the same name.
+[[nodiscard]] bool same_port(const PortContract& a, const PortContract& b);
+
 /// The ports of one component, owned by the host process. They are made before the component's code is
 /// loaded, stay when it is unloaded or exchanged, and queue meanwhile.
 ///
-/// Thread contract: add() before the system runs; find() and has_intake() from anywhere; the rest on the component's strand.
+/// Thread contract: find() and is_asked() from anywhere; the rest on the component's strand, or before that starts.
 class PortSet {
  public:
   template <class Kind>
@@ -33,6 +37,10 @@ class PortSet {
   void add(const PortContract& contract);
   /// Returns the endpoint of a port; null if there is no such port.
   [[nodiscard]] Endpoint* find(const std::string& port) const;
+
+  /// Returns the contracts of all ports, in order of declaration.
+  /// @thread  as find().
+  [[nodiscard]] std::vector<PortContract> contracts() const;
 
   /// Connects the handles of a newly constructed component with these ports.
   /// @errors  failed_precondition if it declares a port that is not there: its code is not the one that the
@@ -49,6 +57,8 @@ class PortSet {
   void close(const std::string& reason);
   /// Returns whether something waits to be handled.
   [[nodiscard]] bool has_intake() const;
+  /// Returns the same to other threads.
+  [[nodiscard]] bool is_asked() const;
 
   [[nodiscard]] const std::vector<Intake<SendServerEndpoint>>& send_servers() const { return send_servers_; }
   [[nodiscard]] const std::vector<Intake<QueryServerEndpoint>>& query_servers() const {
@@ -72,6 +82,7 @@ class PortSet {
   void bind_handler(const PortDeclaration& declaration);
 
   PortHome& home_;
+  mutable std::mutex mutex_;  // held while the strand changes the vectors, and while others read them
   std::vector<std::unique_ptr<Endpoint>> endpoints_;  // all, in order of declaration
   std::vector<PushServerEndpoint*> push_servers_;
   std::vector<PushClientEndpoint*> push_clients_;

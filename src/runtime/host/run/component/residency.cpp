@@ -19,12 +19,13 @@ void Residency::declare(const Contract& contract) {
 Status Residency::load() {
   Result<LoadedType> type = loader_();
   if (!type) return type.error();
-  type_ = std::move(type).value();
-  set_code(type_.entry);
+  resident_.type = std::move(type).value();
+  resident_.site = std::make_unique<ComponentSite>(parts_);
+  set_code(resident_.type.entry);
   if (Status constructed = construct(); !constructed.ok()) return constructed;
   if (!parts_.settings.on_demand) declare_what_is_there();
-  set_params(parts_.site.declared().params, parts_.params.values());
-  return parts_.ports.bind(parts_.site.declared().ports);
+  set_params(declared().params, parts_.params.values());
+  return parts_.ports.bind(declared().ports);
 }
 
 void Residency::set_code(const void* code) {
@@ -33,37 +34,76 @@ void Residency::set_code(const void* code) {
 }
 
 Status Residency::construct() {
-  const auto fault = guarded_call({parts_.settings.name.c_str(), Hook::constructor, type_.entry}, [this] {
-    component_ = static_cast<Component*>(type_.entry->create(parts_.site));
+  const TypeEntry& entry = *resident_.type.entry;
+  const auto fault = guarded_call({parts_.settings.name.c_str(), Hook::constructor, &entry}, [&] {
+    resident_.object = static_cast<Component*>(entry.create(*resident_.site));
   });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, parts_.settings.name);
   return ok();
 }
 
 void Residency::declare_what_is_there() {
-  for (const PortDeclaration& port : parts_.site.declared().ports) parts_.ports.add(port.contract);
-  std::vector<ParamContract> params;
-  for (const ParamDeclaration& param : parts_.site.declared().params) params.push_back(param.contract);
-  parts_.params.declare(std::move(params));
+  for (const PortDeclaration& port : declared().ports) parts_.ports.add(port.contract);
+  parts_.params.declare(param_contracts(declared().params));
+}
+
+bool Residency::stays_active() const {
+  const bool wishes = resident_.site != nullptr && resident_.site->stays_active();
+  return parts_.settings.autonomous.value_or(wishes);
 }
 
 void Residency::unload() {
   destroy();
-  parts_.site.reset();
-  if (const Status gone = unloader_(std::exchange(type_, {})); !gone.ok())
-    parts_.site.write_log(log::Level::error, gone.error().text());
+  if (const Status gone = unloader_(std::exchange(resident_, {}).type); !gone.ok())
+    parts_.write_log(log::Level::error, gone.error().text());
 }
 
 void Residency::destroy() {
+  stop_left_over();
   parts_.ports.unbind();  // handlers are the component's code
-  if (type_.entry == nullptr) return;
-  Component* const gone = std::exchange(component_, nullptr);
-  const auto fault = guarded_call({parts_.settings.name.c_str(), Hook::destructor, type_.entry}, [&] {
-    if (gone != nullptr) type_.entry->destroy(gone);
+  const TypeEntry* const entry = resident_.type.entry;
+  if (entry == nullptr) return;
+  Component* const gone = std::exchange(resident_.object, nullptr);
+  const auto fault = guarded_call({parts_.settings.name.c_str(), Hook::destructor, entry}, [&] {
+    if (gone != nullptr) entry->destroy(gone);
   });
-  parts_.site.forget_code();
+  resident_.site->forget_code();
   set_code(nullptr);
   if (fault) parts_.report_failure(Hook::destructor, "its destructor " + fault->text);
+}
+
+// An object that lost its place while it worked was not stopped then.
+void Residency::stop_left_over() {
+  if (!std::exchange(resident_.started, false) || resident_.object == nullptr) return;
+  const auto fault = parts_.hooks.call(Hook::stop, [this] { resident_.object->stop(); });
+  if (fault && !fault->interrupted) parts_.report_failure(Hook::stop, "stop() " + fault->text);
+}
+
+// --- Exchange ---------------------------------------------------------------------------------------------
+
+void Residency::trade_places(Residency& other) {
+  add_ports_of(other);
+  other.add_ports_of(*this);
+  parts_.ports.unbind();
+  other.parts_.ports.unbind();
+  std::swap(resident_, other.resident_);
+  std::swap(loader_, other.loader_);
+  std::swap(unloader_, other.unloader_);
+  parts_.params.trade_places(other.parts_.params);
+  settle();
+  other.settle();
+}
+
+void Residency::add_ports_of(const Residency& other) {
+  for (const PortDeclaration& port : other.declared().ports)
+    if (parts_.ports.find(port.contract.name) == nullptr) parts_.ports.add(port.contract);
+}
+
+// All ports of the object exist here, and their contracts were compared before.
+void Residency::settle() {
+  resident_.site->move_to(parts_);
+  set_code(resident_.type.entry);
+  (void)parts_.ports.bind(declared().ports);
 }
 
 }  // namespace orca::host

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "component_parts.hpp"
+#include "component_site.hpp"
 #include "orca/component/component.hpp"
 #include "orca/host/catalogue.hpp"
 
@@ -34,23 +36,48 @@ class Residency {
   /// Destroys the component and unloads its code. Errors are only logged, because the component is gone in
   /// any case.
   void unload();
-  /// Destroys the component; its code is released with this object.
+  /// Destroys the component, after a stop() that it still waits for; its code is released with this object.
   void destroy();
 
+  /// Exchanges the objects of two components, with their code. Each is connected with the other's ports; ports that only one
+  /// of them has are made, unconnected. Parameters go along.
+  /// @pre  both are loaded, and the other one's strand does nothing.
+  void trade_places(Residency& other);
+
   /// Returns the component; null while none is loaded.
-  [[nodiscard]] Component* component() const { return component_; }
+  [[nodiscard]] Component* component() const { return resident_.object; }
+  /// Returns the name of its type. @pre  it is loaded.
+  [[nodiscard]] const char* type_name() const { return resident_.type.entry->type; }
+  /// Returns what its object has declared. @pre  it is loaded.
+  [[nodiscard]] const Declarations& declared() const { return resident_.site->declared(); }
+  /// Returns whether the component is to work without clients: the graph's word counts before its own.
+  [[nodiscard]] bool stays_active() const;
+
+  /// Notes whether its start() has been called and its stop() has not.
+  void note_started(bool started) { resident_.started = started; }
+  [[nodiscard]] bool is_started() const { return resident_.started; }
 
  private:
+  // One object. Its members outlive each other in this order.
+  struct Resident {
+    LoadedType type;
+    std::unique_ptr<ComponentSite> site;
+    Component* object = nullptr;
+    bool started = false;
+  };
+
   // Notes whose code runs, for alarms and last words.
   void set_code(const void* code);
   Status construct();
   void declare_what_is_there();
+  void stop_left_over();
+  void add_ports_of(const Residency& other);
+  void settle();
 
   ComponentParts& parts_;
-  const Loader loader_;
-  const Unloader unloader_;
-  LoadedType type_;  // outlives the component
-  Component* component_ = nullptr;
+  Loader loader_;
+  Unloader unloader_;
+  Resident resident_;
 };
 
 }  // namespace orca::host

@@ -16,6 +16,7 @@
 #include "run/counters.hpp"
 #include "run/recording/run_files.hpp"
 #include "run/sightings.hpp"
+#include "run/swap/swaps.hpp"
 #include "run/watched_system.hpp"
 
 namespace orca::host {
@@ -51,7 +52,8 @@ class HostedPart::Inside {
         offers_(place.executive, options.missions),
         outer_(whole, process, options.doorbell, options.run),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
-                 system_options(options), [] { return false; }) {
+                 system_options(options), [] { return false; }),
+        swaps_(whole, watched_.context(), place.catalogue, watched_.system()) {
     watched_.reporter().tap(taps_);
   }
 
@@ -108,10 +110,16 @@ class HostedPart::Inside {
         return;
       }
     }
-    if (order.done) order.done(fail(Code::failed_precondition, "the process is being taken down"));
+    refuse(order);
   }
 
  private:
+  static void refuse(const PartOrder& order) {
+    const Error ends = fail(Code::failed_precondition, "the process is being taken down");
+    if (order.done) order.done(ends);
+    if (order.swapped) order.swapped(ends);
+  }
+
   Status open_outputs() {
     const auto ports = outputs_.recordings.empty() ? std::vector<graph::ListedPort>{}
                                                    : graph::list_ports(whole_, place_.catalogue);
@@ -136,7 +144,7 @@ class HostedPart::Inside {
       if (std::optional<PartOrder> order = next_order()) {
         carry_out(*order);
       } else {
-        watched_.changed().wait_until(kForever);
+        watched_.changed().wait_until(swaps_.go_on());
       }
     }
     report_changes();
@@ -156,11 +164,11 @@ class HostedPart::Inside {
       const std::lock_guard lock(mutex_);
       closed_ = true;
     }
-    while (const std::optional<PartOrder> order = next_order())
-      if (order->done) order->done(fail(Code::failed_precondition, "the process is being taken down"));
+    while (const std::optional<PartOrder> order = next_order()) refuse(*order);
   }
 
   void carry_out(const PartOrder& order) {
+    if (order.kind == PartOrder::Kind::swap) return swaps_.begin(std::move(*order.swap), order.swapped);
     const Status outcome = contain_exhaustion([&] { return act(order); });
     report_changes();
     if (order.done) order.done(outcome);
@@ -186,6 +194,7 @@ class HostedPart::Inside {
       case PartOrder::Kind::resume: return system.resume(order.component, changed, limit);
       case PartOrder::Kind::set_params:
         return system.set_params(order.component, order.params, changed, limit);
+      case PartOrder::Kind::swap: break;  // is no matter of one step
     }
     return fail(Code::internal, "an unknown order");
   }
@@ -197,6 +206,7 @@ class HostedPart::Inside {
     place_.listener.counted(collect_counters(whole_, watched_.system()), sightings_.ways());
     const std::vector<std::string> stuck =
         watched_.system().take_down(place_.executive.now() + kTakeDownLimit);
+    swaps_.give_up();
     taken_down_ = true;
     if (stuck.empty()) return ok();
     close_outputs();  // the process will be ended
@@ -237,6 +247,7 @@ class HostedPart::Inside {
   OuterOffers offers_;  // the system's ports answer to it
   OuterEdges outer_;
   WatchedSystem watched_;
+  Swaps swaps_;
   bool taken_down_ = false;
   std::map<std::string, ComponentReport> reported_;
   bool at_rest_ = true;

@@ -2,17 +2,16 @@
 #include "rehearsal.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <set>
 #include <utility>
 
-#include "component_making.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "orca/plugin/trial.hpp"
-#include "reporter.hpp"
+#include "quiet_run.hpp"
+#include "run/component_making.hpp"
 
 namespace orca::host {
 namespace {
@@ -24,12 +23,6 @@ using plugin::TrialResult;
 constexpr Duration kLimit = 10s;       // of one trial: as long as the whole system has to come up
 constexpr std::size_t kMostEnds = 50;  // of the copy, by its components
 constexpr int kMostHangs = 2;          // each costs kLimit
-
-// A listener for a run that nobody looks on at.
-class Nobody final : public RunListener {
- public:
-  [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
-};
 
 // A fault on its way out of the copy. Its three texts contain no zeros, because they come from XML and from C++.
 std::string packed(const ComponentFault& fault) {
@@ -80,7 +73,7 @@ class Rehearsal {
     ComponentSettings settings = settings_of(node);
     settings.on_demand = false;
     auto instance = std::make_unique<ComponentInstance>(
-        context_, std::move(settings),
+        quiet_.context(), std::move(settings),
         [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
         [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
         device_of(node, catalogue));
@@ -128,13 +121,9 @@ class Rehearsal {
   const graph::Graph& graph_;
   Executive& executive_;
   TrialLine& line_;
-  Nobody nobody_;
-  Trace trace_{executive_};
-  Reporter reporter_{executive_, trace_, nobody_, "trial"};
   const std::unique_ptr<Event> changed_ = executive_.make_event();
   std::atomic<std::uint64_t> missions_{0};
-  RunContext context_{executive_, trace_, reporter_, graph_.seed.value_or(1), [this] { changed_->notify(); },
-                      missions_};
+  QuietRun quiet_{executive_, "trial", graph_.seed.value_or(1), [this] { changed_->notify(); }, missions_};
   std::map<std::string, std::unique_ptr<ComponentInstance>> components_;
   std::map<std::string, std::vector<std::string>> start_after_;
   std::set<std::string> up_;

@@ -10,6 +10,9 @@
 
 namespace orca::graph {
 
+/// Returns a port for people: "PushServer of RangeReadings".
+[[nodiscard]] std::string described(const PortContract& port);
+
 /// The other end of a connection.
 struct ListedPeer {
   PortRef ref;

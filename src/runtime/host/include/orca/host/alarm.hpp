@@ -30,7 +30,8 @@ enum class AlarmKind {
   process_ended,  ///< A host process has ended although nobody asked it to, or hangs and was ended.
   gave_up,        ///< Processes were restarted too often; the run ends.
   machine_lost,   ///< Another machine of the system is silent, or could not start again.
-  estop           ///< An operator has stopped all motors.
+  estop,          ///< An operator has stopped all motors.
+  swap_undone  ///< A new version of a component failed soon after it had taken over, and the old one is back.
 };
 
 /// Returns the kind in capitals, as in idl::Alarm: "SIGNAL_MASK".

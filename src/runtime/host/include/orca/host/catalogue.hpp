@@ -59,6 +59,10 @@ class PluginCatalogue final : public graph::Catalogue {
   /// @errors  not_found with the places searched; the errors of plugin::PluginLibrary::load().
   Result<LoadedType> acquire(PluginKind kind, const std::string& type);
 
+  /// Returns a type of a plugin that is loaded from an image, apart from all others.
+  /// @errors  not_found with the types that the plugin has; the errors of plugin::PluginLibrary::load().
+  Result<LoadedType> acquire(plugin::PluginImage image, PluginKind kind, const std::string& type);
+
   /// Releases a type, and unloads its plugin if nobody else holds it.
   /// @errors  failed_precondition if nobody holds the plugin and it is in memory all the same.
   Status release(LoadedType type);
@@ -79,6 +83,8 @@ class PluginCatalogue final : public graph::Catalogue {
  private:
   [[nodiscard]] const TypeEntry* own_type(PluginKind kind, const std::string& type) const;
   Result<std::shared_ptr<plugin::PluginLibrary>> library_of(const std::string& type);
+  static Result<LoadedType> type_in(std::shared_ptr<plugin::PluginLibrary> library, PluginKind kind,
+                                    const std::string& type);
   Result<LoadedType> find(PluginKind kind, const std::string& type);
   Result<plugin::DescribedHardware*> described(const graph::HardwareUse& use);
   Result<plugin::DescribedHardware*> describe_anew(const graph::HardwareUse& use);

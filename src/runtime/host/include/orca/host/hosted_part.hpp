@@ -22,6 +22,7 @@
 #include "orca/host/run_outputs.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/run_view.hpp"
+#include "orca/host/swap.hpp"
 #include "orca/idl/object.hpp"
 
 namespace orca::host {
@@ -37,6 +38,7 @@ struct PartOrder {
     resume,         ///< Resumes a component.
     set_params,     ///< Gives a component new parameter values, all or none.
     check_unused,   ///< Does nothing; refused if a component is in use, with its name.
+    swap,           ///< Exchanges a component's code. Other orders are carried out meanwhile.
   };
   /// Takes the outcome, on the part's main task. It must not block.
   using Done = std::function<void(const Status&)>;
@@ -45,6 +47,9 @@ struct PartOrder {
   std::string component{};                      ///< Of the orders that concern one.
   std::map<std::string, std::string> params{};  ///< Values as written in a graph, with units.
   Done done{};
+  std::shared_ptr<SwapOrder> swap{};  ///< What is to be exchanged, if that is the order.
+  /// Takes the outcome of a swap instead of `done`, on the part's main task. It must not block.
+  std::function<void(const Result<SwapReport>&)> swapped{};
 };
 
 /// The observer of a part.

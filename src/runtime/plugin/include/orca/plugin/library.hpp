@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/component/manifest.hpp"
+#include "orca/plugin/image.hpp"
 
 namespace orca::plugin {
 
@@ -31,12 +33,17 @@ class PluginLibrary {
   ///          deadline_exceeded if the copy of the process did not survive or come to an end.
   static Result<std::unique_ptr<PluginLibrary>> load(const std::string& path);
 
+  /// Does the same with the image of a file. Messages name the file that it was copied from.
+  static Result<std::unique_ptr<PluginLibrary>> load(PluginImage image);
+
   ~PluginLibrary();
   PluginLibrary(const PluginLibrary&) = delete;
   PluginLibrary& operator=(const PluginLibrary&) = delete;
 
-  /// Returns the absolute path that it was loaded from.
+  /// Returns the absolute path of the file that it was loaded or copied from.
   [[nodiscard]] const std::string& path() const { return path_; }
+  /// Returns the name of its file in a process's memory map.
+  [[nodiscard]] const std::string& mapped_name() const { return mapped_name_; }
   [[nodiscard]] const Manifest& manifest() const { return *manifest_; }
   [[nodiscard]] std::vector<const TypeEntry*> types() const;
   /// Returns what it uses that must not be used in virtual time, each with its replacement.
@@ -47,10 +54,14 @@ class PluginLibrary {
   [[nodiscard]] const TypeEntry* find(PluginKind kind, std::string_view type) const;
 
  private:
-  PluginLibrary(std::string path, void* handle, const Manifest* manifest);
+  struct Source;
+  PluginLibrary(const Source& source, void* handle);
+  static Result<std::unique_ptr<PluginLibrary>> open(const Source& source);
   void tell_pinned(const std::string& why) const;
 
+  std::optional<PluginImage> image_;  // its number is the name by which the dynamic linker knows it
   std::string path_;
+  std::string mapped_name_;
   void* handle_;
   const Manifest* manifest_;
   std::unique_ptr<LoadedPlugin> entry_;
@@ -61,6 +72,7 @@ class PluginLibrary {
 
 /// Returns whether any part of the file is still mapped into this process, even if the file itself has been
 /// removed or exchanged meanwhile. This is the proof after unloading.
+/// @param path  of a file, or PluginImage::mapped_name().
 [[nodiscard]] bool is_mapped(const std::string& path);
 
 }  // namespace orca::plugin

@@ -36,6 +36,7 @@ enum class Kind : std::uint16_t {
   move_edge,
   ask_use = 51,
   tell_lines,
+  swap_code = 71,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,

@@ -169,10 +169,20 @@ struct TellLines {
   static constexpr Kind kKind = Kind::tell_lines;
   std::vector<LogLine> lines;
 };
+/// Asks to exchange the code of a component while it runs. The answer comes when it is done, with a record about it.
+struct SwapCode {
+  static constexpr Kind kKind = Kind::swap_code;
+  std::string component;
+  std::string type;             ///< Of the new object; empty: as that of the old one.
+  Pairs values;                 ///< New values of parameters, as texts.
+  std::uint64_t probation = 0;  ///< Time in which a failure of the new object brings the old one back [ns].
+  std::string origin;           ///< The file that the plugin was copied from.
+  Descriptor plugin;            ///< Its bytes: see orca/plugin/image.hpp.
+};
 
 using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
                            Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors,
-                           Count, OpenLine, Meet, Say, Outlive, Adopt, MoveEdge, AskUse, TellLines>;
+                           Count, OpenLine, Meet, Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode>;
 
 // ---- Reports, from a host process to the supervisor.
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "orca/base/time.hpp"
+#include "orca/plugin/image.hpp"
+
+namespace orca::host {
+
+/// What is to take a component's place.
+struct SwapOrder {
+  std::string component;       ///< Its name in the graph.
+  plugin::PluginImage plugin;  ///< The plugin with the new code.
+  std::string type{};          ///< Its type there; empty: the one that the component has now.
+  std::map<std::string, std::string>
+      params{};  ///< New values, as written in a graph; others stay as they are.
+  /// [s of the run's clock] time in which an exception or a failure of the new object brings the old one back.
+  Duration probation{2s};
+};
+
+/// What has become of a swap that succeeded.
+struct SwapReport {
+  std::string old_type;
+  std::string new_type;
+  std::string build_id;  ///< Of the new plugin.
+  Duration pause{0};     ///< Between two laps, while neither object could work [s of the run's clock].
+  std::string state;     ///< Tag of the state that the new object took over; empty: it began afresh.
+};
+
+}  // namespace orca::host

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "succession.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace orca::host {
+namespace {
+
+bool works(ComponentState state) { return state == ComponentState::work; }
+
+bool can_tell_its_state(ComponentState state) { return works(state) || state == ComponentState::idle; }
+
+}  // namespace
+
+template <class Body>
+Status Succession::call(Hook hook, const Body& body) {
+  Status outcome;
+  const auto fault = parts_.hooks.call(hook, [&] { outcome = body(); });
+  const std::string name = hook_text(hook, "");
+  if (fault && fault->interrupted) return fail(Code::unavailable, name + " was interrupted");
+  if (fault) return fail(Code::internal, name + " " + fault->text);
+  if (!outcome.ok()) return fail(outcome.error().code, name + " said: " + outcome.error().text());
+  return ok();
+}
+
+Status Succession::take_over(Residency& successor, ComponentState state, TakeOver& report) {
+  const TimePoint began = parts_.now();
+  std::vector<std::byte> bytes;
+  std::optional<StateTag> tag;
+  if (can_tell_its_state(state)) {
+    if (Status saved = save(bytes); !saved.ok()) return saved;
+    tag = {residency_.type_name(), residency_.component()->state_version()};
+  }
+  residency_.trade_places(successor);
+  if (Status entered = enter(state, bytes, tag, report); !entered.ok()) {
+    residency_.trade_places(successor);
+    seat(state);
+    return entered;
+  }
+  predecessor_ = &successor;
+  const std::lock_guard lock(mutex_);
+  taken_back_.reset();
+  report.pause = parts_.now() - began;
+  return ok();
+}
+
+// The new object is in its place; it only has to begin.
+Status Succession::enter(ComponentState state, const std::vector<std::byte>& bytes,
+                         const std::optional<StateTag>& tag, TakeOver& report) {
+  seat(state);
+  if (works(state))
+    if (Status started = start(); !started.ok()) return started;
+  return tag ? load(*tag, bytes, report) : ok();
+}
+
+Status Succession::save(std::vector<std::byte>& bytes) {
+  StateWriter writer;
+  Status saved = call(Hook::save_state, [&] {
+    residency_.component()->save_state(writer);
+    return ok();
+  });
+  bytes = writer.bytes();
+  return saved;
+}
+
+Status Succession::load(const StateTag& tag, const std::vector<std::byte>& bytes, TakeOver& report) {
+  if (!accepts(tag)) {
+    if (tag.type != residency_.type_name()) return ok();
+    return fail(Code::failed_precondition, "it cannot read the state " + tag.text() +
+                                               ": its own version is " +
+                                               std::to_string(residency_.component()->state_version()) +
+                                               ", and accepted_states() does not name that one");
+  }
+  report.state = tag;
+  return call(Hook::load_state, [&] {
+    StateReader reader(tag, bytes);
+    const Status loaded = residency_.component()->load_state(reader);
+    return loaded.ok() ? reader.finish() : loaded;
+  });
+}
+
+bool Succession::accepts(const StateTag& tag) const {
+  const Component& component = *residency_.component();
+  if (tag == StateTag{residency_.type_name(), component.state_version()}) return true;
+  const std::vector<StateTag> others = component.accepted_states();
+  return std::ranges::find(others, tag) != others.end();
+}
+
+Status Succession::start() {
+  residency_.note_started(true);
+  return call(Hook::start, [this] { return residency_.component()->start(); });
+}
+
+// Connects laps and intake with the object that is there now. Laps that start by the same trigger as before keep their
+// rhythm.
+void Succession::seat(ComponentState state) {
+  (void)parts_.laps.choose(parts_.settings.trigger.value_or(residency_.declared().trigger), parts_.ports);
+  if (takes_intake(state)) parts_.ports.open();
+}
+
+bool Succession::take_back(ComponentState state, const std::string& why) {
+  if (predecessor_ == nullptr) return false;
+  residency_.trade_places(*std::exchange(predecessor_, nullptr));
+  seat(state);
+  catch_up(state);
+  parts_.run.reporter.note(make_alarm(AlarmKind::swap_undone, parts_.settings.name, "",
+                                      "the new one failed, and the old one is back: " + why));
+  const std::lock_guard lock(mutex_);
+  taken_back_ = why;
+  return true;
+}
+
+// Brings the old object to where the component is now: it may have been started or stopped meanwhile.
+void Succession::catch_up(ComponentState state) {
+  if (works(state) && !residency_.is_started()) (void)start();
+  if (!works(state) && residency_.is_started()) {
+    residency_.note_started(false);
+    (void)call(Hook::stop, [this] {
+      residency_.component()->stop();
+      return ok();
+    });
+  }
+}
+
+std::optional<std::string> Succession::take_back_reason() const {
+  const std::lock_guard lock(mutex_);
+  return taken_back_;
+}
+
+}  // namespace orca::host

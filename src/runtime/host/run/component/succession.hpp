@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "component_parts.hpp"
+#include "component_states.hpp"
+#include "residency.hpp"
+
+namespace orca::host {
+
+/// How an object has taken another one's place.
+struct TakeOver {
+  Duration pause{0};  ///< Time during which neither of them could work [s of the run's clock].
+  /// The state that went from the old object to the new one; nothing: the new one began afresh.
+  std::optional<StateTag> state;
+};
+
+/// The exchange of one component's object for another one while the component runs, and the way back. The old object keeps
+/// its state, and goes on with it if the new one fails before confirm().
+///
+/// Thread contract: take_back_reason() from anywhere, the rest on the component's strand.
+class Succession {
+ public:
+  Succession(ComponentParts& parts, Residency& residency) : parts_(parts), residency_(residency) {}
+
+  /// Puts the successor's object in the place of the present one, with its state, and starts it if the component works. The
+  /// present object goes to the successor, which must live until confirm().
+  /// @param state  of the component: idle or at work; or one in which the present object has failed, whose state is
+  ///               then of no use.
+  /// @errors  what the new object's hooks say or throw; failed_precondition if it cannot read the state. Everything is then
+  ///          as before.
+  Status take_over(Residency& successor, ComponentState state, TakeOver& report);
+  /// Ends the time in which the old object may come back.
+  void confirm() { predecessor_ = nullptr; }
+
+  /// Puts the old object back, if confirm() has not been called.
+  /// @param why  the new one failed, for people.
+  /// @return whether the old object is there now.
+  bool take_back(ComponentState state, const std::string& why);
+  /// Returns why the old object is back; nothing if it is not.
+  [[nodiscard]] std::optional<std::string> take_back_reason() const;
+
+ private:
+  Status enter(ComponentState state, const std::vector<std::byte>& bytes, const std::optional<StateTag>& tag,
+               TakeOver& report);
+  Status save(std::vector<std::byte>& bytes);
+  Status load(const StateTag& tag, const std::vector<std::byte>& bytes, TakeOver& report);
+  Status start();
+  [[nodiscard]] bool accepts(const StateTag& tag) const;
+  void seat(ComponentState state);
+  void catch_up(ComponentState state);
+  template <class Body>
+  Status call(Hook hook, const Body& body);
+
+  ComponentParts& parts_;
+  Residency& residency_;
+  Residency* predecessor_ = nullptr;  // holds the old object; null: there is no way back
+  mutable std::mutex mutex_;
+  std::optional<std::string> taken_back_;  // guarded by mutex_
+};
+
+}  // namespace orca::host

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "fit.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "orca/base/layout.hpp"
+#include "orca/base/text.hpp"
+#include "orca/graph/port_list.hpp"
+#include "run/component/port_set.hpp"
+
+namespace orca::host {
+namespace {
+
+const PortContract* find(const std::vector<PortContract>& ports, const std::string& name) {
+  const auto found = std::ranges::find(ports, name, &PortContract::name);
+  return found == ports.end() ? nullptr : &*found;
+}
+
+std::string quoted(const PortContract& port) { return "\"" + port.name + "\""; }
+
+// Returns in what two ports of one name differ.
+std::string difference(const PortContract& present, const PortContract& offered) {
+  const std::string is = graph::described(offered);
+  const std::string was = graph::described(present);
+  const std::string text = "its port " + quoted(offered) + " is a " + is;
+  if (is != was) return text + ", and the connected one is a " + was;
+  return text + " as well, but " +
+         layout_difference(present.type.layout, offered.type.layout,
+                           {"in the component that runs", "in the new one"});
+}
+
+std::optional<std::string> misfit(const ParamContract& contract, const ParamValue& value) {
+  if (value.index() != contract.default_value.index())
+    return "is " + std::string(to_string(contract.type)) + " in the new one";
+  double number = 0.0;
+  if (const auto* real = std::get_if<double>(&value)) number = *real;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) number = static_cast<double>(*whole);
+  if ((contract.min && number < *contract.min) || (contract.max && number > *contract.max))
+    return "is out of the new one's range";
+  const auto* text = std::get_if<std::string>(&value);
+  if (text != nullptr && !contract.choices.empty() &&
+      std::ranges::find(contract.choices, *text) == contract.choices.end())
+    return "is \"" + *text + "\", which is not one of: " + listed(contract.choices);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> misfits(const std::vector<PortContract>& present,
+                                 const std::set<std::string>& connected,
+                                 const std::vector<PortContract>& offered) {
+  std::vector<std::string> all;
+  for (const PortContract& port : present)
+    if (connected.contains(port.name) && find(offered, port.name) == nullptr)
+      all.push_back("it has no port " + quoted(port) + ", a " + graph::described(port) +
+                    ", which is connected");
+  for (const PortContract& port : offered) {
+    const PortContract* const there = find(present, port.name);
+    if (there != nullptr && !same_port(*there, port)) all.push_back(difference(*there, port));
+    if (port.required && !connected.contains(port.name))
+      all.push_back("its port " + quoted(port) + " must be connected, and is not");
+  }
+  return all;
+}
+
+Result<ParamValues> inherited(const std::vector<ParamContract>& offered, const ParamValues& values) {
+  ParamValues kept;
+  std::vector<std::string> faults;
+  for (const ParamContract& contract : offered) {
+    const auto value = values.find(contract.name);
+    if (value == values.end()) continue;
+    if (const auto fault = misfit(contract, value->second))
+      faults.push_back("parameter \"" + contract.name + "\" " + *fault);
+    kept.insert(*value);
+  }
+  if (!faults.empty()) return fail(Code::invalid_argument, joined(faults, "; ") + "; give it another value");
+  return kept;
+}
+
+}  // namespace orca::host

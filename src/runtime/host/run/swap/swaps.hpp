@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "run/system.hpp"
+#include "swap.hpp"
+
+namespace orca::host {
+
+/// The swaps of a system's components.
+///
+/// Thread contract: one task, the executive's main task.
+class Swaps {
+ public:
+  /// Takes the outcome of a swap, on the main task.
+  using Done = std::function<void(const Result<SwapReport>&)>;
+
+  /// @param graph  with all connections of the components, to whichever process. Outlives the object, as all else does.
+  Swaps(const graph::Graph& graph, RunContext& run, PluginCatalogue& catalogue, System& system)
+      : graph_(graph), run_(run), catalogue_(catalogue), system_(system) {}
+  ~Swaps();
+  Swaps(const Swaps&) = delete;
+  Swaps& operator=(const Swaps&) = delete;
+
+  /// Begins to exchange a component's code.
+  /// @errors  go to `done`, as the report does: not_found; unavailable while another swap of the component is under way;
+  ///          those of Swap.
+  void begin(SwapOrder order, Done done);
+
+  /// Goes on with all swaps as far as possible. To be called whenever a component has changed, and at the time that it
+  /// returns.
+  /// @return kForever if nothing is to be done by then.
+  TimePoint go_on();
+
+  /// Ends all swaps as they are. @pre  the system has been taken down.
+  void give_up();
+
+ private:
+  struct Open {
+    std::unique_ptr<Swap> swap;
+    Done done;
+  };
+
+  [[nodiscard]] bool is_under_way(const std::string& component) const;
+  void conclude(Open& open, const Result<SwapReport>& outcome);
+
+  const graph::Graph& graph_;
+  RunContext& run_;
+  PluginCatalogue& catalogue_;
+  System& system_;
+  std::vector<Open> open_;
+  std::map<std::string, std::string> types_;  // of components that were exchanged
+};
+
+}  // namespace orca::host

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "backdrop.hpp"
+
+#include "orca/patterns/local/local_links.hpp"
+#include "run/component_making.hpp"
+
+namespace orca::host {
+
+Status Backdrop::connect(const graph::Graph& graph, ComponentInstance& object) {
+  LocalLinks links;
+  for (const graph::Edge& edge : graph.edges) {
+    const bool comes_from = edge.from.component == object.name();
+    if (!comes_from && edge.to.component != object.name()) continue;
+    Endpoint* const own = object.endpoint(comes_from ? edge.from.port : edge.to.port);
+    if (own == nullptr) continue;
+    Endpoint* const other = counterpart(comes_from ? edge.to : edge.from, *own);
+    Endpoint& client = (edge.pattern == Pattern::push) == comes_from ? *other : *own;
+    if (&client == own) prepare_choice(edge, client);
+    QueuePolicy policy = edge.queue;
+    policy.min_interval = edge.interval;
+    const Status connected = links.connect(comes_from ? *own : *other, comes_from ? *other : *own, policy);
+    if (!connected.ok()) return connected;
+  }
+  return ok();
+}
+
+// Makes a port at which a connection of the object's port can end.
+Endpoint* Backdrop::counterpart(const graph::PortRef& ref, const Endpoint& of) {
+  std::unique_ptr<Peer>& peer = peers_[ref.component];
+  if (peer == nullptr) peer = std::make_unique<Peer>(executive_, ref.component);
+  if (Endpoint* const known = peer->ports.find(ref.port)) return known;
+  PortContract contract = of.contract();
+  contract.name = ref.port;
+  contract.role = contract.role == Role::server ? Role::proxy : Role::server;
+  contract.many = contract.role == Role::proxy;  // whatever the real one takes
+  peer->ports.add(contract);
+  return peer->ports.find(ref.port);
+}
+
+}  // namespace orca::host

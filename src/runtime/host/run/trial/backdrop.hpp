@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "orca/graph/graph.hpp"
+#include "run/component/component_instance.hpp"
+
+namespace orca::host {
+
+/// Stands for the peers of a component while another object for it is configured: the object finds its ports connected as
+/// they are in the running system, but whatever it says reaches nobody.
+///
+/// Thread contract: one thread, before the object's strand starts.
+class Backdrop {
+ public:
+  explicit Backdrop(Executive& executive) : executive_(executive) {}
+
+  /// Connects an object's ports as the graph connects those of the component of that name.
+  /// @errors  those of Links::connect().
+  Status connect(const graph::Graph& graph, ComponentInstance& object);
+
+ private:
+  // One peer. Its strand never runs.
+  struct Peer {
+    Peer(Executive& executive, const std::string& name)
+        : strand(executive, {name, 0}), home{strand, name, nullptr, {}}, ports(home) {}
+    Strand strand;
+    PortHome home;
+    PortSet ports;
+  };
+
+  Endpoint* counterpart(const graph::PortRef& ref, const Endpoint& of);
+
+  Executive& executive_;
+  std::map<std::string, std::unique_ptr<Peer>> peers_;
+};
+
+}  // namespace orca::host

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// orcactl swap: the code of a component of a running system is exchanged, between processes as within one.
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+std::string next_version(const std::string& name) {
+  return std::string(ORCA_BINARY_DIR "/tests/next_plugins/") + name + ".so";
+}
+
+// A component that counts what another one says a hundred times a second, in this process or in another one.
+std::string graph(const std::string& process) {
+  return "<graph name=\"swap_test\" version=\"1\" plugins=\"" ORCA_BINARY_DIR
+         "/tests/host_plugins\">\n"
+         "  <process name=\"counting\"/><process name=\"talking\"/>\n"
+         "  <component name=\"teller\" type=\"test.Teller\" process=\"counting\"/>\n"
+         "  <component name=\"talker\" type=\"test.Talker\" process=\"" +
+         process +
+         "\"/>\n"
+         "  <connect from=\"talker.out\" to=\"teller.in\" queue=\"1000\"/>\n"
+         "  <connect from=\"talker.poke\" to=\"teller.poke\" queue=\"1000\"/>\n"
+         "  <connect from=\"teller.out\" to=\"talker.back\" queue=\"1000\"/>\n"
+         "</graph>\n";
+}
+
+// A system whose teller can be exchanged, and what its log says of it.
+class Telling {
+ public:
+  explicit Telling(const std::string& process)
+      : file_(folder_.write("swap.xml", graph(process))), program_(deployer({file_, "--log", "debug"})) {
+    REQUIRE(program_.wait_for_output("heard 1:10", Seconds(20) * kSlowdown));
+  }
+
+  Run swap(const std::string& plugin, const Words& more = {}) {
+    return run_orcactl(Words{"swap", "teller", plugin} + more);
+  }
+  bool hears(const std::string& text) { return program_.wait_for_output(text, Seconds(10) * kSlowdown); }
+  [[nodiscard]] std::string log() const { return program_.err(); }
+  Subprocess& program() { return program_; }
+  [[nodiscard]] const TempFolder& folder() const { return folder_; }
+
+  // Ends the system, and checks that nothing was lost, doubled or out of order in all that time.
+  void end_in_order() {
+    CHECK(run_orcactl({"stop"}).exit_code() == 0);
+    const Run run = finish(program_, Seconds(10));
+    CHECK(run.exit_code() == 0);
+    CHECK_THAT(run.err, !Contains("gap "));
+    CHECK_THAT(run.err, !Contains("poke "));
+    CHECK_THAT(run.err, !Contains("not sent"));
+  }
+
+ private:
+  TempFolder folder_;
+  std::string file_;
+  Subprocess program_;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "the code of a component is exchanged and exchanged back while objects go to and fro, and none is lost",
+    "[system][swap]") {
+  for (const std::string process : {"counting", "talking"}) {
+    Telling system(process);
+    for (int i = 0; i < 3; ++i) {
+      const Run newer = system.swap(next_version("test_teller_2"), {"--probation", "50 ms"});
+      INFO(newer.err << system.log());
+      REQUIRE(newer.exit_code() == 0);
+      CHECK_THAT(newer.out, Contains("test.Teller/1"));
+      REQUIRE(system.hears("heard 2:"));
+      const Run older = system.swap(next_version("test_teller_again"), {"--probation", "50 ms"});
+      REQUIRE(older.exit_code() == 0);
+    }
+    const Run shown = run_orcactl({"plugins"});
+    CHECK_THAT(shown.out, Contains("test_teller_again.so"));
+    CHECK_THAT(run_orcactl({"ps", "--json"}).out, Contains("next_plugins/test_teller_again.so"));
+    system.end_in_order();
+  }
+}
+
+TEST_CASE("what cannot be a new version is refused with a reason, and the old one goes on",
+          "[system][swap]") {
+  Telling system("talking");
+  const std::string cut = system.folder().file("cut.so");
+  {
+    std::ifstream whole(next_version("test_teller_2"), std::ios::binary);
+    std::string bytes(5000, '\0');
+    whole.read(bytes.data(), 5000);
+    std::ofstream(cut, std::ios::binary) << bytes;
+  }
+  const std::string fifo = system.folder().file("fifo.so");
+  REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+  const std::vector<std::pair<std::string, std::string>> bad{
+      {"/nowhere/new.so", "No such file or directory"},
+      {fifo, "it is no file"},
+      {cut, "cut.so"},
+      {source_file("README.md"), "README.md"},
+      {next_version("test_teller_port"), "it has no port \"in\""},
+      {next_version("test_teller_2") + ":test.Other", "has no component type \"test.Other\""},
+      {next_version("test_teller_constructor"), "no teller today"},
+      {next_version("test_teller_configure"), "is not liked today"},
+      {next_version("test_teller_first_lap"), "the old one is back"},
+      {next_version("test_teller_odd"), "value 1 of the state is a whole number, where a text is expected"}};
+  for (const auto& [plugin, reason] : bad) {
+    const Run run = system.swap(plugin, {"--probation", "100 ms"});
+    INFO(plugin << run.err);
+    CHECK(run.exit_code() == 1);
+    CHECK_THAT(run.err, Contains(reason));
+  }
+  CHECK(run_orcactl({"swap", "taller", next_version("test_teller_2")}).exit_code() == 1);
+  CHECK(run_orcactl({"swap", "teller"}).exit_code() == 2);
+  CHECK(system.swap(next_version("test_teller_2"), {"--probation", "50 ms"}).exit_code() == 0);
+  system.end_in_order();
+}
+
+TEST_CASE("the plugin's file may be overwritten or removed once the swap was ordered", "[system][swap]") {
+  Telling system("talking");
+  const std::string file = system.folder().file("new.so");
+  std::filesystem::copy_file(next_version("test_teller_2"), file);
+  REQUIRE(system.swap(file, {"--probation", "50 ms"}).exit_code() == 0);
+  {
+    std::fstream open(file, std::ios::in | std::ios::out | std::ios::binary);  // in place: the same inode
+    open << std::string(4096, 'x');
+  }
+  REQUIRE(system.hears("heard 2:"));
+  std::filesystem::remove(file);
+  CHECK(system.swap(next_version("test_teller_again"), {"--probation", "50 ms"}).exit_code() == 0);
+  system.end_in_order();
+}
+
+TEST_CASE("a process that is started again runs the code that the graph names, and says so",
+          "[system][swap]") {
+  Telling system("talking");
+  REQUIRE(system.swap(next_version("test_teller_2"), {"--probation", "50 ms"}).exit_code() == 0);
+  CHECK(run_orcactl({"restart", "counting"}).exit_code() == 0);
+  CHECK(system.hears("with the code that the graph names"));
+  CHECK_THAT(run_orcactl({"ps", "--json"}).out, Contains("host_plugins/test_teller.so"));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+  CHECK(finish(system.program(), Seconds(10)).exit_code() == 0);
+}
+
+TEST_CASE(
+    "behaviours are exchanged again and again while the robot drives, and it reaches its goals without a "
+    "contact",
+    "[system][swap]") {
+  Subprocess program(deployer({source_file("graphs/scout_goto_processes.xml")}));
+  int swaps = 0;
+  // The last goal ends the run.
+  while (!program.wait_for_output("arrived meeting", Seconds(1)) && swaps < 400) {
+    for (const auto& [component, plugin] : {std::pair("goto", "goto"), std::pair("avoid", "sonar_avoid")}) {
+      const std::string file = std::string(ORCA_BINARY_DIR "/plugins/") + plugin + ".so";
+      if (run_orcactl({"swap", component, file, "--probation", "100 ms"}).exit_code() == 0) ++swaps;
+    }
+  }
+  const Run run = finish(program, Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.arrivals().size() == 3);
+  CHECK(run.contacts().empty());
+  CHECK(swaps >= 20);
+}

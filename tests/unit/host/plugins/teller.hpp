@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A component in several versions, made of this class with different definitions:
+//   TELLER_VERSION    number that it says with each lap
+//   TELLER_STATE      version of its state; 2 has one value more than 1
+//   TELLER_FAULT      0: none, else where it fails (see below)
+//   TELLER_TYPE      its type
+//   TELLER_INPUT     the name of its input
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "orca/component.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/idl/navigation.hpp"
+
+#ifndef TELLER_STATE
+#define TELLER_STATE 1
+#endif
+#ifndef TELLER_FAULT
+#define TELLER_FAULT 0
+#endif
+#ifndef TELLER_TYPE
+#define TELLER_TYPE "test.Teller"
+#endif
+#ifndef TELLER_INPUT
+#define TELLER_INPUT "in"
+#endif
+
+namespace {
+
+enum Fault {
+  kNone,
+  kConstructor,
+  kConfigure,
+  kStart,
+  kLoadThrows,
+  kFirstLap,
+  kThirdLap,
+  kHandler,
+  kSaveThrows,
+  kLoadReadsTooLittle,
+  kLoadReadsOther
+};
+
+/// Counts what arrives, and says its version and the count each time.
+class Teller final : public orca::Component {
+ public:
+  explicit Teller(orca::ComponentHost& host) : Component(host) {
+    lap_on(in_);
+    if (TELLER_FAULT == kConstructor) throw std::runtime_error("no teller today");
+  }
+
+ private:
+  orca::Status configure() override {
+    if (TELLER_FAULT == kConfigure) return step_.refuse("is not liked today");
+    return in_.connected() ? orca::ok() : orca::fail(orca::Code::failed_precondition, "nothing to count");
+  }
+  orca::Status start() override {
+    if (TELLER_FAULT == kStart) throw std::runtime_error("no start today");
+    log_debug("start " + version());
+    return orca::ok();
+  }
+  void stop() override { log_debug("stop " + version()); }
+
+  orca::Outcome work() override {
+    ++laps_;
+    if (TELLER_FAULT == kFirstLap || (TELLER_FAULT == kThirdLap && laps_ == 3))
+      throw std::runtime_error("no lap today");
+    while (in_.new_data_arrived()) {
+      const auto object = in_.get_update();
+      if (last_ != 0 && object->seq() != last_ + 1)
+        log_debug("gap " + std::to_string(last_) + ":" + std::to_string(object->seq()));
+      last_ = object->seq();
+      count_ += *step_;
+      say();
+    }
+    return orca::again();
+  }
+
+  void say() {
+    orca::Loan<orca::idl::GoalPoint> said = out_.loan();
+    said->name() = version() + ":" + std::to_string(count_);
+    out_.push(std::move(said));
+  }
+
+  orca::Status on_poke(const orca::ObjectPtr<orca::idl::GoalPoint>& poke) {
+    if (TELLER_FAULT == kHandler) throw std::runtime_error("no poke today");
+    const auto number = std::stoll(std::string(poke->name()));
+    if (number != last_poke_ + 1)
+      log_debug("poke " + std::to_string(number) + " after " + std::to_string(last_poke_));
+    last_poke_ = number;
+    return orca::ok();
+  }
+
+  [[nodiscard]] std::string version() const { return std::to_string(TELLER_VERSION); }
+
+  // --- State
+  void save_state(orca::StateWriter& state) const override {
+    if (TELLER_FAULT == kSaveThrows) throw std::runtime_error("no state today");
+    state.write(count_, last_, last_poke_);
+    if (TELLER_STATE == 2) state.write(std::string("two"));
+  }
+  orca::Status load_state(orca::StateReader& state) override {
+    if (TELLER_FAULT == kLoadThrows) throw std::runtime_error("no state for me");
+    if (TELLER_FAULT == kLoadReadsTooLittle) return state.read(count_);
+    if (TELLER_FAULT == kLoadReadsOther) return state.read(name_);
+    if (const orca::Status read = state.read(count_, last_, last_poke_); !read.ok()) return read;
+    return state.tag().version == 2 ? state.read(name_) : orca::ok();
+  }
+  [[nodiscard]] std::uint32_t state_version() const override { return TELLER_STATE; }
+  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override {
+    return TELLER_STATE == 2 ? std::vector<orca::StateTag>{{TELLER_TYPE, 1}} : std::vector<orca::StateTag>{};
+  }
+
+  orca::PushProxy<orca::idl::MotionCommand> in_{*this, TELLER_INPUT};
+  orca::PushServer<orca::idl::GoalPoint> out_{*this, "out"};
+  orca::SendServer<orca::idl::GoalPoint> poke_{*this, "poke", &Teller::on_poke};
+  orca::Param<std::int64_t> step_{*this, "step", 1, {.min = 1, .max = 10}};
+
+  std::int64_t count_ = 0;
+  std::uint64_t last_ = 0;
+  std::int64_t last_poke_ = 0;
+  std::int64_t laps_ = 0;
+  std::string name_;
+};
+
+}  // namespace

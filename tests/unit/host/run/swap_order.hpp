@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "live_system.hpp"
+#include "run/swap/swaps.hpp"
+
+namespace orca::test {
+
+/// Returns the order to exchange component "teller" for a version of tests/unit/host/plugins/teller.hpp.
+[[nodiscard]] inline host::SwapOrder next_teller(const std::string& version) {
+  Result<plugin::PluginImage> image =
+      plugin::PluginImage::copy(ORCA_BINARY_DIR "/tests/next_plugins/" + version + ".so");
+  if (!image) throw std::runtime_error(image.error().text());
+  return {"teller", std::move(image).value()};
+}
+
+/// Swaps, and waits for the outcome.
+inline Result<host::SwapReport> swap(LiveSystem& live, host::SwapOrder order) {
+  std::optional<Result<host::SwapReport>> outcome;
+  host::Swaps swaps(live.graph(), live.context(), live.catalogue(), live.system());
+  swaps.begin(std::move(order), [&](const Result<host::SwapReport>& result) { outcome = result; });
+  while (!outcome) {
+    const TimePoint next = swaps.go_on();
+    if (!outcome) live.changed().wait_until(next);
+  }
+  return *outcome;
+}
+
+}  // namespace orca::test
