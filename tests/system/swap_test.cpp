@@ -149,23 +149,56 @@ TEST_CASE("a process that is started again runs the code that the graph names, a
   CHECK(finish(system.program(), Seconds(10)).exit_code() == 0);
 }
 
+namespace {
+
+std::string shipped(const std::string& plugin) {
+  return std::string(ORCA_BINARY_DIR "/plugins/") + plugin + ".so";
+}
+
+// A component, and what takes its place.
+using Swaps = std::vector<std::pair<std::string, std::string>>;
+
+struct Drive {
+  Run run;
+  int swaps = 0;
+};
+
+// Drives a shipped graph in real time, and exchanges code in turn until the last goal is reached.
+Drive exchange_on_the_way(const std::string& graph, const Swaps& swaps) {
+  Subprocess program(deployer({source_file(graph)}));
+  Drive drive;
+  for (std::size_t next = 0; next < 400 && !program.wait_for_output("arrived meeting", Seconds(0.7));
+       ++next) {
+    const auto& [component, plugin] = swaps[next % swaps.size()];
+    if (run_orcactl({"swap", component, plugin, "--probation", "200 ms"}).exit_code() == 0) ++drive.swaps;
+  }
+  drive.run = finish(program, Seconds(30));
+  return drive;
+}
+
+}  // namespace
+
 TEST_CASE(
     "behaviours are exchanged again and again while the robot drives, and it reaches its goals without a "
     "contact",
     "[system][swap]") {
-  Subprocess program(deployer({source_file("graphs/scout_goto_processes.xml")}));
-  int swaps = 0;
-  // The last goal ends the run.
-  while (!program.wait_for_output("arrived meeting", Seconds(1)) && swaps < 400) {
-    for (const auto& [component, plugin] : {std::pair("goto", "goto"), std::pair("avoid", "sonar_avoid")}) {
-      const std::string file = std::string(ORCA_BINARY_DIR "/plugins/") + plugin + ".so";
-      if (run_orcactl({"swap", component, file, "--probation", "100 ms"}).exit_code() == 0) ++swaps;
-    }
-  }
-  const Run run = finish(program, Seconds(60));
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-  CHECK(run.arrivals().size() == 3);
-  CHECK(run.contacts().empty());
-  CHECK(swaps >= 20);
+  const Drive drive = exchange_on_the_way("graphs/scout_goto_processes.xml",
+                                          {{"goto", shipped("goto")}, {"avoid", shipped("sonar_avoid")}});
+  INFO(drive.run.err);
+  CHECK(drive.run.exit_code() == 0);
+  CHECK(drive.run.arrivals().size() == 3);
+  CHECK(drive.run.contacts().empty());
+  CHECK(drive.swaps >= 20);
+}
+
+TEST_CASE("LaserAvoid is exchanged for VFH+ and back while the Pioneer drives its course, without a contact",
+          "[system][swap]") {
+  const Drive drive = exchange_on_the_way("graphs/pioneer_laser_goto.xml",
+                                          {{"avoid", shipped("vfh_plus") + ":orca.VfhPlus"},
+                                           {"avoid", shipped("laser_avoid") + ":orca.LaserAvoid"}});
+  INFO(drive.run.err);
+  CHECK(drive.run.exit_code() == 0);
+  CHECK(drive.run.arrivals().size() == 3);
+  CHECK(drive.run.contacts().empty());
+  CHECK(drive.swaps >= 20);
 }

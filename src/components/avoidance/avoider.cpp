@@ -126,6 +126,19 @@ void Avoider::stop() {
   question_.reset();
 }
 
+// What a derived class keeps besides is found anew in a lap or two.
+void Avoider::save_state(StateWriter& state) const {
+  state.write(body_, memory_, pose_, twist_, moved_at_, heard_at_, last_direction_);
+}
+
+Status Avoider::load_state(StateReader& state) {
+  return state.read(body_, memory_, pose_, twist_, moved_at_, heard_at_, last_direction_);
+}
+
+std::vector<StateTag> Avoider::accepted_states() const {
+  return {{"orca.LaserAvoid", 1}, {"orca.SonarAvoid", 1}, {"orca.VfhPlus", 1}};
+}
+
 Outcome Avoider::work() {
   if (const Status learnt = learn_robot(); !learnt.ok()) return failed(learnt.error().text());
   if (const auto goal = present_goal()) note_cause(*goal);  // it avoids on the way to that goal

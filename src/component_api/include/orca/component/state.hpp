@@ -133,7 +133,7 @@ class StateReader {
   Status read(T&... values) {
     std::tuple<T...> taken{values...};
     std::apply([this](auto&... value) { (get(value), ...); }, taken);
-    if (!error_) std::tie(values...) = std::move(taken);
+    if (!error_) std::tie(values...) = taken;  // copied, so that containers keep the memory that they have
     return status();
   }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "orca/avoidance/advice.hpp"
 #include "orca/component.hpp"
@@ -26,6 +27,9 @@ namespace orca::avoid {
 ///
 /// A base at its port `robot` is asked how large the robot is and how often its sensor measures. The answer is not
 /// waited for, but until it comes the robot stands.
+///
+/// What it knows goes to an avoid behaviour of any type that takes its place while the robot drives, so that this need
+/// not look around first.
 ///
 /// Thread contract: as every component.
 class Avoider : public Component {
@@ -67,6 +71,9 @@ class Avoider : public Component {
   Status configure() override;
   Outcome work() override;
   void stop() override;
+  void save_state(StateWriter& state) const override;
+  Status load_state(StateReader& state) override;
+  [[nodiscard]] std::vector<StateTag> accepted_states() const override;
 
   Status ask_robot();
   Status learn_robot();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
@@ -58,6 +59,9 @@ class EchoMemory {
   /// Returns how sure it is that something is still at `echoes()[i]`: 1 when it was just heard, falling evenly to 0
   /// when it will be forgotten.
   [[nodiscard]] double certainty(std::size_t i, const Limits& limits) const;
+
+  /// Returns all of it, to be passed on.
+  auto state() { return std::tie(echoes_, traces_); }
 
  private:
   struct Trace {
