@@ -81,9 +81,11 @@ void DdsLinks::work() {
 void DdsLinks::make_end(DdsBackend& backend, Endpoint& port, const DdsPeer& peer, const QueuePolicy& policy,
                         Duration base_period) {
   const std::lock_guard lock(mutex_);
+  // A client that asks or sends looks for itself when it is used; meanwhile nobody else may move its connection.
   const auto* const movable = dynamic_cast<MovablePort*>(&port);
-  if (movable == nullptr ||
-      !movable->can_move()) {  // one that moves changes, and looks for itself when it is used
+  const bool looks_itself =
+      movable != nullptr && movable->can_move() && port.contract().pattern != Pattern::push;
+  if (!looks_itself) {
     port.adopt(std::make_unique<Helped>(*this, port.home().strand));
     helped_.push_back(&port.home().strand);
   }

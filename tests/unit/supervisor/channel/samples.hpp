@@ -43,7 +43,9 @@ inline std::vector<supervisor::Order> all_orders() {
       OpenLine{"base", "OdometryPush", true, false, null_device()},
       Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}}, Say{some_bytes()},
       Outlive{null_device(), 60'000'000'000}, Adopt{}, MoveEdge{7}, AskUse{},
-      TellLines{{{log::Level::warning, "goto", "lost", 12}, {log::Level::info, "base", "", 13}}});
+      TellLines{{{log::Level::warning, "goto", "lost", 12}, {log::Level::info, "base", "", 13}}},
+      SwapCode{
+          "avoid", "orca.VfhPlus", {{"margin", "0.1 m"}}, 2'000'000'000, "/tmp/vfh_plus.so", null_device()});
 }
 
 /// Returns at least one of each report.

@@ -62,15 +62,11 @@ concept NamesItsState = requires(T& value) {
   value.state();
 };
 
-/// The type of an element as it can be made alone: a map's elements have constant keys.
+// The type of an element as it can be made alone: a map's elements have constant keys. Only declared.
 template <class T>
-struct Element {
-  using type = T;
-};
+T made_alone(const T*);
 template <class Key, class Value>
-struct Element<std::pair<const Key, Value>> {
-  using type = std::pair<Key, Value>;
-};
+std::pair<Key, Value> made_alone(const std::pair<const Key, Value>*);
 
 /// Returns references to the parts of a value that consists of parts.
 template <class T>
@@ -254,7 +250,7 @@ void StateReader::get_elements(T& value) {
   if constexpr (detail::Growing<T>) {
     value.clear();
     for (std::size_t i = 0; i < count && !error_; ++i) {
-      typename detail::Element<typename T::value_type>::type element{};
+      decltype(detail::made_alone(static_cast<const typename T::value_type*>(nullptr))) element{};
       get(element);
       value.insert(value.end(), std::move(element));
     }
