@@ -26,9 +26,8 @@ struct SwapWish {
 void split_plugin(const std::string& word, SwapWish& wish) {
   const std::size_t colon = word.rfind(':');
   const bool has_type = colon != std::string::npos && word.find('/', colon) == std::string::npos;
-  wish.file = word.substr(0, colon);
+  wish.file = has_type ? word.substr(0, colon) : word;
   if (has_type) wish.type = word.substr(colon + 1);
-  if (!has_type) wish.file = word;
 }
 
 Result<SwapWish> read_wish(const std::vector<std::string>& words) {
@@ -50,15 +49,10 @@ Result<SwapWish> read_wish(const std::vector<std::string>& words) {
   return wish;
 }
 
-const std::string* find(const Record& record, std::string_view name) {
-  for (const Cell& cell : record)
-    if (cell.name == name) return &cell.value;
-  return nullptr;
-}
-
 std::string value(const Record& record, std::string_view name) {
-  const std::string* const found = find(record, name);
-  return found == nullptr ? "" : *found;
+  for (const Cell& cell : record)
+    if (cell.name == name) return cell.value;
+  return "";
 }
 
 }  // namespace

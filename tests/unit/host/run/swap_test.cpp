@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "orca/plugin/library.hpp"
+#include "run/swap/fit.hpp"
 #include "swap_order.hpp"
 
 using namespace orca;
@@ -144,6 +145,31 @@ TEST_CASE("a parameter keeps its value unless the order gives another one", "[ho
     wrong.params["step"] = "70";
     CHECK_THAT(refusal(run, std::move(wrong)), Contains("step"));
   });
+}
+
+TEST_CASE(
+    "values that the new type cannot take are named, all of them, and those that it does not have are "
+    "dropped",
+    "[host][swap]") {
+  ParamContract speed;
+  speed.name = "speed";
+  speed.max = 1.0;
+  speed.default_value = 0.5;
+  ParamContract mode;
+  mode.name = "mode";
+  mode.type = ParamType::text;
+  mode.choices = {"calm", "bold"};
+  mode.default_value = std::string("calm");
+  const Result<ParamValues> kept =
+      inherited({speed, mode}, {{"speed", 0.8}, {"mode", std::string("bold")}, {"gone", 1.0}});
+  REQUIRE(kept);
+  CHECK(*kept == ParamValues{{"speed", 0.8}, {"mode", std::string("bold")}});
+  const Result<ParamValues> wrong = inherited({speed, mode}, {{"speed", 1.2}, {"mode", std::string("wild")}});
+  REQUIRE_FALSE(wrong);
+  CHECK_THAT(wrong.error().message, Contains("\"speed\" is out of the new one's range"));
+  CHECK_THAT(wrong.error().message, Contains("\"mode\" is \"wild\", which is not one of: calm, bold"));
+  CHECK_THAT(inherited({speed}, {{"speed", std::string("fast")}}).error().message,
+             Contains("\"speed\" is number in the new one"));
 }
 
 TEST_CASE("a bad new version is refused with a reason, and the old one goes on as if nothing had been",

@@ -84,7 +84,9 @@ Status Swap::make_successor(const LoadedType& type, const Contract& contract) {
   ComponentSettings settings = place_.component.parts().settings;
   settings.on_demand = false;
   settings.failure.reset();
-  Result<ParamValues> values = inherited(contract.params, place_.component.params());
+  ParamValues present = place_.component.params();
+  for (const auto& [name, text] : order_.params) present.erase(name);
+  Result<ParamValues> values = inherited(contract.params, present);
   if (!values) return values.error();
   const Result<graph::Params> given = graph::read_settings(contract.params, order_.params);
   if (!given) return given.error();
