@@ -29,6 +29,12 @@ target_link_libraries(orca_options INTERFACE orca_language)
 target_compile_options(orca_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${ORCA_WERROR}>:-Werror>)
 
+# Sources that are compiled together: g++ takes all but the first line of such a unit for headers, and warns of their
+# unnamed namespaces. Preset "dev" compiles each alone, without this option.
+if(CMAKE_UNITY_BUILD)
+  add_compile_options(-Wno-subobject-linkage)
+endif()
+
 if(ORCA_SANITIZE)
   add_compile_options(-fsanitize=${ORCA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   # With sanitizers, g++ 12 warns wrongly of uninitialised members inside std::regex.

@@ -33,7 +33,24 @@ function(orca_use_precompiled_headers target headers)
   target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
 
-# orca_add_library(NAME [SHARED|STATIC] SOURCES ... [PUBLIC deps] [PRIVATE deps] [HEADERS dir])
+# orca_expect_seldom(TARGET): for code that runs when a system starts, ends or is asked, and not in each lap. g++ compiles
+# it in two thirds of the time with -Og. That g++ 12 warns then of uninitialised members of an empty std::optional is wrong.
+function(orca_expect_seldom target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Og -Wno-maybe-uninitialized)
+  endif()
+endfunction()
+
+# orca_add_program_parts(NAME SOURCES...): everything of a program but main(), for its tests as well.
+function(orca_add_program_parts name)
+  add_library(${name} STATIC ${ARGN})
+  target_link_libraries(${name} PRIVATE orca_options)
+  target_compile_options(${name} PRIVATE ${ORCA_LIBRARY_OPTIONS})
+  orca_use_precompiled_headers(${name} orca_library_headers)
+  orca_expect_seldom(${name})
+endfunction()
+
+# orca_add_library(NAME SHARED|STATIC SOURCES ... [PUBLIC deps] [PRIVATE deps])
 #
 # Adds the library of one layer. Public headers live in <folder>/include; the target
 # all_verify_interface_header_sets compiles each alone.

@@ -19,12 +19,13 @@ elseif(ORCA_SANITIZE MATCHES "address")
   set(ORCA_TEST_ENVIRONMENT "ASAN_OPTIONS=new_delete_type_mismatch=0")
 endif()
 
-# orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [OPTIMISED])
+# orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [OPTIMISED] [TOGETHER])
 #
 # Adds a Catch2 program with one ctest entry. TIMEOUT [s] is a bound on hangs in the release build; the default is 60 s.
-# OPTIMISED is for tests that compute much themselves.
+# OPTIMISED is for tests that compute much themselves. TOGETHER are sources whose unnamed namespaces have no name in common:
+# they are compiled in units, where the preset does so.
 function(orca_add_test name)
-  cmake_parse_arguments(arg "OPTIMISED" "TIMEOUT" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "OPTIMISED;TOGETHER" "TIMEOUT" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 60)
   endif()
@@ -39,6 +40,9 @@ function(orca_add_test name)
   if(NOT arg_OPTIMISED)
     target_compile_options(${name} PRIVATE ${ORCA_TEST_OPTIONS})
     target_precompile_headers(${name} REUSE_FROM orca_test_headers)
+  endif()
+  if(arg_TOGETHER)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ${ORCA_UNITY_TESTS})
   endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(arg_DEPENDS)

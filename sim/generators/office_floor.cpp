@@ -11,9 +11,9 @@ namespace {
 constexpr double kDeep = 5.0;       // [m] A room, clear.
 constexpr double kNarrowest = 4.0;  // [m] Room, between the walls' centre lines.
 constexpr double kWidest = 7.0;
-constexpr double kJamb = 0.4;      // [m] Least wall beside a door.
-constexpr double kKeepFree = 0.8;  // [m] Around a room's middle, for the place there.
-constexpr double kMargin = 1.0;    // [m] From the corridor's end to the start.
+constexpr double kMinJamb = 0.4;      // [m] Least wall beside a door.
+constexpr double kKeepFree = 0.8;     // [m] Around a room's middle, for the place there.
+constexpr double kBeforeStart = 1.0;  // [m] From the corridor's end to the start.
 
 // The rooms of one side, as the places of their walls' centre lines along x [m], first and last included.
 using Cuts = std::vector<double>;
@@ -40,7 +40,7 @@ struct Side {
 void add_doors(WorldModel& world, const Side& side, double door, RandomStream& random) {
   std::vector<Opening> doors;
   for (std::size_t i = 0; i + 1 < side.at.size(); ++i) {
-    const double margin = kJamb + 0.5 * (door + kThickness);
+    const double margin = kMinJamb + 0.5 * (door + kThickness);
     doors.push_back({random.uniform(side.at[i] + margin, side.at[i + 1] - margin), door});
   }
   add_wall(world, {side.at.front(), side.inner}, {side.at.back(), side.inner}, std::move(doors));
@@ -89,7 +89,7 @@ WorldModel draw(const OfficeFloor& family, RandomStream& random) {
   WorldModel world;
   const double half = 0.5 * kThickness;
   add_hall(world, {half, half - deep}, {length - half, across + deep - half});
-  world.places.push_back({"start", {kMargin, 0.5 * across, 0.0}});
+  world.places.push_back({"start", {kBeforeStart, 0.5 * across, 0.0}});
   add_rooms(world, {south, 0.0, -deep}, family, random);
   add_rooms(world, {north, across, across + deep}, family, random);
   const std::size_t last = pick(random, 1, 2) * family.rooms;  // The far room of either side.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kCell = 1.0;   // [m] The size of a few robots.
 constexpr double kRoom = 10.0;  // [m] Margin around all bodies, so that they rarely leave the cells.
-constexpr double kMaxCells = 1e5;
+constexpr double kMaxBodyCells = 1e5;
 constexpr std::size_t kFew = 6;  // Up to this many bodies, testing each is faster than walking the cells.
 // Up to this many bodies, a view chooses among them; with more, each ray finds its own through the cells.
 constexpr std::size_t kMany = 300;
@@ -114,7 +114,7 @@ void Bodies::choose_cells() {
   all.add(all.low - room);
   all.add(all.high + room);
   const Vec2 side = all.high - all.low;
-  cells_ = Cells(all, std::max(kCell, std::sqrt(side.x * side.y / kMaxCells)));
+  cells_ = Cells(all, std::max(kCell, std::sqrt(side.x * side.y / kMaxBodyCells)));
 }
 
 void Bodies::list(std::size_t number) {

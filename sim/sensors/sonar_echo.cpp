@@ -6,7 +6,7 @@
 namespace orca::sim::detail {
 namespace {
 
-constexpr int kRays = 9;
+constexpr int kEchoRays = 9;
 // [m] Distance from a mirroring wall at which the mirrored ray starts.
 constexpr double kOff = 1e-6;
 
@@ -35,10 +35,10 @@ class Listener {
   }
 
   void probe_fan() {
-    const double pitch = 2.0 * beam_.lobe.half_angle / (kRays - 1);
+    const double pitch = 2.0 * beam_.lobe.half_angle / (kEchoRays - 1);
     const Vec2 turn = direction(pitch);
     Vec2 towards = beam_.right();
-    for (int i = 0; i < kRays; ++i) {
+    for (int i = 0; i < kEchoRays; ++i) {
       probe(i * pitch - beam_.lobe.half_angle, towards);
       towards = rotated(towards, turn);
     }

@@ -21,12 +21,12 @@ Status check_size(std::size_t width, std::size_t height, const std::string& path
 
 namespace {
 
-constexpr std::size_t kMaxBytes = 1'000'000'000;  // a text of 100 million pixels has half of that
+constexpr std::size_t kMaxImageBytes = 1'000'000'000;  // a text of 100 million pixels has half of that
 
 }  // namespace
 
 Result<GreyImage> read_image(const std::string& path) {
-  const Result<std::string> read = read_input_file(path, kMaxBytes);
+  const Result<std::string> read = read_input_file(path, kMaxImageBytes);
   if (!read) return fail(read.error().code, "cannot read the picture: " + read.error().message, path);
   const std::string& bytes = *read;
   if (bytes.empty()) return fail(Code::data_loss, "the file is empty; expected a PNG or PGM picture", path);

@@ -39,7 +39,7 @@ class Tokens {
   std::size_t at_;
 };
 
-Error damaged(const std::string& what, const std::string& path) {
+Error damaged_pgm(const std::string& what, const std::string& path) {
   return fail(Code::data_loss, "damaged PGM picture: " + what, path);
 }
 
@@ -58,7 +58,7 @@ std::uint8_t scaled(std::size_t value, std::size_t largest) {
 Status read_text_pixels(Tokens& tokens, std::size_t largest, GreyImage& image, const std::string& path) {
   for (std::uint8_t& pixel : image.grey) {
     const auto value = tokens.number();
-    if (!value) return damaged("fewer pixels than the header announces", path);
+    if (!value) return damaged_pgm("fewer pixels than the header announces", path);
     pixel = scaled(*value, largest);
   }
   return ok();
@@ -69,7 +69,7 @@ Status read_binary_pixels(const Tokens& tokens, std::size_t largest, GreyImage& 
   const bool wide = largest > 255;
   const std::string_view pixels = tokens.pixels();
   if (pixels.size() < image.grey.size() * (wide ? 2 : 1))
-    return damaged("fewer pixels than the header announces", path);
+    return damaged_pgm("fewer pixels than the header announces", path);
   for (std::size_t i = 0; i < image.grey.size(); ++i)
     image.grey[i] = scaled(binary_pixel(pixels, i, wide), largest);
   return ok();
@@ -82,12 +82,13 @@ Result<GreyImage> decode_pgm(std::string_view bytes, const std::string& path) {
   const auto width = tokens.number();
   const auto height = tokens.number();
   const auto largest = tokens.number();
-  if (!width || !height || !largest) return damaged("no width, height and largest value in its header", path);
+  if (!width || !height || !largest)
+    return damaged_pgm("no width, height and largest value in its header", path);
   if (const Status size = check_size(*width, *height, path); !size) return size.error();
   if (*largest == 0 || *largest > 65535)
-    return damaged("largest value " + std::to_string(*largest) + ", expected 1 to 65535", path);
+    return damaged_pgm("largest value " + std::to_string(*largest) + ", expected 1 to 65535", path);
   // Checked before the allocation, so that a short file cannot reserve memory for a huge picture.
-  if (bytes.size() < *width * *height) return damaged("fewer pixels than the header announces", path);
+  if (bytes.size() < *width * *height) return damaged_pgm("fewer pixels than the header announces", path);
   GreyImage image{*width, *height, {}};
   image.grey.resize(*width * *height);
   const Status read = bytes[1] == '2' ? read_text_pixels(tokens, *largest, image, path)

@@ -7,15 +7,15 @@ namespace orca::sim::detail {
 namespace {
 
 // libpng's simplified reader, which never jumps out of our frames; frees its state in every case.
-struct Reader {
+struct PngReader {
   png_image image{};
-  Reader() { image.version = PNG_IMAGE_VERSION; }
-  ~Reader() { png_image_free(&image); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  PngReader() { image.version = PNG_IMAGE_VERSION; }
+  ~PngReader() { png_image_free(&image); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 };
 
-Error damaged(const std::string& what, const std::string& path) {
+Error damaged_png(const std::string& what, const std::string& path) {
   return fail(Code::data_loss, "damaged PNG picture: " + what, path);
 }
 
@@ -36,10 +36,10 @@ Status check_chunks(std::string_view bytes, const std::string& path) {
     const std::size_t length = length_at(bytes, at);
     const std::size_t left = bytes.size() - at;
     if (length + kAround > left)
-      return damaged("the part at byte " + std::to_string(at) + " should have " +
-                         std::to_string(length + kAround) + " bytes, but the file has only " +
-                         std::to_string(left) + " more",
-                     path);
+      return damaged_png("the part at byte " + std::to_string(at) + " should have " +
+                             std::to_string(length + kAround) + " bytes, but the file has only " +
+                             std::to_string(left) + " more",
+                         path);
     at += length + kAround;
   }
   return ok();
@@ -49,9 +49,9 @@ Status check_chunks(std::string_view bytes, const std::string& path) {
 
 Result<GreyImage> decode_png(std::string_view bytes, const std::string& path) {
   if (const Status sound = check_chunks(bytes, path); !sound) return sound.error();
-  Reader reader;
+  PngReader reader;
   if (png_image_begin_read_from_memory(&reader.image, bytes.data(), bytes.size()) == 0)
-    return damaged(reader.image.message, path);
+    return damaged_png(reader.image.message, path);
   if (const Status size = check_size(reader.image.width, reader.image.height, path); !size)
     return size.error();
   reader.image.format = PNG_FORMAT_GRAY;
@@ -59,7 +59,7 @@ Result<GreyImage> decode_png(std::string_view bytes, const std::string& path) {
   result.grey.resize(result.width * result.height);
   const png_color white{255, 255, 255};
   if (png_image_finish_read(&reader.image, &white, result.grey.data(), 0, nullptr) == 0)
-    return damaged(reader.image.message, path);
+    return damaged_png(reader.image.message, path);
   return result;
 }
 

@@ -86,7 +86,7 @@ Error wrong_at(int line, const std::string& what, std::string_view found, const 
 
 namespace {
 
-constexpr std::uintmax_t kMaxBytes = 400'000'000;  // A text of a million faces has 300 million.
+constexpr std::uintmax_t kMaxMeshBytes = 400'000'000;  // A text of a million faces has 300 million.
 
 Result<std::string> bytes_of(const std::string& path) {
   std::error_code error;
@@ -94,11 +94,11 @@ Result<std::string> bytes_of(const std::string& path) {
   if (!std::filesystem::exists(status)) return fail(Code::not_found, "there is no such mesh file", path);
   if (!std::filesystem::is_regular_file(status))
     return fail(Code::invalid_argument, "this is not a file; expected a mesh", path);
-  if (std::filesystem::file_size(path, error) > kMaxBytes)
+  if (std::filesystem::file_size(path, error) > kMaxMeshBytes)
     return fail(Code::invalid_argument,
                 "the file is larger than 400 million bytes; at most 1000000 faces are read; simplify it",
                 path);
-  Result<std::string> bytes = read_input_file(path, kMaxBytes);
+  Result<std::string> bytes = read_input_file(path, kMaxMeshBytes);
   if (!bytes) return fail(bytes.error().code, "cannot read the mesh: " + bytes.error().message, path);
   if (bytes->empty()) return fail(Code::data_loss, "the file is empty; expected a mesh", path);
   return bytes;

@@ -9,15 +9,15 @@
 namespace orca::sim::detail {
 namespace {
 
-bool known(std::string_view word) {
+bool is_ignored(std::string_view word) {
   static constexpr std::array<std::string_view, 14> kOthers{
       "vn", "vt", "vp", "o", "g", "s", "l", "p", "usemtl", "mtllib", "usemap", "maplib", "lod", "mg"};
   return word.starts_with('#') || std::ranges::find(kOthers, word) != kOthers.end();
 }
 
-class Reader {
+class ObjReader {
  public:
-  Reader(std::string_view text, const std::string& path) : words_(text), path_(path) {}
+  ObjReader(std::string_view text, const std::string& path) : words_(text), path_(path) {}
 
   Result<Mesh> read() {
     for (; !words_.at_end(); words_.skip_line()) {
@@ -26,7 +26,7 @@ class Reader {
         if (const Status s = corner(); !s) return s.error();
       } else if (word == "f") {
         if (const Status s = face(); !s) return s.error();
-      } else if (!word.empty() && !known(word)) {
+      } else if (!word.empty() && !is_ignored(word)) {
         return wrong_at(words_.line(), "v, f or another word of OBJ", word, path_);
       }
     }
@@ -82,7 +82,7 @@ class Reader {
 }  // namespace
 
 Result<Mesh> decode_obj(std::string_view bytes, const std::string& path) {
-  return Reader(bytes, path).read();
+  return ObjReader(bytes, path).read();
 }
 
 }  // namespace orca::sim::detail

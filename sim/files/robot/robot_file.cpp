@@ -15,7 +15,7 @@
 namespace orca::sim {
 namespace {
 
-namespace codes = detail::robot_codes;
+namespace robot_codes = detail::robot_codes;
 
 constexpr double kBumperTolerance = 0.001;  // [m]
 
@@ -28,13 +28,13 @@ double reach_of(const Shape& footprint) {
 
 void check_body(const RobotModel& model, const xml::Attributes& robot, const xml::Attributes& extension) {
   if (model.mass <= 0.0)
-    robot.error(codes::kMass, "no link of the robot has a mass; give its main link an <inertial>");
+    robot.error(robot_codes::kMass, "no link of the robot has a mass; give its main link an <inertial>");
   if (model.parts.empty())
-    return robot.error(codes::kMissing,
+    return robot.error(robot_codes::kMissing,
                        "no link of the robot has a <collision>; without one it would pass through walls");
   const double reach = reach_of(model.footprint);
   if (reach > model.bumper_radius + kBumperTolerance)
-    extension.error_at("bumper_radius", codes::kBumperRadius,
+    extension.error_at("bumper_radius", robot_codes::kBumperRadius,
                        "the collision geometry reaches " + xml::number_text(reach) +
                            " m from the axis, but bumper_radius is " + xml::number_text(model.bumper_radius) +
                            " m; make them agree");
@@ -45,7 +45,7 @@ void read_body(const xml::Element& root, const xml::Element& orca, const detail:
                RobotModel& model, xml::Reporter& reporter) {
   const xml::Attributes robot(root, detail::kRobotFile, reporter);
   Result<detail::UrdfBody> body = detail::read_urdf_body(model.urdf, hulls);
-  if (!body) return robot.error(codes::kUrdfdom, body.error().message);
+  if (!body) return robot.error(robot_codes::kUrdfdom, body.error().message);
   model.name = body->name;
   model.mass = body->mass;
   model.yaw_inertia = body->yaw_inertia;
@@ -64,8 +64,8 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
   xml::Reporter reporter(diagnostics);
   const xml::Attributes robot(root, detail::kRobotFile, reporter);
   if (root.name() != "robot")
-    return robot.refuse(codes::kWrongRoot, "the root element is <" + root.name() +
-                                               ">; a robot file begins with <robot name=\"...\">");
+    return robot.refuse(robot_codes::kWrongRoot, "the root element is <" + root.name() +
+                                                     ">; a robot file begins with <robot name=\"...\">");
   robot.require("name");
   detail::MeshHulls hulls;
   detail::check_urdf(root, reporter, hulls);
@@ -74,7 +74,7 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
   model.urdf = std::move(text);
   const xml::Element* orca = detail::only_child(root, "orca");
   if (orca == nullptr)
-    return robot.refuse(codes::kMissing,
+    return robot.refuse(robot_codes::kMissing,
                         "<robot> needs the element <orca radius=\"...\"> with its drive and sensors");
   detail::read_extension(*orca, model, reporter);
   detail::check_mounts(root, *orca, reporter);

@@ -14,8 +14,6 @@
 namespace orca::sim::detail {
 namespace {
 
-namespace codes = robot_codes;
-
 class UrdfChecker {
  public:
   UrdfChecker(xml::Reporter& reporter, MeshHulls& hulls) : reporter_(reporter), hulls_(hulls) {}
@@ -27,7 +25,7 @@ class UrdfChecker {
       origin(e);
       const xml::Element* geometry = only_child(e, "geometry");
       if (geometry == nullptr || geometry->children().empty()) {
-        of(e).error(codes::kMissing, "<" + e.name() + "> needs a <geometry> with a shape in it");
+        of(e).error(robot_codes::kMissing, "<" + e.name() + "> needs a <geometry> with a shape in it");
       } else {
         shape(geometry->children().front(), e.name() == "collision");
       }
@@ -41,7 +39,7 @@ class UrdfChecker {
     if (const auto* axis = only_child(joint, "axis")) {
       const auto xyz = numbers(of(*axis), "xyz");
       if (xyz && std::ranges::all_of(*xyz, [](double v) { return v == 0.0; }))
-        of(*axis).error_at("xyz", codes::kZeroAxis,
+        of(*axis).error_at("xyz", robot_codes::kZeroAxis,
                            "the axis is zero; it must point somewhere, e.g. \"0 0 1\"");
     }
     if (type == "revolute" || type == "prismatic") limit(joint, *type);
@@ -60,11 +58,11 @@ class UrdfChecker {
   void limit(const xml::Element& joint, const std::string& type) const {
     const xml::Element* limit = only_child(joint, "limit");
     if (limit == nullptr)
-      return of(joint).error(codes::kMissing, "a " + type + " joint needs the element <limit>");
+      return of(joint).error(robot_codes::kMissing, "a " + type + " joint needs the element <limit>");
     const auto low = of(*limit).has("lower") ? number(of(*limit), "lower") : 0.0;
     const auto high = of(*limit).has("upper") ? number(of(*limit), "upper") : 0.0;
     if (low && high && *low > *high)
-      of(*limit).error_at("lower", codes::kLimitsExchanged, "the lower limit is above the upper one");
+      of(*limit).error_at("lower", robot_codes::kLimitsExchanged, "the lower limit is above the upper one");
     static_cast<void>(number(of(*limit), "effort"));
     static_cast<void>(number(of(*limit), "velocity"));
   }
@@ -82,7 +80,7 @@ class UrdfChecker {
                                             const char* name) const {
     const xml::Element* e = only_child(parent, child);
     if (e == nullptr)
-      of(parent).error(codes::kMissing, "<" + parent.name() + "> needs the element <" + child + ">");
+      of(parent).error(robot_codes::kMissing, "<" + parent.name() + "> needs the element <" + child + ">");
     return e != nullptr ? number(of(*e), name) : std::nullopt;
   }
 
@@ -91,7 +89,7 @@ class UrdfChecker {
     const auto mass = value(inertial, "mass", "value");
     if (mass && *mass <= 0.0)
       of(*only_child(inertial, "mass"))
-          .error_at("value", codes::kMass,
+          .error_at("value", robot_codes::kMass,
                     "the mass must be more than 0 kg; leave <inertial> out for a link that is only a frame");
     std::array<double, 6> m{};  // xx, xy, xz, yy, yz, zz.
     constexpr std::array<const char*, 6> kNames{"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
@@ -107,7 +105,7 @@ class UrdfChecker {
                                m[2] * (m[1] * m[4] - m[3] * m[2]);
     if (!(m[0] > 0.0 && minor > 0.0 && determinant > 0.0))  // Sylvester's criterion.
       of(*only_child(inertial, "inertia"))
-          .error(codes::kInertia, "the inertia is not positive definite; no body has such an inertia");
+          .error(robot_codes::kInertia, "the inertia is not positive definite; no body has such an inertia");
   }
 
   void shape(const xml::Element& shape, bool collision) const {
@@ -121,7 +119,7 @@ class UrdfChecker {
     } else if (shape.name() == "mesh") {
       if (collision) mesh(a);
     } else {
-      a.error(codes::kUnknownElement,
+      a.error(robot_codes::kUnknownElement,
               "<" + shape.name() + "> is not a shape; known are: box, cylinder, sphere, mesh");
     }
   }
@@ -131,14 +129,14 @@ class UrdfChecker {
     const auto name = a.require("filename") ? a.text("filename") : std::nullopt;
     const auto scale = a.has("scale") ? numbers(a, "scale") : std::vector<double>{1.0, 1.0, 1.0};
     if (scale && std::ranges::any_of(*scale, [](double v) { return v == 0.0; }))
-      a.error_at("scale", codes::kSize, "scale of <mesh> must not be 0");
+      a.error_at("scale", robot_codes::kSize, "scale of <mesh> must not be 0");
     if (!name || hulls_.contains(*name)) return;
     if (name->find("://") != std::string::npos)
-      return a.error_at("filename", codes::kUnreadableMesh,
+      return a.error_at("filename", robot_codes::kUnreadableMesh,
                         "\"" + *name + "\" cannot be looked up; write the path, beside this file or from /");
     const auto folder = std::filesystem::path(a.element().position().file).parent_path();
     const auto mesh = read_mesh((folder / *name).lexically_normal().string());
-    if (!mesh) return a.error_at("filename", codes::kUnreadableMesh, mesh.error().text());
+    if (!mesh) return a.error_at("filename", robot_codes::kUnreadableMesh, mesh.error().text());
     hulls_[*name] = hull_corners(*mesh);
   }
 
@@ -147,7 +145,7 @@ class UrdfChecker {
     if (value && *value <= 0.0) not_positive(a, name);
   }
   static void not_positive(const xml::Attributes& a, const char* name) {
-    a.error_at(name, codes::kSize,
+    a.error_at(name, robot_codes::kSize,
                std::string(name) + " of <" + a.element().name() + "> must be more than 0 m");
   }
 

@@ -14,8 +14,6 @@
 namespace orca::sim::detail {
 namespace {
 
-namespace codes = robot_codes;
-
 constexpr std::size_t kMaxLinks = 1000;
 
 // The links and joints of a file, checked to be a tree.
@@ -29,14 +27,14 @@ class Tree {
       if (e.name() == "joint") collect(e, joints_);
     }
     if (links_.size() > kMaxLinks)
-      return of(robot_).error(codes::kLinkCount, "the robot has " + std::to_string(links_.size()) +
-                                                     " links; at most 1000 are read");
+      return of(robot_).error(robot_codes::kLinkCount, "the robot has " + std::to_string(links_.size()) +
+                                                           " links; at most 1000 are read");
     if (joints_.size() > kMaxLinks)
-      return of(robot_).error(codes::kLinkCount, "the robot has " + std::to_string(joints_.size()) +
-                                                     " joints; at most 1000 are read");
+      return of(robot_).error(robot_codes::kLinkCount, "the robot has " + std::to_string(joints_.size()) +
+                                                           " joints; at most 1000 are read");
     for (const auto& [name, joint] : joints_) connect(name, *joint);
     for (const auto& [name, joint] : joints_) check_mimic(name, *joint);
-    if (links_.empty()) return of(robot_).error(codes::kLinkCount, "the robot has no <link>");
+    if (links_.empty()) return of(robot_).error(robot_codes::kLinkCount, "the robot has no <link>");
     check_roots();
   }
 
@@ -55,7 +53,7 @@ class Tree {
     const auto [first, is_new] = into.emplace(*name, &e);
     if (is_new) return;
     complete_ = false;  // The links of a second joint with the same name are ignored.
-    of(e).error_at("name", codes::kDuplicate,
+    of(e).error_at("name", robot_codes::kDuplicate,
                    "there is a " + e.name() + " \"" + *name + "\" already, at " +
                        first->second->position().text() + "; choose another name");
   }
@@ -64,13 +62,13 @@ class Tree {
   [[nodiscard]] std::string end_of(const xml::Element& joint, const std::string& which) const {
     const xml::Element* end = only_child(joint, which);
     if (end == nullptr) {
-      of(joint).error(codes::kMissing, "<joint> needs the element <" + which + " link=\"...\"/>");
+      of(joint).error(robot_codes::kMissing, "<joint> needs the element <" + which + " link=\"...\"/>");
       return {};
     }
     const auto link = text(*end, "link");
     if (!link) return {};
     if (links_.contains(*link)) return *link;
-    of(*end).error_at("link", codes::kUnknownName,
+    of(*end).error_at("link", robot_codes::kUnknownName,
                       "there is no link \"" + *link + "\"" + what_there_is(*link, links_));
     return {};
   }
@@ -90,9 +88,9 @@ class Tree {
     }
     const auto [first, is_new] = parent_of_.emplace(child, parent);
     if (!is_new)
-      of(joint).error(codes::kTwoParents, "link \"" + child + "\" is the child of joint \"" + name +
-                                              "\" and of another joint, under \"" + first->second +
-                                              "\"; a link has one parent");
+      of(joint).error(robot_codes::kTwoParents, "link \"" + child + "\" is the child of joint \"" + name +
+                                                    "\" and of another joint, under \"" + first->second +
+                                                    "\"; a link has one parent");
   }
 
   // Reports several roots and loops. Each link has at most one parent, so a link that leads up to no root is
@@ -103,12 +101,13 @@ class Tree {
       if (!parent_of_.contains(name)) roots.push_back(name);
     // A joint that names a missing link is reported already; its child would only look like a second root.
     if (complete_ && roots.size() > 1)
-      of(robot_).error(codes::kSeveralRoots, "the robot has " + std::to_string(roots.size()) +
-                                                 " root links (" + listed(roots) +
-                                                 "); join them by joints, so that one is left");
+      of(robot_).error(robot_codes::kSeveralRoots, "the robot has " + std::to_string(roots.size()) +
+                                                       " root links (" + listed(roots) +
+                                                       "); join them by joints, so that one is left");
     for (const auto& [name, link] : links_)
       if (in_loop(name))
-        return of(*link).error(codes::kLoop, "link \"" + name + "\" is its own ancestor: " + loop_text(name));
+        return of(*link).error(robot_codes::kLoop,
+                               "link \"" + name + "\" is its own ancestor: " + loop_text(name));
   }
 
   [[nodiscard]] bool in_loop(const std::string& name) const {
@@ -131,13 +130,13 @@ class Tree {
     const auto master = mimic != nullptr ? text(*mimic, "joint") : std::nullopt;
     if (!master) return;
     if (!joints_.contains(*master))
-      return of(*mimic).error_at("joint", codes::kUnknownName,
+      return of(*mimic).error_at("joint", robot_codes::kUnknownName,
                                  "there is no joint \"" + *master + "\"" + what_there_is(*master, joints_));
     const std::vector<std::string> circle = mimic_circle(name);
     if (circle.empty() || *std::ranges::min_element(circle) != name) return;  // reported once
     std::string text = name;
     for (const std::string& next : circle) text += " mimics " + next;
-    of(*mimic).error(codes::kLoop, "joint \"" + name + "\" mimics itself in the end: " + text);
+    of(*mimic).error(robot_codes::kLoop, "joint \"" + name + "\" mimics itself in the end: " + text);
   }
 
   // Returns the joints that this one mimics, up to itself; empty if they do not lead back to it.

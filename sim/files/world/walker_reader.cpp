@@ -9,7 +9,7 @@
 namespace orca::sim::detail {
 namespace {
 
-constexpr std::size_t kMaxCorners = 100;
+constexpr std::size_t kMaxTrackCorners = 100;
 constexpr double kShortest = 0.001;  // [m]
 constexpr double kSlowest = 0.01;    // [m/s]
 constexpr double kFastest = 20.0;
@@ -18,7 +18,7 @@ constexpr Duration kLongest = std::chrono::hours{1000};
 // Returns the reason why nobody can walk along these corners; empty if one can.
 std::string track_fault(const std::vector<Vec2>& track) {
   if (track.size() < 2) return "a track needs at least 2 corners, found " + std::to_string(track.size());
-  if (track.size() > kMaxCorners)
+  if (track.size() > kMaxTrackCorners)
     return "a track may have 100 corners, found " + std::to_string(track.size());
   const auto elsewhere = [&](Vec2 corner) { return norm(corner - track.front()) >= kShortest; };
   return std::ranges::any_of(track, elsewhere) ? ""

@@ -14,7 +14,7 @@
 namespace orca::sim {
 namespace {
 
-namespace codes = detail::world_codes;
+namespace world_codes = detail::world_codes;
 
 enum class Format { xml, bitmap, cylinders };
 
@@ -39,7 +39,7 @@ std::optional<Reference> reference_of(const std::string& path, xml::Diagnostics&
   const Result<std::int64_t> number = xml::parse_integer(text);
   if (number && *number >= 0) return Reference{file, static_cast<std::uint64_t>(*number)};
   diagnostics.error(
-      codes::kNumber, {file, 0, 0},
+      world_codes::kNumber, {file, 0, 0},
       "\"#" + text + "\" does not choose a world: write a whole number after the #, e.g. \"" + file + "#1\"");
   return std::nullopt;
 }
@@ -50,7 +50,7 @@ std::optional<WorldModel> read_document(const std::optional<xml::Document>& docu
   if (!document) return std::nullopt;
   const xml::Element& root = document->root;
   if (root.name() != "world") {
-    diagnostics.error(codes::kWrongRoot, root.position(),
+    diagnostics.error(world_codes::kWrongRoot, root.position(),
                       "the root element is <" + root.name() +
                           ">; a world file begins with <world name=\"...\" "
                           "version=\"1\">");
@@ -69,14 +69,14 @@ std::optional<WorldModel> read_bitmap(const Reference& from, const BitmapScale& 
     diagnostics.error(code, {from.file, 0, 0}, message);
     return std::nullopt;
   };
-  if (from.number) refuse(codes::kNumber, "a picture holds one world; leave \"#N\" out");
+  if (from.number) refuse(world_codes::kNumber, "a picture holds one world; leave \"#N\" out");
   const Result<GreyImage> image = read_image(from.file);
-  if (!image) return refuse(codes::kUnreadable, image.error().message);
+  if (!image) return refuse(world_codes::kUnreadable, image.error().message);
   const Result<double> pixel = pixel_size(scale, *image);
-  if (!pixel) refuse(codes::kScaleOfPicture, pixel.error().message);
+  if (!pixel) refuse(world_codes::kScaleOfPicture, pixel.error().message);
   Result<WorldModel> world =
       bitmap_world(*image, pixel ? *pixel : 1.0, std::filesystem::path(from.file).stem().string());
-  if (!world) return refuse(codes::kUnreadable, world.error().message);
+  if (!world) return refuse(world_codes::kUnreadable, world.error().message);
   if (diagnostics.error_count() != before) return std::nullopt;
   return std::move(*world);
 }
@@ -84,7 +84,7 @@ std::optional<WorldModel> read_bitmap(const Reference& from, const BitmapScale& 
 void refuse_scale(const std::string& file, const BitmapScale& scale, xml::Diagnostics& diagnostics) {
   if (!scale.map_width && !scale.resolution) return;
   const std::string name = scale.map_width ? "map_width" : "map_resolution";
-  diagnostics.error(codes::kScaleWithoutPicture, {file, 0, 0},
+  diagnostics.error(world_codes::kScaleWithoutPicture, {file, 0, 0},
                     name + " is for bitmaps (.png, .pgm); this world has its own size. Leave it out");
 }
 

@@ -17,8 +17,6 @@
 
 namespace orca::sim::detail {
 
-namespace codes = world_codes;
-
 namespace {
 
 constexpr double kWallThickness = 0.1;
@@ -46,10 +44,10 @@ std::string polygon_fault(const std::vector<Vec2>& corners) {
 std::optional<BitmapScale> scale_of(const xml::Attributes& bitmap) {
   const bool has_width = bitmap.has("width");
   if (has_width && bitmap.has("resolution"))
-    return bitmap.refuse_at("resolution", codes::kTwoScales,
+    return bitmap.refuse_at("resolution", world_codes::kTwoScales,
                             "<bitmap> has a width as well; give one of the two");
   if (!has_width && !bitmap.has("resolution"))
-    return bitmap.refuse(codes::kMissing,
+    return bitmap.refuse(world_codes::kMissing,
                          "<bitmap> needs the attribute \"width\", of the whole picture, or "
                          "\"resolution\", the side of a pixel");
   const auto value = bitmap.number(has_width ? "width" : "resolution");
@@ -109,7 +107,7 @@ void WorldReader::header(const Attributes& world) {
   const auto version = world.text("version");
   if (version && *version != "1")
     world.error_at(
-        "version", codes::kVersion,
+        "version", world_codes::kVersion,
         "version " + in_quotes(*version) + " of the world format is not known; this Orca reads \"1\"");
 }
 
@@ -119,8 +117,8 @@ bool WorldReader::within_limits(const Attributes& world, const Elements& element
   };
   const auto too_many = [&](std::size_t found, const char* what, std::size_t limit) {
     if (found <= limit) return false;
-    world.error(codes::kTooMany, "the world has " + std::to_string(found) + " " + what + ", at most " +
-                                     std::to_string(limit) + " are read");
+    world.error(world_codes::kTooMany, "the world has " + std::to_string(found) + " " + what + ", at most " +
+                                           std::to_string(limit) + " are read");
     return true;
   };
   const bool obstacles = too_many(elements.size() - count(kPlaceRule), "obstacles", kMaxObstacles);
@@ -136,7 +134,7 @@ std::optional<double> WorldReader::height(const Attributes& element) const {
 void WorldReader::claim(const Attributes& element, const std::string& kind, const std::string& name) {
   const auto [first, is_new] = taken_.emplace(kind + " " + name, element.element().position());
   if (!is_new)
-    element.error_at("name", codes::kDuplicateName,
+    element.error_at("name", world_codes::kDuplicateName,
                      "the " + kind + " \"" + name + "\" exists already, at " + first->second.text() +
                          "; choose another name");
 }
@@ -151,14 +149,14 @@ std::string WorldReader::own_name(const Attributes& element) {
 void WorldReader::add(const Attributes& element, Shape shape, double obstacle_height) {
   const auto bottom = element.number_or("bottom", 0.0);
   if (bottom && *bottom >= obstacle_height)
-    return element.error_at("bottom", codes::kBottomAboveTop,
+    return element.error_at("bottom", world_codes::kBottomAboveTop,
                             "the bottom must lie below the height, which is that of the top");
   if (bottom) world_.obstacles.push_back({own_name(element), std::move(shape), obstacle_height, *bottom});
 }
 
 void WorldReader::add_wall(const Attributes& element, WallPlan plan) {
   auto pieces = pieces_of(std::move(plan));
-  if (!pieces) return element.error(codes::kBadWall, pieces.error().message);
+  if (!pieces) return element.error(world_codes::kBadWall, pieces.error().message);
   std::ranges::move(*pieces, std::back_inserter(world_.obstacles));
 }
 
@@ -194,7 +192,7 @@ void WorldReader::room(const Attributes& element) {
   const std::string name = own_name(element);
   if (!from || !to || !thickness || !tall) return;
   if (from->x >= to->x || from->y >= to->y)
-    return element.error_at("to", codes::kBadWall,
+    return element.error_at("to", world_codes::kBadWall,
                             "\"to\" must lie right of and above \"from\": they are the lower left and the "
                             "upper right corner");
   struct Side {
@@ -232,7 +230,7 @@ void WorldReader::polygon(const Attributes& element) {
   const auto tall = height(element);
   if (!corners) return;
   if (const std::string fault = polygon_fault(*corners); !fault.empty())
-    return element.error_at("points", codes::kBadPolygon, fault);
+    return element.error_at("points", world_codes::kBadPolygon, fault);
   if (tall) add(element, outline_of(*corners), *tall);
 }
 
@@ -244,7 +242,7 @@ void WorldReader::bitmap(const Attributes& element) {
   const auto path = std::filesystem::path(file_name_).parent_path() / *file;
   // Without its scale the picture is read all the same, for its own errors.
   auto map = read_bitmap_world(path.lexically_normal().string(), scale.value_or(BitmapScale{{}, 1e-3}));
-  if (!map) return element.error_at("file", codes::kUnreadable, map.error().text());
+  if (!map) return element.error_at("file", world_codes::kUnreadable, map.error().text());
   if (scale && tall) add(element, std::move(map->obstacles.front().shape), *tall);
 }
 
@@ -258,16 +256,16 @@ void WorldReader::mesh(const Attributes& element) {
   if (!file) return;
   const auto path = std::filesystem::path(file_name_).parent_path() / *file;
   auto read = read_mesh(path.lexically_normal().string());
-  if (!read) return element.error_at("file", codes::kUnreadableMesh, read.error().text());
+  if (!read) return element.error_at("file", world_codes::kUnreadableMesh, read.error().text());
   faces_ += read->triangles.size();
   if (faces_ > kMaxFaces)
-    return element.error_at("file", codes::kTooMany,
+    return element.error_at("file", world_codes::kTooMany,
                             "with this mesh the world has more than 1000000 faces, the most that is read; "
                             "simplify its meshes");
   if (!x || !y || !z || !yaw || !scale) return;
   Mesh mesh = placed(std::move(*read), {*scale, *scale, *scale}, {*x, *y, *yaw}, *z);
   if (const Status sound = check_mesh(mesh, path.lexically_normal().string()); !sound)
-    return element.error_at("scale", codes::kUnreadableMesh, sound.error().text());
+    return element.error_at("scale", world_codes::kUnreadableMesh, sound.error().text());
   world_.obstacles.push_back(mesh_obstacle(own_name(element), std::move(mesh)));
 }
 
@@ -287,13 +285,13 @@ void WorldReader::add_place(const Attributes& element, Place place) {
 
 void WorldReader::generate(const Attributes& element) {
   if (generated_)
-    return element.error(codes::kTooMany, "there is a <generate> already, at " + generated_->text() +
-                                              "; a world has one, leave this out");
+    return element.error(world_codes::kTooMany, "there is a <generate> already, at " + generated_->text() +
+                                                    "; a world has one, leave this out");
   generated_ = element.element().position();
   const auto order = read_generate(element, reporter_);
   if (!order) return;
   auto made = sim::generate(order->family, seed_.value_or(order->seed), order->radius);
-  if (!made) return element.error(codes::kCannotGenerate, made.error().message);
+  if (!made) return element.error(world_codes::kCannotGenerate, made.error().message);
   std::ranges::move(made->obstacles, std::back_inserter(world_.obstacles));
   for (Place& place : made->places) {
     claim(element, "place", place.name);
@@ -311,14 +309,14 @@ void WorldReader::walker(const Attributes& element) {
 void WorldReader::check_walkers() {
   for (std::size_t i = 0; i < world_.walkers.size(); ++i)
     if (const Obstacle* o = obstacle_on_track(world_.walkers[i], world_))
-      reporter_.error(codes::kBadWalker, walker_positions_[i],
+      reporter_.error(world_codes::kBadWalker, walker_positions_[i],
                       "\"" + world_.walkers[i].name + "\" would walk through obstacle \"" + o->name +
                           "\"; lead its track around");
 }
 
 void WorldReader::check_seed() {
   if (seed_ && !generated_)
-    reporter_.error(codes::kNumber, {file_name_, 0, 0},
+    reporter_.error(world_codes::kNumber, {file_name_, 0, 0},
                     "\"#" + std::to_string(*seed_) +
                         "\" is the seed of what is generated, but nothing in this world is; leave it out");
 }
@@ -333,7 +331,7 @@ void WorldReader::check_places() {
       if (p.x < b.low.x || p.x > b.high.x || p.y < b.low.y || p.y > b.high.y) continue;
       if (!overlap(o, Circle{p, kPoint}, 0.0, kPoint)) continue;
       reporter_.error(
-          codes::kPlaceInObstacle, place_positions_[i],
+          world_codes::kPlaceInObstacle, place_positions_[i],
           "place \"" + place.name + "\" lies inside obstacle \"" + o.name + "\"; no robot can get there");
     }
   }

@@ -10,7 +10,7 @@ namespace orca {
 namespace {
 
 using geometry::matrix_of;
-using Matrix = geometry::Square<3>;
+using Matrix3 = geometry::Square<3>;
 
 idl::Pose2D without_covariance(const Pose2& pose, std::int64_t stamp_ns) {
   idl::Pose2D object;
@@ -27,9 +27,9 @@ idl::Pose2D compose(const idl::Pose2D& X_AB, const idl::Pose2D& X_BC) {
   const double c = std::cos(X_AB.orientation());
   const double s = std::sin(X_AB.orientation());
   const Vec2 d = rotated(plane_pose(X_BC).position(), Vec2{c, s});  // From B to C, in A.
-  Matrix for_AB;
+  Matrix3 for_AB;
   for_AB << 1, 0, -d.y, 0, 1, d.x, 0, 0, 1;
-  Matrix for_BC;
+  Matrix3 for_BC;
   for_BC << c, -s, 0, s, c, 0, 0, 0, 1;
 
   idl::Pose2D X_AC =
@@ -44,7 +44,7 @@ idl::Pose2D inverse(const idl::Pose2D& X_AB) {
   const double c = std::cos(X_AB.orientation());
   const double s = std::sin(X_AB.orientation());
   idl::Pose2D X_BA = without_covariance(inverse(plane_pose(X_AB)), X_AB.stamp().ns());
-  Matrix for_AB;
+  Matrix3 for_AB;
   for_AB << -c, -s, X_BA.y(), s, -c, -X_BA.x(), 0, 0, -1;
   geometry::store<3>(for_AB * matrix_of<3>(X_AB.covariance()) * for_AB.transpose(), X_BA.covariance());
   return X_BA;

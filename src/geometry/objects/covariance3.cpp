@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Matrix = geometry::Square<6>;
+using Matrix6 = geometry::Square<6>;
 
 // Closer to straight up or down than this, the covariance of roll and yaw is meaningless.
 constexpr double kLeastCosOfPitch = 1e-6;
@@ -59,14 +59,14 @@ Matrix3d cross(const Vector3d& v) {
 }
 
 // Maps (position, roll, pitch, yaw) to (position, turn), the coordinates in which poses compose simply.
-Matrix to_turn(const idl::Rotation3D& r) {
-  Matrix J = Matrix::Identity();
+Matrix6 to_turn(const idl::Rotation3D& r) {
+  Matrix6 J = Matrix6::Identity();
   J.bottomRightCorner<3, 3>() = turn_of_angles(r);
   return J;
 }
 
 // Builds a pose whose covariance is given for (position, turn).
-Result<idl::Pose3D> pose_of(const Vector3d& position, const Matrix3d& R, const Matrix& covariance) {
+Result<idl::Pose3D> pose_of(const Vector3d& position, const Matrix3d& R, const Matrix6& covariance) {
   idl::Pose3D pose;
   pose.position(make_point(position.x(), position.y(), position.z()));
   pose.rotation(angles_of(R));
@@ -77,7 +77,7 @@ Result<idl::Pose3D> pose_of(const Vector3d& position, const Matrix3d& R, const M
         "the pose points straight up or down, where the covariance of roll and yaw does not exist; give "
         "poses without covariance, or turn the frame");
   }
-  Matrix J = Matrix::Identity();
+  Matrix6 J = Matrix6::Identity();
   J.bottomRightCorner<3, 3>() = turn_of_angles(pose.rotation()).inverse();
   geometry::store<6>(J * covariance * J.transpose(), pose.covariance());
   return pose;
@@ -93,15 +93,15 @@ Result<idl::Pose3D> with_stamp(Result<idl::Pose3D> pose, std::int64_t ns) {
 Result<idl::Pose3D> compose(const idl::Pose3D& X_AB, const idl::Pose3D& X_BC) {
   const Matrix3d R_AB = matrix_of(X_AB.rotation());
   const Vector3d p_BC_A = R_AB * vector_of(X_BC.position());
-  Matrix for_AB = Matrix::Identity();
+  Matrix6 for_AB = Matrix6::Identity();
   for_AB.topRightCorner<3, 3>() = -cross(p_BC_A);
   for_AB *= to_turn(X_AB.rotation());
-  Matrix for_BC = Matrix::Zero();
+  Matrix6 for_BC = Matrix6::Zero();
   for_BC.topLeftCorner<3, 3>() = R_AB;
   for_BC.bottomRightCorner<3, 3>() = R_AB;
   for_BC *= to_turn(X_BC.rotation());
-  const Matrix covariance = for_AB * geometry::matrix_of<6>(X_AB.covariance()) * for_AB.transpose() +
-                            for_BC * geometry::matrix_of<6>(X_BC.covariance()) * for_BC.transpose();
+  const Matrix6 covariance = for_AB * geometry::matrix_of<6>(X_AB.covariance()) * for_AB.transpose() +
+                             for_BC * geometry::matrix_of<6>(X_BC.covariance()) * for_BC.transpose();
   return with_stamp(
       pose_of(vector_of(X_AB.position()) + p_BC_A, R_AB * matrix_of(X_BC.rotation()), covariance),
       std::max(X_AB.stamp().ns(), X_BC.stamp().ns()));
@@ -111,7 +111,7 @@ Result<idl::Pose3D> inverse(const idl::Pose3D& X_AB) {
   const Matrix3d R_BA = matrix_of(X_AB.rotation()).transpose();
   const Vector3d p_AB_B = R_BA * vector_of(X_AB.position());
   // The turn of the inverse is the turn the other way, in the other frame.
-  Matrix J = Matrix::Zero();
+  Matrix6 J = Matrix6::Zero();
   J.topLeftCorner<3, 3>() = -R_BA;
   J.topRightCorner<3, 3>() = -cross(p_AB_B) * R_BA;
   J.bottomRightCorner<3, 3>() = -R_BA;

@@ -24,8 +24,8 @@ struct Relay : Peer {
 };
 
 // Sends motion commands.
-struct Sender : Peer {
-  explicit Sender(Executive& executive) : Peer(executive, "sender") {}
+struct CommandSender : Peer {
+  explicit CommandSender(Executive& executive) : Peer(executive, "sender") {}
   SendProxy<MotionCommand> out{*this, "out"};
 };
 
@@ -96,7 +96,7 @@ TEMPLATE_LIST_TEST_CASE(
 TEMPLATE_LIST_TEST_CASE("an object that a handler sends names the handled object as its cause",
                         "[contract][header]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    Sender sender(kit.executive);
+    CommandSender sender(kit.executive);
     Relay relay(kit.executive);
     Listener listener(kit.executive);
     kit.connect(sender.endpoint("out"), relay.endpoint("sent"));
@@ -193,7 +193,7 @@ struct Workplace {
   }
 
   Kit& kit;
-  Sender sender{kit.executive};
+  CommandSender sender{kit.executive};
   Source source{kit.executive};
   Relay relay{kit.executive};
   Listener listener{kit.executive};

@@ -42,8 +42,8 @@ Duration stamp_of(const ObjectPtr<T>& object) {
 }
 
 template <class Kit>
-struct Robot {
-  explicit Robot(Kit& kit) : executive(kit.executive), mapper(kit.executive) {
+struct MappingRobot {
+  explicit MappingRobot(Kit& kit) : executive(kit.executive), mapper(kit.executive) {
     const QueuePolicy policy{.depth = 8};
     kit.connect(laser.endpoint("out"), mapper.endpoint("laser"), policy);
     kit.connect(base.endpoint("out"), mapper.endpoint("odometry"), policy);
@@ -89,7 +89,7 @@ struct Robot {
 TEMPLATE_LIST_TEST_CASE("objects belong together by their stamps, whenever they arrive",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    Robot robot(kit);
+    MappingRobot robot(kit);
     Script script(robot.mapper, [&] { robot.mapper.both.wait_matching(kWithin); });
     robot.move({100ms, 150ms, 200ms});
     CHECK_FALSE(script.ends_within(10ms));
@@ -103,7 +103,7 @@ TEMPLATE_LIST_TEST_CASE("objects belong together by their stamps, whenever they 
 TEMPLATE_LIST_TEST_CASE("objects that match nothing are dropped and counted, until two belong together",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    Robot robot(kit);
+    MappingRobot robot(kit);
     Mapper& mapper = robot.mapper;
     robot.move({100ms, 200ms});
     robot.scan({120ms, 180ms});
@@ -123,7 +123,7 @@ TEMPLATE_LIST_TEST_CASE("objects that match nothing are dropped and counted, unt
 TEMPLATE_LIST_TEST_CASE("stamps may differ by the tolerance and no more", "[contract][synchronizer]",
                         LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    Robot robot(kit);
+    MappingRobot robot(kit);
     robot.scan({100ms, 200ms});
     robot.move({110ms});
     CHECK(robot.mapper.both.wait_matching(kWithin, 5s));
@@ -139,7 +139,7 @@ TEMPLATE_LIST_TEST_CASE("stamps may differ by the tolerance and no more", "[cont
 TEMPLATE_LIST_TEST_CASE("of all that match, the earliest come first; none is taken by waiting",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    Robot robot(kit);
+    MappingRobot robot(kit);
     robot.scan({100ms, 200ms, 300ms});
     robot.move({95ms, 205ms, 300ms});
     for (const auto& [scanned, moved] : {std::pair{100ms, 95ms}, {200ms, 205ms}, {300ms, 300ms}}) {
@@ -154,7 +154,7 @@ TEMPLATE_LIST_TEST_CASE("of all that match, the earliest come first; none is tak
 TEMPLATE_LIST_TEST_CASE("the servers of a port array match too, those that it is subscribed to",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    Robot robot(kit);
+    MappingRobot robot(kit);
     Mapper& mapper = robot.mapper;
     mapper.both.add(mapper.others);
     robot.scan({100ms});
@@ -178,7 +178,7 @@ TEMPLATE_LIST_TEST_CASE("the servers of a port array match too, those that it is
 TEMPLATE_LIST_TEST_CASE("a stamp that is out of all bounds holds nothing up for ever",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    Robot robot(kit);
+    MappingRobot robot(kit);
     robot.scan({Duration::min(), Duration::max()});
     robot.move({100ms});
     CHECK_FALSE(robot.mapper.both.wait_matching(kWithin, 1ms));
@@ -193,7 +193,7 @@ TEMPLATE_LIST_TEST_CASE("a stamp that is out of all bounds holds nothing up for 
 TEMPLATE_LIST_TEST_CASE("a lap that has only dropped what matches nothing can be abandoned without loss",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    Robot robot(kit);
+    MappingRobot robot(kit);
     robot.move({100ms, 110ms});
     robot.scan({500ms});
     const std::uint64_t activity = robot.mapper.strand().activity();

@@ -6,7 +6,7 @@ namespace orca::graph {
 namespace {
 
 // Quotes a text. Mermaid has entities of its own for characters that would end a text or start markup.
-std::string quoted(const std::string& text) {
+std::string mermaid_string(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     switch (c) {
@@ -20,15 +20,15 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-std::string node_text(const DrawnNode& node) {
-  const std::string label = quoted(node.name + "\n" + node.type);
+std::string mermaid_node(const DrawnNode& node) {
+  const std::string label = mermaid_string(node.name + "\n" + node.type);
   std::string broken = label;
   broken.replace(broken.find('\n'), 1, "<br/>");
   return node.id + (node.hardware ? "[(" + broken + ")]" : "[" + broken + "]");
 }
 
-std::string begin_box(int number, const std::string& title) {
-  return "subgraph s" + std::to_string(number) + "[" + quoted(title) + "]";
+std::string begin_subgraph(int number, const std::string& title) {
+  return "subgraph s" + std::to_string(number) + "[" + mermaid_string(title) + "]";
 }
 
 }  // namespace
@@ -36,9 +36,9 @@ std::string begin_box(int number, const std::string& title) {
 std::string mermaid(const Graph& graph, const std::string& profiles) {
   const Drawing drawing = drawing_of(graph, profiles);
   std::string text = "---\ntitle: " + drawing.title + "\n---\nflowchart LR\n";
-  text += boxes_text(drawing, {begin_box, "end", node_text});
+  text += boxes_text(drawing, {begin_subgraph, "end", mermaid_node});
   for (const DrawnEdge& edge : drawing.edges) {
-    text += "  " + edge.from + (edge.dashed ? " -. " : " -- ") + quoted(edge.label) +
+    text += "  " + edge.from + (edge.dashed ? " -. " : " -- ") + mermaid_string(edge.label) +
             (edge.dashed ? " .-> " : " --> ") + edge.to + "\n";
   }
   return text;

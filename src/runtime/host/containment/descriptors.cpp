@@ -13,7 +13,6 @@ namespace orca::host {
 namespace {
 
 constexpr std::size_t kNamed = 8;
-constexpr int kHighDescriptor = 900;
 
 // Returns the open file behind a descriptor, without its name.
 OpenFile file_behind(int fd) {
@@ -68,7 +67,7 @@ void OwnDescriptors::remember() {
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(fd, F_GETFD) < 0) continue;
     own_.push_back(fd);
-    streams_.push_back({fd, fcntl(fd, F_DUPFD_CLOEXEC, kHighDescriptor), file_behind(fd)});
+    streams_.push_back({fd, fcntl(fd, F_DUPFD_CLOEXEC, kFirstCopy), file_behind(fd)});
   }
   extra_ = open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (extra_ >= 0) own_.push_back(extra_);

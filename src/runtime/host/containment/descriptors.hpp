@@ -10,6 +10,10 @@
 
 namespace orca::host {
 
+/// Copies that the process keeps of its descriptors get numbers from here on, beyond the reach of a plugin that closes
+/// every number it can count to.
+constexpr int kFirstCopy = 900;
+
 /// The file behind an open descriptor.
 struct OpenFile {
   dev_t device = 0;

@@ -20,6 +20,7 @@
 #include <exception>
 #include <string_view>
 
+#include "containment/descriptors.hpp"
 #include "containment/environment.hpp"
 #include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
@@ -32,7 +33,6 @@ namespace orca::host {
 namespace {
 
 constexpr std::array kSignals{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
-constexpr int kHighDescriptor = 900;  // beyond the reach of a plugin that closes every number it can count to
 constexpr std::uintptr_t kNearStack = 64 * 1024;
 constexpr long kHungLimitNs = 200'000'000;
 
@@ -275,7 +275,7 @@ void make_signal_stack() {
 LastWords::LastWords(int exit_status, int exhausted_status) {
   g_status = exit_status;
   g_exhausted_status = exhausted_status;
-  const int copy = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, kHighDescriptor);
+  const int copy = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, kFirstCopy);
   if (copy >= 0) g_stderr = copy;
   register_once();
   prepare_thread();

@@ -13,7 +13,7 @@
 namespace orca::supervisor {
 namespace {
 
-using Kind = Gathering::News::Kind;
+using NewsKind = Gathering::News::Kind;
 
 std::uint64_t hash_of(const graph::Graph& graph) {
   Fnv1a hash;
@@ -87,7 +87,7 @@ void Gathering::refuse(Peer& peer, const idl::MachineState& state) {
   if (own_.phase() == idl::MACHINE_GATHERING)
     return decide(idl::MACHINE_NOT_STARTED,
                   text + "; start both with the same files, --profile and --set (--print shows the graph)");
-  tell(Kind::warning, text + ", so " + name_of(peer.node.name) + " stays out");
+  tell(NewsKind::warning, text + ", so " + name_of(peer.node.name) + " stays out");
 }
 
 bool Gathering::is_later(const Peer& peer, const idl::MachineState& state) const {
@@ -101,8 +101,8 @@ void Gathering::tell_arrival(Peer& peer, const idl::MachineState& state) {
   if (state.phase() == idl::MACHINE_ENDED) return;
   const bool is_known = peer.said && peer.said->run() == state.run();
   if (is_known && !peer.lost) return;
-  if (own_.phase() == idl::MACHINE_GATHERING) return tell(Kind::info, title(peer) + " is there");
-  tell(peer.lost ? Kind::back : Kind::info,
+  if (own_.phase() == idl::MACHINE_GATHERING) return tell(NewsKind::info, title(peer) + " is there");
+  tell(peer.lost ? NewsKind::back : NewsKind::info,
        title(peer) + (is_known ? " is heard again" : " was started again"), peer.node.name);
 }
 
@@ -125,9 +125,9 @@ void Gathering::look(Moment now) {
 void Gathering::lose(Peer& peer, const std::string& how) {
   peer.lost = true;
   const std::string text = title(peer) + " " + how;
-  if (own_.phase() == idl::MACHINE_GATHERING) return tell(Kind::info, text);
+  if (own_.phase() == idl::MACHINE_GATHERING) return tell(NewsKind::info, text);
   const bool ends = peer.node.on_loss == graph::OnLoss::stop;
-  tell(Kind::lost, text + (ends ? ", so the run ends" : "; the others go on"), peer.node.name);
+  tell(NewsKind::lost, text + (ends ? ", so the run ends" : "; the others go on"), peer.node.name);
   if (ends) decide(works() ? idl::MACHINE_FAILED : idl::MACHINE_NOT_STARTED, text);
 }
 
