@@ -33,9 +33,9 @@ function(orca_use_precompiled_headers target headers)
   target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
 
-# orca_expect_seldom(TARGET): for code that runs when a system starts, ends or is asked, and not in each lap. g++ compiles
+# orca_runs_seldom(TARGET): for code that runs when a system starts, ends or is asked, and not in each lap. g++ compiles
 # it in two thirds of the time with -Og. That g++ 12 warns then of uninitialised members of an empty std::optional is wrong.
-function(orca_expect_seldom target)
+function(orca_runs_seldom target)
   if(CMAKE_BUILD_TYPE STREQUAL "Release" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Og -Wno-maybe-uninitialized)
   endif()
@@ -47,7 +47,7 @@ function(orca_add_program_parts name)
   target_link_libraries(${name} PRIVATE orca_options)
   target_compile_options(${name} PRIVATE ${ORCA_LIBRARY_OPTIONS})
   orca_use_precompiled_headers(${name} orca_library_headers)
-  orca_expect_seldom(${name})
+  orca_runs_seldom(${name})
 endfunction()
 
 # orca_add_library(NAME SHARED|STATIC SOURCES ... [PUBLIC deps] [PRIVATE deps])

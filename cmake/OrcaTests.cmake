@@ -23,7 +23,7 @@ endif()
 #
 # Adds a Catch2 program with one ctest entry. TIMEOUT [s] is a bound on hangs in the release build; the default is 60 s.
 # OPTIMISED is for tests that compute much themselves. TOGETHER are sources whose unnamed namespaces have no name in common:
-# they are compiled in units, where the preset does so.
+# they are compiled in units if the preset does so.
 function(orca_add_test name)
   cmake_parse_arguments(arg "OPTIMISED;TOGETHER" "TIMEOUT" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
   if(NOT arg_TIMEOUT)

@@ -20,8 +20,8 @@ struct ArrayFuser : Peer {
 
 // Three behaviours and a button are connected. The fuser is subscribed to the button only.
 template <class Kit>
-struct RobotOfMany {
-  explicit RobotOfMany(Kit& kit) : executive(kit.executive), fuser(kit.executive) {
+struct ArrayRobot {
+  explicit ArrayRobot(Kit& kit) : executive(kit.executive), fuser(kit.executive) {
     for (Source* source : {&goto_, &avoid, &wall})
       kit.connect(source->endpoint("out"), fuser.endpoint("motion"));
     kit.connect(button.endpoint("out"), fuser.endpoint("button"));
@@ -65,7 +65,7 @@ struct RobotOfMany {
 TEMPLATE_LIST_TEST_CASE("wait for a port array ends with the first object of any server",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    RobotOfMany robot(kit);
+    ArrayRobot robot(kit);
     robot.listen(robot.goto_);
     robot.listen(robot.avoid);
     Script script(robot.fuser, [&] { robot.fuser.both.wait(robot.fuser.motion); });
@@ -79,7 +79,7 @@ TEMPLATE_LIST_TEST_CASE("wait for a port array ends with the first object of any
 TEMPLATE_LIST_TEST_CASE("wait names the port array if one of its servers has sent something",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    RobotOfMany robot(kit);
+    ArrayRobot robot(kit);
     robot.listen(robot.avoid);
     CHECK(robot.fuser.both.wait(1ms) == nullptr);
     robot.push(robot.button);
@@ -93,7 +93,7 @@ TEMPLATE_LIST_TEST_CASE(
     "wait_all waits for every server that a port array is subscribed to, and for no other",
     "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    RobotOfMany robot(kit);
+    ArrayRobot robot(kit);
     robot.listen(robot.goto_);
     robot.listen(robot.avoid);
     robot.push(robot.button);
@@ -108,7 +108,7 @@ TEMPLATE_LIST_TEST_CASE(
     "a server that a port array is subscribed to later is waited for, and one that it leaves is not",
     "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    RobotOfMany robot(kit);
+    ArrayRobot robot(kit);
     robot.listen(robot.goto_);
     robot.push(robot.button);
     robot.push(robot.goto_);
@@ -123,7 +123,7 @@ TEMPLATE_LIST_TEST_CASE(
 TEMPLATE_LIST_TEST_CASE("a server is subscribed to while the component waits for all",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    RobotOfMany robot(kit);
+    ArrayRobot robot(kit);
     robot.push(robot.button);
     Script script(robot.fuser, [&] { robot.fuser.both.wait_all(); });
     CHECK_FALSE(script.ends_within(10ms));  // the array is subscribed to nobody
@@ -136,7 +136,7 @@ TEMPLATE_LIST_TEST_CASE("a server is subscribed to while the component waits for
 TEMPLATE_LIST_TEST_CASE("wait_all can be given up for a reason that comes with an object",
                         "[contract][synchronizer]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    RobotOfMany robot(kit);
+    ArrayRobot robot(kit);
     robot.listen(robot.goto_);
     robot.listen(robot.avoid);
     std::atomic<bool> complete{true};
@@ -153,7 +153,7 @@ TEMPLATE_LIST_TEST_CASE("wait_all can be given up for a reason that comes with a
 TEMPLATE_LIST_TEST_CASE("a removed port array is waited for no longer", "[contract][synchronizer]",
                         LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
-    RobotOfMany robot(kit);
+    ArrayRobot robot(kit);
     robot.listen(robot.goto_);
     robot.push(robot.button);
     CHECK_FALSE(robot.fuser.both.wait_all(1ms));

@@ -19,8 +19,8 @@ struct Giver : Peer {
 
 // Keeps what is sent to it, and answers each question with the question's value.
 template <class T>
-struct PlaceTaker : Peer {
-  explicit PlaceTaker(Executive& executive) : Peer(executive, "taker") {}
+struct StructTaker : Peer {
+  explicit StructTaker(Executive& executive) : Peer(executive, "taker") {}
 
   Status on_sent(const ObjectPtr<T>& object) {
     kept = object;
@@ -30,8 +30,8 @@ struct PlaceTaker : Peer {
 
   ObjectPtr<T> kept;
   PushProxy<T> pushed{*this, "pushed"};
-  SendServer<T> sent{*this, "sent", &PlaceTaker::on_sent};
-  QueryServer<T, T> asked{*this, "asked", &PlaceTaker::on_asked};
+  SendServer<T> sent{*this, "sent", &StructTaker::on_sent};
+  QueryServer<T, T> asked{*this, "asked", &StructTaker::on_asked};
 };
 
 template <class T>
@@ -44,7 +44,7 @@ void check_arrived(const ObjectPtr<T>& object, const T& value, const std::string
 }
 
 template <class Kit, class T>
-void check_push(Kit& kit, Giver<T>& giver, PlaceTaker<T>& taker, const T& value) {
+void check_push(Kit& kit, Giver<T>& giver, StructTaker<T>& taker, const T& value) {
   kit.connect(giver.endpoint("pushed"), taker.endpoint("pushed"));
   taker.pushed.subscribe();
   REQUIRE(eventually(kit.executive, [&] { return giver.pushed.subscriber_count() == 1; }));
@@ -53,7 +53,7 @@ void check_push(Kit& kit, Giver<T>& giver, PlaceTaker<T>& taker, const T& value)
 }
 
 template <class Kit, class T>
-void check_send(Kit& kit, Giver<T>& giver, PlaceTaker<T>& taker, const T& value) {
+void check_send(Kit& kit, Giver<T>& giver, StructTaker<T>& taker, const T& value) {
   kit.connect(giver.endpoint("sent"), taker.endpoint("sent"));
   REQUIRE(giver.sent.send(value).ok());
   REQUIRE(eventually(kit.executive, [&] { return taker.handle_one(); }));
@@ -61,7 +61,7 @@ void check_send(Kit& kit, Giver<T>& giver, PlaceTaker<T>& taker, const T& value)
 }
 
 template <class Kit, class T>
-void check_query(Kit& kit, Giver<T>& giver, PlaceTaker<T>& taker, const T& value) {
+void check_query(Kit& kit, Giver<T>& giver, StructTaker<T>& taker, const T& value) {
   kit.connect(giver.endpoint("asked"), taker.endpoint("asked"));
   const auto id = giver.asked.query_request(make_object(value));
   REQUIRE(id);
@@ -76,7 +76,7 @@ void check_travels(Kit& kit) {
   INFO(Reflection<T>::name);
   const T value = random_object<T>(3);
   Giver<T> giver(kit.executive);
-  PlaceTaker<T> taker(kit.executive);
+  StructTaker<T> taker(kit.executive);
   taker.open();
   check_push(kit, giver, taker, value);
   check_send(kit, giver, taker, value);
@@ -101,7 +101,7 @@ TEMPLATE_LIST_TEST_CASE("a WorldCoordinate6DOF at a port of WorldCoordinate3D ar
                         "[contract][travelling]", LinkKits) {
   on_each_executive<TestType>([](TestType& kit) {
     Giver<idl::WorldCoordinate3D> giver(kit.executive);
-    PlaceTaker<idl::WorldCoordinate3D> taker(kit.executive);
+    StructTaker<idl::WorldCoordinate3D> taker(kit.executive);
     taker.open();
     kit.connect(giver.endpoint("sent"), taker.endpoint("sent"));
     const auto value = random_object<idl::WorldCoordinate6DOF>(5);
