@@ -9,12 +9,11 @@
 #include <utility>
 
 #include "orca/base/input_file.hpp"
+#include "values.hpp"
 
 namespace orca::sim {
 namespace detail {
 namespace {
-
-constexpr double kFarthest = 1e5;  // [m]
 
 bool near_enough(const Vec3& p) {
   return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;

@@ -12,20 +12,20 @@
 namespace orca::sim::detail {
 namespace {
 
-struct Kind {
+struct PartKind {
   const xml::ElementRule* rule;
   bool once;  // A robot has at most one.
   void (*read)(const xml::Attributes& e, RobotModel& model);
 };
 
-constexpr std::array kKinds{
-    Kind{&kDriveRule, true, read_drive},
-    Kind{&kTurretRule, true, read_turret},
-    Kind{&kSonarRingRule, false, read_sonar_ring},
-    Kind{&kLaserRule, false, read_laser},
-    Kind{&kInfraredRingRule, false, read_infrared_ring},
-    Kind{&kBumperRingRule, false, read_bumper_ring},
-    Kind{&kOdometryRule, true, read_odometry},
+constexpr std::array kPartKinds{
+    PartKind{&kDriveRule, true, read_drive},
+    PartKind{&kTurretRule, true, read_turret},
+    PartKind{&kSonarRingRule, false, read_sonar_ring},
+    PartKind{&kLaserRule, false, read_laser},
+    PartKind{&kInfraredRingRule, false, read_infrared_ring},
+    PartKind{&kBumperRingRule, false, read_bumper_ring},
+    PartKind{&kOdometryRule, true, read_odometry},
 };
 
 void read_robot_attributes(const xml::Attributes& e, RobotModel& model) {
@@ -51,7 +51,7 @@ void read_extension(const xml::Element& orca, RobotModel& model, xml::Reporter& 
   read_robot_attributes(e, model);
   std::set<const xml::ElementRule*> seen;
   for (const auto& [child, rule] : e.children()) {
-    const auto kind = std::ranges::find(kKinds, rule, &Kind::rule);
+    const auto kind = std::ranges::find(kPartKinds, rule, &PartKind::rule);
     const bool again = !seen.insert(rule).second;
     if (again && kind->once) {
       reporter.error(robot_codes::kDuplicate, child->position(),

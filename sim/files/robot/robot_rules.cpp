@@ -143,14 +143,14 @@ namespace {
 constexpr std::array kInRobot{&kOrcaRule};
 constexpr ElementRule kRobotRule{.name = "robot", .children = kInRobot};
 
-constexpr std::array kElements{&kRobotRule,     &kOrcaRule,        &kDriveRule,        &kTurretRule,
-                               &kSonarRingRule, &kLaserRule,       &kInfraredRingRule, &kBumperRingRule,
-                               &kOdometryRule,  &kWheelErrorsRule, &kRangeErrorsRule};
+constexpr std::array kRobotElements{&kRobotRule,     &kOrcaRule,        &kDriveRule,        &kTurretRule,
+                                    &kSonarRingRule, &kLaserRule,       &kInfraredRingRule, &kBumperRingRule,
+                                    &kOdometryRule,  &kWheelErrorsRule, &kRangeErrorsRule};
 
 }  // namespace
 
 constexpr xml::FileRules kRobotFile{"a robot",
-                                    kElements,
+                                    kRobotElements,
                                     {.unknown_element = robot_codes::kUnknownElement,
                                      .misplaced_element = robot_codes::kUnknownElement,
                                      .unknown_attribute = robot_codes::kUnknownAttribute,

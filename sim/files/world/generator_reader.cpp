@@ -80,23 +80,24 @@ Family office(Values& values) {
   return f;
 }
 
-struct Kind {
+struct GeneratorKind {
   const char* name;
   std::vector<std::string> attributes;
   Family (*read)(Values&);
 };
 
-const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all{{"barn", {"fill", "rounds"}, barn},
-                                     {"u_trap", {"width", "depth", "beside"}, u_trap},
-                                     {"narrow_doors", {"door", "walls", "spacing", "width"}, narrow_doors},
-                                     {"corridor", {"width", "legs", "shortest", "longest"}, corridor},
-                                     {"office", {"rooms", "door", "corridor", "furniture"}, office}};
+const std::vector<GeneratorKind>& kinds() {
+  static const std::vector<GeneratorKind> all{
+      {"barn", {"fill", "rounds"}, barn},
+      {"u_trap", {"width", "depth", "beside"}, u_trap},
+      {"narrow_doors", {"door", "walls", "spacing", "width"}, narrow_doors},
+      {"corridor", {"width", "legs", "shortest", "longest"}, corridor},
+      {"office", {"rooms", "door", "corridor", "furniture"}, office}};
   return all;
 }
 
 // Reports the attributes that only other kinds have. Returns true if there are none.
-bool check_attributes(const xml::Attributes& element, const Kind& kind, xml::Reporter& reporter) {
+bool check_attributes(const xml::Attributes& element, const GeneratorKind& kind, xml::Reporter& reporter) {
   std::vector<std::string> names{"kind", "seed", "radius"};
   names.insert(names.end(), kind.attributes.begin(), kind.attributes.end());
   bool good = true;
@@ -116,7 +117,7 @@ bool check_attributes(const xml::Attributes& element, const Kind& kind, xml::Rep
 std::optional<Order> read_generate(const xml::Attributes& element, xml::Reporter& reporter) {
   const auto name = element.choice("kind");
   if (!name) return std::nullopt;
-  const auto kind = std::ranges::find(kinds(), *name, &Kind::name);
+  const auto kind = std::ranges::find(kinds(), *name, &GeneratorKind::name);
   if (!check_attributes(element, *kind, reporter)) return std::nullopt;
   Values values(element);
   Order order{kind->read(values)};

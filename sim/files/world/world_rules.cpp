@@ -15,7 +15,8 @@ constexpr ValueRule kSeed = whole(0.0, ValueRule::kUnlimited);
 constexpr ValueRule kCount = whole(0.0, 1e6);  // Generators allow fewer, and report that themselves.
 constexpr std::array<std::string_view, 4> kSides{"south", "north", "west", "east"};
 constexpr std::array<std::string_view, 2> kLoops{"back", "round"};
-constexpr std::array<std::string_view, 5> kKinds{"barn", "u_trap", "narrow_doors", "corridor", "office"};
+constexpr std::array<std::string_view, 5> kGeneratorKinds{"barn", "u_trap", "narrow_doors", "corridor",
+                                                          "office"};
 
 constexpr std::array kWorld{required("name", kName), required("version", kText), optional("text", kText)};
 constexpr std::array kWall{optional("name", kName), required("from", kText), required("to", kText),
@@ -41,13 +42,23 @@ constexpr std::array kMesh{optional("name", kName),        required("file", kTex
 constexpr std::array kPlace{required("name", kName), required("x", kCoordinate), required("y", kCoordinate),
                             optional("yaw", kAngle)};
 // The attributes of all kinds; generator_reader.cpp defines which kind has which.
-constexpr std::array kGenerate{
-    required("kind", one_of(kKinds)), optional("seed", kSeed),      optional("radius", kLength),
-    optional("fill", kText),          optional("rounds", kCount),   optional("width", kLength),
-    optional("depth", kLength),       optional("beside", kLength),  optional("door", kLength),
-    optional("walls", kCount),        optional("spacing", kLength), optional("legs", kCount),
-    optional("shortest", kLength),    optional("longest", kLength), optional("rooms", kCount),
-    optional("corridor", kLength),    optional("furniture", kCount)};
+constexpr std::array kGenerate{required("kind", one_of(kGeneratorKinds)),
+                               optional("seed", kSeed),
+                               optional("radius", kLength),
+                               optional("fill", kText),
+                               optional("rounds", kCount),
+                               optional("width", kLength),
+                               optional("depth", kLength),
+                               optional("beside", kLength),
+                               optional("door", kLength),
+                               optional("walls", kCount),
+                               optional("spacing", kLength),
+                               optional("legs", kCount),
+                               optional("shortest", kLength),
+                               optional("longest", kLength),
+                               optional("rooms", kCount),
+                               optional("corridor", kLength),
+                               optional("furniture", kCount)};
 constexpr std::array kWalker{
     required("name", kName),         required("track", kText),    optional("speed", positive("m/s")),
     optional("radius", kLength),     optional("height", kLength), optional("loop", one_of(kLoops)),
@@ -83,14 +94,14 @@ constexpr ElementRule kWorldRule{.name = "world", .attributes = kWorld, .childre
 
 namespace {
 
-constexpr std::array kElements{&kWorldRule, &kWallRule,     &kRoomRule,     &kDoorRule,
-                               &kBoxRule,   &kCylinderRule, &kPolygonRule,  &kBitmapRule,
-                               &kMeshRule,  &kPlaceRule,    &kGenerateRule, &kWalkerRule};
+constexpr std::array kWorldElements{&kWorldRule, &kWallRule,     &kRoomRule,     &kDoorRule,
+                                    &kBoxRule,   &kCylinderRule, &kPolygonRule,  &kBitmapRule,
+                                    &kMeshRule,  &kPlaceRule,    &kGenerateRule, &kWalkerRule};
 
 }  // namespace
 
 constexpr xml::FileRules kWorldFile{"a world",
-                                    kElements,
+                                    kWorldElements,
                                     {.unknown_element = world_codes::kUnknownElement,
                                      .misplaced_element = world_codes::kUnknownElement,
                                      .unknown_attribute = world_codes::kUnknownAttribute,

@@ -22,13 +22,7 @@ namespace {
 using supervisor::Record;
 
 constexpr Duration kLimit = 30s;  // for a part of an answer: a process that is restarted is back before
-constexpr Duration kForEver = 24h * 365;
 constexpr std::chrono::seconds kWatchInterval{1};
-
-void print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
 
 // Returns the request. The options of the command are words, as on the command line. Files are named so that the
 // supervisor, which runs in another folder, finds them.

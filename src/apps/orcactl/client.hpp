@@ -15,6 +15,8 @@
 
 namespace orca::orcactl {
 
+inline constexpr Duration kForEver = 24h * 365;  ///< [s] As a limit: none.
+
 /// A connection to the supervisor of a running system.
 ///
 /// Thread contract: not synchronised.

@@ -24,4 +24,7 @@ namespace orca::orcactl {
 /// Returns the number of columns of the terminal that is stdout; 0 if it is none.
 [[nodiscard]] std::size_t terminal_columns();
 
+/// Writes text to stdout at once, so that whoever reads a pipe sees it.
+void print(const std::string& text);
+
 }  // namespace orca::orcactl

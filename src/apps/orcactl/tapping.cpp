@@ -24,12 +24,6 @@ using supervisor::Tapped;
 using Clock = std::chrono::steady_clock;
 
 constexpr Duration kSecond = 1s;
-constexpr Duration kForEver = 24h * 365;
-
-void print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
 
 // Waits for the next object.
 // @return nothing if the limit [s] has passed.

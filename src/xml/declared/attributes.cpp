@@ -10,11 +10,12 @@
 namespace orca::xml {
 namespace {
 
-bool is_name(std::string_view text) {
-  constexpr std::size_t kLongest = 200;
+bool is_declared_name(std::string_view text) {
+  constexpr std::size_t kLongestName = 200;
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; };
-  return !text.empty() && text.size() <= kLongest && letter(text.front()) && std::ranges::all_of(text, inner);
+  return !text.empty() && text.size() <= kLongestName && letter(text.front()) &&
+         std::ranges::all_of(text, inner);
 }
 
 MatchedAttributes all_of(const Element& element) {
@@ -148,7 +149,7 @@ std::optional<std::string> Attributes::choice(std::string_view name, const Value
 
 std::optional<std::string> Attributes::name(std::string_view attribute) const {
   const Attribute* a = readable(attribute);
-  if (a == nullptr || is_name(a->value)) return text(attribute);
+  if (a == nullptr || is_declared_name(a->value)) return text(attribute);
   return refuse_value(
       *a, {ValueFault::Kind::form,
            in_quotes(a->value) + " is not a name: a letter, then letters, digits and _, at most 200"});

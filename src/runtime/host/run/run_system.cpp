@@ -25,9 +25,7 @@
 namespace orca::host {
 namespace {
 
-constexpr Duration kStartLimit = 10s;
 constexpr Duration kRestLimit = 1s;
-constexpr Duration kTakeDownLimit = 1500ms;
 
 std::string restless_text(const std::vector<std::string>& names, Duration instant) {
   char time[32];

@@ -11,7 +11,7 @@
 namespace orca::host {
 namespace {
 
-constexpr std::chrono::milliseconds kCloseLimit{200};
+constexpr std::chrono::milliseconds kTraceLockLimit{200};
 
 }  // namespace
 
@@ -26,7 +26,7 @@ Status Trace::open(const std::string& path, Detail detail) {
 }
 
 Status Trace::close() {
-  const auto lock = lock_before(std::chrono::steady_clock::now() + kCloseLimit, mutex_);
+  const auto lock = lock_before(std::chrono::steady_clock::now() + kTraceLockLimit, mutex_);
   if (!lock.owns_lock()) return fail(Code::deadline_exceeded, "the end of the trace could not be written");
   writes_.store(false);
   return file_.close();

@@ -23,6 +23,9 @@
 
 namespace orca::host {
 
+inline constexpr Duration kStartLimit = 10s;        ///< For hardware to open, or components to come up.
+inline constexpr Duration kTakeDownLimit = 1500ms;  ///< For all components to end.
+
 /// What a watched system needs of its surroundings. All of it outlives the system.
 struct SystemPlace {
   PluginCatalogue& catalogue;

@@ -58,14 +58,14 @@ std::string shortly_listed(std::vector<std::string> names) {
   return listed(names, kMost);
 }
 
-constexpr std::streamoff kMaxBytes = 1'000'000'000;
+constexpr std::streamoff kMaxPluginBytes = 1'000'000'000;
 
 Result<std::vector<std::byte>> bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) throw_if_exhausted(errno);
   if (!file) return fail(Code::not_found, std::string("cannot be read: ") + std::strerror(errno), path);
   const std::streamoff size = file.tellg();
-  if (size > kMaxBytes)
+  if (size > kMaxPluginBytes)
     return fail(Code::invalid_argument, "has " + std::to_string(size) + " bytes; a plugin has at most 1 GB",
                 path);
   std::vector<std::byte> bytes(static_cast<std::size_t>(std::max<std::streamoff>(size, 0)));

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSuffix = ".orphan";
+constexpr const char* kOrphanSuffix = ".orphan";
 constexpr char kBetween = '@';  // is in no name
 
 // The path of this process's own place, for remove_meeting_place().
@@ -27,14 +27,14 @@ std::array<char, sizeof sockaddr_un::sun_path> g_own{};
 // The name of a process may have contexts, "left/base".
 std::string file_of(const std::string& system, std::string process) {
   std::ranges::replace(process, '/', '.');
-  return system + kBetween + process + kSuffix;
+  return system + kBetween + process + kOrphanSuffix;
 }
 
 std::vector<std::string> files_in_folder() {
   std::vector<std::string> files;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(control_folder(), none))
-    if (entry.path().extension() == kSuffix) files.push_back(entry.path().filename().string());
+    if (entry.path().extension() == kOrphanSuffix) files.push_back(entry.path().filename().string());
   std::ranges::sort(files);
   return files;
 }

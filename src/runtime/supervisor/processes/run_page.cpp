@@ -16,20 +16,20 @@ namespace {
 // process.
 constexpr std::size_t kLine = 64;  // [bytes] of a cache line
 
-struct alignas(kLine) Head {
+struct alignas(kLine) PageHead {
   std::uint64_t magic;
   std::atomic<std::uint64_t> missions;
 };
 constexpr std::uint64_t kMagic = 0x3165'6761'7061'7263;  // another layout has another number
 
-static_assert(sizeof(Head) == kLine && std::atomic<std::uint64_t>::is_always_lock_free,
+static_assert(sizeof(PageHead) == kLine && std::atomic<std::uint64_t>::is_always_lock_free,
               "processes cannot share locks");
 
 std::size_t size_of(std::size_t processes, std::size_t components) {
   return kLine * (1 + processes + components + processes);
 }
 
-Head& head_of(const SharedMemory& memory) { return *reinterpret_cast<Head*>(memory.bytes().data()); }
+PageHead& head_of(const SharedMemory& memory) { return *reinterpret_cast<PageHead*>(memory.bytes().data()); }
 
 Descriptor copy_of(int descriptor) {
   Descriptor copy(fcntl(descriptor, F_DUPFD_CLOEXEC, 0));

@@ -22,9 +22,7 @@
 namespace orca::host {
 namespace {
 
-constexpr Duration kStartLimit = 10s;
 constexpr Duration kOrderLimit = 5s;
-constexpr Duration kTakeDownLimit = 1500ms;
 
 SystemOptions system_options(const PartOptions& options) {
   return {options.seed,     !options.outputs.picture.file.empty(),
