@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "deployer.hpp"
 #include "temp_folder.hpp"
@@ -16,6 +17,10 @@ namespace {
 
 std::string next_version(const std::string& name) {
   return std::string(ORCA_BINARY_DIR "/tests/next_plugins/") + name + ".so";
+}
+
+std::string bad_plugin(const std::string& name) {
+  return std::string(ORCA_BINARY_DIR "/tests/unit_plugins/bad/") + name + ".so";
 }
 
 // A component that counts what another one says a hundred times a second, in this process or in another one.
@@ -105,22 +110,67 @@ TEST_CASE("what cannot be a new version is refused with a reason, and the old on
       {fifo, "it is no file"},
       {cut, "cut.so"},
       {source_file("README.md"), "README.md"},
+      {bad_plugin("bad_no_manifest"), "is not an Orca plugin"},
+      {bad_plugin("bad_abi_older"), "the plugin is older"},
+      {bad_plugin("bad_layout"), "another layout of the object type GoalPoint"},
+      {bad_plugin("bad_pinned"), "could never be unloaded"},
+      {bad_plugin("bad_static_crashes"), "its static initialisation"},
       {next_version("test_teller_port"), "it has no port \"in\""},
       {next_version("test_teller_2") + ":test.Other", "has no component type \"test.Other\""},
       {next_version("test_teller_constructor"), "no teller today"},
       {next_version("test_teller_configure"), "is not liked today"},
-      {next_version("test_teller_first_lap"), "the old one is back"},
+      {next_version("test_teller_first_lap"), "not taken: work() threw std::runtime_error: no lap today"},
+      {next_version("test_teller_constructor_crashes"), "its constructor"},
+      {next_version("test_teller_lap_crashes"), "its laps, in the shadow of the present one,"},
+      {next_version("test_teller_lap_eats"), "bad_alloc"},
+      {next_version("test_teller_lap_hangs"), "its laps, in the shadow of the present one,"},
       {next_version("test_teller_odd"), "value 1 of the state is a whole number, where a text is expected"}};
   for (const auto& [plugin, reason] : bad) {
-    const Run run = system.swap(plugin, {"--probation", "100 ms"});
+    const Run run = system.swap(plugin, {"--probation", "100 ms", "--tryout", "100 ms"});
     INFO(plugin << run.err);
     CHECK(run.exit_code() == 1);
     CHECK_THAT(run.err, Contains(reason));
   }
   CHECK(run_orcactl({"swap", "taller", next_version("test_teller_2")}).exit_code() == 1);
   CHECK(run_orcactl({"swap", "teller"}).exit_code() == 2);
+  CHECK_THAT(system.swap(next_version("test_teller_2"), {"--tryout", "2 min"}).err, Contains("60 s at most"));
+  CHECK_THAT(system.swap(next_version("test_teller_2"), {"--set", "step"}).err,
+             Contains("write PARAM=VALUE"));
+  CHECK_THAT(system.swap(next_version("test_teller_2"), {"--set", "step=70", "--tryout", "0s"}).err,
+             Contains("step"));
   CHECK(system.swap(next_version("test_teller_2"), {"--probation", "50 ms"}).exit_code() == 0);
   system.end_in_order();
+}
+
+TEST_CASE("new code is tried with what reaches the old one, and the log says with how much",
+          "[system][swap]") {
+  Telling system("talking");
+  REQUIRE(
+      system.swap(next_version("test_teller_2"), {"--set", "step=3", "--probation", "50 ms"}).exit_code() ==
+      0);
+  if (!kThreadSanitizer) {
+    CHECK(system.hears("the new code was tried out: it got "));
+    CHECK_THAT(system.log(), !Contains("it got 0 objects"));
+  }
+  system.end_in_order();
+}
+
+TEST_CASE("a swap that meets a restart of its process ends with an error or with the new code, and once",
+          "[system][swap]") {
+  for (const Seconds wait : {Seconds(0.0), Seconds(0.2), Seconds(0.35), Seconds(0.5)}) {
+    Telling system("talking");
+    Subprocess swap(orcactl(
+        {"swap", "teller", next_version("test_teller_2"), "--tryout", "300 ms", "--probation", "300 ms"}));
+    std::this_thread::sleep_for(wait);
+    CHECK(run_orcactl({"restart", "counting"}).exit_code() == 0);
+    const Run swapped = finish(swap, Seconds(20));
+    INFO(swapped.err);
+    CHECK((swapped.exit_code() == 0 ? swapped.out.find("test.Teller") != std::string::npos
+                                    : swapped.exit_code() == 1 && !swapped.err.empty()));
+    CHECK(system.swap(next_version("test_teller_2"), {"--probation", "50 ms"}).exit_code() == 0);
+    CHECK(run_orcactl({"stop"}).exit_code() == 0);
+    CHECK(finish(system.program(), Seconds(10)).exit_code() == 0);
+  }
 }
 
 TEST_CASE("the plugin's file may be overwritten or removed once the swap was ordered", "[system][swap]") {
@@ -170,7 +220,9 @@ Drive exchange_on_the_way(const std::string& graph, const Swaps& swaps) {
   for (std::size_t next = 0; next < 400 && !program.wait_for_output("arrived meeting", Seconds(0.7));
        ++next) {
     const auto& [component, plugin] = swaps[next % swaps.size()];
-    if (run_orcactl({"swap", component, plugin, "--probation", "200 ms"}).exit_code() == 0) ++drive.swaps;
+    if (run_orcactl({"swap", component, plugin, "--tryout", "300 ms", "--probation", "200 ms"}).exit_code() ==
+        0)
+      ++drive.swaps;
   }
   drive.run = finish(program, Seconds(30));
   return drive;

@@ -143,6 +143,12 @@ ExitCode run(const Options& options) {
     return exit_code_of(
         run_in_processes(*loaded.graph, *machine, options, loaded.catalogue, stop, console).outcome);
   }
+  if (options.watch)
+    return refuse_for_processes(
+        codes::kExcluding,
+        fail(
+            Code::invalid_argument,
+            "--watch: code is exchanged in host processes only; leave out --in-process and --clock virtual"));
   if (!options.machine.empty())
     return refuse_for_processes(codes::kExcluding,
                                 fail(Code::invalid_argument,

@@ -187,6 +187,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--strict", flag(&Options::strict)},
       {"--json", flag(&Options::json)},
       {"--in-process", flag(&Options::in_process)},
+      {"--watch", flag(&Options::watch)},
       {"--stats", flag(&Options::stats)},
       {"--progress", progress(true)},
       {"--no-progress", progress(false)},

@@ -130,6 +130,7 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   const std::vector<std::string> folders = plugin_folders(options);
   supervised.arguments.insert(supervised.arguments.end(), folders.begin(), folders.end());
   supervised.machine = machine;
+  supervised.watches_code = options.watch;
   supervised.seed = options.run.seed;
   supervised.until = options.run.until;
   supervised.planned_failures = options.run.planned_failures;

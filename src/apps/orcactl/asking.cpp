@@ -81,7 +81,9 @@ Status ask_once(const Call& call, Client& client) {
   Printer printer(call);
   const Status outcome = client.ask(
       request_of(call), [&](supervisor::ControlAnswer& answer) { printer.take(answer); },
-      call.has("--follow") ? kForEver : kLimit + call.duration("--probation").value_or(Duration{0}));
+      call.has("--follow") ? kForEver
+                           : kLimit + call.duration("--probation").value_or(Duration{0}) +
+                                 call.duration("--tryout").value_or(Duration{0}));
   const bool is_end = call.command->name == "stop" || call.has("--follow");
   if (!outcome.ok() && is_end && outcome.error().code == Code::unavailable) return ok();
   if (outcome.ok()) printer.finish();

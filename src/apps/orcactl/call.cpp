@@ -76,17 +76,19 @@ class Reader {
       value = words[++at];
       if (Status fits = check_value(*option, value); !fits.ok()) return fits;
     }
-    keep(word, value);
+    keep(*option, value);
     return ok();
   }
 
-  void keep(const std::string& option, const std::string& value) {
-    if (option == "--system") call_.system = value;
-    if (option == "--json") call_.json = true;
-    if (option == "--watch") call_.watch = true;
-    if (option == "--help") call_.help = true;
-    if (std::ranges::find(common_options(), option, &OptionSpec::name) == common_options().end())
-      call_.options[option] = value;
+  void keep(const OptionSpec& option, const std::string& value) {
+    const std::string name(option.name);
+    if (name == "--system") call_.system = value;
+    if (name == "--json") call_.json = true;
+    if (name == "--watch") call_.watch = true;
+    if (name == "--help") call_.help = true;
+    if (std::ranges::find(common_options(), name, &OptionSpec::name) != common_options().end()) return;
+    if (!option.repeats) call_.options.erase(name);
+    call_.options.emplace(name, value);
   }
 
   [[nodiscard]] std::vector<OptionSpec> known_options() const {

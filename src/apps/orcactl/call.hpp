@@ -19,7 +19,7 @@ struct Call {
   const Command* command = nullptr;  ///< Null: only help is wanted.
   std::vector<std::string> words;    ///< The arguments.
   /// Options of the command by their names, "" for those without a value.
-  std::map<std::string, std::string, std::less<>> options;
+  std::multimap<std::string, std::string, std::less<>> options;
   std::string system;  ///< Empty: the one that runs.
   bool json = false;
   bool watch = false;

@@ -133,12 +133,18 @@ std::vector<Command> operating_commands() {
        .text = "start the process of a component again, with all that runs in it"},
       {.name = "swap",
        .arguments = {kComponent, {"PLUGIN.so[:TYPE]", Names::file}},
-       .options = {{"--probation", "DURATION",
+       .options = {{"--set", "PARAM=VALUE", "value of a parameter from then on; may be repeated", true},
+                   {"--tryout", "DURATION",
+                    "time for which the new code is tried with what reaches the old one (default 1 s)"},
+                   {"--probation", "DURATION",
                     "time in which a failure brings the old code back (default 2 s)"}},
        .tells = true,
        .text = "exchange the code of a component while it runs",
        .details =
-           "The new object is made and configured beside the old one, which works on meanwhile. Between two "
+           "For a second, what reaches the component is collected; then the new code is tried with that in a "
+           "process of its own, where it can do no harm. "
+           "If it crashes, hangs or fails there, nothing changes. Otherwise the new object is made and "
+           "configured beside the old one, which works on meanwhile. Between two "
            "laps it takes over the old one's state, ports and subscriptions; nothing that waits in queues is "
            "lost. "
            "The order ends when the probation is over and the old code is out of memory. Without TYPE it is "

@@ -24,6 +24,7 @@ struct OptionSpec {
   std::string_view name;   ///< "--follow"
   std::string_view value;  ///< Name of its value, "N"; empty: it has none.
   std::string_view text;   ///< For people.
+  bool repeats = false;    ///< Each of them counts, not only the last one.
 };
 
 /// How a command is carried out.

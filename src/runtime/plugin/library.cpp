@@ -71,15 +71,17 @@ struct Judgement {
   bool may_start_threads = false;
 };
 
-Result<Judgement> judge(const std::string& path, const std::string& file) {
+Result<Judgement> judge(const std::string& path, const std::string& file, Trial trial) {
   const Result<PluginFile> read = PluginFile::read(file);
   if (!read) return fail(read.error().code, read.error().message, path);
   if (const auto faults = read->faults(known_type); !faults.empty())
     return refuse(path, joined(faults, "; it "));
+  const Judgement judged{read->virtual_time_faults(), read->may_start_threads()};
+  if (trial == Trial::done) return judged;
   const auto attempt = [&](const auto& step) { load_and_describe(file, step); };
   if (const Status survived = survives_trial(attempt, kTrialLimit); !survived.ok())
     return fail(survived.error().code, survived.error().message + ", when it was tried out", path);
-  return Judgement{read->virtual_time_faults(), read->may_start_threads()};
+  return judged;
 }
 
 // Returns the same judgement for the same file until it is written or exchanged. The file may be asked for
@@ -92,7 +94,7 @@ Result<Judgement> judge_once(const std::string& path, const std::string& file) {
   const Identity identity{file,           status.st_dev,         status.st_ino,
                           status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
   if (const auto found = known.find(identity); found != known.end()) return found->second;
-  Result<Judgement> judged = judge(path, file);
+  Result<Judgement> judged = judge(path, file, Trial::now);
   if (judged) known.emplace(identity, *judged);
   return judged;
 }
@@ -130,8 +132,8 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& pa
   return open({file, file, file, std::move(judged).value()});
 }
 
-Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(PluginImage image) {
-  Result<Judgement> judged = judge(image.origin(), image.path());
+Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(PluginImage image, Trial trial) {
+  Result<Judgement> judged = judge(image.origin(), image.path(), trial);
   if (!judged) return judged.error();
   Result<std::unique_ptr<PluginLibrary>> library =
       open({image.origin(), image.path(), image.mapped_name(), std::move(judged).value()});

@@ -27,7 +27,14 @@ TEST_CASE("a command has its words and options wherever they stand", "[orcactl]"
   CHECK(call->system == "scout");
   CHECK(call->json);
   CHECK(call->has("--follow"));
-  CHECK(call->options.at("--level") == "error");
+  CHECK(call->options.find("--level")->second == "error");
+}
+
+TEST_CASE("of an option that is given twice the last one counts, unless each does", "[orcactl]") {
+  CHECK(parse_call({"echo", "a.b", "--count", "3", "--count", "4"})->count("--count") == 4);
+  const Result<Call> call = parse_call({"swap", "a", "b.so", "--set", "p=1", "--set", "q=2"});
+  REQUIRE(call);
+  CHECK(call->options.count("--set") == 2);
 }
 
 TEST_CASE("spans of time and counts are read with their units", "[orcactl]") {

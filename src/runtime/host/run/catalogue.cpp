@@ -68,9 +68,10 @@ Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& 
 }
 
 Result<LoadedType> PluginCatalogue::acquire(plugin::PluginImage image, PluginKind kind,
-                                            const std::string& type) {
+                                            const std::string& type, plugin::Trial trial) {
   const std::lock_guard lock(mutex_);
-  Result<std::unique_ptr<plugin::PluginLibrary>> library = plugin::PluginLibrary::load(std::move(image));
+  Result<std::unique_ptr<plugin::PluginLibrary>> library =
+      plugin::PluginLibrary::load(std::move(image), trial);
   if (!library) return library.error();
   (*library)->on_pinned(
       [this, path = (*library)->path()](const std::string& why) { raise_pinned(path, why); });

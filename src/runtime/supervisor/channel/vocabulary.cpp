@@ -36,7 +36,7 @@ void fields(auto& /*archive*/, Adopt& /*m*/) {}
 void fields(auto& /*archive*/, AskUse& /*m*/) {}
 void fields(auto& archive, TellLines& m) { transfer(archive, m.lines); }
 void fields(auto& archive, SwapCode& m) {
-  transfer_all(archive, m.component, m.type, m.values, m.probation, m.origin, m.plugin);
+  transfer_all(archive, m.component, m.type, m.values, m.probation, m.origin, m.plugin, m.tried);
 }
 
 void fields(auto& archive, Answer& m) { transfer_all(archive, m.outcome, m.records); }
@@ -62,6 +62,9 @@ void fields(auto& archive, MissionStep& m) {
 
 void fields(auto& archive, Orphaned& m) {
   transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.output);
+}
+void fields(auto& archive, ExchangedCode& m) {
+  transfer_all(archive, m.component, m.type, m.file, m.build_id, m.swaps);
 }
 void fields(auto& archive, Standing& m) { transfer_all(archive, m.alarms, m.motors_held, m.params); }
 void fields(auto& /*archive*/, Leaving& /*m*/) {}

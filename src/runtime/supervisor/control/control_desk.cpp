@@ -43,12 +43,12 @@ Result<LogWish> read_log_wish(const std::vector<std::string>& words) {
 }  // namespace
 
 ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
-                         const std::vector<Member*>& members, Ledger& ledger, RunLevers levers)
+                         const std::vector<Member*>& members, Ledger& ledger, const RunLevers& levers)
     : ledger_(ledger),
       names_(graph, facts.ports, members),
-      exchanging_(graph, facts, names_),
+      operating_(graph, facts, names_, levers),
+      exchanging_(graph, facts, names_, operating_, levers.wake),
       showing_(graph, facts, members, ledger, exchanging_, levers.edges_in_use),
-      operating_(graph, facts, names_, std::move(levers)),
       motors_(members, ledger) {}
 
 void ControlDesk::open(Result<ControlSocket> socket) {
@@ -68,6 +68,10 @@ void ControlDesk::add_to(std::vector<pollfd>& all) const {
 
 void ControlDesk::serve(Moment now) {
   if (server_) server_->serve(now);
+  if (watch_)
+    for (const std::string& file : watch_->changed(exchanging_.plugin_files(), now))
+      exchanging_.take_rebuilt(file);
+  exchanging_.go_on();
   log_.pass_on();
 }
 

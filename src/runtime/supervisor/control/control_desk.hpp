@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "control/code_watch.hpp"
 #include "control/control_server.hpp"
 #include "control/exchanging.hpp"
 #include "control/log_book.hpp"
@@ -30,7 +31,7 @@ class ControlDesk {
  public:
   /// All of these outlive the object.
   ControlDesk(const graph::Graph& graph, const SystemFacts& facts, const std::vector<Member*>& members,
-              Ledger& ledger, RunLevers levers);
+              Ledger& ledger, const RunLevers& levers);
 
   /// Takes the system's socket. If it could not be made, nobody can reach the system, and the log says so.
   void open(Result<ControlSocket> socket);
@@ -39,10 +40,15 @@ class ControlDesk {
   /// Carries out what clients ask, and passes on what they follow. Never waits.
   void serve(Moment now);
 
+  /// Exchanges the code of components from now on whenever it is built anew.
+  void watch_code() { watch_.emplace(); }
+
   /// Notes that processes are built, before they open their hardware.
   void built(const std::vector<Member*>& members);
   /// Goes on with what an earlier supervisor has ordered a process.
   void recall(const Standing& standing);
+  /// Notes that a component runs other code.
+  void note(const ExchangedCode& code) { exchanging_.note(code); }
   /// Notes that processes work.
   void came_up(const std::vector<Member*>& members);
 
@@ -59,9 +65,10 @@ class ControlDesk {
 
   Ledger& ledger_;
   const SystemNames names_;
-  Exchanging exchanging_;
-  const Showing showing_;
   Operating operating_;
+  Exchanging exchanging_;
+  std::optional<CodeWatch> watch_;
+  const Showing showing_;
   MotorHold motors_;
   LogBook log_;
   std::optional<ControlServer> server_;  // the last member: its clients are gone first

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "control/exchanging.hpp"
 
-#include <optional>
+#include <algorithm>
+#include <set>
 #include <utility>
 
 #include "orca/base/log.hpp"
@@ -12,15 +13,8 @@
 namespace orca::supervisor {
 namespace {
 
-constexpr Duration kProbation = 2s;
-
-// What an operator wants to exchange.
-struct SwapWish {
-  std::string component;
-  std::string file;
-  std::string type;  // empty: the present one
-  Duration probation = kProbation;
-};
+constexpr Duration kLongestTryout = 60s;
+constexpr Duration kTryoutOfRebuilt = 300ms;  // whoever has just built it waits for it
 
 // A file may hold a colon in the names of its folders.
 void split_plugin(const std::string& word, SwapWish& wish) {
@@ -30,17 +24,36 @@ void split_plugin(const std::string& word, SwapWish& wish) {
   if (has_type) wish.type = word.substr(colon + 1);
 }
 
+Status read_setting(const std::string& word, SwapWish& wish) {
+  const std::size_t sign = word.find('=');
+  if (sign == std::string::npos || sign == 0)
+    return fail(Code::invalid_argument, "\"" + word + "\" is no setting; write PARAM=VALUE");
+  wish.params[word.substr(0, sign)] = word.substr(sign + 1);
+  return ok();
+}
+
+// Reads an option with its value.
+Status read_option(const std::string& option, const std::string& text, SwapWish& wish) {
+  if (option == "--set") return read_setting(text, wish);
+  const Result<Duration> read = xml::parse_duration(text);
+  if (!read) return read.error();
+  if (option == "--tryout" && *read > kLongestTryout)
+    return fail(Code::invalid_argument, "--tryout can be 60 s at most, not " + text);
+  (option == "--tryout" ? wish.tryout : wish.probation) = *read;
+  return ok();
+}
+
 Result<SwapWish> read_wish(const std::vector<std::string>& words) {
   SwapWish wish;
   std::vector<std::string> plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] != "--probation") {
+    if (!words[i].starts_with("--")) {
       plain.push_back(words[i]);
       continue;
     }
-    const Result<Duration> read = xml::parse_duration(i + 1 < words.size() ? words[++i] : "");
-    if (!read) return read.error();
-    wish.probation = *read;
+    const std::string& option = words[i];
+    if (Status read = read_option(option, i + 1 < words.size() ? words[++i] : "", wish); !read.ok())
+      return read.error();
   }
   if (plain.size() != 2)
     return fail(Code::invalid_argument, "name a component and a plugin: COMPONENT PLUGIN.so[:TYPE]");
@@ -49,13 +62,54 @@ Result<SwapWish> read_wish(const std::vector<std::string>& words) {
   return wish;
 }
 
-std::string value(const Record& record, std::string_view name) {
-  for (const Cell& cell : record)
-    if (cell.name == name) return cell.value;
-  return "";
+// Asks a component's process to tell what reaches the component.
+std::vector<WatchedPort> watch(const graph::Graph& graph, const std::string& component, Member& member) {
+  std::set<std::string> ports;
+  for (const graph::Edge& edge : graph.edges)
+    if (edge.to.component == component) ports.insert(edge.to.port);
+  std::vector<WatchedPort> watched;
+  for (const std::string& port : ports) {
+    Result<SocketPair> pair = make_socket_pair();
+    if (!pair) continue;  // then the new code is tried with less
+    member.tell(OpenLine{component, port, true, true, std::move(pair->host)});
+    watched.push_back({port, std::move(pair->supervisor)});
+  }
+  return watched;
+}
+
+std::string counted(std::uint64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 }  // namespace
+
+// An exchange that has been begun. Whoever has ordered it is told of its end once, even if the process that carries it out
+// ends before it has answered.
+class Exchanging::Pending {
+ public:
+  Pending(std::string component, std::shared_ptr<std::set<std::string>> busy, Told told)
+      : component_(std::move(component)), busy_(std::move(busy)), told_(std::move(told)) {
+    busy_->insert(component_);
+  }
+  ~Pending() {
+    busy_->erase(component_);
+    if (told_)
+      told_(fail(Code::unavailable,
+                 "its process ended before the exchange was done; it begins with the code of the graph",
+                 component_));
+  }
+  Pending(const Pending&) = delete;
+  Pending& operator=(const Pending&) = delete;
+
+  void end(const Result<Record>& outcome) {
+    if (const Told told = std::exchange(told_, {})) told(outcome);
+  }
+
+ private:
+  const std::string component_;
+  const std::shared_ptr<std::set<std::string>> busy_;
+  Told told_;
+};
 
 const PluginFacts& Exchanging::plugin_of(const std::string& type) const {
   static const PluginFacts unknown;
@@ -70,41 +124,142 @@ CodeFacts Exchanging::code_of(const graph::ComponentNode& component) const {
 }
 
 void Exchanging::swap(const std::vector<std::string>& words, const ReplyPtr& reply) {
-  const Result<SwapWish> wish = read_wish(words);
+  Result<SwapWish> wish = read_wish(words);
   if (!wish) return reply->refuse(wish.error());
-  const Result<const graph::ComponentNode*> node = names_.component(wish->component);
-  if (!node) return reply->refuse(node.error());
-  const Result<Member*> member = names_.ready_member_of(**node);
-  if (!member) return reply->refuse(member.error());
-  Result<plugin::PluginImage> image = plugin::PluginImage::copy(wish->file);
-  if (!image) return reply->refuse(image.error());
-  const std::string file = image->origin();
-  log::info(wish->component, "an operator exchanges its code for " + file);
-  SwapCode order{
-      wish->component, wish->type, {}, static_cast<std::uint64_t>(wish->probation.count()), file, {}};
-  order.plugin = std::move(*image).take_bytes();
-  (*member)->ask_for(std::move(order),
-                     [this, reply, component = wish->component, file](const Answer& answer) {
-                       if (!answer.outcome.ok()) return reply->refuse(answer.outcome.error());
-                       for (const Record& record : answer.records) {
-                         note(component, {value(record, "type"), {file, value(record, "build_id")}});
-                         reply->add(record);
-                       }
-                     });
+  begin(std::move(wish).value(),
+        [reply](const Result<Record>& done) { done ? reply->add(*done) : reply->refuse(done.error()); });
 }
 
-void Exchanging::note(const std::string& component, CodeFacts code) {
-  code.swaps = exchanged_[component].swaps + 1;
-  exchanged_[component] = std::move(code);
+void Exchanging::take_rebuilt(const std::string& file) {
+  for (const graph::ComponentNode& node : graph_.components) {
+    if (code_of(node).plugin.file != file) continue;
+    if (node.hardware.empty()) {
+      rebuilt_.insert(node.name);
+    } else {
+      log::warning(node.name, "its code was built anew, but it serves hardware: orcactl restart " +
+                                  node.name + " lets it run");
+    }
+  }
+}
+
+void Exchanging::swap_rebuilt(const graph::ComponentNode& node) {
+  const CodeFacts code = code_of(node);
+  begin({node.name, code.plugin.file, code.type, {}, kTryoutOfRebuilt},
+        [name = node.name](const Result<Record>& done) {
+          if (done) return log::info(name, "runs the code that was built anew");
+          log::error(name, "the code that was built anew does not run, and the old one goes on: " +
+                               done.error().text());
+        });
+}
+
+std::set<std::string> Exchanging::plugin_files() const {
+  std::set<std::string> files;
+  for (const graph::ComponentNode& node : graph_.components) files.insert(code_of(node).plugin.file);
+  return files;
+}
+
+bool Exchanging::is_busy(const std::string& component) const { return busy_->contains(component); }
+
+void Exchanging::begin(SwapWish wish, Told told) {
+  const Result<const graph::ComponentNode*> node = names_.component(wish.component);
+  if (!node) return told(node.error());
+  if (is_busy(wish.component))
+    return told(fail(Code::unavailable, "another exchange of it is under way; try again when that is done",
+                     wish.component));
+  const auto pending = std::make_shared<Pending>(wish.component, busy_, std::move(told));
+  const Result<Member*> member = names_.ready_member_of(**node);
+  if (!member) return pending->end(member.error());
+  Result<plugin::PluginImage> image = plugin::PluginImage::copy(wish.file);
+  if (!image) return pending->end(image.error());
+  log::info(wish.component, "its code is to be exchanged for " + image->origin());
+  host::ShadowOrder order{graph_,
+                          wish.component,
+                          wish.type.empty() ? code_of(**node).type : wish.type,
+                          ports_of(wish.component),
+                          operating_.params_of(**node),
+                          std::move(wish.params),
+                          wish.tryout};
+  std::vector<WatchedPort> ports;
+  if (wish.tryout > Duration{0}) ports = watch(graph_, wish.component, **member);
+  open_.push_back(
+      {std::make_unique<Tryout>(std::move(order), std::move(image).value(), std::move(ports), wake_),
+       wish.probation, pending});
+}
+
+std::vector<PortContract> Exchanging::ports_of(const std::string& component) const {
+  std::vector<PortContract> ports;
+  for (const graph::ListedPort& port : facts_.ports) {
+    if (port.ref.component != component) continue;
+    ports.push_back(port.contract);
+    ports.back().name = port.ref.port;
+  }
+  return ports;
+}
+
+void Exchanging::go_on() {
+  for (Open& open : open_)
+    if (open.tryout->is_done()) go_on(open);
+  std::erase_if(open_, [](const Open& open) { return open.tryout->is_done(); });
+  for (const graph::ComponentNode& node : graph_.components)
+    if (rebuilt_.contains(node.name) && !is_busy(node.name)) {
+      rebuilt_.erase(node.name);
+      swap_rebuilt(node);
+    }
+}
+
+void Exchanging::go_on(Open& open) {
+  const std::string& component = open.tryout->order().component;
+  const Result<host::ShadowReport>& tried = open.tryout->outcome();
+  if (tried) return exchange(open, *tried);
+  open.pending->end(
+      fail(tried.error().code,
+           "the new one was tried out beside the one that runs, and not taken: " + tried.error().text(),
+           component));
+}
+
+void Exchanging::exchange(Open& open, const host::ShadowReport& tried) {
+  const host::ShadowOrder& order = open.tryout->order();
+  const std::string component = order.component;
+  if (tried.untried.empty()) {
+    log::info(component, "the new code was tried out: it got " + counted(tried.given, "object") +
+                             " and pushed " + std::to_string(tried.pushed));
+  } else {
+    log::warning(component, "the new code could not be tried out: " + tried.untried);
+  }
+  const Result<Member*> member = names_.ready_member_of(**names_.component(component));
+  if (!member) return open.pending->end(member.error());
+  plugin::PluginImage image = open.tryout->take_plugin();
+  const std::string file = image.origin();
+  SwapCode swap{component,
+                order.type,
+                {order.new_params.begin(), order.new_params.end()},
+                static_cast<std::uint64_t>(open.probation.count()),
+                file,
+                std::move(image).take_bytes(),
+                tried.untried.empty()};
+  const auto take = [pending = open.pending](const Answer& answer) {
+    if (!answer.outcome.ok()) return pending->end(answer.outcome.error());
+    for (const Record& record : answer.records) pending->end(record);
+  };
+  (*member)->ask_for(std::move(swap), take);
+}
+
+void Exchanging::note(const ExchangedCode& code) {
+  exchanged_[code.component] = {code.type, {code.file, code.build_id}, code.swaps};
 }
 
 void Exchanging::came_up(const std::vector<Member*>& members) {
   for (const Member* const member : members)
     for (const graph::ComponentNode& node : graph_.components)
-      if (node.process == member->name() && exchanged_.erase(node.name) > 0)
-        log::warning(node.name,
-                     "its process was started again, with the code that the graph names; the code that had "
-                     "been put in its place is not there any more");
+      if (node.process == member->name()) forget_exchange(node);
+}
+
+void Exchanging::forget_exchange(const graph::ComponentNode& node) {
+  const auto exchanged = exchanged_.extract(node.name);
+  if (exchanged.empty() || exchanged.mapped().plugin.file == plugin_of(node.type).file) return;
+  log::warning(node.name,
+               "its process was started again, with the code that the graph names; the code that had "
+               "been put in its place is not there any more");
 }
 
 }  // namespace orca::supervisor

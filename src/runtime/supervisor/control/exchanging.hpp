@@ -2,14 +2,22 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "control/operating.hpp"
 #include "control/reply.hpp"
 #include "control/system_names.hpp"
+#include "control/tryout.hpp"
 #include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
 #include "orca/graph/graph.hpp"
+#include "orca/supervisor/record.hpp"
 #include "orca/supervisor/system_facts.hpp"
 #include "run/member.hpp"
 
@@ -22,32 +30,79 @@ struct CodeFacts {
   std::uint64_t swaps = 0;  ///< How often it was exchanged in this process.
 };
 
+/// What an operator wants to exchange.
+struct SwapWish {
+  std::string component;
+  std::string file;
+  std::string type;                           ///< Empty: the present one.
+  std::map<std::string, std::string> params;  ///< New values, as written in a graph.
+  Duration tryout{1s};
+  Duration probation{2s};
+};
+
 /// Exchanges the code of components at an operator's word, and knows which code each of them runs.
 ///
 /// Thread contract: the supervisor's thread.
 class Exchanging {
  public:
   /// All of these outlive the object.
-  Exchanging(const graph::Graph& graph, const SystemFacts& facts, const SystemNames& names)
-      : graph_(graph), facts_(facts), names_(names) {}
+  /// @param wake  lets go_on() be called soon. It is called on other threads.
+  Exchanging(const graph::Graph& graph, const SystemFacts& facts, const SystemNames& names,
+             const Operating& operating, std::function<void()> wake)
+      : graph_(graph), facts_(facts), names_(names), operating_(operating), wake_(std::move(wake)) {}
 
-  /// Exchanges a component's code. The answer ends when the old code, or the new one if it was refused, is gone.
-  /// @param words  COMPONENT PLUGIN.so[:TYPE] [--probation DURATION].
+  /// Exchanges a component's code, after it was tried out. The answer ends when the old code, or the new one if it was
+  /// refused, is gone.
+  /// @param words  COMPONENT PLUGIN.so[:TYPE] [--set PARAM=VALUE]... [--tryout DURATION] [--probation DURATION].
   void swap(const std::vector<std::string>& words, const ReplyPtr& reply);
+  /// Exchanges the code of all components that run a plugin whose file was built anew, each after it was tried out, and after
+  /// an exchange that is under way. What comes of it goes to the log.
+  void take_rebuilt(const std::string& file);
+  /// Goes on with what has been tried out.
+  void go_on();
+
+  /// Returns the plugins of the components of this machine.
+  [[nodiscard]] std::set<std::string> plugin_files() const;
 
   [[nodiscard]] CodeFacts code_of(const graph::ComponentNode& component) const;
   /// Returns the plugin that the graph's search finds for a type.
   [[nodiscard]] const PluginFacts& plugin_of(const std::string& type) const;
 
+  /// Notes that a component runs other code.
+  void note(const ExchangedCode& code);
   /// Notes that processes work again. They run the code that the graph names.
   void came_up(const std::vector<Member*>& members);
 
  private:
-  void note(const std::string& component, CodeFacts code);
+  class Pending;
+  using Told = std::function<void(const Result<Record>&)>;
+  using PendingPtr = std::shared_ptr<Pending>;
+
+  // What is tried out.
+  struct Open {
+    std::unique_ptr<Tryout> tryout;
+    Duration probation;
+    PendingPtr pending;
+  };
+
+  void begin(SwapWish wish, Told told);
+  [[nodiscard]] bool is_busy(const std::string& component) const;
+  void swap_rebuilt(const graph::ComponentNode& node);
+  [[nodiscard]] std::vector<PortContract> ports_of(const std::string& component) const;
+  void go_on(Open& open);
+  void exchange(Open& open, const host::ShadowReport& tried);
+  void forget_exchange(const graph::ComponentNode& node);
 
   const graph::Graph& graph_;
   const SystemFacts& facts_;
   const SystemNames& names_;
+  const Operating& operating_;
+  const std::function<void()> wake_;
+  std::vector<Open> open_;
+  // The components of which an exchange has been begun and has not ended; orders that host processes have not answered
+  // share it.
+  const std::shared_ptr<std::set<std::string>> busy_ = std::make_shared<std::set<std::string>>();
+  std::set<std::string> rebuilt_;  // components whose code was built anew and is not exchanged yet
   std::map<std::string, CodeFacts> exchanged_;  // by component
 };
 

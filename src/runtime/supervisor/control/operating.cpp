@@ -54,10 +54,15 @@ Result<Operating::ParamName> Operating::find(const std::string& what) const {
 }
 
 std::string Operating::value_of(const ParamName& name) const {
-  const auto changed = changed_.find(name.component->name);
-  if (changed != changed_.end() && changed->second.contains(name.param))
-    return graph::print_value(changed->second.at(name.param));
-  return graph::print_value(name.component->params.at(name.param));
+  return graph::print_value(params_of(*name.component).at(name.param));
+}
+
+graph::Params Operating::params_of(const graph::ComponentNode& component) const {
+  graph::Params params = component.params;
+  const auto changed = changed_.find(component.name);
+  if (changed == changed_.end()) return params;
+  for (const auto& [name, value] : changed->second) params.insert_or_assign(name, value);
+  return params;
 }
 
 void Operating::add_param(const ParamName& name, Reply& reply) const {

@@ -21,6 +21,7 @@ struct RunLevers {
   std::function<Status(Member&)> restart;  ///< Ends a process and starts it again.
   /// Returns the edges in use of those that ports choose from.
   std::function<std::vector<const graph::Edge*>()> edges_in_use;
+  std::function<void()> wake;  ///< Lets the supervisor's thread look at once. From any thread.
 };
 
 /// Carries out what an operator orders: pauses, new parameters, restarts, the end.
@@ -39,6 +40,8 @@ class Operating {
   void get(const std::string& what, const ReplyPtr& reply) const;
   /// Changes a parameter.
   void set(const std::string& what, const std::string& value, const ReplyPtr& reply);
+  /// Returns the present values of a component's parameters.
+  [[nodiscard]] graph::Params params_of(const graph::ComponentNode& component) const;
   /// Starts a process again, which is named by itself or by one of its components. The answer ends when it is back.
   void restart(const std::string& name, const ReplyPtr& reply);
   /// Ends the run. The answer does not end before.

@@ -194,8 +194,13 @@ void OrderDesk::pass_on(SwapCode& swap, const Told& told) {
                       plugin::PluginImage(std::move(swap.plugin), swap.origin),
                       swap.type,
                       {swap.values.begin(), swap.values.end()},
-                      Duration(swap.probation)});
-  order.swapped = [by = told.by, request = told.request](const Result<host::SwapReport>& outcome) {
+                      Duration(swap.probation),
+                      swap.tried ? plugin::Trial::done : plugin::Trial::now});
+  order.swapped = [this, by = told.by, request = told.request, component = swap.component,
+                   file = swap.origin](const Result<host::SwapReport>& outcome) {
+    if (outcome)
+      reports_.send(
+          ExchangedCode{component, outcome->new_type, file, outcome->build_id, ++swaps_[component]});
     Answer answer{outcome ? Status(ok()) : Status(outcome.error())};
     if (outcome) answer.records.push_back(to_record(*outcome));
     (void)by->post(encode(Report(std::move(answer)), request));

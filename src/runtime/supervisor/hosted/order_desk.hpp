@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -74,6 +75,7 @@ class OrderDesk {
   std::optional<Vigil> vigil_;          // while there is no supervisor
   Moment vigil_ends_at_{};
   bool is_taken_down_ = false;
+  std::map<std::string, std::uint64_t> swaps_;  // by component; used where swaps end only
   const Descriptor wake_;
   std::atomic<bool> ending_{false};
   std::thread thread_;  // the last member: it uses the others

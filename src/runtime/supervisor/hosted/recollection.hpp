@@ -12,7 +12,8 @@
 namespace orca::supervisor {
 
 /// What a host process and its supervisor have told each other, as far as the next supervisor must know it: how the
-/// components are, which alarms are kept, whether the motors are held, which parameters were changed.
+/// components are, which alarms are kept, whether the motors are held, which parameters were changed, which code was
+/// exchanged.
 ///
 /// Thread contract: not synchronised.
 class Recollection {
@@ -42,6 +43,7 @@ class Recollection {
   host::AlarmStore alarms_;
   bool motors_held_ = false;
   std::map<std::string, std::map<std::string, std::string>> params_;  // by component
+  std::map<std::string, ExchangedCode> code_;                         // by component
 };
 
 }  // namespace orca::supervisor

@@ -68,6 +68,7 @@ class SupervisedRun {
         policy_(graph::processes_on(graph, options.machine), graph.supervision),
         control_(here_, options.facts, all_, ledger_, levers()) {
     ledger_.relay_to(relay_);
+    if (options.watches_code) control_.watch_code();
     if (graph.machines.size() < 2) return;
     neighbours_.emplace(graph, options.machine, starter_.plain_start("peers"), ledger_);
     polled_.push_back(&neighbours_->member());
@@ -110,7 +111,7 @@ class SupervisedRun {
       end_for_restart(member);
       return ok();
     };
-    return {stop, restart, [this] { return trading_.in_use(); }};
+    return {stop, restart, [this] { return trading_.in_use(); }, [this] { poller_.wake(); }};
   }
 
   // ---- Starting
@@ -193,6 +194,7 @@ class SupervisedRun {
       return member.prompt(prompting->begins), ok();
     }
     if (const auto* standing = std::get_if<Standing>(&report)) control_.recall(*standing);
+    if (const auto* code = std::get_if<ExchangedCode>(&report)) return control_.note(*code), ok();
     if (const auto* wish = std::get_if<LogWished>(&report))
       return log_relay_.note_wish(member, wish->is_wanted), ok();
     log_relay_.set_source(&member);

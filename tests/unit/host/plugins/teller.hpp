@@ -7,7 +7,11 @@
 //   TELLER_FAULT      0: none, else where it fails (see below)
 //   TELLER_TYPE      its type
 //   TELLER_INPUT     the name of its input
+#include <chrono>
+#include <csignal>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -42,14 +46,31 @@ enum Fault {
   kHandler,
   kSaveThrows,
   kLoadReadsTooLittle,
-  kLoadReadsOther
+  kLoadReadsOther,
+  kConstructorCrashes,
+  kLapCrashes,
+  kLapHangs,
+  kLapEats,
+  kLapsSlow
 };
+
+/// What no exception handler can catch.
+[[noreturn, gnu::noinline]] void crash() {
+  std::raise(SIGSEGV);
+  std::abort();
+}
+
+[[gnu::noinline]] void eat() {
+  for (std::vector<std::unique_ptr<std::vector<char>>> all;;)
+    all.push_back(std::make_unique<std::vector<char>>(std::size_t{1} << 24, 'x'));
+}
 
 /// Counts what arrives, and says its version and the count each time.
 class Teller final : public orca::Component {
  public:
   explicit Teller(orca::ComponentHost& host) : Component(host) {
     lap_on(in_);
+    if (TELLER_FAULT == kConstructorCrashes) crash();
     if (TELLER_FAULT == kConstructor) throw std::runtime_error("no teller today");
   }
 
@@ -64,11 +85,16 @@ class Teller final : public orca::Component {
     return orca::ok();
   }
   void stop() override { log_debug("stop " + version()); }
+  void suspend() override { log_debug("suspend " + version()); }
+  void resume() override { log_debug("resume " + version()); }
 
   orca::Outcome work() override {
     ++laps_;
     if (TELLER_FAULT == kFirstLap || (TELLER_FAULT == kThirdLap && laps_ == 3))
       throw std::runtime_error("no lap today");
+    if (TELLER_FAULT == kLapCrashes && laps_ == 3) crash();
+    if (TELLER_FAULT == kLapEats && laps_ == 3) eat();
+    for (volatile bool hangs = TELLER_FAULT == kLapHangs && laps_ == 3; hangs;) continue;
     while (in_.new_data_arrived()) {
       const auto object = in_.get_update();
       if (last_ != 0 && object->seq() != last_ + 1)
@@ -77,6 +103,7 @@ class Teller final : public orca::Component {
       count_ += *step_;
       say();
     }
+    if (TELLER_FAULT == kLapsSlow) wait_until([] { return false; }, std::chrono::milliseconds(15));
     return orca::again();
   }
 

@@ -10,6 +10,13 @@
 
 namespace orca::test {
 
+/// A component that counts and one that it counts.
+inline const std::string kPair = R"(<component name="teller" type="test.Teller"/>
+  <component name="talker" type="test.Talker"/>
+  <connect from="talker.out" to="teller.in" queue="100"/>
+  <connect from="talker.poke" to="teller.poke" queue="100"/>
+  <connect from="teller.out" to="talker.back" queue="100"/>)";
+
 /// Returns the order to exchange component "teller" for a version of tests/unit/host/plugins/teller.hpp.
 [[nodiscard]] inline host::SwapOrder next_teller(const std::string& version) {
   Result<plugin::PluginImage> image =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The exchange of a component's code in one process, in virtual time unless a case says otherwise.
 #include <catch2/catch.hpp>
+#include <optional>
 
 #include "orca/plugin/library.hpp"
 #include "run/swap/fit.hpp"
@@ -13,12 +14,6 @@ using Catch::Contains;
 using Words = std::vector<std::string>;
 
 namespace {
-
-const std::string kPair = R"(<component name="teller" type="test.Teller"/>
-  <component name="talker" type="test.Talker"/>
-  <connect from="talker.out" to="teller.in" queue="100"/>
-  <connect from="talker.poke" to="teller.poke" queue="100"/>
-  <connect from="teller.out" to="talker.back" queue="100"/>)";
 
 // Returns what a refused or failed swap says.
 std::string refusal(LiveSystem& live, SwapOrder wanted) {
@@ -161,14 +156,18 @@ TEST_CASE(
   mode.choices = {"calm", "bold"};
   mode.default_value = std::string("calm");
   const Result<ParamValues> kept =
-      inherited({speed, mode}, {{"speed", 0.8}, {"mode", std::string("bold")}, {"gone", 1.0}});
+      inherited({speed, mode}, {{"speed", 0.8}, {"mode", std::string("bold")}, {"gone", 1.0}}, {});
   REQUIRE(kept);
   CHECK(*kept == ParamValues{{"speed", 0.8}, {"mode", std::string("bold")}});
-  const Result<ParamValues> wrong = inherited({speed, mode}, {{"speed", 1.2}, {"mode", std::string("wild")}});
+  CHECK(inherited({speed}, {{"speed", std::string("fast")}}, {{"speed", "0.3"}}).value() ==
+        ParamValues{{"speed", 0.3}});
+  CHECK_FALSE(inherited({speed}, {}, {{"speed", "1.3"}}));
+  const Result<ParamValues> wrong =
+      inherited({speed, mode}, {{"speed", 1.2}, {"mode", std::string("wild")}}, {});
   REQUIRE_FALSE(wrong);
   CHECK_THAT(wrong.error().message, Contains("\"speed\" is out of the new one's range"));
   CHECK_THAT(wrong.error().message, Contains("\"mode\" is \"wild\", which is not one of: calm, bold"));
-  CHECK_THAT(inherited({speed}, {{"speed", std::string("fast")}}).error().message,
+  CHECK_THAT(inherited({speed}, {{"speed", std::string("fast")}}, {}).error().message,
              Contains("\"speed\" is number in the new one"));
 }
 
@@ -281,17 +280,6 @@ TEST_CASE("the component that pushes and sends is exchanged, and its receivers m
   }
 }
 
-TEST_CASE("a suspended component cannot be exchanged, and says so", "[host][swap]") {
-  LiveSystem live(kPair);
-  live.run(virtual_executives().front(), [](LiveSystem& run) {
-    run.sleep(50ms);
-    REQUIRE(run.suspend("teller").ok());
-    CHECK_THAT(refusal(run, next_teller("test_teller_2")), Contains("it is SUSPENDED"));
-    REQUIRE(run.resume("teller").ok());
-    CHECK(swap(run, next_teller("test_teller_2")));
-  });
-}
-
 TEST_CASE("a second swap of a component waits until the first one is done: it is refused", "[host][swap]") {
   LiveSystem live(kPair);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
@@ -324,4 +312,96 @@ TEST_CASE("runs in virtual time with a swap repeat each other", "[host][swap]") 
     runs.push_back(live.news());
   }
   for (const Words& other : runs) CHECK(other == runs.front());
+}
+
+TEST_CASE("a suspended component is exchanged too, and the new object is suspended until it is resumed",
+          "[host][swap]") {
+  LiveSystem live(kPair);
+  live.run(virtual_executives().front(), [](LiveSystem& run) {
+    run.sleep(100ms);
+    REQUIRE(run.suspend("teller").ok());
+    (void)run.news();
+    SwapOrder next = next_teller("test_teller_2");
+    next.probation = 10ms;
+    const Result<SwapReport> done = swap(run, std::move(next));
+    REQUIRE(done);
+    CHECK(done->state == "test.Teller/1");
+    CHECK(run.state("teller") == ComponentState::suspended_work);
+    run.sleep(50ms);
+    const Words before = run.news();
+    CHECK(beginning(before, "s") == Words{"start 2", "suspend 2"});
+    CHECK(beginning(before, "heard").empty());
+    REQUIRE(run.resume("teller").ok());
+    run.sleep(50ms);
+    CHECK(beginning(run.news(), "resume") == Words{"resume 2"});
+  });
+  const Words said = live.news();
+  CHECK(beginning(said, "gap").empty());
+  CHECK(beginning(said, "poke").empty());
+}
+
+TEST_CASE("an old object that comes back after a pause is resumed as the component was", "[host][swap]") {
+  LiveSystem live(kPair);
+  live.run(virtual_executives().front(), [](LiveSystem& run) {
+    run.sleep(100ms);
+    REQUIRE(run.suspend("teller").ok());
+    std::optional<Result<SwapReport>> outcome;
+    host::Swaps swaps(run.graph(), run.context(), run.catalogue(), run.system());
+    swaps.begin(next_teller("test_teller_first_lap"),
+                [&](const Result<SwapReport>& result) { outcome = result; });
+    for (const TimePoint end = run.executive().now() + 100ms; run.executive().now() < end;) {
+      (void)swaps.go_on();
+      run.changed().wait_until(end);
+    }
+    REQUIRE_FALSE(outcome);
+    (void)run.news();
+    REQUIRE(run.resume("teller").ok());
+    while (!outcome) {
+      const TimePoint next = swaps.go_on();
+      if (!outcome) run.changed().wait_until(next);
+    }
+    CHECK_FALSE(*outcome);
+    run.sleep(50ms);
+    CHECK(run.state("teller") == ComponentState::work);
+    const Words said = run.news();
+    CHECK(beginning(said, "resume") == Words{"resume 2", "resume 1"});
+    CHECK_FALSE(beginning(said, "heard 1").empty());
+  });
+}
+
+TEST_CASE("a component that is not loaded begins with the new code when somebody needs it", "[host][swap]") {
+  LiveSystem live(R"(<component name="teller" type="test.Teller" start="on_demand"/>
+    <component name="talker" type="test.Talker" autonomous="false"/>
+    <connect from="talker.out" to="teller.in"/><connect from="talker.poke" to="teller.poke"/>
+    <connect from="teller.out" to="talker.back"/>)");
+  live.run(virtual_executives().front(), [](LiveSystem& run) {
+    run.sleep(100ms);
+    REQUIRE(run.state("teller") == ComponentState::unloaded);
+    SwapOrder next = next_teller("test_teller_2");
+    next.params["step"] = "4";
+    const std::string name = next.plugin.mapped_name();
+    const Result<SwapReport> done = swap(run, std::move(next));
+    INFO((done ? "" : done.error().text()));
+    REQUIRE(done);
+    CHECK(run.state("teller") == ComponentState::unloaded);
+    CHECK(plugin::is_mapped(name));
+    CHECK(std::get<std::int64_t>(run.system().component("teller")->params().at("step")) == 4);
+    REQUIRE(swap(run, next_teller("test_teller_again")));
+    CHECK_FALSE(plugin::is_mapped(name));
+  });
+}
+
+TEST_CASE("new code whose laps take longer than their period goes, and the old one is back", "[host][swap]") {
+  LiveSystem live(R"(<component name="teller" type="test.Teller" period="10 ms"/>
+    <component name="talker" type="test.Talker"/>
+    <connect from="talker.out" to="teller.in" queue="100"/>
+    <connect from="talker.poke" to="teller.poke" queue="100"/>
+    <connect from="teller.out" to="talker.back" queue="100"/>)");
+  live.run(virtual_executives().front(), [](LiveSystem& run) {
+    run.sleep(100ms);
+    CHECK_THAT(refusal(run, next_teller("test_teller_laps_slow")),
+               Contains("3 of its laps took longer than their period of 0.01 s"));
+    run.sleep(100ms);
+    CHECK(run.state("teller") == ComponentState::work);
+  });
 }

@@ -44,8 +44,13 @@ inline std::vector<supervisor::Order> all_orders() {
       Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}}, Say{some_bytes()},
       Outlive{null_device(), 60'000'000'000}, Adopt{}, MoveEdge{7}, AskUse{},
       TellLines{{{log::Level::warning, "goto", "lost", 12}, {log::Level::info, "base", "", 13}}},
-      SwapCode{
-          "avoid", "orca.VfhPlus", {{"margin", "0.1 m"}}, 2'000'000'000, "/tmp/vfh_plus.so", null_device()});
+      SwapCode{"avoid",
+               "orca.VfhPlus",
+               {{"margin", "0.1 m"}},
+               2'000'000'000,
+               "/tmp/vfh_plus.so",
+               null_device(),
+               true});
 }
 
 /// Returns at least one of each report.
@@ -62,6 +67,7 @@ inline std::vector<supervisor::Report> all_reports() {
                          Answer{ok(), {{{"name", "goto"}, {"restarts", 3}, {"active", true}}, {}}},
                          MissionStep{7, 1'000'000, "command.goto", "GoalPoint", 2, "goto", 5},
                          Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device()},
+                         ExchangedCode{"avoid", "orca.VfhPlus", "/tmp/vfh_plus.so", "abc", 3},
                          Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}},
                          Leaving{}, LogWished{true});
 }

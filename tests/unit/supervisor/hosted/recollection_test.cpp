@@ -46,6 +46,18 @@ TEST_CASE("the next supervisor hears the last state of everything", "[supervisor
   CHECK(standing_of(reports).alarms.empty());
 }
 
+TEST_CASE("the next supervisor hears which code was exchanged, and how often", "[supervisor][adoption]") {
+  Recollection all("base");
+  CHECK(all.note_state(ExchangedCode{"avoid", "orca.VfhPlus", "/a/vfh_plus.so", "b2", 1}));
+  CHECK(all.note_state(ExchangedCode{"avoid", "orca.LaserAvoid", "/a/laser_avoid.so", "b3", 2}));
+  const std::vector<Report> reports = all.reports();
+  const auto* const code = std::get_if<ExchangedCode>(&reports.front());
+  REQUIRE(code != nullptr);
+  CHECK(code->type == "orca.LaserAvoid");
+  CHECK(code->file == "/a/laser_avoid.so");
+  CHECK(code->swaps == 2);
+}
+
 TEST_CASE("alarms stand until they are acknowledged, whoever has raised them", "[supervisor][adoption]") {
   Recollection all("base");
   all.note_told(report_of(alarm("FAILED", "avoid")));

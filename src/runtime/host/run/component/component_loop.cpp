@@ -59,7 +59,8 @@ std::optional<ComponentEvent> ComponentLoop::look() const {
 // --- Laps -------------------------------------------------------------------------------------------------
 
 void ComponentLoop::lap() {
-  parts_.laps.lap_begins(parts_.now());
+  const TimePoint began = parts_.now();
+  parts_.laps.lap_begins(began);
   Outcome outcome;
   activity_before_lap_ = parts_.strand.activity();
   parts_.home.provenance.begin_lap();
@@ -70,7 +71,7 @@ void ComponentLoop::lap() {
   });
   in_lap_ = false;
   if (!fault) {
-    conclude(outcome);
+    if (!life_.gave_up_lap(began)) conclude(outcome);
   } else if (!fault->interrupted) {
     life_.fail_with(ComponentEvent::threw, Hook::work, fault->text);
   }

@@ -148,6 +148,7 @@ void Lifecycle::try_stop() {
 
 Lifecycle::FollowUp Lifecycle::call(Hook hook, void (Component::*function)(), ComponentEvent if_it_throws) {
   if (hook == Hook::stop) residency_.note_started(false);
+  if (hook == Hook::suspend || hook == Hook::resume) residency_.note_paused(hook == Hook::suspend);
   const auto fault = parts_.hooks.call(hook, [&] { (residency_.component()->*function)(); });
   if (!fault || fault->interrupted) return std::nullopt;
   if (succession_.take_back(state(), std::string(to_string(hook)) + " " + fault->text)) return std::nullopt;
@@ -173,11 +174,9 @@ Status Lifecycle::order(ComponentEvent event, const std::string& only) {
 
 Status Lifecycle::take_over(Residency& successor, TakeOver& report) {
   const ComponentState now = state();
-  const bool is_loaded = now != ComponentState::init && now != ComponentState::unloaded;
-  if (!is_loaded || now == ComponentState::suspended_idle || now == ComponentState::suspended_work)
-    return fail(Code::failed_precondition,
-                std::string("it is ") + to_string(now) + ", in which nothing can take its place",
-                parts_.settings.name);
+  if (now == ComponentState::init)
+    return fail(Code::failed_precondition, "it is being loaded; try again", parts_.settings.name);
+  if (now == ComponentState::unloaded) return residency_.trade_loaders(successor), ok();
   if (Status taken = succession_.take_over(successor, now, report); !taken.ok()) return taken;
   handle(ComponentEvent::replaced);
   return ok();

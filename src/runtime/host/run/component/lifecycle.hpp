@@ -43,6 +43,10 @@ class Lifecycle {
   /// @errors  also failed_precondition with the state in which that is not possible.
   Status take_over(Residency& successor, TakeOver& report);
 
+  /// Returns whether the lap that began then was one too many that took too long, and the old object is back: see
+  /// Succession::judge_lap().
+  bool gave_up_lap(TimePoint began) { return succession_.judge_lap(state(), began); }
+
   [[nodiscard]] ComponentState state() const { return state_.load(std::memory_order_acquire); }
   /// Returns when the state was entered.
   [[nodiscard]] TimePoint entered() const { return entered_; }

@@ -94,6 +94,13 @@ void Residency::trade_places(Residency& other) {
   other.settle();
 }
 
+void Residency::trade_loaders(Residency& other) {
+  add_ports_of(other);
+  std::swap(loader_, other.loader_);
+  std::swap(unloader_, other.unloader_);
+  parts_.params.trade_places(other.parts_.params);
+}
+
 void Residency::add_ports_of(const Residency& other) {
   for (const PortDeclaration& port : other.declared().ports)
     if (parts_.ports.find(port.contract.name) == nullptr) parts_.ports.add(port.contract);

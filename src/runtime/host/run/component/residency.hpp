@@ -53,9 +53,17 @@ class Residency {
   /// Returns whether the component is to work without clients: the graph's word counts before its own.
   [[nodiscard]] bool stays_active() const;
 
+  /// Exchanges what brings the code of two components into memory, with their parameters. Ports that only the other one has are
+  /// made.
+  /// @pre  this one is not loaded.
+  void trade_loaders(Residency& other);
+
   /// Notes whether its start() has been called and its stop() has not.
   void note_started(bool started) { resident_.started = started; }
   [[nodiscard]] bool is_started() const { return resident_.started; }
+  /// Notes whether its suspend() has been called and its resume() has not.
+  void note_paused(bool paused) { resident_.paused = paused; }
+  [[nodiscard]] bool is_paused() const { return resident_.paused; }
 
  private:
   // One object. Its members outlive each other in this order.
@@ -64,6 +72,7 @@ class Residency {
     std::unique_ptr<ComponentSite> site;
     Component* object = nullptr;
     bool started = false;
+    bool paused = false;
   };
 
   // Notes whose code runs, for alarms and last words.

@@ -2,14 +2,21 @@
 #include "succession.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 namespace orca::host {
 namespace {
 
-bool works(ComponentState state) { return state == ComponentState::work; }
+constexpr int kMostLateLaps = 3;
 
-bool can_tell_its_state(ComponentState state) { return works(state) || state == ComponentState::idle; }
+bool works(ComponentState state) {
+  return state == ComponentState::work || state == ComponentState::suspended_work;
+}
+
+bool can_tell_its_state(ComponentState state) {
+  return works(state) || state == ComponentState::idle || state == ComponentState::suspended_idle;
+}
 
 }  // namespace
 
@@ -39,6 +46,7 @@ Status Succession::take_over(Residency& successor, ComponentState state, TakeOve
     return entered;
   }
   predecessor_ = &successor;
+  late_laps_ = 0;
   const std::lock_guard lock(mutex_);
   taken_back_.reset();
   report.pause = parts_.now() - began;
@@ -51,7 +59,9 @@ Status Succession::enter(ComponentState state, const std::vector<std::byte>& byt
   seat(state);
   if (works(state))
     if (Status started = start(); !started.ok()) return started;
-  return tag ? load(*tag, bytes, report) : ok();
+  if (tag)
+    if (Status loaded = load(*tag, bytes, report); !loaded.ok()) return loaded;
+  return is_suspended(state) ? pause() : ok();
 }
 
 Status Succession::save(std::vector<std::byte>& bytes) {
@@ -96,7 +106,8 @@ Status Succession::start() {
 // rhythm.
 void Succession::seat(ComponentState state) {
   (void)parts_.laps.choose(parts_.settings.trigger.value_or(residency_.declared().trigger), parts_.ports);
-  if (takes_intake(state)) parts_.ports.open();
+  if (takes_intake(state) || is_suspended(state))
+    parts_.ports.open();  // what comes while it is suspended waits
 }
 
 bool Succession::take_back(ComponentState state, const std::string& why) {
@@ -121,6 +132,41 @@ void Succession::catch_up(ComponentState state) {
       return ok();
     });
   }
+  pause_as(state);
+}
+
+void Succession::pause_as(ComponentState state) {
+  if (is_suspended(state) == residency_.is_paused()) return;
+  if (is_suspended(state)) {
+    (void)pause();
+    return;
+  }
+  residency_.note_paused(false);
+  (void)call(Hook::resume, [this] {
+    residency_.component()->resume();
+    return ok();
+  });
+}
+
+Status Succession::pause() {
+  residency_.note_paused(true);
+  return call(Hook::suspend, [this] {
+    residency_.component()->suspend();
+    return ok();
+  });
+}
+
+bool Succession::is_too_slow(TimePoint began) {
+  const Duration period = parts_.laps.period();
+  if (period > Duration{0} && parts_.now() - began > period) ++late_laps_;
+  return late_laps_ >= kMostLateLaps;
+}
+
+std::string Succession::too_slow_text() const {
+  char text[96];
+  std::snprintf(text, sizeof text, "%d of its laps took longer than their period of %g s", late_laps_,
+                to_seconds(parts_.laps.period()));
+  return text;
 }
 
 std::optional<std::string> Succession::take_back_reason() const {

@@ -30,13 +30,19 @@ class Succession {
 
   /// Puts the successor's object in the place of the present one, with its state, and starts it if the component works. The
   /// present object goes to the successor, which must live until confirm().
-  /// @param state  of the component: idle or at work; or one in which the present object has failed, whose state is
+  /// @param state  of the component: idle, at work or suspended; or one in which the present object has failed, whose state is
   ///               then of no use.
   /// @errors  what the new object's hooks say or throw; failed_precondition if it cannot read the state. Everything is then
   ///          as before.
   Status take_over(Residency& successor, ComponentState state, TakeOver& report);
   /// Ends the time in which the old object may come back.
   void confirm() { predecessor_ = nullptr; }
+
+  /// Brings the old object back if too many laps of the new one have taken longer than their period, before confirm().
+  /// @return whether it is back.
+  bool judge_lap(ComponentState state, TimePoint began) {
+    return predecessor_ != nullptr && is_too_slow(began) && take_back(state, too_slow_text());
+  }
 
   /// Puts the old object back, if confirm() has not been called.
   /// @param why  the new one failed, for people.
@@ -54,12 +60,17 @@ class Succession {
   [[nodiscard]] bool accepts(const StateTag& tag) const;
   void seat(ComponentState state);
   void catch_up(ComponentState state);
+  void pause_as(ComponentState state);
+  Status pause();
+  bool is_too_slow(TimePoint began);
+  [[nodiscard]] std::string too_slow_text() const;
   template <class Body>
   Status call(Hook hook, const Body& body);
 
   ComponentParts& parts_;
   Residency& residency_;
   Residency* predecessor_ = nullptr;  // holds the old object; null: there is no way back
+  int late_laps_ = 0;                 // of the new object
   mutable std::mutex mutex_;
   std::optional<std::string> taken_back_;  // guarded by mutex_
 };

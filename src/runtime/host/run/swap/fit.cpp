@@ -7,6 +7,7 @@
 #include "orca/base/layout.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
+#include "orca/graph/settings.hpp"
 #include "run/component/port_set.hpp"
 
 namespace orca::host {
@@ -28,6 +29,21 @@ std::string difference(const PortContract& present, const PortContract& offered)
   return text + " as well, but " +
          layout_difference(present.type.layout, offered.type.layout,
                            {"in the component that runs", "in the new one"});
+}
+
+std::set<std::string> connected_ports(const graph::Graph& graph, const std::string& component) {
+  std::set<std::string> ports;
+  for (const graph::Edge& edge : graph.edges) {
+    if (edge.from.component == component) ports.insert(edge.from.port);
+    if (edge.to.component == component) ports.insert(edge.to.port);
+  }
+  return ports;
+}
+
+std::vector<PortContract> named_as_in_graph(std::vector<PortContract> ports,
+                                            const ComponentSettings& settings) {
+  for (PortContract& port : ports) port.name = settings.name_in_graph(port.name);
+  return ports;
 }
 
 std::optional<std::string> misfit(const ParamContract& contract, const ParamValue& value) {
@@ -64,7 +80,15 @@ std::vector<std::string> misfits(const std::vector<PortContract>& present,
   return all;
 }
 
-Result<ParamValues> inherited(const std::vector<ParamContract>& offered, const ParamValues& values) {
+std::vector<std::string> misfits_in(const graph::Graph& graph, const ComponentSettings& settings,
+                                    const std::vector<PortContract>& present,
+                                    const std::vector<PortContract>& offered) {
+  return misfits(present, connected_ports(graph, settings.name), named_as_in_graph(offered, settings));
+}
+
+Result<ParamValues> inherited(const std::vector<ParamContract>& offered, ParamValues values,
+                              const std::map<std::string, std::string>& given) {
+  for (const auto& [name, text] : given) values.erase(name);
   ParamValues kept;
   std::vector<std::string> faults;
   for (const ParamContract& contract : offered) {
@@ -75,6 +99,9 @@ Result<ParamValues> inherited(const std::vector<ParamContract>& offered, const P
     kept.insert(*value);
   }
   if (!faults.empty()) return fail(Code::invalid_argument, joined(faults, "; ") + "; give it another value");
+  const Result<graph::Params> read = graph::read_settings(offered, given);
+  if (!read) return read.error();
+  for (const auto& [name, value] : *read) kept[name] = value;
   return kept;
 }
 

@@ -8,6 +8,8 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
+#include "run/component/component_settings.hpp"
 #include "run/component/parameters.hpp"
 
 namespace orca::host {
@@ -20,11 +22,21 @@ namespace orca::host {
                                                const std::set<std::string>& connected,
                                                const std::vector<PortContract>& offered);
 
+/// Does the same for a component of a graph.
+/// @param settings  of the component.
+/// @param offered   ports of the type, by its author's names.
+[[nodiscard]] std::vector<std::string> misfits_in(const graph::Graph& graph,
+                                                  const ComponentSettings& settings,
+                                                  const std::vector<PortContract>& present,
+                                                  const std::vector<PortContract>& offered);
+
 /// Returns the parameters of an object that takes another one's place: those that it shares with the old one keep
 /// their values, others have their defaults.
 /// @param values  of the old one.
-/// @errors  invalid_argument with all values that are out of the new one's range or of another type.
-[[nodiscard]] Result<ParamValues> inherited(const std::vector<ParamContract>& offered,
-                                            const ParamValues& values);
+/// @param given   new values, as written in a graph, which replace those.
+/// @errors  invalid_argument with all values that are out of the new one's range or of another type, or what is wrong with
+///          those given.
+[[nodiscard]] Result<ParamValues> inherited(const std::vector<ParamContract>& offered, ParamValues values,
+                                            const std::map<std::string, std::string>& given);
 
 }  // namespace orca::host

@@ -1,34 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "swap.hpp"
 
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "fit.hpp"
 #include "orca/base/text.hpp"
-#include "orca/graph/settings.hpp"
 
 namespace orca::host {
 namespace {
 
 constexpr Duration kConfigureLimit = 10s;
 constexpr Duration kEndLimit = 2s;
-
-std::set<std::string> connected_ports(const graph::Graph& graph, const std::string& component) {
-  std::set<std::string> ports;
-  for (const graph::Edge& edge : graph.edges) {
-    if (edge.from.component == component) ports.insert(edge.from.port);
-    if (edge.to.component == component) ports.insert(edge.to.port);
-  }
-  return ports;
-}
-
-std::vector<PortContract> named_as_in_graph(std::vector<PortContract> ports,
-                                            const ComponentSettings& settings) {
-  for (PortContract& port : ports) port.name = settings.name_in_graph(port.name);
-  return ports;
-}
 
 }  // namespace
 
@@ -53,8 +36,8 @@ Status Swap::prepare() {
   Contract contract;
   if (Status acquired = acquire(type, contract); !acquired.ok()) return acquired;
   const std::vector<std::string> faults =
-      misfits(place_.component.parts().ports.contracts(), connected_ports(place_.graph, order_.component),
-              named_as_in_graph(contract.ports, place_.component.parts().settings));
+      misfits_in(place_.graph, place_.component.parts().settings, place_.component.parts().ports.contracts(),
+                 contract.ports);
   if (!faults.empty())
     return refuse(Code::failed_precondition,
                   report_.new_type + " cannot take its place: " + joined(faults, "; "));
@@ -69,8 +52,8 @@ Status Swap::acquire(LoadedType& type, Contract& contract) {
     return refuse(Code::failed_precondition, "it serves hardware, and cannot be exchanged while that runs");
   report_.old_type = place_.type;
   report_.new_type = order_.type.empty() ? place_.type : order_.type;
-  Result<LoadedType> acquired =
-      place_.catalogue.acquire(std::move(order_.plugin), PluginKind::component, report_.new_type);
+  Result<LoadedType> acquired = place_.catalogue.acquire(std::move(order_.plugin), PluginKind::component,
+                                                         report_.new_type, order_.trial);
   if (!acquired) return acquired.error();
   type = std::move(acquired).value();
   report_.build_id = type.library->manifest().build_id;
@@ -84,13 +67,8 @@ Status Swap::make_successor(const LoadedType& type, const Contract& contract) {
   ComponentSettings settings = place_.component.parts().settings;
   settings.on_demand = false;
   settings.failure.reset();
-  ParamValues present = place_.component.params();
-  for (const auto& [name, text] : order_.params) present.erase(name);
-  Result<ParamValues> values = inherited(contract.params, present);
+  Result<ParamValues> values = inherited(contract.params, place_.component.params(), order_.params);
   if (!values) return values.error();
-  const Result<graph::Params> given = graph::read_settings(contract.params, order_.params);
-  if (!given) return given.error();
-  for (const auto& [name, value] : *given) (*values)[name] = value;
   settings.params = std::move(values).value();
   successor_ = std::make_unique<ComponentInstance>(
       beside_.context(), std::move(settings), [type] { return Result<LoadedType>(type); },

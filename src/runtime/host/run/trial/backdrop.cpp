@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "backdrop.hpp"
 
+#include "orca/patterns/endpoints/push_server_endpoint.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "run/component_making.hpp"
 
@@ -18,10 +19,19 @@ Status Backdrop::connect(const graph::Graph& graph, ComponentInstance& object) {
     if (&client == own) prepare_choice(edge, client);
     QueuePolicy policy = edge.queue;
     policy.min_interval = edge.interval;
+    if (edge.pattern == Pattern::push && policy.overflow == QueuePolicy::Overflow::block)
+      policy.overflow = QueuePolicy::Overflow::drop_newest;  // a peer here has no strand that could wait
     const Status connected = links.connect(comes_from ? *own : *other, comes_from ? *other : *own, policy);
     if (!connected.ok()) return connected;
   }
   return ok();
+}
+
+void Backdrop::push(const graph::PortRef& from, ObjectRef object) {
+  const auto peer = peers_.find(from.component);
+  if (peer == peers_.end()) return;
+  auto* const port = dynamic_cast<PushServerEndpoint*>(peer->second->ports.find(from.port));
+  if (port != nullptr) port->publish(std::move(object));
 }
 
 // Makes a port at which a connection of the object's port can end.

@@ -13,7 +13,7 @@ namespace orca::host {
 /// Stands for the peers of a component while another object for it is configured: the object finds its ports connected as
 /// they are in the running system, but whatever it says reaches nobody.
 ///
-/// Thread contract: one thread, before the object's strand starts.
+/// Thread contract: one thread, before the object's strand starts; push() later as well, from tasks of the executive.
 class Backdrop {
  public:
   explicit Backdrop(Executive& executive) : executive_(executive) {}
@@ -21,6 +21,10 @@ class Backdrop {
   /// Connects an object's ports as the graph connects those of the component of that name.
   /// @errors  those of Links::connect().
   Status connect(const graph::Graph& graph, ComponentInstance& object);
+
+  /// Lets a peer push an object, if it is connected.
+  /// @param from  the peer's port.
+  void push(const graph::PortRef& from, ObjectRef object);
 
  private:
   // One peer. Its strand never runs.

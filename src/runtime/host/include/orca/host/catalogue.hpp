@@ -61,7 +61,8 @@ class PluginCatalogue final : public graph::Catalogue {
 
   /// Returns a type of a plugin that is loaded from an image, apart from all others.
   /// @errors  not_found with the types that the plugin has; the errors of plugin::PluginLibrary::load().
-  Result<LoadedType> acquire(plugin::PluginImage image, PluginKind kind, const std::string& type);
+  Result<LoadedType> acquire(plugin::PluginImage image, PluginKind kind, const std::string& type,
+                             plugin::Trial trial = plugin::Trial::now);
 
   /// Releases a type, and unloads its plugin if nobody else holds it.
   /// @errors  failed_precondition if nobody holds the plugin and it is in memory all the same.

@@ -6,6 +6,7 @@
 
 #include "orca/base/time.hpp"
 #include "orca/plugin/image.hpp"
+#include "orca/plugin/library.hpp"
 
 namespace orca::host {
 
@@ -18,6 +19,8 @@ struct SwapOrder {
       params{};  ///< New values, as written in a graph; others stay as they are.
   /// [s of the run's clock] time in which an exception or a failure of the new object brings the old one back.
   Duration probation{2s};
+  /// Whether the plugin still is to be tried out in a copy of this process.
+  plugin::Trial trial = plugin::Trial::now;
 };
 
 /// What has become of a swap that succeeded.

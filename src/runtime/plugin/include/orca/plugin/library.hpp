@@ -17,6 +17,12 @@ namespace orca::plugin {
 
 class LoadedPlugin;
 
+/// The trial of a plugin in a copy of the process, before it is loaded.
+enum class Trial {
+  now,
+  done,  ///< Some process of this program has tried it, or this one is such a copy.
+};
+
 /// A plugin in memory, from load() until the object is destroyed. Everything made from its types must be
 /// destroyed before. A plugin that stays in memory, or whose threads still run, is reported as pinned.
 ///
@@ -34,7 +40,7 @@ class PluginLibrary {
   static Result<std::unique_ptr<PluginLibrary>> load(const std::string& path);
 
   /// Does the same with the image of a file. Messages name the file that it was copied from.
-  static Result<std::unique_ptr<PluginLibrary>> load(PluginImage image);
+  static Result<std::unique_ptr<PluginLibrary>> load(PluginImage image, Trial trial = Trial::now);
 
   ~PluginLibrary();
   PluginLibrary(const PluginLibrary&) = delete;

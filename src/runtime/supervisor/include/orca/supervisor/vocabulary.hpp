@@ -178,6 +178,7 @@ struct SwapCode {
   std::uint64_t probation = 0;  ///< Time in which a failure of the new object brings the old one back [ns].
   std::string origin;           ///< The file that the plugin was copied from.
   Descriptor plugin;            ///< Its bytes: see orca/plugin/image.hpp.
+  bool tried = false;           ///< Whether the plugin has been tried out.
 };
 
 using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
@@ -292,6 +293,15 @@ struct Orphaned {
   Descriptor run_page;
   Descriptor output;  ///< The reading end of its stdout and stderr.
 };
+/// A component runs other code from now on than the graph names.
+struct ExchangedCode {
+  static constexpr Kind kKind = Kind::exchanged_code;
+  std::string component;
+  std::string type;
+  std::string file;         ///< The plugin's, when it was copied.
+  std::string build_id;     ///< Of the Orca that it was built with.
+  std::uint64_t swaps = 0;  ///< How often the component's code was exchanged in this process.
+};
 /// What an earlier supervisor has ordered and kept, for the one that adopts the process.
 struct Standing {
   static constexpr Kind kKind = Kind::standing;
@@ -305,9 +315,10 @@ struct Leaving {
   static constexpr Kind kKind = Kind::leaving;
 };
 
-using Report = std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport,
-                            ContactReport, AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance,
-                            Prompting, MissionStep, HeardReport, Orphaned, Standing, Leaving, LogWished>;
+using Report =
+    std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport, ContactReport,
+                 AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance, Prompting, MissionStep,
+                 HeardReport, Orphaned, Standing, Leaving, LogWished, ExchangedCode>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.

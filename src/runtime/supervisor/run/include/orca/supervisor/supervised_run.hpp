@@ -30,8 +30,9 @@ struct SupervisedOptions {
   std::vector<host::PlannedFailure> planned_failures;
   log::Level log_level = log::Level::info;
   std::string log_name = kLogName;  ///< Name in the log for what concerns the run as a whole.
-  host::RunOutputs outputs;  ///< Checked by check_outputs(). A process that is started again writes none.
-  SystemFacts facts;         ///< For operators.
+  host::RunOutputs outputs;   ///< Checked by check_outputs(). A process that is started again writes none.
+  SystemFacts facts;          ///< For operators.
+  bool watches_code = false;  ///< Code of components that is built anew takes the place of the old one.
 };
 
 /// Runs a checked graph in host processes: starts them, brings everything up, watches, starts again what has died,

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/host/shadow.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "backdrop.hpp"
+#include "orca/base/log.hpp"
+#include "orca/base/text.hpp"
+#include "orca/graph/settings.hpp"
+#include "orca/host/last_words.hpp"
+#include "orca/patterns/endpoints/push_server_endpoint.hpp"
+#include "orca/plugin/trial.hpp"
+#include "quiet_run.hpp"
+#include "run/component_making.hpp"
+#include "run/part/outer_offers.hpp"
+#include "run/swap/fit.hpp"
+
+namespace orca::host {
+namespace {
+
+using plugin::TrialLine;
+using plugin::TrialResult;
+
+constexpr Duration kMostTime = 10s;              // that the copy may take besides the span
+constexpr rlim_t kMostMemory = rlim_t{2} << 30;  // [bytes] of private memory
+constexpr const char* kLaps = "its laps, in the shadow of the present one,";
+
+// What the copy says at its end: a mark, then a text.
+enum class Mark : char { refused = 'r', unanswered = 'u', well = 'w' };
+
+std::string marked(Mark mark, const std::string& text) { return static_cast<char>(mark) + text; }
+
+// Returns whether the object can depend on answers, which nobody gives here.
+bool asks(const ComponentInstance& object, const graph::Graph& graph) {
+  return std::ranges::any_of(graph.edges, [&](const graph::Edge& edge) {
+    return edge.from.component == object.name() && edge.pattern != Pattern::push;
+  });
+}
+
+// The new object in the copy of the process.
+class Shadow {
+ public:
+  Shadow(const ShadowOrder& order, std::vector<SeenObject>& seen, Executive& executive, TrialLine& line)
+      : order_(order), seen_(seen), executive_(executive), line_(line) {}
+
+  Status make(PluginCatalogue& catalogue, const LoadedType& type) {
+    const Result<Contract> contract = plugin::describe_component(*type.entry, type.file(), nullptr);
+    if (!contract) return contract.error();
+    ComponentSettings settings = settings_of(*order_.graph.find_component(order_.component));
+    const std::vector<std::string> faults = misfits_in(order_.graph, settings, order_.ports, contract->ports);
+    if (!faults.empty())
+      return fail(Code::failed_precondition, order_.type + " cannot take its place: " + joined(faults, "; "));
+    Result<ParamValues> params = inherited(contract->params, order_.params, order_.new_params);
+    if (!params) return params.error();
+    settings.params = std::move(params).value();
+    settings.on_demand = false;
+    settings.autonomous = true;
+    object_ = std::make_unique<ComponentInstance>(
+        quiet_.context(), std::move(settings), [type] { return Result<LoadedType>(type); },
+        [&catalogue](LoadedType gone) { return catalogue.release(std::move(gone)); }, nullptr);
+    if (Status loaded = object_->load(); !loaded.ok()) return loaded;
+    return backdrop_.connect(order_.graph, *object_);
+  }
+
+  // Runs as the executive's main task.
+  void work() {
+    const TimePoint first = seen_.empty() ? executive_.now() : std::max(executive_.now(), seen_[0].time);
+    wait_until_holds(executive_, *changed_, first, [] { return false; });
+    line_.step("its configure()");
+    object_->start();
+    reach(ComponentState::idle);
+    line_.step(kLaps);
+    object_->open_gate();
+    reach(ComponentState::work);
+    follow(executive_.now());
+    line_.find(marked(Mark::well, std::to_string(given_) + " " + std::to_string(pushed())));
+    line_.end();
+  }
+
+ private:
+  // Waits until the object is in a state, or has failed before.
+  void reach(ComponentState state) {
+    const auto is_there = [&] { return object_->state() == state || object_->has_failed(); };
+    wait_until_holds(executive_, *changed_, saturating_add(executive_.now(), kMostTime), is_there);
+    conclude_if_failed();
+  }
+
+  // Gives it all objects at their times, and the rest of the span to work.
+  void follow(TimePoint begin) {
+    for (SeenObject& seen : seen_) {
+      work_until(saturating_add(begin, seen.time - seen_[0].time));
+      give(seen);
+    }
+    work_until(saturating_add(begin, order_.span));
+  }
+
+  void work_until(TimePoint time) {
+    wait_until_holds(executive_, *changed_, time, [this] { return object_->has_failed(); });
+    conclude_if_failed();
+  }
+
+  void conclude_if_failed() {
+    if (!object_->has_failed()) return;
+    const Mark mark = asks(*object_, order_.graph) ? Mark::unanswered : Mark::refused;
+    line_.find(marked(mark, object_->failure()));
+    line_.end();
+  }
+
+  void give(SeenObject& seen) {
+    Endpoint* const port = object_->endpoint(seen.port);
+    if (port == nullptr) return;
+    ++given_;
+    if (port->contract().pattern != Pattern::push) {
+      (void)offers_.offer(*port, std::move(seen.object), [](const Result<ObjectRef>&) {});
+      return;
+    }
+    const std::optional<graph::PortRef> source = source_of(seen);
+    if (source) backdrop_.push(*source, std::move(seen.object).seal());
+  }
+
+  // Returns the port that pushed an object: the one of the component that the object names, if there are several.
+  [[nodiscard]] std::optional<graph::PortRef> source_of(SeenObject& seen) const {
+    std::optional<graph::PortRef> source;
+    for (const graph::Edge& edge : order_.graph.edges) {
+      if (edge.to.component != order_.component || edge.to.port != seen.port) continue;
+      if (!source || edge.from.component == seen.object.header().origin()) source = edge.from;
+    }
+    return source;
+  }
+
+  [[nodiscard]] std::uint64_t pushed() const {
+    std::uint64_t count = 0;
+    for (const PortContract& port : object_->parts().ports.contracts())
+      if (const auto* const server = dynamic_cast<PushServerEndpoint*>(object_->endpoint(port.name)))
+        count += server->pushed_count();
+    return count;
+  }
+
+  const ShadowOrder& order_;
+  std::vector<SeenObject>& seen_;
+  Executive& executive_;
+  TrialLine& line_;
+  const std::unique_ptr<Event> changed_ = executive_.make_event();
+  std::atomic<std::uint64_t> missions_{0};
+  QuietRun quiet_{executive_, "shadow", order_.graph.seed.value_or(1), [this] { changed_->notify(); },
+                  missions_};
+  OuterOffers offers_{executive_, nullptr};
+  Backdrop backdrop_{executive_};
+  std::unique_ptr<ComponentInstance> object_;
+  std::uint64_t given_ = 0;
+};
+
+void limit_memory() {
+#if !defined(__SANITIZE_ADDRESS__)  // which reserves more than there is
+  const rlimit limit{kMostMemory, kMostMemory};
+  (void)setrlimit(RLIMIT_DATA, &limit);
+#endif
+}
+
+// Runs in the copy of the process. Nothing is ever destroyed, because the copy ends here.
+void play(const ShadowOrder& order, plugin::PluginImage& plugin, std::vector<SeenObject>& seen,
+          TrialLine& line) {
+  LastWords::leave_copy();
+  log::set_level(log::Level::off);  // another thread may hold the lock of the log, for ever here
+  limit_memory();
+  const auto refuse = [&line](const Error& error) {
+    line.find(marked(Mark::refused, error.text()));
+    line.end();
+  };
+  line.step("its static initialisation or its constructor");
+  auto& catalogue = *new PluginCatalogue(plugin::PluginIndex({}));
+  auto& type = *new Result<LoadedType>(
+      catalogue.acquire(std::move(plugin), PluginKind::component, order.type, plugin::Trial::done));
+  if (!type) return refuse(type.error());
+  const bool needs_machine = type->library != nullptr && !type->library->virtual_time_faults().empty();
+  const auto options = needs_machine ? ExecutiveOptions{ClockKind::steady, Backend::thread}
+                                     : ExecutiveOptions{ClockKind::virtual_time, Backend::fiber};
+  Result<std::unique_ptr<Executive>> made = make_executive(options);
+  if (!made) return;
+  Executive& executive = *std::move(made).value().release();
+  auto& shadow = *new Shadow(order, seen, executive, line);
+  if (const Status ready = shadow.make(catalogue, *type); !ready.ok()) return refuse(ready.error());
+  executive.run([&] { shadow.work(); });
+}
+
+ShadowReport untried(const std::string& why) { return {why, 0, 0}; }
+
+Result<ShadowReport> read(const std::string& finding) {
+  const std::string text = finding.substr(1);
+  const auto mark = static_cast<Mark>(finding[0]);
+  if (mark == Mark::refused) return fail(Code::failed_precondition, text);
+  if (mark == Mark::unanswered) return untried("nobody answers it there: " + text);
+  return ShadowReport{"", std::stoull(text), std::stoull(text.substr(text.find(' ')))};
+}
+
+Result<ShadowReport> judged(const TrialResult& tried) {
+  const std::string how = tried.last_step + " " + tried.text;
+  switch (tried.ending) {
+    case TrialResult::Ending::well:
+      return tried.findings.empty() ? untried("the copy of the process said nothing")
+                                    : read(tried.findings[0]);
+    case TrialResult::Ending::died: return fail(Code::internal, how);
+    case TrialResult::Ending::too_long: return fail(Code::deadline_exceeded, how);
+    case TrialResult::Ending::effect:
+    case TrialResult::Ending::silent: return untried(how);
+  }
+  return untried(how);
+}
+
+}  // namespace
+
+Result<ShadowReport> run_in_shadow(const ShadowOrder& order, plugin::PluginImage& plugin,
+                                   std::vector<SeenObject>& seen, const std::function<bool()>& give_up) {
+#if defined(__SANITIZE_THREAD__)
+  return untried("ThreadSanitizer cannot follow a copy of a process");
+#endif
+  return judged(plugin::run_trial([&](TrialLine& line) { play(order, plugin, seen, line); },
+                                  order.span + kMostTime, plugin::Effects::none, give_up));
+}
+
+}  // namespace orca::host
