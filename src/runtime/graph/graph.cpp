@@ -43,6 +43,10 @@ bool operator==(const ComponentNode& a, const ComponentNode& b) {
   return content(a) == content(b);
 }
 
+bool operator==(const GroupNode& a, const GroupNode& b) {
+  return a.name == b.name && a.components == b.components;
+}
+
 bool operator==(const Edge& a, const Edge& b) {
   const auto content = [](const Edge& e) {
     return std::tie(e.from, e.to, e.pattern, e.queue, e.interval, e.late_bound, e.link, e.choice);
@@ -55,5 +59,7 @@ const HardwareNode* Graph::find_hardware(const std::string& wanted) const { retu
 const ComponentNode* Graph::find_component(const std::string& wanted) const {
   return find(components, wanted);
 }
+
+const GroupNode* Graph::find_group(const std::string& wanted) const { return find(groups, wanted); }
 
 }  // namespace orca::graph

@@ -42,8 +42,11 @@ class StartOrder {
   }
 
  private:
+  // What is not in the graph runs elsewhere, if this is the part of one machine.
   void wait(std::size_t component, const std::string& before) {
-    followers_[index_.at(before)].push_back(component);
+    const auto found = index_.find(before);
+    if (found == index_.end()) return;
+    followers_[found->second].push_back(component);
     ++waits_for_[component];
   }
 
@@ -52,6 +55,14 @@ class StartOrder {
   std::vector<std::size_t> waits_for_;  // number of components that must come up before
   std::map<std::size_t, std::vector<std::size_t>> followers_;  // components that wait for one
 };
+
+// Keeps of the groups what is left of their components.
+void reduce_groups(Graph& graph) {
+  for (GroupNode& group : graph.groups)
+    std::erase_if(group.components,
+                  [&](const std::string& name) { return graph.find_component(name) == nullptr; });
+  std::erase_if(graph.groups, [](const GroupNode& group) { return group.components.empty(); });
+}
 
 // Keeps of a graph what runs in certain processes, and the edges within.
 Graph reduced(Graph graph, const std::set<std::string>& processes) {
@@ -62,6 +73,7 @@ Graph reduced(Graph graph, const std::set<std::string>& processes) {
     return graph.find_component(edge.from.component) == nullptr ||
            graph.find_component(edge.to.component) == nullptr;
   });
+  reduce_groups(graph);
   return graph;
 }
 

@@ -9,6 +9,7 @@
 #include "components.hpp"
 #include "configuration.hpp"
 #include "endpoints.hpp"
+#include "groups.hpp"
 #include "hardware.hpp"
 #include "influence.hpp"
 #include "model.hpp"
@@ -100,6 +101,7 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   for (const std::string& name : options.failing)
     check_component_exists(name, command_line(), shown_option("--fail", name), model, report);
   for (const std::string& name : options.recorded) check_recorded_port(name, model, report);
+  graph.groups = check_groups(parts.groups, model, report);
   WiredEdges wired = check_wiring(parts.connections, model, report);
   graph.edges = std::move(wired.edges);
   check_waiting_room(model, graph.edges, report);

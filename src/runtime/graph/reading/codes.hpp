@@ -73,5 +73,6 @@ inline constexpr const char* kConstraint = "G069";
 inline constexpr const char* kUnknownProperty = "G070";
 inline constexpr const char* kNothingFits = "G071";
 inline constexpr const char* kTrade = "G072";
+inline constexpr const char* kGroup = "G073";
 
 }  // namespace orca::graph::codes

@@ -46,6 +46,10 @@ void put_prefix(Node& node, const std::string& context) {
     prefix_name(node, "machine", context);
   }
   if (node.is("hardware") || node.is("component")) prefix_component(node, context);
+  if (node.is("group")) {
+    prefix_name(node, "name", context);
+    prefix_names(node, "components", context);
+  }
   if (node.is("connect")) {
     prefix_name(node, "from", context);
     prefix_name(node, "to", context);

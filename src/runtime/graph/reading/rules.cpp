@@ -208,6 +208,10 @@ constexpr std::array kConnect{
                   "What carries the objects; if not given: local within a process, shm within a machine, dds "
                   "between machines.",
                   one_of(kLink)}};
+constexpr std::array kGroup{
+    AttributeRule{"name", true, "Name of the group; no component has the same."},
+    AttributeRule{"components", true,
+                  "Its components, of any processes; a component may be in several groups."}};
 constexpr std::array kPort{
     AttributeRule{"name", true, "Name that the component's author gave the port."},
     AttributeRule{"as", false, "New name of the port, everywhere in this graph."},
@@ -242,6 +246,11 @@ constexpr ElementRule kPortRule{
 constexpr ElementRule kConnectRule{
     .name = "connect", .attributes = kConnect, .text = "A connection between two ports.", .telling = kEnds};
 
+constexpr ElementRule kGroupRule{
+    .name = "group",
+    .attributes = kGroup,
+    .text = "Components that an operator suspends and resumes together, by one name."};
+
 constexpr ElementRule kMachineRule{
     .name = "machine", .attributes = kMachine, .text = "A computer of the system."};
 constexpr ElementRule kProcessRule{
@@ -269,7 +278,7 @@ constexpr ElementRule kUseRule{
     .text = "Another graph file as a sub-graph: its names get a context of their own."};
 
 constexpr std::array kInProfile{&kMachineRule, &kProcessRule, &kHardwareRule, &kComponentRule,
-                                &kConnectRule, &kIncludeRule, &kUseRule};
+                                &kGroupRule,   &kConnectRule, &kIncludeRule,  &kUseRule};
 constexpr ElementRule kProfileRule{
     .name = "profile",
     .attributes = kProfile,
@@ -277,7 +286,7 @@ constexpr ElementRule kProfileRule{
     .text = "Parts that are added, or override others, when the profile is chosen."};
 
 constexpr std::array kInGraph{&kArgRule,       &kProfileRule, &kMachineRule, &kProcessRule, &kHardwareRule,
-                              &kComponentRule, &kConnectRule, &kIncludeRule, &kUseRule};
+                              &kComponentRule, &kGroupRule,   &kConnectRule, &kIncludeRule, &kUseRule};
 constexpr ElementRule kGraphRule{.name = "graph",
                                  .attributes = kGraph,
                                  .children = kInGraph,
@@ -285,8 +294,8 @@ constexpr ElementRule kGraphRule{.name = "graph",
                                  .foreign = kSchema};
 
 constexpr std::array kElements{&kGraphRule,    &kArgRule,       &kProfileRule, &kMachineRule,  &kProcessRule,
-                               &kHardwareRule, &kComponentRule, &kParamRule,   &kPropertyRule, &kConnectRule,
-                               &kPortRule,     &kIncludeRule,   &kUseRule};
+                               &kHardwareRule, &kComponentRule, &kParamRule,   &kPropertyRule, &kGroupRule,
+                               &kConnectRule,  &kPortRule,      &kIncludeRule, &kUseRule};
 
 constexpr xml::FileRules kFile{"a graph",
                                kElements,

@@ -128,6 +128,8 @@ Attributes attributes_of(const PortSetting& setting) {
   return result;
 }
 
+Attributes attributes_of(const GroupNode& node) { return {{"components", joined(node.components, " ")}}; }
+
 Attributes attributes_of(const Edge& edge) {
   Attributes result;
   if (edge.pattern != Pattern::query) {

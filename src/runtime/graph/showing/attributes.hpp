@@ -20,6 +20,7 @@ Attributes attributes_of(const ProcessNode& node);
 Attributes attributes_of(const HardwareNode& node);
 Attributes attributes_of(const ComponentNode& node);
 Attributes attributes_of(const PortSetting& setting);
+Attributes attributes_of(const GroupNode& node);
 // Returns the attributes without the ends; the policy is complete.
 Attributes attributes_of(const Edge& edge);
 

@@ -64,6 +64,11 @@ Parts parts_of(const Graph& graph, Change::Part part) {
     for (const HardwareNode& node : graph.hardware) parts[node.name] = fields_of(node);
   } else if (part == Change::Part::component) {
     for (const ComponentNode& node : graph.components) parts[node.name] = fields_of(node);
+  } else if (part == Change::Part::group) {
+    for (GroupNode node : graph.groups) {
+      std::ranges::sort(node.components);
+      parts[node.name] = fields_of(attributes_of(node));
+    }
   } else {
     // A late-bound edge belongs to the candidates of its port.
     for (const Edge& edge : graph.edges)
@@ -113,6 +118,7 @@ const char* to_string(Change::Part part) {
     case Change::Part::process: return "process";
     case Change::Part::hardware: return "hardware";
     case Change::Part::component: return "component";
+    case Change::Part::group: return "group";
     case Change::Part::connection: return "connection";
   }
   return "?";
@@ -124,8 +130,9 @@ std::string shown(const std::string& value) { return value.empty() ? "nothing" :
 
 std::vector<Change> diff(const Graph& before, const Graph& after) {
   std::vector<Change> changes;
-  for (const auto part : {Change::Part::graph, Change::Part::machine, Change::Part::process,
-                          Change::Part::hardware, Change::Part::component, Change::Part::connection})
+  for (const auto part :
+       {Change::Part::graph, Change::Part::machine, Change::Part::process, Change::Part::hardware,
+        Change::Part::component, Change::Part::group, Change::Part::connection})
     compare(part, parts_of(before, part), parts_of(after, part), changes);
   return changes;
 }

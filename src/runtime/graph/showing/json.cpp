@@ -34,7 +34,7 @@ void write(const Properties& properties, JsonWriter& json) {
   json.end();
 }
 
-// Writes machines or processes.
+// Writes machines, processes or groups.
 template <class Node>
 void write(const char* key, const std::vector<Node>& nodes, JsonWriter& json) {
   json.key(key).begin_array();
@@ -94,6 +94,7 @@ std::string graph_json(const Graph& graph) {
   json.key("components").begin_array();
   for (const ComponentNode& node : graph.components) write(node, json);
   json.end();
+  write("groups", graph.groups, json);
   json.key("connections").begin_array();
   for (const Edge& edge : graph.edges) write(edge, json);
   json.end();

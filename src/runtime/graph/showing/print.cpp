@@ -35,7 +35,7 @@ std::string element(const std::string& name, const std::string& attributes, cons
   return content.empty() ? start + "/>\n" : start + ">\n" + content + "  </" + name + ">\n";
 }
 
-// Returns the text of a machine or process.
+// Returns the text of a machine, process or group.
 template <class Node>
 std::string plain_text(const char* name, const Node& node) {
   return element(name, attribute("name", node.name) + text_of(attributes_of(node)), "");
@@ -72,6 +72,7 @@ std::string print(const Graph& graph) {
                       params_text(node.params));
   }
   for (const ComponentNode& node : graph.components) result += component_text(node);
+  for (const GroupNode& node : graph.groups) result += plain_text("group", node);
   for (const Edge& edge : graph.edges)
     if (!edge.late_bound) result += edge_text(edge);
   return result + "</graph>\n";

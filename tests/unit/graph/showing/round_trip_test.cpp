@@ -34,7 +34,7 @@ class RandomGraph {
               connect("fuser.base", "base.MotionCommandSend",
                       maybe(room()) + maybe(" confirm='" + choice({"accepted", "handled"}) + "'"));
     for (int i = 0; i < avoiders; ++i) result += avoider(i);
-    return result + "</graph>";
+    return result + maybe("<group name='all' components='planner, base;avoid0'/>") + "</graph>";
   }
 
  private:

@@ -176,11 +176,10 @@ class Choice {
 Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& chosen, Report& report) {
   Parts parts;
   Clashes clashes;
-  std::map<std::string_view, Merger> mergers{{"machine", {parts.machines, clashes}},
-                                             {"process", {parts.processes, clashes}},
-                                             {"hardware", {parts.hardware, clashes}},
-                                             {"component", {parts.components, clashes}},
-                                             {"connect", {parts.connections, clashes}}};
+  std::map<std::string_view, Merger> mergers{
+      {"machine", {parts.machines, clashes}},  {"process", {parts.processes, clashes}},
+      {"hardware", {parts.hardware, clashes}}, {"component", {parts.components, clashes}},
+      {"group", {parts.groups, clashes}},      {"connect", {parts.connections, clashes}}};
   Choice choice(assembly, chosen, report);
   parts.some_missing = assembly.files_missing || choice.some_unknown();
   std::vector<const Node*> sections = std::move(choice).profiles();

@@ -16,6 +16,7 @@ struct Parts {
   std::vector<Node> processes;
   std::vector<Node> hardware;
   std::vector<Node> components;
+  std::vector<Node> groups;
   std::vector<Node> connections;
   bool some_missing = false;  // a file or a profile is missing, and parts of any kind may be in it
 };

@@ -19,7 +19,7 @@ struct FieldChange {
 /// One part of a graph that was added, removed or changed.
 struct Change {
   enum class Kind { added, removed, changed };
-  enum class Part { graph, machine, process, hardware, component, connection };
+  enum class Part { graph, machine, process, hardware, component, group, connection };
   Kind kind = Kind::changed;
   Part part = Part::graph;
   std::string name;                 ///< For a connection: "avoid.motion to fuser.motion".

@@ -70,6 +70,15 @@ struct ComponentNode {
   friend bool operator==(const ComponentNode& a, const ComponentNode& b);
 };
 
+/// Components that an operator orders about by one name.
+struct GroupNode {
+  std::string name;                     ///< No component has the same.
+  std::vector<std::string> components;  ///< At least one, each once.
+  xml::Position position;               ///< Place of its element; not compared.
+
+  friend bool operator==(const GroupNode& a, const GroupNode& b);
+};
+
 /// The carrier of an edge's objects.
 enum class Link {
   local,  ///< Queues within a process.
@@ -122,10 +131,12 @@ struct Graph {
   std::vector<ProcessNode> processes;  ///< Those that the graph declares; processes_of() returns all.
   std::vector<HardwareNode> hardware;
   std::vector<ComponentNode> components;
+  std::vector<GroupNode> groups;
   std::vector<Edge> edges;
 
   [[nodiscard]] const HardwareNode* find_hardware(const std::string& wanted) const;
   [[nodiscard]] const ComponentNode* find_component(const std::string& wanted) const;
+  [[nodiscard]] const GroupNode* find_group(const std::string& wanted) const;
   friend bool operator==(const Graph&, const Graph&) = default;
 };
 
