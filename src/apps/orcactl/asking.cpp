@@ -131,7 +131,8 @@ ExitCode print_names(const Call& call) {
     std::variant<Client, Failure> connected = Client::connect(call.system);
     if (auto* const failure = std::get_if<Failure>(&connected)) return failure->code;
     Client& client = std::get<Client>(connected);
-    if (kind == "component" || kind == "process") add_names(client, "ps", "name", names);
+    if (kind == "component" || kind == "group" || kind == "process") add_names(client, "ps", "name", names);
+    if (kind == "group") add_names(client, "names", "group", names);
     if (kind == "process") add_names(client, "ps", "process", names);
     if (kind == "port") add_names(client, "names", "port", names);
     if (kind == "param") add_names(client, "names", "param", names);

@@ -121,6 +121,8 @@ class Reader {
     if (call_.words.size() < needed)
       return wrong(command + " needs " + std::string(arguments[call_.words.size()].name) + " (see orcactl " +
                    command + " --help)");
+    if (call_.command->pairs && call_.words.size() % 2 != 0)
+      return wrong(command + " needs a value after " + in_quotes(call_.words.back()));
     if (!any && call_.words.size() > arguments.size())
       return wrong(command + " does not know what to do with " + in_quotes(call_.words[arguments.size()]));
     return ok();

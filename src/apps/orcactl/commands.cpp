@@ -9,6 +9,7 @@ namespace {
 
 const Argument kPort{"PORT", Names::port};
 const Argument kComponent{"COMPONENT", Names::component};
+const Argument kComponents{"COMPONENT|GROUP", Names::group};
 const OptionSpec kCount{"--count", "N", "end after so many objects"};
 const OptionSpec kFor{"--for", "DURATION", "end after this time, with one line about all of it"};
 const OptionSpec kTimeout{"--timeout", "DURATION", "longest wait for the answer (default 5 s)"};
@@ -83,11 +84,15 @@ std::vector<Command> history_commands() {
        .tells = true,
        .text = "the value of a parameter, or of all of a component, in SI"},
       {.name = "set",
-       .arguments = {{"COMPONENT.PARAM", Names::param}, {"VALUE"}},
-       .text = "change a parameter between two laps",
-       .details = "The value is written and checked as in a graph, with units. A process that is started "
-                  "again begins "
-                  "with the values of the graph."},
+       .arguments = {{"COMPONENT.PARAM", Names::param},
+                     {"VALUE"},
+                     {"COMPONENT.PARAM VALUE", Names::param, true, true}},
+       .pairs = true,
+       .text = "change parameters between two laps: all of them, or none",
+       .details = "Values are written and checked as in a graph, with units, all of them before anything "
+                  "changes. Each component changes between two of its laps, one after the other; if one "
+                  "refuses, those before it get their old values back. A process that is started again "
+                  "begins with the values of the graph."},
       {.name = "counters",
        .watches = true,
        .tells = true,
@@ -151,8 +156,20 @@ std::vector<Command> operating_commands() {
            "the type "
            "that runs; another type is taken if its ports fit, and begins afresh. A process that is started "
            "again begins with the code of the graph."},
-      {.name = "suspend", .arguments = {kComponent}, .text = "pause a component between two laps"},
-      {.name = "resume", .arguments = {kComponent}, .text = "let a suspended component go on"},
+      {.name = "suspend",
+       .arguments = {kComponents},
+       .tells = true,
+       .text = "pause a component, or all of a group, between two laps",
+       .details = "The components of a group are suspended one after the other, in the reverse order of "
+                  "their start; those that are suspended already stay so. If one cannot be suspended, those "
+                  "before it are resumed."},
+      {.name = "resume",
+       .arguments = {kComponents},
+       .tells = true,
+       .text = "let a suspended component go on, or all of a group",
+       .details = "The components of a group are resumed one after the other, in the order of their start; "
+                  "those that are not suspended are left alone. If one cannot be resumed, those before it "
+                  "are suspended again."},
   };
 }
 
@@ -162,7 +179,7 @@ std::vector<Command> shell_commands() {
       {.name = "names",
        .way = Way::names,
        .arguments = {{"KIND"}},
-       .text = "names for completion, one per line: component, port, param, process or system"},
+       .text = "names for completion, one per line: component, group, port, param, process or system"},
       {.name = "completion",
        .way = Way::completion,
        .arguments = {{"SHELL"}},

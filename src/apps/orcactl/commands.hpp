@@ -9,7 +9,7 @@
 namespace orca::orcactl {
 
 /// What a word on the command line names, for completion.
-enum class Names { none, component, port, param, process, system, file };
+enum class Names { none, component, group, port, param, process, system, file };
 
 /// A word after a command.
 struct Argument {
@@ -43,6 +43,7 @@ struct Command {
   Way way = Way::ask;
   std::vector<Argument> arguments{};
   std::vector<OptionSpec> options{};  ///< Beyond those that all commands have.
+  bool pairs = false;                 ///< Whether the words come in pairs.
   bool watches = false;               ///< Whether --watch makes sense.
   bool tells = false;                 ///< Whether it answers with records.
   std::string_view text;              ///< One line for people.

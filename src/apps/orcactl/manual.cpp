@@ -68,6 +68,7 @@ const char* kind_of(const Command& command) {
   if (command.name == "completion") return "shell";
   switch (command.arguments.empty() ? Names::none : command.arguments.front().names) {
     case Names::component: return "component";
+    case Names::group: return "group";
     case Names::port: return "port";
     case Names::param: return "param";
     case Names::process: return "process";
@@ -123,7 +124,7 @@ _orcactl() {
   fi
   case $kind in
   "") ;;
-  kind) COMPREPLY=($(compgen -W "component port param process system" -- "$word")) ;;
+  kind) COMPREPLY=($(compgen -W "component group port param process system" -- "$word")) ;;
   shell) COMPREPLY=($(compgen -W "bash zsh" -- "$word")) ;;
   *) COMPREPLY=($(compgen -W "$(orcactl ${system:+--system "$system"} names $kind 2>/dev/null)" -- "$word")) ;;
   esac
@@ -175,7 +176,7 @@ _orcactl() {
   fi
   case $kind in
   "") ;;
-  kind) compadd -- component port param process system ;;
+  kind) compadd -- component group port param process system ;;
   shell) compadd -- bash zsh ;;
   *) compadd -- ${(f)"$(orcactl ${system:+--system} ${system:+"$system"} names $kind 2>/dev/null)"} ;;
   esac

@@ -56,6 +56,12 @@ TEST_CASE("a wrong command line says what would be right", "[orcactl]") {
   CHECK_THAT(error_of({"ps", "--system"}), Contains("expects a value"));
 }
 
+TEST_CASE("set takes any number of parameters, each with its value", "[orcactl]") {
+  CHECK(parse_call({"set", "a.x", "-0.3 m", "b.y", "true"})->words.size() == 4);
+  CHECK_THAT(error_of({"set", "a.x"}), Contains("set needs VALUE"));
+  CHECK_THAT(error_of({"set", "a.x", "1", "b.y"}), Contains("set needs a value after \"b.y\""));
+}
+
 TEST_CASE("help is there without a command, and for one without its arguments", "[orcactl]") {
   CHECK(parse_call({"--help"})->help);
   CHECK(parse_call({"-h"})->command == nullptr);

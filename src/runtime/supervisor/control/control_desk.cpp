@@ -46,7 +46,7 @@ ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
                          const std::vector<Member*>& members, Ledger& ledger, const RunLevers& levers)
     : ledger_(ledger),
       names_(graph, facts.ports, members),
-      operating_(graph, facts, names_, levers),
+      operating_(graph, facts, names_, ledger.reports(), levers),
       exchanging_(graph, facts, names_, operating_, levers.wake),
       showing_(graph, facts, members, ledger, exchanging_, levers.edges_in_use),
       motors_(members, ledger) {}
@@ -109,8 +109,7 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.resume(word(ask, 0), r); }},
       {"swap", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.exchanging_.swap(ask.words, r); }},
       {"get", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.get(word(ask, 0), r); }},
-      {"set", [](ControlDesk& d, const Ask& ask,
-                 const ReplyPtr& r) { d.operating_.set(word(ask, 0), word(ask, 1), r); }},
+      {"set", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.set(ask.words, r); }},
       {"line", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.open_line(ask, r); }},
   };
   return all;

@@ -1,42 +1,173 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "control/operating.hpp"
 
+#include <algorithm>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/graph/settings.hpp"
+#include "orca/host/component_state.hpp"
 #include "orca/supervisor/log_name.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::supervisor {
 namespace {
 
-Member::Answered pass_on(const ReplyPtr& reply) {
-  return [reply](const Status& outcome) {
-    if (!outcome.ok()) reply->refuse(outcome.error());
-  };
+// An answer that comes for certain: the component's, or the word that its process has ended without one.
+class CertainAnswer {
+ public:
+  CertainAnswer(std::string process, JointOrders::Answered take)
+      : process_(std::move(process)), take_(std::move(take)) {}
+  ~CertainAnswer() {
+    if (take_) take_(fail(Code::unavailable, "process " + process_ + " has ended before it answered"));
+  }
+  CertainAnswer(const CertainAnswer&) = delete;
+  CertainAnswer& operator=(const CertainAnswer&) = delete;
+
+  void give(const Status& outcome) { std::exchange(take_, nullptr)(outcome); }
+
+ private:
+  const std::string process_;
+  JointOrders::Answered take_;
+};
+
+// The states of a group's components before an order.
+using StatesBefore = std::vector<std::pair<const graph::ComponentNode*, std::string>>;
+
+Pairs pairs_of(const graph::Params& params) {
+  Pairs pairs;
+  for (const auto& [name, value] : params) pairs.emplace_back(name, graph::print_value(value));
+  return pairs;
+}
+
+// Puts a title before each line of a text.
+std::string titled(const std::string& lines, const std::string& title) {
+  std::string result = title;
+  for (const char c : lines) result += c == '\n' ? "\n" + title : std::string(1, c);
+  return result;
 }
 
 }  // namespace
 
-void Operating::order(const std::string& component, const ReplyPtr& reply,
-                      const std::function<Order(const std::string&)>& make) {
-  const Result<const graph::ComponentNode*> node = names_.component(component);
-  if (!node) return reply->refuse(node.error());
-  const Result<Member*> member = names_.ready_member_of(**node);
-  if (!member) return reply->refuse(member.error());
-  (*member)->ask(make(component), pass_on(reply));
+// A reader of what an operator wants to set. It goes on after an error, to report all of them.
+class Operating::SettingReader {
+ public:
+  SettingReader(const Operating& operating, const SystemFacts& facts)
+      : operating_(operating), facts_(facts) {}
+
+  Result<std::vector<Setting>> read(const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i + 1 < words.size(); i += 2) take(words[i], words[i + 1]);
+    if (words.size() % 2 != 0) note(fail(Code::invalid_argument, "which value? for " + words.back()));
+    const bool is_alone = words.size() == 2;
+    for (Setting& setting : settings_) read_values(setting, is_alone ? "" : setting.component->name + ": ");
+    if (errors_.empty()) return std::move(settings_);
+    return fail(code_, joined(errors_, "\n"));
+  }
+
+ private:
+  void take(const std::string& what, const std::string& value) {
+    const Result<ParamName> name = operating_.find(what);
+    if (!name) return note(name.error());
+    const graph::ComponentNode& component = *name->component;
+    if (name->param.empty() || !facts_.contracts.contains(component.name))
+      return note(fail(Code::invalid_argument, "name one parameter: " + component.name + ".PARAM"));
+    auto setting = std::ranges::find(settings_, &component, &Setting::component);
+    if (setting == settings_.end()) setting = settings_.insert(setting, {&component, {}, {}});
+    if (!setting->texts.emplace(name->param, value).second)
+      note(fail(Code::invalid_argument, what + " is given twice; give it one value"));
+  }
+
+  void read_values(Setting& setting, const std::string& title) {
+    const Contract& contract = facts_.contracts.at(setting.component->name);
+    Result<graph::Params> values = graph::read_settings(contract.params, setting.texts);
+    if (values) {
+      setting.values = std::move(values).value();
+    } else {
+      note(fail(values.error().code, titled(values.error().message, title)));
+    }
+  }
+
+  void note(const Error& error) {
+    if (errors_.empty()) code_ = error.code;
+    errors_.push_back(error.message);
+  }
+
+  const Operating& operating_;
+  const SystemFacts& facts_;
+  std::vector<Setting> settings_;  // one for each component
+  std::vector<std::string> errors_;
+  Code code_ = Code::invalid_argument;
+};
+
+Operating::Operating(const graph::Graph& graph, const SystemFacts& facts, const SystemNames& names,
+                     host::Reports reports, RunLevers levers)
+    : graph_(graph),
+      facts_(facts),
+      names_(names),
+      reports_(std::move(reports)),
+      levers_(std::move(levers)),
+      joint_orders_([this](const std::string& component, Order order, JointOrders::Answered answered) {
+        return send(component, std::move(order), std::move(answered));
+      }) {}
+
+Status Operating::send(const std::string& component, Order order, JointOrders::Answered answered) const {
+  const Result<Member*> member = names_.ready_member_of(*graph_.find_component(component));
+  if (!member) return member.error();
+  const auto answer = std::make_shared<CertainAnswer>((*member)->name(), std::move(answered));
+  (*member)->ask(std::move(order), [answer](const Status& outcome) { answer->give(outcome); });
+  return ok();
 }
 
-void Operating::suspend(const std::string& component, const ReplyPtr& reply) {
-  order(component, reply, [](const std::string& name) { return Suspend{name}; });
+Status Operating::are_ready(const Nodes& nodes) const {
+  std::set<std::string> errors;  // several components may be in one process
+  for (const graph::ComponentNode* const node : nodes)
+    if (const Result<Member*> member = names_.ready_member_of(*node); !member)
+      errors.insert(member.error().message);
+  if (errors.empty()) return ok();
+  return fail(Code::unavailable, joined(std::vector<std::string>(errors.begin(), errors.end()), "\n"));
 }
 
-void Operating::resume(const std::string& component, const ReplyPtr& reply) {
-  order(component, reply, [](const std::string& name) { return Resume{name}; });
+// ---- Pauses
+
+void Operating::suspend(const std::string& name, const ReplyPtr& reply) { pause(name, true, reply); }
+
+void Operating::resume(const std::string& name, const ReplyPtr& reply) { pause(name, false, reply); }
+
+void Operating::pause(const std::string& name, bool suspends, const ReplyPtr& reply) {
+  Result<Nodes> nodes = names_.component_or_group(name);
+  if (!nodes) return reply->refuse(nodes.error());
+  if (const Status ready = are_ready(*nodes); !ready.ok()) return reply->refuse(ready.error());
+  if (suspends) std::ranges::reverse(*nodes);
+  const bool is_group = graph_.find_group(name) != nullptr;
+  const auto before = std::make_shared<StatesBefore>();
+  std::vector<JointStep> steps;
+  for (const graph::ComponentNode* const node : *nodes) {
+    const auto make = [this, node, suspends, is_group, before]() -> std::optional<ThereAndBack> {
+      const host::ComponentState state = reports_(node->name).state;
+      before->emplace_back(node, host::to_string(state));
+      if (is_group && host::is_suspended(state) == suspends) return std::nullopt;
+      if (suspends) return ThereAndBack{Suspend{node->name}, Resume{node->name}};
+      return ThereAndBack{Resume{node->name}, Suspend{node->name}};
+    };
+    steps.push_back({node->name, make, [](bool) {}});
+  }
+  joint_orders_.add(std::move(steps), [this, name, suspends, is_group, before, reply](const Status& end) {
+    if (!end.ok()) return reply->refuse(end.error());
+    log::info(kLogName, std::string("an operator has ") + (suspends ? "suspended " : "resumed ") + name);
+    if (!is_group) return;
+    for (const auto& [node, state] : *before)
+      reply->add(Record{{"component", node->name},
+                        {"process", node->process},
+                        {"before", state},
+                        {"now", host::to_string(reports_(node->name).state)}});
+  });
 }
+
+// ---- Parameters
 
 // A component's name may hold no dot, so what follows the last one is a parameter.
 Result<Operating::ParamName> Operating::find(const std::string& what) const {
@@ -84,26 +215,42 @@ void Operating::get(const std::string& what, const ReplyPtr& reply) const {
   for (const auto& [param, value] : name->component->params) add_param({name->component, param}, *reply);
 }
 
-void Operating::set(const std::string& what, const std::string& value, const ReplyPtr& reply) {
-  const Result<ParamName> name = find(what);
-  if (!name) return reply->refuse(name.error());
-  const std::string component = name->component->name;
-  const auto contract = facts_.contracts.find(component);
-  if (name->param.empty() || contract == facts_.contracts.end())
-    return reply->refuse(fail(Code::invalid_argument, "name one parameter: " + component + ".PARAM"));
-  const Result<graph::Params> read = graph::read_settings(contract->second.params, {{name->param, value}});
-  if (!read) return reply->refuse(read.error());
-  const Result<Member*> member = names_.ready_member_of(*name->component);
-  if (!member) return reply->refuse(member.error());
-  (*member)->ask(SetParams{component, {{name->param, value}}}, [this, component, reply,
-                                                                values = *read](const Status& outcome) {
-    if (!outcome.ok()) return reply->refuse(outcome.error());
-    for (const auto& [param, changed] : values) {
-      changed_[component].insert_or_assign(param, changed);
-      log::info(component, "an operator has set " + param + " to " + graph::print_value(changed));
-    }
+void Operating::set(const std::vector<std::string>& words, const ReplyPtr& reply) {
+  const Result<std::vector<Setting>> settings = SettingReader(*this, facts_).read(words);
+  if (!settings) return reply->refuse(settings.error());
+  Nodes nodes;
+  std::vector<JointStep> steps;
+  for (const Setting& setting : *settings) {
+    nodes.push_back(setting.component);
+    steps.push_back(step_of(setting));
+  }
+  if (const Status ready = are_ready(nodes); !ready.ok()) return reply->refuse(ready.error());
+  joint_orders_.add(std::move(steps), [reply, settings = *settings](const Status& end) {
+    if (!end.ok()) return reply->refuse(end.error());
+    for (const Setting& setting : settings)
+      for (const auto& [param, value] : setting.values)
+        log::info(setting.component->name,
+                  "an operator has set " + param + " to " + graph::print_value(value));
   });
 }
+
+JointStep Operating::step_of(const Setting& setting) {
+  const auto before = std::make_shared<graph::Params>();
+  const auto make = [this, setting, before]() -> std::optional<ThereAndBack> {
+    const graph::Params present = params_of(*setting.component);
+    for (const auto& [param, value] : setting.values) before->insert_or_assign(param, present.at(param));
+    const std::string& name = setting.component->name;
+    return ThereAndBack{SetParams{name, {setting.texts.begin(), setting.texts.end()}},
+                        SetParams{name, pairs_of(*before)}};
+  };
+  const auto obeyed = [this, setting, before](bool has_gone) {
+    for (const auto& [param, value] : has_gone ? setting.values : *before)
+      changed_[setting.component->name].insert_or_assign(param, value);
+  };
+  return {setting.component->name, make, obeyed};
+}
+
+// ---- The run
 
 void Operating::restart(const std::string& name, const ReplyPtr& reply) {
   const Result<Member*> member = names_.process(name);

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "control/joint_orders.hpp"
 #include "control/reply.hpp"
 #include "control/system_names.hpp"
 #include "orca/base/result.hpp"
+#include "orca/host/component_report.hpp"
 #include "orca/supervisor/system_facts.hpp"
 #include "run/member.hpp"
 
@@ -30,16 +32,20 @@ struct RunLevers {
 class Operating {
  public:
   /// All of these outlive the object.
-  Operating(const graph::Graph& graph, const SystemFacts& facts, const SystemNames& names, RunLevers levers)
-      : graph_(graph), facts_(facts), names_(names), levers_(std::move(levers)) {}
+  Operating(const graph::Graph& graph, const SystemFacts& facts, const SystemNames& names,
+            host::Reports reports, RunLevers levers);
 
-  /// Pause a component, and let it go on.
-  void suspend(const std::string& component, const ReplyPtr& reply);
-  void resume(const std::string& component, const ReplyPtr& reply);
+  /// Pause a component, or all of a group, and let them go on. All of a group obey, or none; who is so already is left
+  /// alone. They are resumed in the order in which they start, and suspended the other way round. The answer has a
+  /// record for each of a group.
+  void suspend(const std::string& name, const ReplyPtr& reply);
+  void resume(const std::string& name, const ReplyPtr& reply);
   /// Answers with a parameter, "component.param", or with all of a component.
   void get(const std::string& what, const ReplyPtr& reply) const;
-  /// Changes a parameter.
-  void set(const std::string& what, const std::string& value, const ReplyPtr& reply);
+  /// Changes parameters of any components: all of them, or none. They are checked before anything changes, and the
+  /// answer has everything that is wrong with them.
+  /// @param words  "component.param" and its value, in turn.
+  void set(const std::vector<std::string>& words, const ReplyPtr& reply);
   /// Returns the present values of a component's parameters.
   [[nodiscard]] graph::Params params_of(const graph::ComponentNode& component) const;
   /// Starts a process again, which is named by itself or by one of its components. The answer ends when it is back.
@@ -60,16 +66,30 @@ class Operating {
   [[nodiscard]] Result<ParamName> find(const std::string& what) const;
   [[nodiscard]] std::string value_of(const ParamName& name) const;
   void add_param(const ParamName& name, Reply& reply) const;
-  void order(const std::string& component, const ReplyPtr& reply,
-             const std::function<Order(const std::string&)>& make);
+
+  using Nodes = std::vector<const graph::ComponentNode*>;
+  // What is to change in one component.
+  struct Setting {
+    const graph::ComponentNode* component;
+    std::map<std::string, std::string> texts;  // as they were given
+    graph::Params values;
+  };
+  class SettingReader;
+
+  void pause(const std::string& name, bool suspends, const ReplyPtr& reply);
+  [[nodiscard]] Status are_ready(const Nodes& nodes) const;
+  [[nodiscard]] JointStep step_of(const Setting& setting);
+  Status send(const std::string& component, Order order, JointOrders::Answered answered) const;
 
   const graph::Graph& graph_;
   const SystemFacts& facts_;
   const SystemNames& names_;
+  const host::Reports reports_;
   const RunLevers levers_;
   std::map<std::string, graph::Params> changed_;    // by component: what is not as in the graph
   std::multimap<const Member*, ReplyPtr> awaited_;  // restarts
   std::vector<ReplyPtr> until_end_;
+  JointOrders joint_orders_;
 };
 
 }  // namespace orca::supervisor

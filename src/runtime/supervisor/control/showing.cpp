@@ -86,6 +86,7 @@ void Showing::plugins(Reply& reply) const {
 
 void Showing::names(Reply& reply) const {
   for (const graph::ListedPort& port : facts_.ports) reply.add(Record{{"port", port.ref.text()}});
+  for (const graph::GroupNode& node : graph_.groups) reply.add(Record{{"group", node.name}});
   for (const graph::ComponentNode& node : graph_.components)
     for (const auto& [name, value] : node.params) reply.add(Record{{"param", node.name + "." + name}});
 }

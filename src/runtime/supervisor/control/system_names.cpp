@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "orca/base/text.hpp"
+#include "orca/graph/placement.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::supervisor {
@@ -22,6 +23,23 @@ Result<const graph::ComponentNode*> SystemNames::component(const std::string& na
   std::vector<std::string> names;
   for (const graph::ComponentNode& node : graph_.components) names.push_back(node.name);
   return unknown("component", name, names);
+}
+
+Result<std::vector<const graph::ComponentNode*>> SystemNames::component_or_group(
+    const std::string& name) const {
+  if (const graph::ComponentNode* const found = graph_.find_component(name)) return std::vector{found};
+  const graph::GroupNode* const group = graph_.find_group(name);
+  if (group == nullptr) {
+    std::vector<std::string> names;
+    for (const graph::ComponentNode& node : graph_.components) names.push_back(node.name);
+    for (const graph::GroupNode& node : graph_.groups) names.push_back(node.name);
+    return unknown("component or group", name, names);
+  }
+  std::vector<const graph::ComponentNode*> members;
+  for (const std::string& component : graph::start_order(graph_))
+    if (std::ranges::find(group->components, component) != group->components.end())
+      members.push_back(graph_.find_component(component));
+  return members;
 }
 
 Result<const graph::ListedPort*> SystemNames::port(const std::string& path) const {

@@ -27,6 +27,9 @@ class SystemNames {
   /// @errors  not_found.
   [[nodiscard]] Result<const graph::ComponentNode*> component(const std::string& name) const;
   [[nodiscard]] Result<const graph::ListedPort*> port(const std::string& path) const;
+  /// Finds the components that a name stands for: one, or all of a group, in the order in which they start.
+  [[nodiscard]] Result<std::vector<const graph::ComponentNode*>> component_or_group(
+      const std::string& name) const;
   /// Finds a process by its name, or by that of one of its components.
   [[nodiscard]] Result<Member*> process(const std::string& name) const;
 

@@ -100,8 +100,10 @@ void Member::lose_channel(Moment now) {
 }
 
 void Member::forget() {
-  process_.reset();
+  const std::map<std::uint64_t, AnswerTaker> unanswered =
+      std::move(open_);  // destroyed last: some act on that
   open_.clear();
+  process_.reset();
   words_.clear();
   deaf_since_.reset();
   prompts_.reset();
