@@ -100,6 +100,7 @@ TEST_CASE("a plugin that is built while its last version is on probation is take
   REQUIRE(system.hears("runs the code that was built anew"));
   const std::size_t mark = system.mark();
   REQUIRE(system.hears_after("heard 1:", mark));
+  REQUIRE(system.hears_after("runs the code that was built anew", mark));
   CHECK_THAT(system.end(), !Contains("does not run"));
 }
 
