@@ -185,7 +185,9 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     if (moments_) orca::sim::draw(shared_->snapshot(), *name_, *robot_, moments_->moments(), scene);
   }
 
+  // A robot whose device is opened again is where it was left, in the same world.
   Status open() override {
+    if (shared_ != nullptr) return skip_past();
     // The key contains the run, so that two systems in one process have separate worlds.
     const std::string key =
         std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
@@ -200,6 +202,11 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     if (!added) return added.error();
     id_ = *added;
     moments_.emplace(*robot_);
+    return orca::ok();
+  }
+
+  Status skip_past() {
+    sensors_->skip(shared_->advance(id_, host().now()));
     return orca::ok();
   }
 

@@ -144,7 +144,7 @@ std::vector<Command> operating_commands() {
                    {"--probation", "DURATION",
                     "time in which a failure brings the old code back (default 2 s)"}},
        .tells = true,
-       .text = "exchange the code of a component while it runs",
+       .text = "exchange the code of a component, or a driver, while it runs",
        .details =
            "For a second, what reaches the component is collected; then the new code is tried with that in a "
            "process of its own, where it can do no harm. "
@@ -155,7 +155,12 @@ std::vector<Command> operating_commands() {
            "The order ends when the probation is over and the old code is out of memory. Without TYPE it is "
            "the type "
            "that runs; another type is taken if its ports fit, and begins afresh. A process that is started "
-           "again begins with the code of the graph."},
+           "again begins with the code of the graph. "
+           "With the name of hardware instead of a component, its driver is exchanged: the base stops and is "
+           "held, the "
+           "device is closed and opened anew, and the old driver is back if the new one is not ready within "
+           "5 s. There "
+           "is no trial and no probation then."},
       {.name = "suspend",
        .arguments = {kComponents},
        .tells = true,

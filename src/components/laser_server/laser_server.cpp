@@ -16,7 +16,7 @@ class LaserServer final : public orca::hw::HardwareServer {
 
  private:
   orca::Status configure() override {
-    if (container() != nullptr && container()->description().laser_sensors().empty())
+    if (seat() != nullptr && seat()->description().laser_sensors().empty())
       return orca::fail(orca::Code::failed_precondition,
                         "its hardware has no laser; bind hardware with a laser to this component");
     return HardwareServer::configure();
@@ -24,7 +24,7 @@ class LaserServer final : public orca::hw::HardwareServer {
 
   orca::Result<orca::Loan<orca::idl::LaserSensor>> on_describe(
       const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
-    return orca::make_object<orca::idl::LaserSensor>(container()->description().laser_sensors().front());
+    return orca::make_object<orca::idl::LaserSensor>(seat()->description().laser_sensors().front());
   }
 
   orca::QueryServer<orca::idl::Ask, orca::idl::LaserSensor> description_{

@@ -18,7 +18,7 @@ class RobotBaseServer final : public orca::hw::HardwareServer {
 
  private:
   orca::Result<orca::Loan<orca::idl::Robot>> on_describe(const orca::ObjectPtr<orca::idl::Ask>& ask) {
-    return orca::hw::part_of(container()->description(), ask->about());
+    return orca::hw::part_of(seat()->description(), ask->about());
   }
 
   orca::QueryServer<orca::idl::Ask, orca::idl::Robot> description_{

@@ -18,6 +18,7 @@ HardwareLoop::HardwareLoop(HardwareContainer& container, HardwareHost& host)
     : container_(container), host_(host), life_(container, host) {}
 
 void HardwareLoop::run() {
+  shutting_down_.store(false, std::memory_order_release);
   strand_.emplace(host_.executive(), TaskOptions{host_.name(), 1});
   life_.handle(HardwareEvent::run);
   strand_->start([this] { main(); });

@@ -22,7 +22,7 @@ class HardwareLoop {
   HardwareLoop(const HardwareLoop&) = delete;
   HardwareLoop& operator=(const HardwareLoop&) = delete;
 
-  /// Starts the strand, which opens the device.
+  /// Starts the strand, which opens the device; again if it was shut down and has ended.
   void run();
   /// Makes the strand stop and close the device and then end.
   void shut_down();

@@ -14,7 +14,7 @@ enum class HardwareEvent {
   // Circumstances.
   wanted,     ///< Somebody uses the device.
   unwanted,   ///< Nobody uses it.
-  shut_down,  ///< The system is being stopped, and the device does not work any more.
+  shut_down,  ///< The system is being stopped, or the driver exchanged, and the device does not work any more.
   // Orders.
   run,
   // Outcomes.

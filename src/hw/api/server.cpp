@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "orca/idl/system.hpp"
@@ -25,13 +26,13 @@ std::string in_short(Duration time) {
 // A use of the hardware: keeps it active while this object lives, even if a wait is interrupted.
 class Use {
  public:
-  explicit Use(HardwareContainer& container) : container_(container) { container_.acquire(); }
-  ~Use() { container_.release(); }
+  explicit Use(HardwareSeat& seat) : seat_(seat) { seat_.acquire(); }
+  ~Use() { seat_.release(); }
   Use(const Use&) = delete;
   Use& operator=(const Use&) = delete;
 
  private:
-  HardwareContainer& container_;
+  HardwareSeat& seat_;
 };
 
 }  // namespace
@@ -39,22 +40,22 @@ class Use {
 // The Push and the Query port of one sensor, whatever its object type.
 class HardwareServer::SensorPorts {
  public:
-  SensorPorts(HardwareServer& server, SensorEndpoint& sensor)
+  SensorPorts(HardwareServer& server, const HardwareSeat::Sensor& sensor)
       : server_(server),
         sensor_(sensor),
-        push_(server, std::string(sensor.type().name) + "Push", sensor),
-        query_(server, std::string(sensor.type().name) + "Query", type_id(object_type<idl::AskReading>()),
-               type_id(sensor.type()),
+        push_(server, std::string(sensor.type->name) + "Push", sensor),
+        query_(server, std::string(sensor.type->name) + "Query", type_id(object_type<idl::AskReading>()),
+               type_id(*sensor.type),
                [this](const ObjectRef& ask) {
                  return answer(to_time_point(object_cast<idl::AskReading>(ask)->since()));
                },
                {.text = "The latest reading, if it was sensed at `since` or later."}) {}
-  ~SensorPorts() { sensor_.set_sink(this, nullptr); }
+  ~SensorPorts() { server_.seat_->set_sink(sensor_, this, nullptr); }
   SensorPorts(const SensorPorts&) = delete;
   SensorPorts& operator=(const SensorPorts&) = delete;
 
   void connect() {
-    sensor_.set_sink(this, [this](ObjectLoan reading) {
+    server_.seat_->set_sink(sensor_, this, [this](ObjectLoan reading) {
       if (!open_.load(std::memory_order_acquire)) return std::move(reading).seal();
       ObjectRef pushed = push_.push(std::move(reading));
       server_.host().strand().wake();  // a query may wait for it
@@ -68,84 +69,83 @@ class HardwareServer::SensorPorts {
  private:
   class Push final : public PushServerHandle {
    public:
-    Push(PortOwner& owner, std::string name, const SensorEndpoint& sensor)
-        : PushServerHandle(owner, std::move(name), type_id(sensor.type()),
-                           {.period = sensor.period(), .from_device = true}) {}
-    // Called on the container's strand, so without the provenance of the object that the component handles.
+    Push(PortOwner& owner, std::string name, const HardwareSeat::Sensor& sensor)
+        : PushServerHandle(owner, std::move(name), type_id(*sensor.type),
+                           {.period = sensor.period, .from_device = true}) {}
+    // Called on the driver's strand, so without the provenance of the object that the component handles.
     ObjectRef push(ObjectLoan reading) { return push_reading(std::move(reading)); }
   };
 
   // Returns the latest reading; if the hardware is idle, the first one after starting it. It does not wait for a
   // later one, because the base carries out no command meanwhile.
   Result<ObjectLoan> answer(TimePoint since) {
-    HardwareContainer& container = *server_.container();
-    const Use use(container);
-    const auto failed = [&] { return container.state() == HardwareState::fault; };
+    HardwareSeat& seat = *server_.seat_;
+    const Use use(seat);
+    const auto failed = [&] { return seat.state() == HardwareState::fault; };
     server_.host().strand().wait_for(server_.now() + kFirstReadingLimit,
-                                     [&] { return failed() || sensor_.latest(); });
-    if (const ObjectRef reading = sensor_.latest()) {
+                                     [&] { return failed() || seat.latest(sensor_); });
+    if (const ObjectRef reading = seat.latest(sensor_)) {
       if (reading.stamp() >= since) return copy_value(reading);
       return fail(Code::unavailable, older_than(since, reading.stamp()));
     }
-    if (failed()) return fail(Code::unavailable, "the hardware failed: " + container.fault());
+    if (failed()) return fail(Code::unavailable, "the hardware failed: " + seat.fault());
     return fail(Code::deadline_exceeded, "the hardware gave no reading within 2 s");
   }
 
   [[nodiscard]] std::string older_than(TimePoint since, TimePoint stamp) const {
     return "the latest reading was sensed " + in_short(since - stamp) +
            " s before the time that is asked for; ask " + "again: one comes every " +
-           in_short(sensor_.period()) + " s";
+           in_short(sensor_.period) + " s";
   }
 
   HardwareServer& server_;
-  SensorEndpoint& sensor_;
+  const HardwareSeat::Sensor sensor_;
   Push push_;
   QueryServerHandle query_;
   std::atomic<bool> open_{false};
 };
 
 HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectType* only)
-    : Component(host), container_(static_cast<HardwareContainer*>(host.hardware())) {
+    : Component(host), seat_(static_cast<HardwareSeat*>(host.hardware())) {
   lap_every(kWatchPeriod);
-  if (container_ == nullptr) return;
-  for (SensorEndpoint* sensor : container_->sensors()) {
+  if (seat_ == nullptr) return;
+  for (const HardwareSeat::Sensor& sensor : seat_->sensors()) {
     // Types are compared by name, because a plugin may have its own copy of the type's description.
-    const bool wanted = only == nullptr || only->name == sensor->type().name;
-    if (wanted && sensor->source() == source)
-      sensors_.push_back(std::make_unique<SensorPorts>(*this, *sensor));
+    const bool wanted = only == nullptr || only->name == sensor.type->name;
+    if (wanted && sensor.source == source) sensors_.push_back(std::make_unique<SensorPorts>(*this, sensor));
   }
 }
 
 HardwareServer::~HardwareServer() = default;
 
 void HardwareServer::offer_motion() {
-  if (container_ == nullptr || container_->motion() == nullptr) return;
+  const std::optional<DriveLimits> base = seat_ != nullptr ? seat_->limits() : std::nullopt;
+  if (!base) return;
   motion_ = std::make_unique<SendServer<idl::MotionCommand>>(*this, "MotionCommandSend",
                                                              &HardwareServer::on_motion);
-  const DriveLimits& base = container_->motion()->limits();
-  if (base.type == idl::HOLONOMIC)
+  if (base->type == idl::HOLONOMIC)
     velocity_ = std::make_unique<SendServer<idl::HolonomicVelocity>>(*this, "HolonomicVelocitySend",
                                                                      &HardwareServer::on_velocity);
-  if (base.turret)
+  if (base->turret)
     turret_ = std::make_unique<SendServer<idl::TurretCommand>>(*this, "TurretCommandSend",
                                                                &HardwareServer::on_turret);
 }
 
 Status HardwareServer::configure() {
-  if (container_ == nullptr) return fail(Code::failed_precondition, "the graph binds no hardware to it");
-  container_->watch(host().strand());
+  if (seat_ == nullptr) return fail(Code::failed_precondition, "the graph binds no hardware to it");
+  seat_->watch(host().strand());
   for (const auto& sensor : sensors_) sensor->connect();
   return ok();
 }
 
 Status HardwareServer::start() {
   for (const auto& sensor : sensors_) sensor->set_open(true);
-  container_->acquire();
+  seat_->acquire();
   host().strand().wait_for(now() + kStartLimit, [this] {
-    return container_->state() == HardwareState::active || container_->state() == HardwareState::fault;
+    return seat_->state() == HardwareState::active || seat_->state() == HardwareState::fault;
   });
-  if (container_->state() != HardwareState::active)
-    return fail(Code::unavailable, "the hardware does not start: " + container_->fault());
+  if (seat_->state() != HardwareState::active)
+    return fail(Code::unavailable, "the hardware does not start: " + seat_->fault());
   carry_out_waiting_command();
   last_command_ = now();
   return ok();
@@ -154,7 +154,7 @@ Status HardwareServer::start() {
 void HardwareServer::carry_out_waiting_command() {
   const std::function<Status()> command = std::exchange(waiting_command_, nullptr);
   if (!command) return;
-  if (now() - last_command_ >= container_->motion()->max_command_age()) {
+  if (now() - last_command_ >= seat_->max_command_age()) {
     log_warning("a motion command grew too old while the hardware was started");
   } else if (const Status taken = command(); !taken.ok()) {
     log_warning("the command that started the hardware was lost: " + taken.error().text());
@@ -162,15 +162,14 @@ void HardwareServer::carry_out_waiting_command() {
 }
 
 Outcome HardwareServer::work() {
-  if (container_->state() == HardwareState::fault)
-    return failed("the hardware failed: " + container_->fault());
+  if (seat_->state() == HardwareState::fault) return failed("the hardware failed: " + seat_->fault());
   release_idle_motion();
   return again();
 }
 
 void HardwareServer::stop() {
   for (const auto& sensor : sensors_) sensor->set_open(false);
-  container_->release();
+  seat_->release();
 }
 
 Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {
@@ -186,8 +185,8 @@ Status HardwareServer::on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velo
 
 // A turret command has no age, so idle hardware takes it before it is started.
 Status HardwareServer::on_turret(const ObjectPtr<idl::TurretCommand>& turret) {
-  const bool active = container_->state() == HardwareState::active;
-  const Status taken = active ? container_->command(*turret) : container_->motion()->command(*turret, now());
+  const bool active = seat_->state() == HardwareState::active;
+  const Status taken = active ? seat_->command(*turret) : seat_->point(*turret, now());
   if (!taken.ok()) return taken;
   if (!waiting_command_) last_command_ = now();
   stay_active(true);
@@ -197,13 +196,13 @@ Status HardwareServer::on_turret(const ObjectPtr<idl::TurretCommand>& turret) {
 template <class Command>
 Status HardwareServer::carry_out(const ObjectPtr<Command>& command, bool stands) {
   last_command_ = now();
-  if (container_->state() == HardwareState::active) {
+  if (seat_->state() == HardwareState::active) {
     stay_active(!stands);
-    return told_once(container_->command(*command));
+    return told_once(seat_->command(*command));
   }
   // Idle hardware stands already; the command for which it was to be started is discarded.
   waiting_command_ = nullptr;
-  if (!stands) waiting_command_ = [this, command] { return container_->command(*command); };
+  if (!stands) waiting_command_ = [this, command] { return seat_->command(*command); };
   stay_active(!stands);
   return ok();
 }

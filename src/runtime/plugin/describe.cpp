@@ -12,6 +12,7 @@
 #include "orca/base/text.hpp"
 #include "orca/component/component.hpp"
 #include "orca/hw/container.hpp"
+#include "orca/hw/seat.hpp"
 
 namespace orca::plugin {
 namespace {
@@ -72,7 +73,7 @@ class Describer : public Base {
 
 class ComponentDescriber final : public Describer<ComponentHost> {
  public:
-  ComponentDescriber(const TypeEntry& type, const std::string& library, hw::HardwareContainer* hardware)
+  ComponentDescriber(const TypeEntry& type, const std::string& library, hw::HardwareSeat* hardware)
       : Describer(PluginKind::component, type, library, type.type), hardware_(hardware) {}
 
   void declare_port(PortDeclaration declaration) override {
@@ -91,7 +92,7 @@ class ComponentDescriber final : public Describer<ComponentHost> {
   [[nodiscard]] Strand& strand() override { refuse("blocked"); }
 
  private:
-  hw::HardwareContainer* hardware_;
+  hw::HardwareSeat* hardware_;
 };
 
 class HardwareDescriber final : public Describer<hw::HardwareHost>, public DescribedHardware {
@@ -99,7 +100,8 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   HardwareDescriber(const TypeEntry& type, const std::string& library, const std::string& name)
       : Describer(PluginKind::hardware, type, library, name),
         destroy_(type.destroy),
-        container_(static_cast<hw::HardwareContainer*>(type.create(*this))) {}
+        container_(static_cast<hw::HardwareContainer*>(type.create(*this))),
+        seat_(*container_) {}
   ~HardwareDescriber() override {
     try {
       destroy_(container_);
@@ -118,6 +120,7 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
     return faults_of([&] { return container_->conflicts_with(earlier.container()); });
   }
   [[nodiscard]] hw::HardwareContainer& container() override { return *container_; }
+  [[nodiscard]] hw::HardwareSeat& seat() override { return seat_; }
 
   [[nodiscard]] std::uint64_t run_seed() const override { refuse("asked for the seed"); }
   void state_changed(hw::HardwareState /*state*/) override { refuse("changed its state"); }
@@ -136,6 +139,7 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
 
   void (*destroy_)(void*);
   hw::HardwareContainer* container_;
+  hw::HardwareSeat seat_;
 };
 
 }  // namespace
@@ -151,7 +155,7 @@ Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& ty
 }
 
 Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
-                                    hw::HardwareContainer* hardware) {
+                                    hw::HardwareSeat* hardware) {
   return guarded(type.type, Hook::constructor, [&]() -> Result<Contract> {
     ComponentDescriber describer(type, library, hardware);
     type.destroy(type.create(describer));

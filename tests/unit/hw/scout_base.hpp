@@ -33,7 +33,8 @@ struct ScoutBase {
                      const hw::DriveLimits& limits = kScoutLimits)
       : executive(used),
         robot(used, std::move(trouble), limits),
-        bench(used, "base", &robot.scout),
+        seat(robot.scout),
+        bench(used, "base", &seat),
         server(bench),
         client(used) {
     connect("OdometryPush", "odometry");
@@ -67,6 +68,7 @@ struct ScoutBase {
 
   Executive& executive;
   RunningScout robot;
+  hw::HardwareSeat seat;
   ComponentBench bench;
   Base server;
   Client client;

@@ -44,7 +44,8 @@ TEST_CASE("the other source's sensors are not offered", "[hw][server]") {
   };
   run_on({}, [](Executive& executive) {
     RunningScout robot(executive);
-    ComponentBench bench(executive, "truth", &robot.scout);
+    hw::HardwareSeat seat(robot.scout);
+    ComponentBench bench(executive, "truth", &seat);
     const Truth truth(bench);
     CHECK(bench.peer().endpoints().empty());
   });
@@ -181,7 +182,8 @@ TEST_CASE("hardware that does not start fails the server with the driver's reaso
 TEST_CASE("a server of one type offers the sensors that deliver it, and no others", "[hw][server]") {
   run_on({}, [](Executive& executive) {
     RunningScout robot(executive);
-    ComponentBench bench(executive, "sonar", &robot.scout);
+    hw::HardwareSeat seat(robot.scout);
+    ComponentBench bench(executive, "sonar", &seat);
     const OnlySonar server(bench);
     std::vector<std::string> ports;
     for (const auto& endpoint : bench.peer().endpoints()) ports.push_back(endpoint->contract().name);

@@ -135,13 +135,13 @@ std::vector<HardwareFault> PluginCatalogue::hardware_conflicts(const graph::Hard
 Result<Contract> PluginCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {
   const Result<LoadedType> found = find(PluginKind::component, type);
   if (!found) return found.error();
-  hw::HardwareContainer* container = nullptr;
+  hw::HardwareSeat* seat = nullptr;
   if (hardware != nullptr) {
     const Result<plugin::DescribedHardware*> made = described(*hardware);
     if (!made) return made.error();
-    container = &(*made)->container();
+    seat = &(*made)->seat();
   }
-  return plugin::describe_component(*found->entry, found->file(), container);
+  return plugin::describe_component(*found->entry, found->file(), seat);
 }
 
 std::vector<graph::ComponentFault> PluginCatalogue::try_components(const graph::Graph& graph,
@@ -151,7 +151,7 @@ std::vector<graph::ComponentFault> PluginCatalogue::try_components(const graph::
 
 Device* PluginCatalogue::closed_hardware(const graph::HardwareUse& use) {
   const Result<plugin::DescribedHardware*> made = described(use);
-  return made ? &(*made)->container() : nullptr;
+  return made ? &(*made)->seat() : nullptr;
 }
 
 std::vector<std::string> PluginCatalogue::unfit(PluginKind kind, const std::string& type) {

@@ -20,6 +20,7 @@ HardwareInstance::~HardwareInstance() {
 }
 
 Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
+  values_ = params;
   std::vector<HardwareFault> errors;
   const auto fault = guarded_call({name_.c_str(), Hook::constructor, type_.entry}, [&] {
     container_ = static_cast<hw::HardwareContainer*>(type_.entry->create(*this));
@@ -29,7 +30,9 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
     errors = container_->prepare();
     if (hw::Drawable* const drawable = container_->drawable(); drawable != nullptr && run_.wants_scene)
       drawable->keep_moments();
-    if (errors.empty()) robot_ = find_robot();
+    if (!errors.empty()) return;
+    description_ = container_->description();
+    robot_ = find_robot();
   });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, name_);
   if (!errors.empty()) return fail(Code::invalid_argument, errors.front().text, name_);
@@ -39,7 +42,7 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
 // Returns the name that the driver gives the robot, or the one in the graph if that is not one word.
 std::string HardwareInstance::find_robot() const {
   if (container_->motion() == nullptr) return {};
-  const std::string name = container_->description().name();
+  const std::string& name = description_.name();
   const bool is_word = !name.empty() && name.find(' ') == std::string::npos && printable(name) == name;
   return is_word ? name : name_;
 }
@@ -59,13 +62,21 @@ void HardwareInstance::state_changed(hw::HardwareState state) {
   LastWords::prepare_thread();  // the first call from its strand
   run_.trace.state_changed(name_, to_string(traced_), to_string(state));
   traced_ = state;
-  if (state == hw::HardwareState::fault) {  // the container has written the reason to the log
-    idl::Alarm alarm =
-        make_alarm(AlarmKind::hardware_fault, name_, to_string(Hook::strand), container_->fault());
-    alarm.mission(mission());
-    run_.reporter.note(std::move(alarm));
-  }
+  if (state == hw::HardwareState::fault && !on_trial_.load()) raise_fault();
   run_.changed();
+}
+
+void HardwareInstance::accept() {
+  const bool was_on_trial = on_trial_.exchange(false);
+  if (was_on_trial && container_->state() == hw::HardwareState::fault) raise_fault();
+}
+
+// The container has written the reason to the log.
+void HardwareInstance::raise_fault() {
+  idl::Alarm alarm =
+      make_alarm(AlarmKind::hardware_fault, name_, to_string(Hook::strand), container_->fault());
+  alarm.mission(mission());
+  run_.reporter.note(std::move(alarm));
 }
 
 }  // namespace orca::host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -14,7 +15,7 @@
 
 namespace orca::host {
 
-/// One hardware container in this process.
+/// One hardware container in this process, with its driver.
 ///
 /// Thread contract: as HardwareContainer.
 class HardwareInstance final : public hw::HardwareHost {
@@ -27,9 +28,19 @@ class HardwareInstance final : public hw::HardwareHost {
   Status construct(const std::map<std::string, ParamValue>& params);
 
   [[nodiscard]] hw::HardwareContainer& container() { return *container_; }
+  /// Returns what it is, as the driver has said once.
+  /// @pre  construct() has succeeded.
+  [[nodiscard]] const idl::Robot& description() const { return description_; }
+  /// Returns the parameters that construct() was given.
+  [[nodiscard]] const std::map<std::string, ParamValue>& params() const { return values_; }
   /// Returns the name of the robot that this hardware moves, one word; empty if it moves nothing.
   /// @pre  construct() has succeeded.
   [[nodiscard]] const std::string& robot() const { return robot_; }
+
+  /// Makes its faults a matter of whoever tries it, so that they raise no alarm, until accept().
+  /// @pre  it does not run yet.
+  void put_on_trial() { on_trial_.store(true); }
+  void accept();
 
   // PluginHost and HardwareHost
   void declare_param(ParamDeclaration declaration) override { params_.push_back(std::move(declaration)); }
@@ -51,14 +62,18 @@ class HardwareInstance final : public hw::HardwareHost {
   [[nodiscard]] std::string find_robot() const;
   // Returns the mission of the command that its base carries out; 0: none.
   [[nodiscard]] std::uint64_t mission() const;
+  void raise_fault();
 
   RunContext& run_;
   const std::string name_;
   const LoadedType type_;  // outlives the container
   std::vector<ParamDeclaration> params_;
   hw::HardwareContainer* container_ = nullptr;
+  std::map<std::string, ParamValue> values_;
+  idl::Robot description_;
   std::string robot_;
   hw::HardwareState traced_ = hw::HardwareState::closed;
+  std::atomic<bool> on_trial_{false};
 };
 
 }  // namespace orca::host

@@ -29,7 +29,7 @@ Status System::build_hardware(PluginCatalogue& catalogue) {
     if (!type) return type.error();
     auto instance = std::make_unique<HardwareInstance>(run_, node.name, std::move(type).value());
     if (Status made = instance->construct(node.params); !made.ok()) return made;
-    hardware_.push_back(std::move(instance));
+    hardware_.push_back(std::make_unique<HardwarePlace>(std::move(instance)));
   }
   return ok();
 }
@@ -40,7 +40,7 @@ Status System::build_components(PluginCatalogue& catalogue) {
         run_, settings_of(node, run_.failures),
         [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
         [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
-        container(node.hardware));
+        hardware(node.hardware) != nullptr ? &hardware(node.hardware)->seat() : nullptr);
     if (run_.doorbell) instance->set_doorbell(*run_.doorbell(node.name));
     const Status made = node.on_demand ? declare(node, *instance, catalogue) : instance->load();
     if (!made.ok()) return made;
@@ -69,9 +69,9 @@ Status System::bring_up(Event& changed, TimePoint deadline) {
 }
 
 Status System::open_hardware(Event& changed, TimePoint deadline) {
-  for (const auto& hardware : hardware_) hardware->container().run();
+  for (const auto& hardware : hardware_) hardware->run(hardware->driver());
   for (const auto& hardware : hardware_) {
-    hw::HardwareContainer& device = hardware->container();
+    hw::HardwareSeat& device = hardware->seat();
     wait_until_holds(run_.executive, changed, deadline, [&] {
       return give_up_() || device.state() == hw::HardwareState::ready ||
              device.state() == hw::HardwareState::fault;
@@ -106,7 +106,7 @@ void System::open_gates() {
 bool System::at_rest() const {
   return std::all_of(components_.begin(), components_.end(), [](const auto& c) { return c->at_rest(); }) &&
          std::all_of(hardware_.begin(), hardware_.end(),
-                     [](const auto& h) { return h->container().state() != hw::HardwareState::active; });
+                     [](const auto& h) { return h->seat().state() != hw::HardwareState::active; });
 }
 
 Status System::check_unused() const {
@@ -117,7 +117,7 @@ Status System::check_unused() const {
 
 std::vector<std::string> System::take_down(TimePoint deadline) {
   for (const auto& component : components_) component->announce_exit();
-  for (const auto& hardware : hardware_) hardware->container().shut_down();
+  for (const auto& hardware : hardware_) hardware->shut_down();
   for (const auto& component : components_) component->request_exit();
   std::vector<std::string> stuck;
   for (const auto& component : components_) {
@@ -126,36 +126,24 @@ std::vector<std::string> System::take_down(TimePoint deadline) {
     stuck.push_back(component->name() + (hook.empty() ? "" : " (in " + hook + ")"));
   }
   for (const auto& hardware : hardware_)
-    if (!hardware->container().join_until(deadline)) stuck.push_back(hardware->name());
+    if (!hardware->join_until(deadline)) stuck.push_back(hardware->name());
   return stuck;
 }
 
 void System::stop_hardware(Duration limit) {
-  for (const auto& hardware : hardware_) hardware->container().shut_down();
-  const auto closed = [](const auto& hardware) {
-    const hw::HardwareState state = hardware->container().state();
-    return state == hw::HardwareState::closed || state == hw::HardwareState::fault;
-  };
+  for (const auto& hardware : hardware_) hardware->shut_down();
+  const auto closed = [](const auto& hardware) { return hardware->is_closed(); };
   const auto end = std::chrono::steady_clock::now() + limit;
   while (!std::ranges::all_of(hardware_, closed) && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(1ms);
 }
 
 void System::hold(const std::string& reason) {
-  for (const auto& hardware : hardware_) {
-    hw::MotionHW* const motion = hardware->container().motion();
-    if (motion == nullptr) continue;
-    motion->hold(reason);
-    idl::MotionCommand stop;  // wakes the strand of the container, so that it stops at once
-    stop.kind(idl::FULLSTOP);
-    stop.mission(motion->mission());
-    (void)hardware->container().command(stop);  // it may not be active: then nothing moves
-  }
+  for (const auto& hardware : hardware_) hardware->seat().hold(reason);
 }
 
 void System::let_go() {
-  for (const auto& hardware : hardware_)
-    if (hw::MotionHW* const motion = hardware->container().motion()) motion->let_go();
+  for (const auto& hardware : hardware_) hardware->seat().let_go();
 }
 
 Status System::move(const graph::Edge& edge) {
@@ -215,16 +203,16 @@ Result<ComponentInstance*> System::instance(const std::string& name) const {
 
 const ComponentInstance* System::component(const std::string& name) const { return find(name); }
 
-hw::HardwareContainer* System::container(const std::string& name) const {
+HardwarePlace* System::hardware(const std::string& name) const {
   for (const auto& hardware : hardware_)
-    if (hardware->name() == name) return &hardware->container();
+    if (hardware->name() == name) return hardware.get();
   return nullptr;
 }
 
 std::map<std::string, std::string> System::robots() const {
   std::map<std::string, std::string> robots;
   for (const auto& hardware : hardware_)
-    if (!hardware->robot().empty()) robots[hardware->name()] = hardware->robot();
+    if (!hardware->driver().robot().empty()) robots[hardware->name()] = hardware->driver().robot();
   return robots;
 }
 
@@ -239,7 +227,7 @@ std::vector<RunGlance::Unwell> System::unwell() const {
     }
   }
   for (const auto& hardware : hardware_) {
-    const hw::HardwareState state = hardware->container().state();
+    const hw::HardwareState state = hardware->seat().state();
     if (state == hw::HardwareState::opening || state == hw::HardwareState::fault)
       unwell.push_back({hardware->name(), hw::to_string(state)});
   }
@@ -248,7 +236,7 @@ std::vector<RunGlance::Unwell> System::unwell() const {
 
 void System::draw(Scene& scene) {
   for (const auto& hardware : hardware_)
-    if (hw::Drawable* const drawable = hardware->container().drawable()) drawable->draw(scene);
+    if (hw::Drawable* const drawable = hardware->driver().container().drawable()) drawable->draw(scene);
 }
 
 }  // namespace orca::host

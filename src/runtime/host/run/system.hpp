@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "component/component_instance.hpp"
-#include "hardware_instance.hpp"
+#include "hardware_place.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/run_view.hpp"
@@ -95,6 +95,8 @@ class System {
   [[nodiscard]] const std::vector<std::unique_ptr<ComponentInstance>>& components() const {
     return components_;
   }
+  /// Returns the place of a hardware element of the graph, to change it; null: it is not in this process.
+  [[nodiscard]] HardwarePlace* hardware(const std::string& name) const;
   /// Returns the names of the robots, by their hardware.
   /// @pre  build() has succeeded.
   [[nodiscard]] std::map<std::string, std::string> robots() const;
@@ -111,12 +113,11 @@ class System {
   Status carry_out(const std::string& name, Event& changed, TimePoint deadline,
                    const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make);
   [[nodiscard]] ComponentInstance* find(const std::string& name) const;
-  [[nodiscard]] hw::HardwareContainer* container(const std::string& name) const;
 
   const graph::Graph& graph_;
   RunContext& run_;
   std::function<bool()> give_up_;
-  std::vector<std::unique_ptr<HardwareInstance>> hardware_;
+  std::vector<std::unique_ptr<HardwarePlace>> hardware_;
   // In the order of the graph; destroyed before the hardware.
   std::vector<std::unique_ptr<ComponentInstance>> components_;
 };

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "control/driver_exchange.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/time.hpp"
 #include "orca/plugin/image.hpp"
@@ -104,6 +105,11 @@ class Exchanging::Pending {
   void end(const Result<Record>& outcome) {
     if (const Told told = std::exchange(told_, {})) told(outcome);
   }
+  /// @param answer  of the process that carries it out, with one record.
+  void end(const Answer& answer) {
+    if (!answer.outcome.ok()) return end(Result<Record>(answer.outcome.error()));
+    for (const Record& record : answer.records) end(Result<Record>(record));
+  }
 
  private:
   const std::string component_;
@@ -117,10 +123,10 @@ const PluginFacts& Exchanging::plugin_of(const std::string& type) const {
   return found == facts_.plugins.end() ? unknown : found->second;
 }
 
-CodeFacts Exchanging::code_of(const graph::ComponentNode& component) const {
-  const auto exchanged = exchanged_.find(component.name);
+CodeFacts Exchanging::code_of(const std::string& name, const std::string& type) const {
+  const auto exchanged = exchanged_.find(name);
   if (exchanged != exchanged_.end()) return exchanged->second;
-  return {component.type, plugin_of(component.type)};
+  return {type, plugin_of(type)};
 }
 
 void Exchanging::swap(const std::vector<std::string>& words, const ReplyPtr& reply) {
@@ -161,12 +167,15 @@ std::set<std::string> Exchanging::plugin_files() const {
 bool Exchanging::is_busy(const std::string& component) const { return busy_->contains(component); }
 
 void Exchanging::begin(SwapWish wish, Told told) {
-  const Result<const graph::ComponentNode*> node = names_.component(wish.component);
-  if (!node) return told(node.error());
   if (is_busy(wish.component))
     return told(fail(Code::unavailable, "another exchange of it is under way; try again when that is done",
                      wish.component));
   const auto pending = std::make_shared<Pending>(wish.component, busy_, std::move(told));
+  const graph::HardwareNode* const hardware = graph_.find_hardware(wish.component);
+  if (hardware != nullptr && graph_.find_component(wish.component) == nullptr)
+    return begin_driver(wish, *hardware, pending);
+  const Result<const graph::ComponentNode*> node = names_.component(wish.component);
+  if (!node) return pending->end(node.error());
   const Result<Member*> member = names_.ready_member_of(**node);
   if (!member) return pending->end(member.error());
   Result<plugin::PluginImage> image = plugin::PluginImage::copy(wish.file);
@@ -194,6 +203,13 @@ std::vector<PortContract> Exchanging::ports_of(const std::string& component) con
     ports.back().name = port.ref.port;
   }
   return ports;
+}
+
+void Exchanging::begin_driver(const SwapWish& wish, const graph::HardwareNode& hardware,
+                              const PendingPtr& pending) {
+  const Status ordered = order_driver_exchange(wish, hardware, names_,
+                                               [pending](const Answer& answer) { pending->end(answer); });
+  if (!ordered.ok()) pending->end(ordered.error());
 }
 
 void Exchanging::go_on() {
@@ -237,11 +253,8 @@ void Exchanging::exchange(Open& open, const host::ShadowReport& tried) {
                 file,
                 std::move(image).take_bytes(),
                 tried.untried.empty()};
-  const auto take = [pending = open.pending](const Answer& answer) {
-    if (!answer.outcome.ok()) return pending->end(answer.outcome.error());
-    for (const Record& record : answer.records) pending->end(record);
-  };
-  (*member)->ask_for(std::move(swap), take);
+  (*member)->ask_for(std::move(swap),
+                     [pending = open.pending](const Answer& answer) { pending->end(answer); });
 }
 
 void Exchanging::note(const ExchangedCode& code) {
@@ -249,15 +262,18 @@ void Exchanging::note(const ExchangedCode& code) {
 }
 
 void Exchanging::came_up(const std::vector<Member*>& members) {
-  for (const Member* const member : members)
+  for (const Member* const member : members) {
     for (const graph::ComponentNode& node : graph_.components)
-      if (node.process == member->name()) forget_exchange(node);
+      if (node.process == member->name()) forget_exchange(node.name, node.type);
+    for (const graph::HardwareNode& node : graph_.hardware)
+      if (node.process == member->name()) forget_exchange(node.name, node.type);
+  }
 }
 
-void Exchanging::forget_exchange(const graph::ComponentNode& node) {
-  const auto exchanged = exchanged_.extract(node.name);
-  if (exchanged.empty() || exchanged.mapped().plugin.file == plugin_of(node.type).file) return;
-  log::warning(node.name,
+void Exchanging::forget_exchange(const std::string& name, const std::string& type) {
+  const auto exchanged = exchanged_.extract(name);
+  if (exchanged.empty() || exchanged.mapped().plugin.file == plugin_of(type).file) return;
+  log::warning(name,
                "its process was started again, with the code that the graph names; the code that had "
                "been put in its place is not there any more");
 }

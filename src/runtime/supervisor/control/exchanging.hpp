@@ -23,7 +23,7 @@
 
 namespace orca::supervisor {
 
-/// The code that a component runs.
+/// The code that a component or a hardware element runs.
 struct CodeFacts {
   std::string type;
   PluginFacts plugin;
@@ -32,7 +32,7 @@ struct CodeFacts {
 
 /// What an operator wants to exchange.
 struct SwapWish {
-  std::string component;
+  std::string component;  ///< Or hardware.
   std::string file;
   std::string type;                           ///< Empty: the present one.
   std::map<std::string, std::string> params;  ///< New values, as written in a graph.
@@ -40,7 +40,7 @@ struct SwapWish {
   Duration probation{2s};
 };
 
-/// Exchanges the code of components at an operator's word, and knows which code each of them runs.
+/// Exchanges the code of components and drivers at an operator's word, and knows which code each of them runs.
 ///
 /// Thread contract: the supervisor's thread.
 class Exchanging {
@@ -51,7 +51,7 @@ class Exchanging {
              const Operating& operating, std::function<void()> wake)
       : graph_(graph), facts_(facts), names_(names), operating_(operating), wake_(std::move(wake)) {}
 
-  /// Exchanges a component's code, after it was tried out. The answer ends when the old code, or the new one if it was
+  /// Exchanges a component's code, after it was tried out, or a driver. The answer ends when the old code, or the new one if it was
   /// refused, is gone.
   /// @param words  COMPONENT PLUGIN.so[:TYPE] [--set PARAM=VALUE]... [--tryout DURATION] [--probation DURATION].
   void swap(const std::vector<std::string>& words, const ReplyPtr& reply);
@@ -64,7 +64,12 @@ class Exchanging {
   /// Returns the plugins of the components of this machine.
   [[nodiscard]] std::set<std::string> plugin_files() const;
 
-  [[nodiscard]] CodeFacts code_of(const graph::ComponentNode& component) const;
+  [[nodiscard]] CodeFacts code_of(const graph::ComponentNode& component) const {
+    return code_of(component.name, component.type);
+  }
+  [[nodiscard]] CodeFacts code_of(const graph::HardwareNode& hardware) const {
+    return code_of(hardware.name, hardware.type);
+  }
   /// Returns the plugin that the graph's search finds for a type.
   [[nodiscard]] const PluginFacts& plugin_of(const std::string& type) const;
 
@@ -91,7 +96,9 @@ class Exchanging {
   [[nodiscard]] std::vector<PortContract> ports_of(const std::string& component) const;
   void go_on(Open& open);
   void exchange(Open& open, const host::ShadowReport& tried);
-  void forget_exchange(const graph::ComponentNode& node);
+  void begin_driver(const SwapWish& wish, const graph::HardwareNode& hardware, const PendingPtr& pending);
+  [[nodiscard]] CodeFacts code_of(const std::string& name, const std::string& type) const;
+  void forget_exchange(const std::string& name, const std::string& type);
 
   const graph::Graph& graph_;
   const SystemFacts& facts_;
@@ -103,7 +110,7 @@ class Exchanging {
   // share it.
   const std::shared_ptr<std::set<std::string>> busy_ = std::make_shared<std::set<std::string>>();
   std::set<std::string> rebuilt_;  // components whose code was built anew and is not exchanged yet
-  std::map<std::string, CodeFacts> exchanged_;  // by component
+  std::map<std::string, CodeFacts> exchanged_;  // by component or hardware
 };
 
 }  // namespace orca::supervisor

@@ -74,8 +74,7 @@ void Showing::plugins(Reply& reply) const {
     use.swaps += code.swaps;
   };
   for (const graph::ComponentNode& node : graph_.components) add(exchanging_.code_of(node), node.name);
-  for (const graph::HardwareNode& node : graph_.hardware)
-    add({node.type, exchanging_.plugin_of(node.type)}, node.name);
+  for (const graph::HardwareNode& node : graph_.hardware) add(exchanging_.code_of(node), node.name);
   for (const auto& [file, use] : uses)
     reply.add(Record{{"plugin", file},
                      {"build_id", use.build_id},

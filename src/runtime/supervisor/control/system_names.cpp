@@ -65,13 +65,23 @@ Result<Member*> SystemNames::process(const std::string& name) const {
   return unknown("component or process", name, names);
 }
 
+Member& SystemNames::member(const std::string& process) const {
+  return **std::ranges::find(members_, process, [](const Member* member) { return member->name(); });
+}
+
 Member& SystemNames::member_of(const graph::ComponentNode& component) const {
-  return **std::ranges::find(members_, component.process,
-                             [](const Member* member) { return member->name(); });
+  return member(component.process);
 }
 
 Result<Member*> SystemNames::ready_member_of(const graph::ComponentNode& component) const {
-  Member& member = member_of(component);
+  return ready(member_of(component));
+}
+
+Result<Member*> SystemNames::ready_member_of(const graph::HardwareNode& hardware) const {
+  return ready(member(hardware.process));
+}
+
+Result<Member*> SystemNames::ready(Member& member) {
   if (member.phase() == Member::Phase::up) return &member;
   if (member.phase() == Member::Phase::asleep)
     return fail(Code::unavailable, "process " + member.name() +

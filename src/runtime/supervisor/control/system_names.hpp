@@ -38,8 +38,14 @@ class SystemNames {
   /// Returns the same if the process takes orders at present.
   /// @errors  unavailable.
   [[nodiscard]] Result<Member*> ready_member_of(const graph::ComponentNode& component) const;
+  /// Returns the process of a hardware element if it takes orders at present.
+  /// @errors  unavailable.
+  [[nodiscard]] Result<Member*> ready_member_of(const graph::HardwareNode& hardware) const;
 
  private:
+  [[nodiscard]] Member& member(const std::string& process) const;
+  static Result<Member*> ready(Member& member);
+
   const graph::Graph& graph_;
   const std::vector<graph::ListedPort>& ports_;
   const std::vector<Member*>& members_;

@@ -75,9 +75,9 @@ const Names kHardwareStateNames = {
 
 const Names kHardwareEventNames = {
     {"wanted", "Somebody uses the device."},
-    {"not wanted", "Nobody uses it, or the system is being stopped."},
-    {"the end", "The system is being stopped, and the device is not used any more."},
-    {"run", "The system comes up."},
+    {"not wanted", "Nobody uses it, or it is to be closed."},
+    {"the end", "The system is being stopped, or the driver exchanged, and the device is not used any more."},
+    {"run", "The system comes up, or the device is to be opened again."},
     {"begun", "The container's strand runs."},
     {"failed", "A function of the driver reports an error or throws."}};
 

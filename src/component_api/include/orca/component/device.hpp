@@ -3,15 +3,14 @@
 
 namespace orca {
 
-/// A hardware container as a component's host hands it on. The host knows nothing more about it.
-/// orca::hw::HardwareContainer is the only kind.
+/// The hardware of a component as its host hands it on. The host knows nothing more about it.
+/// orca::hw::HardwareSeat is the only kind.
 ///
-/// Thread contract: that of orca::hw::HardwareContainer.
+/// Thread contract: that of orca::hw::HardwareSeat.
 class Device {
  public:
   Device() = default;
-  /// May throw, because a plugin author's destructor may throw; the runtime contains it.
-  virtual ~Device() noexcept(false) = default;
+  virtual ~Device() = default;
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 };

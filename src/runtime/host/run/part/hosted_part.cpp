@@ -142,7 +142,9 @@ class HostedPart::Inside {
       if (std::optional<PartOrder> order = next_order()) {
         carry_out(*order);
       } else {
-        watched_.changed().wait_until(swaps_.go_on());
+        const TimePoint next = swaps_.go_on();
+        watch_hangs();
+        watched_.changed().wait_until(next);
       }
     }
     report_changes();
@@ -166,10 +168,20 @@ class HostedPart::Inside {
   }
 
   void carry_out(const PartOrder& order) {
-    if (order.kind == PartOrder::Kind::swap) return swaps_.begin(std::move(*order.swap), order.swapped);
+    if (order.kind == PartOrder::Kind::swap) return begin_swap(order);
     const Status outcome = contain_exhaustion([&] { return act(order); });
     report_changes();
     if (order.done) order.done(outcome);
+  }
+
+  void begin_swap(const PartOrder& order) {
+    if (whole_.find_hardware(order.swap->component) != nullptr) watched_.set_hang_limit(Duration{0});
+    swaps_.begin(std::move(*order.swap), order.swapped);
+  }
+
+  // A driver that waits for its device in calls of the system has the limit of its exchange.
+  void watch_hangs() {
+    if (is_open_) watched_.set_hang_limit(swaps_.concern_drivers() ? Duration{0} : hang_limit_);
   }
 
   Status act(const PartOrder& order) {
@@ -184,7 +196,8 @@ class HostedPart::Inside {
       case PartOrder::Kind::open_gates:
         LastWords::catch_exit();
         system.open_gates();
-        watched_.set_hang_limit(hang_limit_);
+        is_open_ = true;
+        watch_hangs();
         return ok();
       case PartOrder::Kind::take_down: return take_down();
       case PartOrder::Kind::check_unused: return system.check_unused();
@@ -199,6 +212,7 @@ class HostedPart::Inside {
 
   // Whatever the connections refuse from here on is no trouble.
   Status take_down() {
+    is_open_ = false;
     watched_.set_hang_limit(Duration{0});  // it has its own limit
     watched_.reporter().ignore_trouble();
     place_.listener.counted(collect_counters(whole_, watched_.system()), sightings_.ways());
@@ -246,6 +260,7 @@ class HostedPart::Inside {
   OuterEdges outer_;
   WatchedSystem watched_;
   Swaps swaps_;
+  bool is_open_ = false;  // its components may work
   bool taken_down_ = false;
   std::map<std::string, ComponentReport> reported_;
   bool at_rest_ = true;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "exchange.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/swap.hpp"
@@ -21,7 +22,7 @@ namespace orca::host {
 /// the old one, takes its place between two laps, and is on probation until the old one is destroyed.
 ///
 /// Thread contract: one task, which does not run the component.
-class Swap {
+class Swap final : public Exchange {
  public:
   /// What a swap needs of its surroundings. All of it outlives the swap.
   struct Place {
@@ -33,29 +34,19 @@ class Swap {
   };
 
   Swap(const Place& place, SwapOrder order);
-  ~Swap();
+  ~Swap() override;
   Swap(const Swap&) = delete;
   Swap& operator=(const Swap&) = delete;
 
-  /// Loads the plugin, compares it with the component, and lets the new object configure itself.
+  /// Also lets the new object configure itself.
   /// @errors  those of PluginCatalogue::acquire(); failed_precondition with all differences; invalid_argument for
   ///          parameters; internal with what a constructor threw.
-  Status prepare();
-
-  /// Goes on as far as possible. To be called whenever a component has changed, and at wake_up(), until it returns the
-  /// outcome. It does not block.
-  /// @return the outcome when the old object, or the new one if it was refused or failed, is gone; nothing while that is
-  ///         to come.
-  std::optional<Result<SwapReport>> step();
-  /// Ends the swap as it is. @pre  the component's strand has ended.
-  /// @return the outcome: the reason why there is none.
-  Result<SwapReport> give_up();
-  /// Returns when step() has something to do even if nothing changes.
-  [[nodiscard]] TimePoint wake_up() const;
-  [[nodiscard]] const std::string& component() const { return order_.component; }
-  /// Returns whether the object that is not needed any more does not end. Its code runs, so this swap must never be
-  /// destroyed.
-  [[nodiscard]] bool is_stuck() const { return is_stuck_; }
+  Status prepare() override;
+  std::optional<Result<SwapReport>> step() override;
+  Result<SwapReport> give_up() override;
+  [[nodiscard]] TimePoint wake_up() const override;
+  [[nodiscard]] const std::string& name() const override { return order_.component; }
+  [[nodiscard]] bool is_stuck() const override { return is_stuck_; }
 
  private:
   enum class Phase { configuring, taking_over, probation, confirming };

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "exchange.hpp"
 #include "run/system.hpp"
-#include "swap.hpp"
 
 namespace orca::host {
 
-/// The swaps of a system's components.
+/// The swaps of a system's components and drivers.
 ///
 /// Thread contract: one task, the executive's main task.
 class Swaps {
@@ -27,9 +27,9 @@ class Swaps {
   Swaps(const Swaps&) = delete;
   Swaps& operator=(const Swaps&) = delete;
 
-  /// Begins to exchange a component's code.
-  /// @errors  go to `done`, as the report does: not_found; unavailable while another swap of the component is under way;
-  ///          those of Swap.
+  /// Begins to exchange the code of a component, or the driver of a hardware element if that has the name.
+  /// @errors  go to `done`, as the report does: not_found; unavailable while another swap of it is under way; those
+  ///          of Swap or DriverSwap.
   void begin(SwapOrder order, Done done);
 
   /// Goes on with all swaps as far as possible. To be called whenever a component has changed, and at the time that it
@@ -37,16 +37,21 @@ class Swaps {
   /// @return kForever if nothing is to be done by then.
   TimePoint go_on();
 
+  /// Returns whether a driver is being exchanged.
+  [[nodiscard]] bool concern_drivers() const;
+
   /// Ends all swaps as they are. @pre  the system has been taken down.
   void give_up();
 
  private:
   struct Open {
-    std::unique_ptr<Swap> swap;
+    std::unique_ptr<Exchange> swap;
     Done done;
   };
 
-  [[nodiscard]] bool is_under_way(const std::string& component) const;
+  Result<std::unique_ptr<Exchange>> make(SwapOrder order);
+  [[nodiscard]] std::string type_of(const std::string& name, const std::string& in_graph) const;
+  [[nodiscard]] bool is_under_way(const std::string& name) const;
   void conclude(Open& open, const Result<SwapReport>& outcome);
 
   const graph::Graph& graph_;
@@ -54,7 +59,7 @@ class Swaps {
   PluginCatalogue& catalogue_;
   System& system_;
   std::vector<Open> open_;
-  std::map<std::string, std::string> types_;  // of components that were exchanged
+  std::map<std::string, std::string> types_;  // of what was exchanged, by its name
 };
 
 }  // namespace orca::host

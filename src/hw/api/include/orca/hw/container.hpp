@@ -36,17 +36,20 @@ class HardwareHost : public PluginHost {
 
 /// All hardware behind one port or bus. It opens, starts, stops and closes the device, and has sensor and
 /// motion endpoints (thesis 10.2, Fig. 10.1-10.2). A server component (RobotBaseServer, LaserServer) wraps
-/// it.
+/// it, through a HardwareSeat.
 ///
 /// A driver overrides the protected functions. They run on the container's own strand and never overlap. The
 /// constructor only declares parameters. prepare() declares endpoints from them and opens nothing, so a graph
 /// can be checked without the device.
 ///
 /// Thread contract: the public functions from any strand.
-class HardwareContainer : public Device {
+class HardwareContainer {
  public:
   explicit HardwareContainer(HardwareHost& host);
-  ~HardwareContainer() noexcept(false) override;
+  /// May throw, because a plugin author's destructor may throw; the runtime contains it.
+  virtual ~HardwareContainer() noexcept(false);
+  HardwareContainer(const HardwareContainer&) = delete;
+  HardwareContainer& operator=(const HardwareContainer&) = delete;
 
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 
@@ -71,7 +74,7 @@ class HardwareContainer : public Device {
   /// Returns the interface that draws this hardware; null for real hardware.
   [[nodiscard]] virtual Drawable* drawable() { return nullptr; }
 
-  /// Starts the container's strand, which opens the device.
+  /// Starts the container's strand, which opens the device; again if it was shut down and has ended, closed.
   void run();
   /// Stops the motors, closes the device and ends the strand.
   void shut_down();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "orca/component/component.hpp"
-#include "orca/hw/container.hpp"
+#include "orca/hw/seat.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/patterns/push.hpp"
 #include "orca/patterns/query.hpp"
@@ -40,10 +40,10 @@ class HardwareServer : public Component {
   void stop() override;
 
  protected:
-  /// Returns the container that the graph binds to this component; null while a type is described without
+  /// Returns the hardware that the graph binds to this component; null while a type is described without
   /// hardware.
-  [[nodiscard]] HardwareContainer* container() const { return container_; }
-  /// Offers the commands that the container's motion endpoint can carry out, if it has one.
+  [[nodiscard]] HardwareSeat* seat() const { return seat_; }
+  /// Offers the commands that the base can carry out, if there is one.
   void offer_motion();
 
  private:
@@ -58,7 +58,7 @@ class HardwareServer : public Component {
   void carry_out_waiting_command();
   void release_idle_motion();
 
-  HardwareContainer* const container_;
+  HardwareSeat* const seat_;
   std::vector<std::unique_ptr<SensorPorts>> sensors_;
   std::unique_ptr<SendServer<idl::MotionCommand>> motion_;
   std::unique_ptr<SendServer<idl::HolonomicVelocity>> velocity_;

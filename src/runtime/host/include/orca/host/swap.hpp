@@ -10,9 +10,9 @@
 
 namespace orca::host {
 
-/// What is to take a component's place.
+/// What is to take the place of a component or of a driver.
 struct SwapOrder {
-  std::string component;       ///< Its name in the graph.
+  std::string component;       ///< Its name in the graph, or that of the hardware.
   plugin::PluginImage plugin;  ///< The plugin with the new code.
   std::string type{};          ///< Its type there; empty: the one that the component has now.
   std::map<std::string, std::string>
@@ -21,6 +21,8 @@ struct SwapOrder {
   Duration probation{2s};
   /// Whether the plugin still is to be tried out in a copy of this process.
   plugin::Trial trial = plugin::Trial::now;
+  Duration open_limit{
+      5s};  ///< [s of the run's clock] for a driver to open its device, and to start it if it is in use.
 };
 
 /// What has become of a swap that succeeded.
@@ -28,8 +30,9 @@ struct SwapReport {
   std::string old_type;
   std::string new_type;
   std::string build_id;  ///< Of the new plugin.
-  Duration pause{0};     ///< Between two laps, while neither object could work [s of the run's clock].
-  std::string state;     ///< Tag of the state that the new object took over; empty: it began afresh.
+  Duration pause{
+      0};  ///< While neither object could work, of a component between two laps [s of the run's clock].
+  std::string state;  ///< Tag of the state that the new object took over; empty: it began afresh.
 };
 
 }  // namespace orca::host

@@ -10,6 +10,7 @@
 #include "orca/base/result.hpp"
 #include "orca/component/manifest.hpp"
 #include "orca/hw/container.hpp"
+#include "orca/hw/seat.hpp"
 
 namespace orca::plugin {
 
@@ -28,6 +29,8 @@ class DescribedHardware {
   /// @return the errors that only the two together have.
   virtual std::vector<HardwareFault> conflicts_with(DescribedHardware& earlier) = 0;
   [[nodiscard]] virtual hw::HardwareContainer& container() = 0;
+  /// Returns the container as servers see it.
+  [[nodiscard]] virtual hw::HardwareSeat& seat() = 0;
 };
 
 /// Constructs a container only to describe it.
@@ -41,6 +44,6 @@ Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& ty
 /// @param hardware  the prepared hardware that the graph binds to it; null: none.
 /// @errors  internal if its constructor throws or does more than declare.
 Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
-                                    hw::HardwareContainer* hardware);
+                                    hw::HardwareSeat* hardware);
 
 }  // namespace orca::plugin

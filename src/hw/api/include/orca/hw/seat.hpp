@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/base/strand.hpp"
+#include "orca/component/device.hpp"
+#include "orca/hw/container.hpp"
+#include "orca/hw/endpoints.hpp"
+#include "orca/hw/hardware_state.hpp"
+#include "orca/idl/hardware.hpp"
+
+namespace orca::hw {
+
+/// The place of one driver in a system, as the servers on it see it. It stays when another driver takes the place: to
+/// the servers that is a pause, in which no readings come and every command is refused.
+///
+/// Thread contract: any strand.
+class HardwareSeat final : public Device {
+ public:
+  /// A sensor, whichever driver reads it.
+  struct Sensor {
+    const ObjectType* type;  ///< One sensor of each source delivers it.
+    Source source;
+    Duration period;  ///< [s] Between two readings.
+  };
+
+  /// @param driver       prepared before a server is constructed. Outlives the object, or its time in the seat.
+  /// @param description  of the driver; nothing: it is asked when somebody wants to know.
+  explicit HardwareSeat(HardwareContainer& driver, std::optional<idl::Robot> description = std::nullopt)
+      : driver_(&driver), description_(std::move(description)) {}
+
+  // For servers; most functions are those of the driver's container.
+
+  [[nodiscard]] std::vector<Sensor> sensors() const;
+  /// Sets where the readings of a sensor go for `owner`, as SensorEndpoint::set_sink().
+  void set_sink(const Sensor& sensor, const void* owner, SensorEndpoint::Sink sink);
+  /// Returns the last reading of a sensor since the hardware was started, or null.
+  [[nodiscard]] ObjectRef latest(const Sensor& sensor) const;
+
+  /// Returns the limits of the base; nothing if there is nothing that moves.
+  [[nodiscard]] std::optional<DriveLimits> limits() const;
+  /// Returns for how long a command holds [s]. @pre  there is a base.
+  [[nodiscard]] Duration max_command_age() const;
+  /// Returns what the hardware is.
+  [[nodiscard]] idl::Robot description() const;
+
+  void acquire();
+  void release();
+
+  /// Takes a command for the base, as HardwareContainer::command().
+  /// @errors  the same; unavailable during a pause.
+  template <class Command>
+  Status command(const Command& command) {
+    const std::lock_guard lock(mutex_);
+    if (Status open = check_open(); !open.ok()) return open;
+    return driver_->command(command);
+  }
+  /// Points the turret of a base that is idle, when it is started. @pre  there is a base.
+  /// @errors  those of MotionHW::command(); unavailable during a pause.
+  Status point(const idl::TurretCommand& turret, TimePoint now);
+
+  /// Returns the driver's state; during a pause the one before it.
+  [[nodiscard]] HardwareState state() const;
+  /// Returns why the state is Fault.
+  [[nodiscard]] std::string fault() const;
+  /// Wakes `strand` at every change of state.
+  void watch(Strand& strand);
+
+  // For the process.
+
+  /// Stops what moves and refuses commands to move, until let_go(), whichever driver is there.
+  /// @param reason  for people: "emergency stop".
+  void hold(const std::string& reason);
+  void let_go();
+
+  /// Begins a pause: stops what moves at once, and frees the driver of its users. The driver may then be closed.
+  /// @param reason  for people: "its driver is being exchanged".
+  void pause(const std::string& reason);
+  /// Ends the pause with a driver, the same or another one with the same sensors. It gets all users.
+  void resume(HardwareContainer& driver, const idl::Robot& description);
+  /// Makes the pause last for ever, with the state Fault.
+  void give_up(const std::string& reason);
+  /// Returns whether anybody uses the hardware.
+  [[nodiscard]] bool is_used() const;
+
+ private:
+  struct Pause {
+    HardwareState state;  // that the servers see
+    std::string reason;
+  };
+  struct Listener {
+    Sensor sensor;
+    const void* owner;
+    SensorEndpoint::Sink sink;
+  };
+
+  // All of these: @pre  mutex_ is held.
+  [[nodiscard]] Status check_open() const;
+  void stop_motors(const std::string& reason);
+  void take_over(HardwareContainer& driver);
+  void wake_watchers() const;
+
+  mutable std::mutex mutex_;
+  HardwareContainer* driver_;
+  mutable std::optional<idl::Robot> description_;  // of this driver
+  std::vector<Listener> listeners_;
+  std::vector<Strand*> watchers_;
+  int users_ = 0;
+  std::optional<std::string> held_;  // why, while the process holds it
+  std::optional<Pause> pause_;
+};
+
+}  // namespace orca::hw

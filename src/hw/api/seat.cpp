@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/hw/seat.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace orca::hw {
+namespace {
+
+// Types are compared by name, because a plugin may have its own copy of the type's description.
+SensorEndpoint* endpoint_of(const HardwareSeat::Sensor& wanted, const HardwareContainer& driver) {
+  for (SensorEndpoint* const sensor : driver.sensors())
+    if (sensor->type().name == wanted.type->name && sensor->source() == wanted.source) return sensor;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<HardwareSeat::Sensor> HardwareSeat::sensors() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Sensor> all;
+  for (const SensorEndpoint* const sensor : driver_->sensors())
+    all.push_back({&sensor->type(), sensor->source(), sensor->period()});
+  return all;
+}
+
+void HardwareSeat::set_sink(const Sensor& sensor, const void* owner, SensorEndpoint::Sink sink) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(listeners_, [owner](const Listener& listener) { return listener.owner == owner; });
+  if (sink) listeners_.push_back({sensor, owner, sink});
+  if (SensorEndpoint* const endpoint = endpoint_of(sensor, *driver_))
+    endpoint->set_sink(owner, std::move(sink));
+}
+
+ObjectRef HardwareSeat::latest(const Sensor& sensor) const {
+  const std::lock_guard lock(mutex_);
+  const SensorEndpoint* const endpoint = endpoint_of(sensor, *driver_);
+  return endpoint != nullptr ? endpoint->latest() : ObjectRef{};
+}
+
+std::optional<DriveLimits> HardwareSeat::limits() const {
+  const std::lock_guard lock(mutex_);
+  return driver_->motion() != nullptr ? std::optional(driver_->motion()->limits()) : std::nullopt;
+}
+
+Duration HardwareSeat::max_command_age() const {
+  const std::lock_guard lock(mutex_);
+  return driver_->motion()->max_command_age();
+}
+
+idl::Robot HardwareSeat::description() const {
+  const std::lock_guard lock(mutex_);
+  if (!description_) description_ = driver_->description();
+  return *description_;
+}
+
+void HardwareSeat::acquire() {
+  const std::lock_guard lock(mutex_);
+  ++users_;
+  if (!pause_) driver_->acquire();
+}
+
+void HardwareSeat::release() {
+  const std::lock_guard lock(mutex_);
+  --users_;
+  if (!pause_) driver_->release();
+}
+
+bool HardwareSeat::is_used() const {
+  const std::lock_guard lock(mutex_);
+  return users_ > 0;
+}
+
+Status HardwareSeat::point(const idl::TurretCommand& turret, TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  if (Status open = check_open(); !open.ok()) return open;
+  return driver_->motion()->command(turret, now);
+}
+
+HardwareState HardwareSeat::state() const {
+  const std::lock_guard lock(mutex_);
+  return pause_ ? pause_->state : driver_->state();
+}
+
+std::string HardwareSeat::fault() const {
+  const std::lock_guard lock(mutex_);
+  return pause_ ? pause_->reason : driver_->fault();
+}
+
+void HardwareSeat::watch(Strand& strand) {
+  const std::lock_guard lock(mutex_);
+  watchers_.push_back(&strand);
+  driver_->watch(strand);
+}
+
+void HardwareSeat::hold(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  held_ = reason;
+  if (!pause_) stop_motors(reason);
+}
+
+void HardwareSeat::let_go() {
+  const std::lock_guard lock(mutex_);
+  held_.reset();
+  if (!pause_ && driver_->motion() != nullptr) driver_->motion()->let_go();
+}
+
+void HardwareSeat::pause(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  pause_ = {driver_->state(), reason};
+  stop_motors(reason);
+  for (int user = 0; user < users_; ++user) driver_->release();
+}
+
+void HardwareSeat::resume(HardwareContainer& driver, const idl::Robot& description) {
+  const std::lock_guard lock(mutex_);
+  pause_.reset();
+  if (&driver != driver_) take_over(driver);
+  description_ = description;
+  if (MotionHW* const motion = driver.motion()) held_ ? motion->hold(*held_) : motion->let_go();
+  for (int user = 0; user < users_; ++user) driver.acquire();
+  wake_watchers();
+}
+
+void HardwareSeat::give_up(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  pause_ = {HardwareState::fault, reason};
+  wake_watchers();
+}
+
+Status HardwareSeat::check_open() const {
+  if (pause_) return fail(Code::unavailable, "the base is held: " + pause_->reason);
+  return ok();
+}
+
+void HardwareSeat::stop_motors(const std::string& reason) {
+  MotionHW* const motion = driver_->motion();
+  if (motion == nullptr) return;
+  motion->hold(reason);
+  idl::MotionCommand stop;  // wakes the strand of the container, so that it stops at once
+  stop.kind(idl::FULLSTOP);
+  stop.mission(motion->mission());
+  (void)driver_->command(stop);  // it may not be active: then nothing moves
+}
+
+void HardwareSeat::take_over(HardwareContainer& driver) {
+  for (const Listener& listener : listeners_) {
+    if (SensorEndpoint* const old = endpoint_of(listener.sensor, *driver_))
+      old->set_sink(listener.owner, nullptr);
+    if (SensorEndpoint* const endpoint = endpoint_of(listener.sensor, driver))
+      endpoint->set_sink(listener.owner, listener.sink);
+  }
+  for (Strand* const watcher : watchers_) driver.watch(*watcher);
+  driver_ = &driver;
+}
+
+void HardwareSeat::wake_watchers() const {
+  for (Strand* const watcher : watchers_) watcher->wake();
+}
+
+}  // namespace orca::hw

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// orcactl swap of hardware: the driver of a base is exchanged in real time, on the robot's way to a goal.
+#include <catch2/catch.hpp>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+std::string next_version(const std::string& name) {
+  return std::string(ORCA_BINARY_DIR "/tests/next_plugins/") + name + ".so";
+}
+
+// A cart that stands where its driver has left it, whichever drives it next, and is sent 6 m ahead.
+std::string graph(const std::string& file) {
+  return "<graph name=\"driver_swap\" version=\"1\" ends=\"command\" plugins=\"" ORCA_BINARY_DIR
+         "/tests/host_plugins\">\n"
+         "  <process name=\"body\"/>\n"
+         "  <hardware name=\"cart\" type=\"test.Cart\"><param name=\"file\" value=\"" +
+         file +
+         "\"/></hardware>\n"
+         "  <component name=\"base\" type=\"orca.RobotBaseServer\" hardware=\"cart\" process=\"body\"/>\n"
+         "  <component name=\"goto\" type=\"orca.Goto\"/>\n"
+         "  <component name=\"fuser\" type=\"orca.MotionCommandFuser\"/>\n"
+         "  <component name=\"command\" type=\"orca.Command\" start_after=\"fuser\">\n"
+         "    <param name=\"goals\" value=\"far: 6 0\"/><param name=\"behaviours\" value=\"goto\"/>\n"
+         "  </component>\n"
+         "  <connect from=\"command.goto\" to=\"goto.GotoCoordinateSend\"/>\n"
+         "  <connect from=\"command.clients\" to=\"fuser.ClientListSend\"/>\n"
+         "  <connect from=\"goto.ArrivedPush\" to=\"command.arrived\"/>\n"
+         "  <connect from=\"goto.MotionCmdPush\" to=\"fuser.motion\"/>\n"
+         "  <connect from=\"fuser.base\" to=\"base.MotionCommandSend\"/>\n"
+         "  <connect from=\"base.OdometryPush\" to=\"goto.odometry\"/>\n"
+         "</graph>\n";
+}
+
+// What the log says from its first line with `begin` on.
+std::string from(const std::string& log, const std::string& begin) {
+  const std::size_t at = log.find(begin);
+  return at == std::string::npos ? "" : log.substr(at);
+}
+
+// A robot that drives to its goal.
+class Way {
+ public:
+  Way()
+      : program_(
+            deployer({folder_.write("driver_swap.xml", graph(folder_.file("place"))), "--log", "debug"})) {
+    REQUIRE(waits_for("cart 1 moves"));
+  }
+
+  bool waits_for(const std::string& text) { return program_.wait_for_output(text, Seconds(20) * kSlowdown); }
+  static Run swap(const std::string& plugin, const Words& more = {}) {
+    return run_orcactl(Words{"swap", "cart", plugin} + more);
+  }
+  Run end() { return finish(program_, Seconds(30)); }
+
+ private:
+  TempFolder folder_;
+  Subprocess program_;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a driver is exchanged on the way: the robot stands meanwhile, goes on from there, and reaches its goal",
+    "[system][swap][driver]") {
+  Way way;
+  const Run swapped = Way::swap(next_version("test_cart_2"));
+  INFO(swapped.err);
+  REQUIRE(swapped.exit_code() == 0);
+  CHECK_THAT(swapped.out, Contains("test.Cart"));
+  REQUIRE(way.waits_for("cart 2 moves"));
+  const Run shown = run_orcactl({"plugins"});
+  CHECK_THAT(shown.out, Contains("test_cart_2.so") && !Contains("test_cart.so"));
+  const Run run = way.end();
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(run.arrivals().front().x == Approx(6.0).margin(0.5));
+  const std::string pause = from(run.err, "cart 1 stops at once");
+  CHECK(pause.find("cart 1 close") < pause.find("cart 2 open"));
+  CHECK_THAT(pause, !Contains("cart 1 moves"));
+  CHECK_THAT(run.err, !Contains("PLUGIN_PINNED"));
+}
+
+TEST_CASE("a driver that fails is gone again, and the robot goes on with the one that it had",
+          "[system][swap][driver]") {
+  Way way;
+  for (const std::string trouble : {"open", "start", "throw", "block"}) {
+    const Run refused = Way::swap(next_version("test_cart_2"), {"--set", "trouble=" + trouble});
+    INFO(trouble << refused.err);
+    CHECK(refused.exit_code() == 1);
+    CHECK_THAT(refused.err, Contains("the new driver failed, and the old one is back"));
+  }
+  // The process has not been ended, although "block" takes longer than it may hang.
+  CHECK_THAT(run_orcactl({"alarms"}).out,
+             Contains("SWAP_UNDONE") && !Contains("HARDWARE_FAULT") && !Contains("PROCESS_ENDED"));
+  CHECK_THAT(run_orcactl({"plugins"}).out, Contains("test_cart.so") && !Contains("test_cart_2.so"));
+  const Run run = way.end();
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.arrivals().size() == 1);
+}
+
+TEST_CASE("what cannot take a driver's place is refused with all reasons, and the robot does not even stop",
+          "[system][swap][driver]") {
+  Way way;
+  const std::vector<std::pair<std::string, std::string>> bad{
+      {"/nowhere/new.so", "No such file or directory"},
+      {next_version("test_cart_odd"),
+       "it delivers Odometry every 0.1 s, and the present one every 0.05 s; it has no "},
+      {next_version("test_cart_2") + ":test.Other", "has no hardware type \"test.Other\""},
+      {next_version("test_teller_2"), "has no hardware type \"test.Cart\""}};
+  for (const auto& [plugin, reason] : bad) {
+    const Run refused = Way::swap(plugin);
+    INFO(plugin << refused.err);
+    CHECK(refused.exit_code() == 1);
+    CHECK_THAT(refused.err, Contains(reason));
+  }
+  CHECK_THAT(Way::swap(next_version("test_cart_2"), {"--set", "speed=3"}).err, Contains("speed"));
+  const Run run = way.end();
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.err, !Contains("cart 2"));
+  CHECK_THAT(from(run.err, "cart 1 open").substr(1), !Contains("cart 1 open"));
+}
