@@ -27,10 +27,8 @@ bool is_refused(const Run& run) {
   INFO(run.err);
   CHECK(run.ended);
   CHECK(run.ending.signal == 0);
-  // A process that was short of something once, and was started again, may still be coming up when the time is over.
-  const bool came_back_late = run.exit_code() == 1 && run.says("the time limit has ended the run before");
-  CHECK((run.exit_code() == 0 || run.exit_code() == 3 || came_back_late));
-  if (run.exit_code() != 0) CHECK(run.says("the system gives no more"));
+  CHECK((run.exit_code() == 0 || run.exit_code() == 3));
+  if (run.exit_code() == 3) CHECK(run.says("the system gives no more"));
   return run.exit_code() == 3;
 }
 
