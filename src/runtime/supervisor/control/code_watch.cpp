@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "control/code_watch.hpp"
 
+#include <sys/stat.h>
+
 #include <chrono>
 
 namespace orca::supervisor {

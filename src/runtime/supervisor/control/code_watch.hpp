@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <sys/stat.h>
-
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
