@@ -239,7 +239,10 @@ TEST_CASE("only the process that speaks with other machines has the network, and
     std::this_thread::sleep_for(Seconds(1.5));
   }
   if (!kSanitized)  // with a sanitizer it takes longer than loss_limit to start the process again
-    for (const int machine : {0, 1}) CHECK(pair.at(machine).err().find("alarm") == std::string::npos);
+    for (const int machine : {0, 1}) {
+      INFO(pair.at(machine).err());
+      CHECK(pair.at(machine).err().find("alarm") == std::string::npos);
+    }
   pair.stop(1);
 }
 

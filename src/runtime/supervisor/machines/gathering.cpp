@@ -80,9 +80,11 @@ void Gathering::hear_namesake(const idl::MachineState& state) {
 }
 
 void Gathering::refuse(Peer& peer, const idl::MachineState& state) {
+  if (peer.refused == state.run() && has_heard_us(state)) peer.knows_refusal = true;
   const bool is_past = state.phase() == idl::MACHINE_ENDED && !has_heard_us(state);
   if (is_past || own_.phase() == idl::MACHINE_ENDED || peer.refused == state.run()) return;
   peer.refused = state.run();
+  peer.knows_refusal = has_heard_us(state);
   const std::string text = name_of(here_) + " and " + name_of(peer.node.name) + " run different graphs";
   if (own_.phase() == idl::MACHINE_GATHERING)
     return decide(idl::MACHINE_NOT_STARTED,
@@ -195,7 +197,9 @@ bool Gathering::are_all_done() const {
 }
 
 bool Gathering::have_all_ended() const {
-  return std::ranges::none_of(peers_, [&](const Peer& peer) { return is_there(peer); });
+  return std::ranges::none_of(peers_, [&](const Peer& peer) {
+    return is_there(peer) || (peer.refused && !peer.knows_refusal);
+  });
 }
 
 std::vector<Gathering::News> Gathering::take_news() { return std::exchange(news_, {}); }

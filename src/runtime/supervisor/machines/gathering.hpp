@@ -87,6 +87,7 @@ class Gathering {
     Moment heard_at{};
     bool lost = false;
     std::optional<std::uint64_t> refused{};  // the run that has another graph, which was reported
+    bool knows_refusal = false;              // that run has heard of this one
   };
 
   [[nodiscard]] std::string title(const Peer& peer) const;

@@ -246,6 +246,23 @@ TEST_CASE("machines with different graphs refuse each other before anything star
   }
 }
 
+TEST_CASE("a machine that refuses another's graph stays until the other knows", "[supervisor][machines]") {
+  graph::Graph other = chain();
+  other.components[0].priority = 5;
+  Gathering base(chain(), "base", 1);
+  Gathering eye(other, "eye", 1);
+  base.hear(eye.state(), kStart);
+  REQUIRE(base.verdict());
+  base.end(base.verdict()->end, base.verdict()->why);
+  CHECK_FALSE(base.have_all_ended());
+  base.hear(eye.state(), kStart + 100ms);
+  CHECK_FALSE(base.have_all_ended());
+  eye.hear(base.state(), kStart + 200ms);
+  REQUIRE(eye.verdict());
+  base.hear(eye.state(), kStart + 200ms);
+  CHECK(base.have_all_ended());
+}
+
 TEST_CASE("a machine with another graph does not disturb those that work", "[supervisor][machines]") {
   System system(chain(kGoOn));
   system.start_all();
