@@ -194,6 +194,20 @@ TEST_CASE("a process that hangs when the run ends does not hold it up", "[system
   CHECK(system.left() == Nobody{});
 }
 
+TEST_CASE("a process that is lost on its way back while the run ends does not make the run fail",
+          "[system][processes]") {
+  System system(flow() + Words{"--until", "2 s"});
+  system.when("flow ", 0, Seconds(10));
+  const pid_t sink = system.process("sink");
+  REQUIRE(kill(sink, SIGKILL) == 0);
+  REQUIRE(kill(system.process("sink", sink), SIGSTOP) == 0);
+  const Run run = finish(system.program(), Seconds(10));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("it had not come back yet when the run ended"));
+  CHECK(system.left() == Nobody{});
+}
+
 // The sanitizers' memory does not fit into the limit of that process, and they take its signals.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 

@@ -27,9 +27,14 @@ Status Member::start(const HostStart& start) {
 
 void Member::adopt(std::unique_ptr<HostProcess> process) {
   process_ = std::move(process);
-  phase_ = Phase::up;
+  enter(Phase::up);
   is_built_ = true;
   ++starts_;
+}
+
+void Member::enter(Phase phase) {
+  phase_ = phase;
+  if (phase == Phase::up) has_come_up_ = true;
 }
 
 void Member::ask(Order order, Answered answered) {
@@ -108,6 +113,7 @@ void Member::forget() {
   deaf_since_.reset();
   prompts_.reset();
   phase_ = Phase::absent;
+  has_come_up_ = false;
   is_built_ = false;
 }
 

@@ -87,7 +87,9 @@ class Member {
   [[nodiscard]] std::size_t index() const { return index_; }
   [[nodiscard]] HostProcess* process() const { return process_.get(); }
   [[nodiscard]] Phase phase() const { return phase_; }
-  void enter(Phase phase) { phase_ = phase; }
+  void enter(Phase phase);
+  /// Returns whether the present process has come up, which stays so when it goes down.
+  [[nodiscard]] bool has_come_up() const { return has_come_up_; }
   /// Returns whether its instances are built, so that it takes orders about them.
   [[nodiscard]] bool is_built() const { return is_built_; }
   void note_built() { is_built_ = true; }
@@ -98,6 +100,7 @@ class Member {
   const graph::ProcessNode node_;
   const std::size_t index_;
   Phase phase_ = Phase::absent;
+  bool has_come_up_ = false;
   bool is_built_ = false;
   std::uint64_t starts_ = 0;
   std::unique_ptr<HostProcess> process_;

@@ -210,13 +210,15 @@ class SupervisedRun {
     const std::string words = member.last_words(now());
     const std::string how =
         reason.text() + (words.empty() ? "; it ran " + listed(starter_.components_of(member)) : ": " + words);
-    lose(member, how, {.is_normal = reason.is_normal(), .is_unasked = unasked});
+    lose(member, how,
+         {.is_normal = reason.is_normal(), .is_unasked = unasked, .had_come_up = member.has_come_up()});
   }
 
   // How a process was lost.
   struct Loss {
     bool is_normal;
     bool is_unasked;
+    bool had_come_up;
   };
 
   void lose(Member& member, const std::string& how, const Loss& loss) {
@@ -226,11 +228,7 @@ class SupervisedRun {
     ledger_.lose(member.name(), "its process " + how);
     for (const Wiring::Outer& outer : starter_.wiring().edges_at(member.name())) cut(outer, member, how);
     const std::string text = "process " + member.name() + " " + how;
-    if (conclusion_.is_over()) {
-      if (loss.is_normal || stop_.is_urgent()) return;
-      log::error(options_.log_name, text);
-      return conclusion_.fail_late(fail(Code::unavailable, text));
-    }
+    if (conclusion_.is_over()) return lose_late(text, loss);
     if (loss.is_unasked) ledger_.raise(host::AlarmKind::process_ended, member.name(), text);
     if (!conclusion_.has_come_up()) return conclusion_.fail_with(fail(Code::unavailable, text));
     const RestartDecision decision = policy_.ended(member.index(), loss.is_normal, now());
@@ -238,6 +236,15 @@ class SupervisedRun {
       return conclusion_.fail_with(fail(Code::unavailable, text));
     obey(decision, text);
     if (policy_.is_asleep(member.index())) on_demand_.fall_asleep(member);
+  }
+
+  // A process that is lost while all is taken down spoils the run, unless it was only on its way back.
+  void lose_late(const std::string& text, const Loss& loss) {
+    if (loss.is_normal || stop_.is_urgent()) return;
+    if (conclusion_.has_come_up() && !loss.had_come_up)
+      return log::warning(options_.log_name, text + "; it had not come back yet when the run ended");
+    log::error(options_.log_name, text);
+    conclusion_.fail_late(fail(Code::unavailable, text));
   }
 
   void cut(const Wiring::Outer& outer, const Member& lost, const std::string& how) {
@@ -382,7 +389,7 @@ class SupervisedRun {
   Conclusion conclusion_{here_, reports_, options_.log_name};
   Arrivals arrivals_{{starter_, beats_, ledger_, control_, conclusion_, neighbours_, trading_,
                       graph_.supervision, options_.log_name, [this](Member& member, const Error& error) {
-                        lose(member, "could not be started: " + error.message, {false, true});
+                        lose(member, "could not be started: " + error.message, {false, true, false});
                       }}};
   OnDemand on_demand_{all_, starter_, ledger_, [this](Member& member) { let_go(member); }};
   std::optional<TimePoint> began_at_;  // when all machines were there

@@ -11,6 +11,7 @@ namespace {
 
 // If there is no hurry, and it has much to write.
 constexpr EndLimits kLeisure{30s, 500ms};
+constexpr EndLimits kOnItsWay{3s, 500ms};    // if it has not come up, so that it has nothing to write
 constexpr EndLimits kImpatience{1s, 500ms};  // if somebody wants it to end who has waited already
 // If that is asked for twice: time for the motors, and less than the deployer itself then has.
 constexpr EndLimits kUrgency{150ms, 100ms};
@@ -27,7 +28,7 @@ void taken_down(Member& member, const Status& outcome) {
 void TakingDown::begin(Moment now) {
   hurries_ = stop_.requested();
   for (Member* const member : members_)
-    member->end(now, hurries_ ? kHurry : kLeisure,
+    member->end(now, hurries_ ? kHurry : (member->has_come_up() ? kLeisure : kOnItsWay),
                 [member](const Status& outcome) { taken_down(*member, outcome); });
 }
 
