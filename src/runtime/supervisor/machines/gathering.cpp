@@ -197,9 +197,8 @@ bool Gathering::are_all_done() const {
 }
 
 bool Gathering::have_all_ended() const {
-  return std::ranges::none_of(peers_, [&](const Peer& peer) {
-    return is_there(peer) || (peer.refused && !peer.knows_refusal);
-  });
+  return std::ranges::none_of(
+      peers_, [&](const Peer& peer) { return is_there(peer) || (peer.refused && !peer.knows_refusal); });
 }
 
 std::vector<Gathering::News> Gathering::take_news() { return std::exchange(news_, {}); }
