@@ -28,7 +28,8 @@ How to run it
   --in-process          everything in this process, for a debugger, instead of host processes below it; the virtual clock
                         always does so
   --watch               while you develop: when the plugin of a component is built anew, its code is exchanged while the
-                        system runs; if it fails when it is tried out, the log says why and the old one goes on
+                        system runs; if it fails when it is tried out, the log says why and the old one goes on. A graph
+                        that is saved is carried out like with orcactl apply
 
 What to write
   --trace FILE          one line per delivery, connection and change of state; not with several host processes

@@ -14,6 +14,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
 #include "orca/base/text.hpp"
+#include "orca/graph/loader.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/supervisor/host_process_main.hpp"
@@ -21,6 +22,7 @@
 #include "orca/supervisor/own_process.hpp"
 #include "orca/supervisor/supervised_run.hpp"
 #include "orca/supervisor/system_facts.hpp"
+#include "orca/xml/document.hpp"
 #include "orca/xml/names.hpp"
 #include "progress.hpp"
 #include "streams.hpp"
@@ -70,6 +72,41 @@ Status try_to_open(const host::RunOutputs& outputs) {
     if (Status opened = try_to_open(recordings.emplace_back("the recording"), recording.file); !opened.ok())
       return opened;
   return ok();
+}
+
+std::string without_last_newline(std::string text) {
+  if (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+// Reads and checks a graph for a system that runs, with the profiles, settings and plugin folders of the command line.
+Result<supervisor::CheckedSystem> read_system(const Options& options, const std::string& file) {
+  supervisor::CheckedSystem system;
+  system.files.insert(file);
+  const Result<std::string> text = xml::read_bytes(file);
+  if (!text) return text.error();
+  host::PluginCatalogue catalogue(plugin::PluginIndex(plugin_folders(options)));
+  xml::Diagnostics diagnostics;
+  const auto read = [&system](const std::string& included) {
+    system.files.insert(included);
+    return xml::read_bytes(included);
+  };
+  std::optional<graph::Graph> graph = graph::load_text(
+      *text, file, {options.profiles, options.settings, options.strict}, catalogue, diagnostics, read);
+  if (!graph) return fail(Code::invalid_argument, without_last_newline(diagnostics.text()));
+  system.facts = supervisor::facts_of(*graph, catalogue);
+  system.graph = *std::move(graph);
+  return system;
+}
+
+// Returns the files that the graph is made of, the main one first.
+std::vector<std::string> files_of(const Options& options) {
+  std::vector<std::string> files{options.file};
+  const Result<supervisor::CheckedSystem> system = read_system(options, options.file);
+  if (!system) return files;  // it was changed just now
+  for (const std::string& file : system->files)
+    if (file != options.file) files.push_back(file);
+  return files;
 }
 
 host::RunResult refuse(const Error& error, const std::string& log_name, host::RunListener& listener) {
@@ -130,7 +167,9 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   const std::vector<std::string> folders = plugin_folders(options);
   supervised.arguments.insert(supervised.arguments.end(), folders.begin(), folders.end());
   supervised.machine = machine;
-  supervised.watches_code = options.watch;
+  supervised.read = [&options](const std::string& file) { return read_system(options, file); };
+  supervised.watches = options.watch;
+  if (options.watch) supervised.graph_files = files_of(options);
   supervised.seed = options.run.seed;
   supervised.until = options.run.until;
   supervised.planned_failures = options.run.planned_failures;

@@ -21,7 +21,8 @@ namespace {
 
 using supervisor::Record;
 
-constexpr Duration kLimit = 30s;  // for a part of an answer: a process that is restarted is back before
+constexpr Duration kLimit = 30s;        // for a part of an answer: a process that is restarted is back before
+constexpr Duration kApplyLimit = 600s;  // several exchanges, each with its trial and probation
 constexpr std::chrono::seconds kWatchInterval{1};
 
 // Returns the request. The options of the command are words, as on the command line. Files are named so that the
@@ -77,13 +78,18 @@ class Printer {
   std::vector<Record> records_;
 };
 
+// Returns the longest wait for a part of the answer.
+Duration limit_of(const Call& call) {
+  if (call.has("--follow")) return kForEver;
+  if (call.command->name == "apply") return kApplyLimit;
+  return kLimit + call.duration("--probation").value_or(Duration{0}) +
+         call.duration("--tryout").value_or(Duration{0});
+}
+
 Status ask_once(const Call& call, Client& client) {
   Printer printer(call);
   const Status outcome = client.ask(
-      request_of(call), [&](supervisor::ControlAnswer& answer) { printer.take(answer); },
-      call.has("--follow") ? kForEver
-                           : kLimit + call.duration("--probation").value_or(Duration{0}) +
-                                 call.duration("--tryout").value_or(Duration{0}));
+      request_of(call), [&](supervisor::ControlAnswer& answer) { printer.take(answer); }, limit_of(call));
   const bool is_end = call.command->name == "stop" || call.has("--follow");
   if (!outcome.ok() && is_end && outcome.error().code == Code::unavailable) return ok();
   if (outcome.ok()) printer.finish();

@@ -19,6 +19,18 @@ constexpr std::string_view kSendDetails =
     "default. With - it is read from stdin. The framework stamps the header, and gives the object a mission "
     "of its own.";
 
+constexpr std::string_view kApplyDetails =
+    "The file is read and checked like a graph that is started, with the profiles and settings of the "
+    "deployer's command "
+    "line, and compared with what runs now: what was changed with set and swap counts. Other types of "
+    "components, and "
+    "parameters that cannot change while a component runs, are exchanged like with swap, one after the "
+    "other; then "
+    "all other parameters change between two laps. If a step fails, everything goes back. A process that is "
+    "started again "
+    "begins with the new graph. What needs more - components, connections, hardware, processes, machines - "
+    "is refused before anything changes.";
+
 // What a system is and does.
 std::vector<Command> showing_commands() {
   return {
@@ -136,6 +148,26 @@ std::vector<Command> operating_commands() {
        .arguments = {{"NAME", Names::process}},
        .tells = true,
        .text = "start the process of a component again, with all that runs in it"},
+      {.name = "suspend",
+       .arguments = {kComponents},
+       .tells = true,
+       .text = "pause a component, or all of a group, between two laps",
+       .details = "The components of a group are suspended one after the other, in the reverse order of "
+                  "their start; those that are suspended already stay so. If one cannot be suspended, those "
+                  "before it are resumed."},
+      {.name = "resume",
+       .arguments = {kComponents},
+       .tells = true,
+       .text = "let a suspended component go on, or all of a group",
+       .details = "The components of a group are resumed one after the other, in the order of their start; "
+                  "those that are not suspended are left alone. If one cannot be resumed, those before it "
+                  "are suspended again."},
+  };
+}
+
+// What puts something else in the place of what runs.
+std::vector<Command> exchanging_commands() {
+  return {
       {.name = "swap",
        .arguments = {kComponent, {"PLUGIN.so[:TYPE]", Names::file}},
        .options = {{"--set", "PARAM=VALUE", "value of a parameter from then on; may be repeated", true},
@@ -161,20 +193,16 @@ std::vector<Command> operating_commands() {
            "device is closed and opened anew, and the old driver is back if the new one is not ready within "
            "5 s. There "
            "is no trial and no probation then."},
-      {.name = "suspend",
-       .arguments = {kComponents},
+      {.name = "diff",
+       .arguments = {{"GRAPH.xml", Names::file}},
        .tells = true,
-       .text = "pause a component, or all of a group, between two laps",
-       .details = "The components of a group are suspended one after the other, in the reverse order of "
-                  "their start; those that are suspended already stay so. If one cannot be suspended, those "
-                  "before it are resumed."},
-      {.name = "resume",
-       .arguments = {kComponents},
+       .text = "what apply would change, and what stops meanwhile",
+       .details = kApplyDetails},
+      {.name = "apply",
+       .arguments = {{"GRAPH.xml", Names::file}},
        .tells = true,
-       .text = "let a suspended component go on, or all of a group",
-       .details = "The components of a group are resumed one after the other, in the order of their start; "
-                  "those that are not suspended are left alone. If one cannot be resumed, those before it "
-                  "are suspended again."},
+       .text = "let the running system become what a graph says: all of it, or nothing",
+       .details = kApplyDetails},
   };
 }
 
@@ -196,8 +224,8 @@ std::vector<Command> shell_commands() {
 const std::vector<Command>& table() {
   static const std::vector<Command> all = [] {
     std::vector<Command> commands;
-    for (const auto& group :
-         {showing_commands(), port_commands(), history_commands(), operating_commands(), shell_commands()})
+    for (const auto& group : {showing_commands(), port_commands(), history_commands(), operating_commands(),
+                              exchanging_commands(), shell_commands()})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
   }();

@@ -137,14 +137,18 @@ std::vector<Change> diff(const Graph& before, const Graph& after) {
   return changes;
 }
 
+std::string title(const Change& change) {
+  const char* sign = change.kind == Change::Kind::added     ? "+ "
+                     : change.kind == Change::Kind::removed ? "- "
+                                                            : "~ ";
+  return sign + std::string(to_string(change.part)) +
+         (change.part == Change::Part::graph ? "" : " " + change.name);
+}
+
 std::string diff_text(const std::vector<Change>& changes) {
   std::string text;
   for (const Change& change : changes) {
-    const char* sign = change.kind == Change::Kind::added     ? "+ "
-                       : change.kind == Change::Kind::removed ? "- "
-                                                              : "~ ";
-    const std::string name = change.part == Change::Part::graph ? "" : " " + change.name;
-    text += sign + std::string(to_string(change.part)) + name + "\n";
+    text += title(change) + "\n";
     for (const FieldChange& field : change.fields)
       text += "    " + field.field + ": " + shown(field.before) + " -> " + shown(field.after) + "\n";
   }

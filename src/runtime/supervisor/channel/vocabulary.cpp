@@ -29,6 +29,7 @@ void fields(auto& archive, TellAlarm& m) { transfer_all(archive, m.process, m.ob
 void fields(auto& archive, ForgetAlarm& m) { transfer_all(archive, m.kind, m.source, m.process); }
 void fields(auto& archive, Meet& m) { transfer_all(archive, m.topic, m.address, m.interface, m.others); }
 void fields(auto& archive, Say& m) { transfer(archive, m.state); }
+void fields(auto& archive, NoteGraph& m) { transfer(archive, m.graph); }
 void fields(auto& archive, MoveEdge& m) { transfer(archive, m.edge); }
 
 void fields(auto& archive, Outlive& m) { transfer_all(archive, m.output, m.wait); }

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "control/alarm_desk.hpp"
@@ -43,11 +44,13 @@ Result<LogWish> read_log_wish(const std::vector<std::string>& words) {
 }  // namespace
 
 ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
-                         const std::vector<Member*>& members, Ledger& ledger, const RunLevers& levers)
+                         const std::vector<Member*>& members, Ledger& ledger, const RunLevers& levers,
+                         Applying::Levers applying)
     : ledger_(ledger),
       names_(graph, facts.ports, members),
       operating_(graph, facts, names_, ledger.reports(), levers),
       exchanging_(graph, facts, names_, operating_, levers.wake),
+      applying_(graph, operating_, exchanging_, std::move(applying)),
       showing_(graph, facts, members, ledger, exchanging_, levers.edges_in_use),
       motors_(members, ledger) {}
 
@@ -68,11 +71,24 @@ void ControlDesk::add_to(std::vector<pollfd>& all) const {
 
 void ControlDesk::serve(Moment now) {
   if (server_) server_->serve(now);
-  if (watch_)
-    for (const std::string& file : watch_->changed(exchanging_.plugin_files(), now))
-      exchanging_.take_rebuilt(file);
+  if (watch_) look_at_files(now);
   exchanging_.go_on();
+  applying_.go_on();
   log_.pass_on();
+}
+
+void ControlDesk::watch(std::vector<std::string> graph_files) {
+  watch_.emplace();
+  graph_files_ = std::move(graph_files);
+}
+
+void ControlDesk::look_at_files(Moment now) {
+  std::set<std::string> files = exchanging_.plugin_files();
+  files.insert(graph_files_.begin(), graph_files_.end());
+  for (const std::string& file : watch_->changed(files, now)) {
+    const bool is_graph = std::ranges::find(graph_files_, file) != graph_files_.end();
+    is_graph ? applying_.take_saved(graph_files_.front()) : exchanging_.take_rebuilt(file);
+  }
 }
 
 void ControlDesk::built(const std::vector<Member*>& members) {
@@ -108,6 +124,10 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
       {"resume",
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.resume(word(ask, 0), r); }},
       {"swap", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.exchanging_.swap(ask.words, r); }},
+      {"diff",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.applying_.compare(word(ask, 0), r); }},
+      {"apply",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.applying_.apply(word(ask, 0), r); }},
       {"get", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.get(word(ask, 0), r); }},
       {"set", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.set(ask.words, r); }},
       {"line", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.open_line(ask, r); }},

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "applying/applying.hpp"
 #include "control/code_watch.hpp"
 #include "control/control_server.hpp"
 #include "control/exchanging.hpp"
@@ -31,7 +32,7 @@ class ControlDesk {
  public:
   /// All of these outlive the object.
   ControlDesk(const graph::Graph& graph, const SystemFacts& facts, const std::vector<Member*>& members,
-              Ledger& ledger, const RunLevers& levers);
+              Ledger& ledger, const RunLevers& levers, Applying::Levers applying);
 
   /// Takes the system's socket. If it could not be made, nobody can reach the system, and the log says so.
   void open(Result<ControlSocket> socket);
@@ -40,8 +41,9 @@ class ControlDesk {
   /// Carries out what clients ask, and passes on what they follow. Never waits.
   void serve(Moment now);
 
-  /// Exchanges the code of components from now on whenever it is built anew.
-  void watch_code() { watch_.emplace(); }
+  /// Exchanges the code of components from now on whenever it is built anew, and carries out the graph whenever one of its
+  /// files is saved, the main one first.
+  void watch(std::vector<std::string> graph_files);
 
   /// Notes that processes are built, before they open their hardware.
   void built(const std::vector<Member*>& members);
@@ -49,6 +51,8 @@ class ControlDesk {
   void recall(const Standing& standing);
   /// Notes that a component runs other code.
   void note(const ExchangedCode& code) { exchanging_.note(code); }
+  /// Notes that a process has ended.
+  void lose(const Member& member) { applying_.lose(member.name()); }
   /// Notes that processes work.
   void came_up(const std::vector<Member*>& members);
 
@@ -62,12 +66,15 @@ class ControlDesk {
   void show_log(const Ask& ask, const ReplyPtr& reply);
   void show_missions(const Ask& ask, Reply& reply) const;
   void open_line(const Ask& ask, const ReplyPtr& reply);
+  void look_at_files(Moment now);
 
   Ledger& ledger_;
   const SystemNames names_;
   Operating operating_;
   Exchanging exchanging_;
+  Applying applying_;
   std::optional<CodeWatch> watch_;
+  std::vector<std::string> graph_files_;  // the main one first
   const Showing showing_;
   MotorHold motors_;
   LogBook log_;

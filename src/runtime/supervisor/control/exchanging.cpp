@@ -132,8 +132,8 @@ CodeFacts Exchanging::code_of(const std::string& name, const std::string& type) 
 void Exchanging::swap(const std::vector<std::string>& words, const ReplyPtr& reply) {
   Result<SwapWish> wish = read_wish(words);
   if (!wish) return reply->refuse(wish.error());
-  begin(std::move(wish).value(),
-        [reply](const Result<Record>& done) { done ? reply->add(*done) : reply->refuse(done.error()); });
+  exchange(std::move(wish).value(),
+           [reply](const Result<Record>& done) { done ? reply->add(*done) : reply->refuse(done.error()); });
 }
 
 void Exchanging::take_rebuilt(const std::string& file) {
@@ -150,12 +150,12 @@ void Exchanging::take_rebuilt(const std::string& file) {
 
 void Exchanging::swap_rebuilt(const graph::ComponentNode& node) {
   const CodeFacts code = code_of(node);
-  begin({node.name, code.plugin.file, code.type, {}, kTryoutOfRebuilt},
-        [name = node.name](const Result<Record>& done) {
-          if (done) return log::info(name, "runs the code that was built anew");
-          log::error(name, "the code that was built anew does not run, and the old one goes on: " +
-                               done.error().text());
-        });
+  exchange({node.name, code.plugin.file, code.type, {}, kTryoutOfRebuilt},
+           [name = node.name](const Result<Record>& done) {
+             if (done) return log::info(name, "runs the code that was built anew");
+             log::error(name, "the code that was built anew does not run, and the old one goes on: " +
+                                  done.error().text());
+           });
 }
 
 std::set<std::string> Exchanging::plugin_files() const {
@@ -166,7 +166,7 @@ std::set<std::string> Exchanging::plugin_files() const {
 
 bool Exchanging::is_busy(const std::string& component) const { return busy_->contains(component); }
 
-void Exchanging::begin(SwapWish wish, Told told) {
+void Exchanging::exchange(SwapWish wish, Told told) {
   if (is_busy(wish.component))
     return told(fail(Code::unavailable, "another exchange of it is under way; try again when that is done",
                      wish.component));

@@ -55,6 +55,10 @@ class Exchanging {
   /// refused, is gone.
   /// @param words  COMPONENT PLUGIN.so[:TYPE] [--set PARAM=VALUE]... [--tryout DURATION] [--probation DURATION].
   void swap(const std::vector<std::string>& words, const ReplyPtr& reply);
+  /// Takes the end of an exchange, with what an operator is told of it.
+  using Told = std::function<void(const Result<Record>&)>;
+  /// Does the same for a wish that was read.
+  void exchange(SwapWish wish, Told told);
   /// Exchanges the code of all components that run a plugin whose file was built anew, each after it was tried out, and after
   /// an exchange that is under way. What comes of it goes to the log.
   void take_rebuilt(const std::string& file);
@@ -80,7 +84,6 @@ class Exchanging {
 
  private:
   class Pending;
-  using Told = std::function<void(const Result<Record>&)>;
   using PendingPtr = std::shared_ptr<Pending>;
 
   // What is tried out.
@@ -90,7 +93,6 @@ class Exchanging {
     PendingPtr pending;
   };
 
-  void begin(SwapWish wish, Told told);
   [[nodiscard]] bool is_busy(const std::string& component) const;
   void swap_rebuilt(const graph::ComponentNode& node);
   [[nodiscard]] std::vector<PortContract> ports_of(const std::string& component) const;

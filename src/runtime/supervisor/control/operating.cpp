@@ -218,19 +218,35 @@ void Operating::get(const std::string& what, const ReplyPtr& reply) const {
 void Operating::set(const std::vector<std::string>& words, const ReplyPtr& reply) {
   const Result<std::vector<Setting>> settings = SettingReader(*this, facts_).read(words);
   if (!settings) return reply->refuse(settings.error());
+  change(*settings, [reply](const Status& end) {
+    if (!end.ok()) reply->refuse(end.error());
+  });
+}
+
+void Operating::change(const std::map<std::string, graph::Params>& wanted, JointOrders::Done done) {
+  std::vector<Setting> settings;
+  for (const auto& [name, values] : wanted) {
+    const Pairs texts = pairs_of(values);
+    settings.push_back({graph_.find_component(name), {texts.begin(), texts.end()}, values});
+  }
+  change(settings, std::move(done));
+}
+
+void Operating::change(const std::vector<Setting>& settings, JointOrders::Done done) {
   Nodes nodes;
   std::vector<JointStep> steps;
-  for (const Setting& setting : *settings) {
+  for (const Setting& setting : settings) {
     nodes.push_back(setting.component);
     steps.push_back(step_of(setting));
   }
-  if (const Status ready = are_ready(nodes); !ready.ok()) return reply->refuse(ready.error());
-  joint_orders_.add(std::move(steps), [reply, settings = *settings](const Status& end) {
-    if (!end.ok()) return reply->refuse(end.error());
-    for (const Setting& setting : settings)
-      for (const auto& [param, value] : setting.values)
-        log::info(setting.component->name,
-                  "an operator has set " + param + " to " + graph::print_value(value));
+  if (const Status ready = are_ready(nodes); !ready.ok()) return done(ready);
+  joint_orders_.add(std::move(steps), [done = std::move(done), settings](const Status& end) {
+    if (end.ok())
+      for (const Setting& setting : settings)
+        for (const auto& [param, value] : setting.values)
+          log::info(setting.component->name,
+                    "an operator has set " + param + " to " + graph::print_value(value));
+    done(end);
   });
 }
 

@@ -46,6 +46,10 @@ class Operating {
   /// answer has everything that is wrong with them.
   /// @param words  "component.param" and its value, in turn.
   void set(const std::vector<std::string>& words, const ReplyPtr& reply);
+  /// Does the same with values that have been read and checked, by component.
+  void change(const std::map<std::string, graph::Params>& wanted, JointOrders::Done done);
+  /// Forgets what was changed, since the graph says the same now.
+  void forget_changes() { changed_.clear(); }
   /// Returns the present values of a component's parameters.
   [[nodiscard]] graph::Params params_of(const graph::ComponentNode& component) const;
   /// Starts a process again, which is named by itself or by one of its components. The answer ends when it is back.
@@ -78,6 +82,7 @@ class Operating {
 
   void pause(const std::string& name, bool suspends, const ReplyPtr& reply);
   [[nodiscard]] Status are_ready(const Nodes& nodes) const;
+  void change(const std::vector<Setting>& settings, JointOrders::Done done);
   [[nodiscard]] JointStep step_of(const Setting& setting);
   Status send(const std::string& component, Order order, JointOrders::Answered answered) const;
 

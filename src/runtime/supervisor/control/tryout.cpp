@@ -19,16 +19,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using host::SeenObject;
 
-constexpr int kLookMs = 50;                                 // between two looks at the time
-constexpr std::size_t kBound = std::size_t{1} << 16;        // [bytes] that wait to be sent: nothing is
-constexpr std::size_t kLongest = std::size_t{16} << 20;     // [bytes] of an object
-constexpr std::size_t kMostBytes = std::size_t{256} << 20;  // of all objects
+constexpr int kLookMs = 50;                                  // between two looks at the time
+constexpr std::size_t kUnsentBound = std::size_t{1} << 16;   // [bytes] that wait to be sent: nothing is
+constexpr std::size_t kLongestSeen = std::size_t{16} << 20;  // [bytes] of an object
+constexpr std::size_t kMostBytes = std::size_t{256} << 20;   // of all objects
 
 // A port whose objects are collected.
 class Listener {
  public:
   explicit Listener(WatchedPort watched)
-      : port_(std::move(watched.port)), line_(std::move(watched.line), kBound, kLongest) {}
+      : port_(std::move(watched.port)), line_(std::move(watched.line), kUnsentBound, kLongestSeen) {}
 
   [[nodiscard]] pollfd waits_for() const { return {is_open_ ? line_.descriptor() : -1, POLLIN, 0}; }
 

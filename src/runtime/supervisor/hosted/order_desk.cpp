@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "counter_records.hpp"
+#include "graph_mark.hpp"
 #include "orca/base/distant_log.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/idl/object_type.hpp"
@@ -134,6 +135,10 @@ void OrderDesk::carry_out(Told told) {
     return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
   if (const auto* alarm = std::get_if<TellAlarm>(&order)) return hear(*alarm);
   if (const auto* lines = std::get_if<TellLines>(&order)) return hear(*lines);
+  if (const auto* note = std::get_if<NoteGraph>(&order)) {
+    graph_mark_ = mark_of(note->graph);
+    return;
+  }
   if (const auto* alarm = std::get_if<ForgetAlarm>(&order)) {
     reports_.remember([&](Recollection& all) { all.forget_alarm(*alarm); });
     return part_.forget_alarm(alarm->kind, alarm->source, alarm->process);
@@ -246,6 +251,7 @@ void OrderDesk::adopt(const Told& told) {
 
 Orphaned OrderDesk::introduction() const {
   Orphaned self = site_.introduce();
+  if (graph_mark_) self.graph = *graph_mark_;
   self.output = Descriptor(fcntl(will_->output.number(), F_DUPFD_CLOEXEC, 0));
   if (!self.output) throw_if_exhausted(errno);
   return self;

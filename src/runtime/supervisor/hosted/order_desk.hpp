@@ -74,6 +74,7 @@ class OrderDesk {
   std::optional<ControlSocket> place_;  // while there is a will
   std::optional<Vigil> vigil_;          // while there is no supervisor
   Moment vigil_ends_at_{};
+  std::optional<std::uint64_t> graph_mark_;  // of the run's present graph; none: it is that of the start
   bool is_taken_down_ = false;
   std::map<std::string, std::uint64_t> swaps_;  // by component; used where swaps end only
   const Descriptor wake_;

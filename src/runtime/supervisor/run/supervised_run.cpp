@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "alarm_relay.hpp"
+#include "applying/graph_plan.hpp"
 #include "conclusion.hpp"
 #include "control/control_desk.hpp"
 #include "ledger.hpp"
@@ -17,6 +18,7 @@
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
+#include "orca/graph/print.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/idleness.hpp"
 #include "orca/supervisor/heartbeats.hpp"
@@ -56,6 +58,7 @@ class SupervisedRun {
                 host::StopSignal& stop, host::RunListener& listener)
       : graph_(graph),
         here_(graph::part_on(graph, options.machine)),
+        facts_(options.facts),
         options_(options),
         stop_(stop),
         listener_(listener),
@@ -63,12 +66,12 @@ class SupervisedRun {
         inherited_(std::move(beginning.processes)),
         members_(make_members(graph, options.machine)),
         all_(pointers_to(members_)),
-        starter_(graph, options, run_, all_),
+        starter_(graph_, options, run_, all_),
         ledger_(here_, listener, run_.start, options.log_name),
         policy_(graph::processes_on(graph, options.machine), graph.supervision),
-        control_(here_, options.facts, all_, ledger_, levers()) {
+        control_(here_, facts_, all_, ledger_, levers(), applying()) {
     ledger_.relay_to(relay_);
-    if (options.watches_code) control_.watch_code();
+    if (options.watches) control_.watch(options.graph_files);
     if (graph.machines.size() < 2) return;
     neighbours_.emplace(graph, options.machine, starter_.plain_start("peers"), ledger_);
     polled_.push_back(&neighbours_->member());
@@ -112,6 +115,19 @@ class SupervisedRun {
       return ok();
     };
     return {stop, restart, [this] { return trading_.in_use(); }, [this] { poller_.wake(); }};
+  }
+
+  Applying::Levers applying() {
+    return {options_.read, [this](const CheckedSystem& wanted) { accept(wanted); },
+            [this] { poller_.wake(); }};
+  }
+
+  // Goes on with a graph that is carried out already. Processes that are started from now on run it.
+  void accept(const CheckedSystem& wanted) {
+    go_over(graph_, wanted.graph);
+    go_over(here_, wanted.graph);
+    facts_ = wanted.facts;
+    for (Member* const member : all_) member->tell(NoteGraph{graph::print(wanted.graph)});
   }
 
   // ---- Starting
@@ -224,6 +240,7 @@ class SupervisedRun {
   void lose(Member& member, const std::string& how, const Loss& loss) {
     beats_.forget(member.index());
     member.forget();
+    control_.lose(member);
     arrivals_.lose(member);
     ledger_.lose(member.name(), "its process " + how);
     for (const Wiring::Outer& outer : starter_.wiring().edges_at(member.name())) cut(outer, member, how);
@@ -364,8 +381,9 @@ class SupervisedRun {
     return result;
   }
 
-  const graph::Graph& graph_;
-  const graph::Graph here_;  // what runs on this machine
+  graph::Graph graph_;
+  graph::Graph here_;  // what runs on this machine
+  SystemFacts facts_;
   const SupervisedOptions& options_;
   host::StopSignal& stop_;
   host::RunListener& listener_;

@@ -22,12 +22,7 @@ constexpr std::uint64_t kReserved = std::uint64_t{1} << 30;  // [bytes] of stack
 
 Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunIdentity& run,
                  const Members& all)
-    : graph_(graph),
-      options_(options),
-      run_(run),
-      all_(all),
-      graph_text_(graph::print(graph)),
-      wiring_(graph) {}
+    : graph_(graph), options_(options), run_(run), all_(all), wiring_(graph) {}
 
 Starter::Begun Starter::start(const Members& members) {
   Begun begun;
@@ -86,7 +81,7 @@ Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
                          options_.planned_failures,
                          outputs_for(member),
                          run_.name};
-  return {member.name(), graph_text_, to_pairs(wishes), run_.page.descriptor(), std::move(edges)};
+  return {member.name(), graph::print(graph_), to_pairs(wishes), run_.page.descriptor(), std::move(edges)};
 }
 
 // A process that is started again would overwrite what was written before.

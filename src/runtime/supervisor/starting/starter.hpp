@@ -63,7 +63,6 @@ class Starter {
   const SupervisedOptions& options_;
   const RunIdentity& run_;
   const Members& all_;
-  const std::string graph_text_;
   Wiring wiring_;
   std::set<std::string> started_;  // processes that have been started once
 };

@@ -50,7 +50,8 @@ inline std::vector<supervisor::Order> all_orders() {
                2'000'000'000,
                "/tmp/vfh_plus.so",
                null_device(),
-               true});
+               true},
+      NoteGraph{"<graph name=\"robot\"/>"});
 }
 
 /// Returns at least one of each report.

@@ -34,6 +34,9 @@ struct Change {
 /// @thread  pure function; any thread.
 [[nodiscard]] std::vector<Change> diff(const Graph& before, const Graph& after);
 
+/// Returns what a change is about, for people: "+ component goto", "~ graph".
+[[nodiscard]] std::string title(const Change& change);
+
 /// Returns one line per change, for people: "+ component goto", "  ~ param stop_distance: 0.5 -> 0.6".
 [[nodiscard]] std::string diff_text(const std::vector<Change>& changes);
 

@@ -37,6 +37,7 @@ enum class Kind : std::uint16_t {
   ask_use = 51,
   tell_lines,
   swap_code = 71,
+  note_graph = 72,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,

@@ -180,10 +180,17 @@ struct SwapCode {
   Descriptor plugin;            ///< Its bytes: see orca/plugin/image.hpp.
   bool tried = false;           ///< Whether the plugin has been tried out.
 };
+/// Says that the run has another graph now, of which the process runs its part already: a supervisor that adopts it must have
+/// the same.
+struct NoteGraph {
+  static constexpr Kind kKind = Kind::note_graph;
+  std::string graph;  ///< As graph::print() writes it.
+};
 
-using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
-                           Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors,
-                           Count, OpenLine, Meet, Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode>;
+using Order =
+    std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend, Resume,
+                 SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors, Count, OpenLine, Meet,
+                 Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode, NoteGraph>;
 
 // ---- Reports, from a host process to the supervisor.
 

@@ -30,9 +30,12 @@ struct SupervisedOptions {
   std::vector<host::PlannedFailure> planned_failures;
   log::Level log_level = log::Level::info;
   std::string log_name = kLogName;  ///< Name in the log for what concerns the run as a whole.
-  host::RunOutputs outputs;   ///< Checked by check_outputs(). A process that is started again writes none.
-  SystemFacts facts;          ///< For operators.
-  bool watches_code = false;  ///< Code of components that is built anew takes the place of the old one.
+  host::RunOutputs outputs;  ///< Checked by check_outputs(). A process that is started again writes none.
+  SystemFacts facts;         ///< For operators.
+  SystemReader read;         ///< Reads graphs that are to be carried out; empty: none are.
+  std::vector<std::string> graph_files;  ///< That the graph was read from, the main one first.
+  /// Code of components that is built anew takes the place of the old one, and a graph that is saved is carried out.
+  bool watches = false;
 };
 
 /// Runs a checked graph in host processes: starts them, brings everything up, watches, starts again what has died,

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "orca/base/contract.hpp"
+#include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/host/catalogue.hpp"
@@ -24,6 +27,17 @@ struct SystemFacts {
   std::map<std::string, Contract> contracts;   ///< By component.
   std::map<std::string, PluginFacts> plugins;  ///< By type.
 };
+
+/// A graph that was read and checked.
+struct CheckedSystem {
+  graph::Graph graph;
+  SystemFacts facts;
+  std::set<std::string> files;  ///< The graph's own file and those that it includes.
+};
+
+/// Reads a graph file and checks it as a run of it would, with the profiles and settings of the present run.
+/// @errors  all that is wrong with it, a line each.
+using SystemReader = std::function<Result<CheckedSystem>(const std::string& file)>;
 
 /// Returns the facts of a system.
 /// @param catalogue  the one that has checked the graph.

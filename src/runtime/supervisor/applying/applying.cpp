@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "applying/applying.hpp"
+
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "applying/system_reading.hpp"
+#include "orca/base/log.hpp"
+#include "orca/graph/print.hpp"
+#include "orca/supervisor/log_name.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+std::map<std::string, std::string> texts_of(const graph::Params& params) {
+  std::map<std::string, std::string> texts;
+  for (const auto& [name, value] : params) texts[name] = graph::print_value(value);
+  return texts;
+}
+
+void answer(const ReplyPtr& reply, const Result<GraphPlan>& outcome) {
+  if (!outcome) return reply->refuse(outcome.error());
+  for (const GraphPlan::Line& line : outcome->lines) reply->add(record_of(line));
+  if (outcome->lines.empty() && !reply->as_json()) reply->add("the system runs like that already\n");
+}
+
+}  // namespace
+
+// One graph file, from its reading to its end.
+class Applying::Work : public std::enable_shared_from_this<Work> {
+ public:
+  Work(Applying& owner, const std::string& file, bool carries_out, Told told)
+      : owner_(owner),
+        carries_out_(carries_out),
+        told_(std::move(told)),
+        reading_(std::in_place, owner.levers_.read, file, owner.levers_.wake) {}
+
+  void go_on() {
+    if (!reading_ || !reading_->is_done()) return;
+    Result<CheckedSystem> read = std::move(reading_->outcome());
+    reading_.reset();
+    if (!read) return end(read.error());
+    wanted_ = std::move(read).value();
+    plan_ = plan_of(owner_.present(), wanted_.graph, wanted_.facts.contracts);
+    lost_.clear();  // nothing was changed before
+    if (!carries_out_) return end(std::nullopt);
+    if (!plan_.is_possible()) return end(fail(Code::failed_precondition, obstacles_of(plan_)));
+    exchange_next();
+  }
+  void lose(const std::string& process) { lost_.insert(process); }
+  [[nodiscard]] bool has_ended() const { return has_ended_; }
+
+ private:
+  // What a component ran before.
+  struct Before {
+    std::string component;
+    CodeFacts code;
+    graph::Params params;
+  };
+
+  [[nodiscard]] const graph::ComponentNode& node_of(const std::string& component) const {
+    return *owner_.graph_.find_component(component);
+  }
+
+  // Returns whether a component's process has ended meanwhile, so that it begins as before.
+  [[nodiscard]] bool is_lost(const std::string& component) const {
+    return lost_.contains(node_of(component).process);
+  }
+
+  [[nodiscard]] Error loss() const {
+    return fail(Code::unavailable, "process " + *lost_.begin() + " ended meanwhile, so all goes back");
+  }
+
+  void exchange_next() {
+    if (!lost_.empty()) return go_back(loss());
+    if (before_.size() == plan_.exchanges.size()) return set_all();
+    const GraphPlan::Exchange& next = plan_.exchanges[before_.size()];
+    const graph::ComponentNode& node = node_of(next.component);
+    before_.push_back({next.component, owner_.exchanging_.code_of(node), owner_.operating_.params_of(node)});
+    const CodeFacts& present = before_.back().code;
+    const std::string& file =
+        present.type == next.type ? present.plugin.file : wanted_.facts.plugins[next.type].file;
+    owner_.exchanging_.exchange({next.component, file, next.type, texts_of(next.params)},
+                                [work = weak_from_this()](const Result<Record>& outcome) {
+                                  if (const auto self = work.lock()) self->exchanged(outcome);
+                                });
+  }
+
+  void exchanged(const Result<Record>& outcome) {
+    if (outcome) return exchange_next();
+    before_.pop_back();  // it runs what it ran before
+    go_back(outcome.error());
+  }
+
+  void set_all() {
+    for (const auto& [component, values] : plan_.settings) {
+      const graph::Params present = owner_.operating_.params_of(node_of(component));
+      for (const auto& [param, value] : values) settings_before_[component][param] = present.at(param);
+    }
+    owner_.operating_.change(plan_.settings, [work = weak_from_this()](const Status& outcome) {
+      const auto self = work.lock();
+      if (!self) return;
+      if (!outcome.ok()) return self->go_back(outcome.error());
+      self->lost_.empty() ? self->end(std::nullopt) : self->set_back();
+    });
+  }
+
+  void set_back() {
+    std::erase_if(settings_before_, [this](const auto& one) { return is_lost(one.first); });
+    owner_.operating_.change(settings_before_, [work = weak_from_this()](const Status& outcome) {
+      const auto self = work.lock();
+      if (!self) return;
+      const Error reason = self->loss();
+      self->go_back(outcome.ok() ? reason : with(reason, "parameters", outcome.error()));
+    });
+  }
+
+  static Error with(const Error& reason, const std::string& what, const Error& obstacle) {
+    return fail(reason.code, reason.text() + "; and " + what + " could not go back: " + obstacle.text());
+  }
+
+  // Exchanges back what was exchanged, the last first.
+  void go_back(const Error& reason) {
+    if (before_.empty()) return end(reason);
+    const Before before = std::move(before_.back());
+    before_.pop_back();
+    if (is_lost(before.component)) return go_back(reason);
+    SwapWish wish{before.component, before.code.plugin.file, before.code.type, texts_of(before.params)};
+    wish.tryout = Duration{0};  // it has worked before
+    const auto gone_back = [work = weak_from_this(), reason,
+                            name = before.component](const Result<Record>& outcome) {
+      if (const auto self = work.lock())
+        self->go_back(outcome ? reason : with(reason, name, outcome.error()));
+    };
+    owner_.exchanging_.exchange(std::move(wish), gone_back);
+  }
+
+  void end(const std::optional<Error>& error) {
+    has_ended_ = true;
+    if (error) return told_(*error);
+    if (carries_out_) owner_.levers_.accept(wanted_);
+    if (carries_out_) owner_.operating_.forget_changes();
+    told_(plan_);
+  }
+
+  Applying& owner_;
+  const bool carries_out_;
+  const Told told_;
+  CheckedSystem wanted_;
+  GraphPlan plan_;
+  std::vector<Before> before_;                            // of each exchange that was begun
+  std::map<std::string, graph::Params> settings_before_;  // by component
+  std::set<std::string> lost_;                            // processes that have ended since the reading
+  bool has_ended_ = false;
+  std::optional<SystemReading> reading_;
+};
+
+Applying::Applying(const graph::Graph& graph, Operating& operating, Exchanging& exchanging, Levers levers)
+    : graph_(graph), operating_(operating), exchanging_(exchanging), levers_(std::move(levers)) {}
+
+Applying::~Applying() = default;
+
+void Applying::compare(const std::string& file, const ReplyPtr& reply) {
+  begin(file, false, [reply](const Result<GraphPlan>& outcome) { answer(reply, outcome); });
+}
+
+void Applying::apply(const std::string& file, const ReplyPtr& reply) {
+  begin(file, true, [reply, file](const Result<GraphPlan>& outcome) {
+    answer(reply, outcome);
+    if (outcome) log::info(kLogName, "an operator has applied " + file);
+  });
+}
+
+void Applying::lose(const std::string& process) {
+  if (work_) work_->lose(process);
+}
+
+void Applying::go_on() {
+  if (work_) work_->go_on();
+  if (work_ && work_->has_ended()) work_.reset();
+  if (work_ || !saved_) return;
+  begin(*std::exchange(saved_, {}), true, [](const Result<GraphPlan>& outcome) {
+    if (!outcome)
+      return log::error(kLogName, "the graph that was saved is not carried out, and all goes on as before: " +
+                                      outcome.error().text());
+    for (const GraphPlan::Line& line : outcome->lines)
+      log::info(kLogName, "saved: " + line.part + ", " + line.change.field + ": " + line.change.before +
+                              " -> " + line.change.after);
+  });
+}
+
+void Applying::begin(const std::string& file, bool carries_out, Told told) {
+  if (work_)
+    return told(
+        fail(Code::unavailable, "another graph is being compared or applied; try again when that is done"));
+  if (!levers_.read) return told(fail(Code::unimplemented, "this supervisor reads no graphs"));
+  if (graph_.machines.size() > 1)
+    return told(fail(Code::unimplemented, "a system on several machines takes no other graph while it runs"));
+  work_ = std::make_shared<Work>(*this, file, carries_out, std::move(told));
+}
+
+// Returns the graph as it would be written for what runs now.
+graph::Graph Applying::present() const {
+  graph::Graph present = graph_;
+  for (graph::ComponentNode& node : present.components) {
+    node.params = operating_.params_of(node);
+    node.type = exchanging_.code_of(node).type;
+  }
+  return present;
+}
+
+}  // namespace orca::supervisor

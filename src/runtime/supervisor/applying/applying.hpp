@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "applying/graph_plan.hpp"
+#include "control/exchanging.hpp"
+#include "control/operating.hpp"
+#include "control/reply.hpp"
+#include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/supervisor/system_facts.hpp"
+
+namespace orca::supervisor {
+
+/// Lets a running system become what another graph file says: all of it, or nothing.
+///
+/// A file is read and checked on a thread of its own. Then code is exchanged, one component after the other, each tried out
+/// before; then parameters change, all of them or none. If a step fails, the code that has been exchanged is exchanged
+/// back. A file that asks for more than that is refused before anything changes.
+///
+/// Thread contract: the supervisor's thread.
+class Applying {
+ public:
+  /// What it needs of the run.
+  struct Levers {
+    SystemReader read;                                 ///< Empty: no graph can be read.
+    std::function<void(const CheckedSystem&)> accept;  ///< Makes a graph that of the run: it is carried out.
+    std::function<void()> wake;  ///< Lets go_on() be called soon. It is called on other threads.
+  };
+
+  /// The references outlive the object.
+  Applying(const graph::Graph& graph, Operating& operating, Exchanging& exchanging, Levers levers);
+  ~Applying();
+  Applying(const Applying&) = delete;
+  Applying& operator=(const Applying&) = delete;
+
+  /// Answers with what a file would change, and what that takes.
+  void compare(const std::string& file, const ReplyPtr& reply);
+  /// Carries a file out. The answer ends when that is done or undone, and has what was changed.
+  void apply(const std::string& file, const ReplyPtr& reply);
+  /// Carries out the graph's file because it was saved, after what is under way. What comes of it goes to the log.
+  void take_saved(const std::string& file) { saved_ = file; }
+  /// Notes that a process has ended. It begins anew with the graph of before, so what is under way is taken back.
+  void lose(const std::string& process);
+  /// Goes on with what has been read.
+  void go_on();
+
+ private:
+  class Work;
+  using Told = std::function<void(const Result<GraphPlan>&)>;
+
+  void begin(const std::string& file, bool carries_out, Told told);
+  [[nodiscard]] graph::Graph present() const;
+
+  const graph::Graph& graph_;
+  Operating& operating_;
+  Exchanging& exchanging_;
+  const Levers levers_;
+  std::optional<std::string> saved_;  // a file that waits
+  std::shared_ptr<Work> work_;        // what is under way
+};
+
+}  // namespace orca::supervisor

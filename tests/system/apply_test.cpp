@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// orcactl diff and apply, and deployer --watch on the graph: a running system becomes what another graph says, or stays
+// exactly as it is.
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "deployer.hpp"
+#include "hosted_system.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+// What a graph of the tellers says.
+struct Wish {
+  std::string first = "test.Teller";  // types
+  std::string second = "test.Teller";
+  int step = 1;
+  std::string more{};  // elements
+};
+
+// A system of two tellers, the first of which tells a talker its version a hundred times a second, and of files that it
+// may become.
+class Applied {
+ public:
+  explicit Applied(const Words& options = {}) {
+    const fs::path plugins = folder_.file("plugins");
+    fs::create_directory(plugins);
+    copy(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so", plugins);
+    copy(ORCA_BINARY_DIR "/tests/host_plugins/test_teller.so", plugins);
+    copy(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_other.so", plugins);
+    copy(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_broken.so", plugins);
+    file_ = write("now.xml", {});
+    start(options);
+  }
+
+  // Writes a graph, and returns its file.
+  std::string write(const std::string& name, const Wish& wish) const {
+    const std::string step = " <param name=\"step\" value=\"" + std::to_string(wish.step) + "\"/>";
+    return folder_.write(
+        name, "<graph name=\"applied\" version=\"1\" on_supervisor_loss=\"continue\" plugins=\"" +
+                  folder_.file("plugins") + "\"><component name=\"a\" type=\"" + wish.first + "\">" + step +
+                  "</component><component name=\"b\" type=\"" + wish.second +
+                  "\" autonomous=\"true\"/><component name=\"talker\" type=\"test.Talker\"/>"
+                  "<connect from=\"talker.out\" to=\"a.in\" queue=\"1000\"/>"
+                  "<connect from=\"talker.out\" to=\"b.in\" queue=\"1000\"/>"
+                  "<connect from=\"talker.poke\" to=\"a.poke\" queue=\"1000\"/>"
+                  "<connect from=\"a.out\" to=\"talker.back\" queue=\"1000\"/>" +
+                  wish.more + "</graph>");
+  }
+
+  void start(const Words& options = {}) {
+    program_ = std::make_unique<Subprocess>(deployer(Words{file_, "--log", "debug"} + options));
+    REQUIRE(hears("heard 1:10"));
+  }
+  // Kills the deployer, and starts another one with this graph.
+  void start_anew(const std::string& file) {
+    program_->send(SIGKILL);
+    REQUIRE(program_->wait(Seconds(2)));
+    killed_ = std::move(program_);  // with its object, what it has started would end
+    program_ = std::make_unique<Subprocess>(deployer({file, "--log", "debug"}));
+  }
+
+  [[nodiscard]] Run apply(const Wish& wish) const {
+    return run_orcactl({"apply", write("new.xml", wish)}, Seconds(40));
+  }
+  [[nodiscard]] Run diff(const Wish& wish) const {
+    return run_orcactl({"diff", write("new.xml", wish)}, Seconds(20));
+  }
+  [[nodiscard]] std::size_t mark() const { return program_->err().size(); }
+  [[nodiscard]] pid_t host() const { return children_of(program_->pid()).at("main"); }
+  [[nodiscard]] std::string log() const { return program_->err(); }
+  bool hears_after(const std::string& text, std::size_t mark) {
+    return comes_true([&] { return program_->err().find(text, mark) != std::string::npos; }, Seconds(20));
+  }
+  bool hears(const std::string& text) { return program_->wait_for_output(text, Seconds(20) * kSlowdown); }
+
+  // Ends the system, and checks that nothing was lost.
+  std::string end() {
+    CHECK(run_orcactl({"stop"}).exit_code() == 0);
+    const Run run = finish(*program_, Seconds(10));
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK_THAT(run.err, !Contains("gap "));
+    return run.err;
+  }
+
+ private:
+  // The list of types lies beside a plugin.
+  static void copy(fs::path from, const fs::path& folder) {
+    fs::copy_file(from, folder / from.filename());
+    from.replace_extension(".types");
+    fs::copy_file(from, folder / from.filename());
+  }
+
+  TempFolder folder_;
+  std::string file_;
+  std::unique_ptr<Subprocess> killed_;
+  std::unique_ptr<Subprocess> program_;
+};
+
+// What a program can see of the running system.
+std::string all_that_is_seen() {
+  return run_orcactl({"graph", "--json"}).out + run_orcactl({"ps", "--json"}).out +
+         run_orcactl({"get", "a", "--json"}).out + run_orcactl({"get", "b", "--json"}).out;
+}
+
+}  // namespace
+
+TEST_CASE("the difference to what runs is shown with its cost, and nothing changes", "[system][apply]") {
+  Applied system;
+  const std::string before = all_that_is_seen();
+  const Run same = system.diff({});
+  CHECK(same.exit_code() == 0);
+  CHECK_THAT(same.out, Contains("runs like that already"));
+  const Run run = system.diff({.first = "test.OtherTeller", .step = 2, .more = "<process name=\"third\"/>"});
+  INFO(run.out << run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.out, Contains("~ component a") && Contains("test.OtherTeller") && Contains("param step"));
+  CHECK_THAT(run.out, Contains("exchanged between two laps"));
+  CHECK_THAT(run.out, Contains("+ process third") && Contains("only when the system is started again"));
+  CHECK(all_that_is_seen() == before);
+  system.end();
+}
+
+TEST_CASE("types and parameters change while the system runs, and a process that starts again has them",
+          "[system][apply]") {
+  Applied system;
+  REQUIRE(run_orcactl({"set", "a.step", "3"}).exit_code() == 0);
+  const Run run = system.apply({.first = "test.OtherTeller", .step = 2});
+  INFO(run.out << run.err);
+  REQUIRE(run.exit_code() == 0);
+  CHECK(system.hears("heard 7:"));
+  CHECK_THAT(run_orcactl({"ps"}).out, Contains("test.OtherTeller"));
+  CHECK_THAT(run_orcactl({"get", "a.step"}).out, Contains(" 2 "));
+  CHECK_THAT(run_orcactl({"graph"}).out, Contains("test.OtherTeller"));
+  CHECK_THAT(system.diff({.first = "test.OtherTeller", .step = 2}).out, Contains("runs like that already"));
+  REQUIRE(system.apply({.first = "test.OtherTeller", .step = 5}).exit_code() == 0);
+  CHECK_THAT(run_orcactl({"get", "a.step"}).out, Contains(" 5 "));
+  REQUIRE(run_orcactl({"restart", "a"}).exit_code() == 0);
+  CHECK_THAT(run_orcactl({"ps"}).out, Contains("test.OtherTeller"));
+  CHECK_THAT(run_orcactl({"get", "a.step"}).out, Contains(" 5 "));
+  const std::size_t mark = system.mark();
+  CHECK(system.hears_after("heard 7:", mark));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+}
+
+TEST_CASE("if a later step fails, what was exchanged is exchanged back", "[system][apply]") {
+  Applied system;
+  const std::string before = all_that_is_seen();
+  const Run run = system.apply({.first = "test.OtherTeller", .second = "test.BrokenTeller", .step = 2});
+  INFO(run.out << run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK_THAT(run.err, Contains("b: ") && Contains("its laps, in the shadow of the present one"));
+  CHECK(system.hears("heard 7:"));  // the first step had been made
+  const std::size_t mark = system.mark();
+  CHECK(system.hears_after("heard 1:", mark));
+  CHECK(all_that_is_seen() == before);
+  system.end();
+}
+
+TEST_CASE("a graph that is wrong, or asks for more, is refused before anything changes", "[system][apply]") {
+  Applied system;
+  const std::string before = all_that_is_seen();
+  const Run wrong = system.apply({.first = "test.Nobody", .second = "test.Nothing"});
+  CHECK(wrong.exit_code() == 1);
+  CHECK_THAT(wrong.err, Contains("\"test.Nobody\"") && Contains("\"test.Nothing\""));
+  const Run more = system.apply({.step = 2, .more = "<process name=\"third\"/>"});
+  CHECK(more.exit_code() == 1);
+  CHECK_THAT(more.err, Contains("started again for + process third"));
+  CHECK(run_orcactl({"apply", "/nowhere/at_all.xml"}).exit_code() == 1);
+  CHECK(all_that_is_seen() == before);
+  CHECK_THAT(system.end(), !Contains("heard 7:"));
+}
+
+TEST_CASE("while one graph is applied another is refused", "[system][apply]") {
+  Applied system;
+  Subprocess first(orcactl({"apply", system.write("first.xml", {.first = "test.OtherTeller"})}));
+  REQUIRE(system.hears("is to be exchanged"));
+  const Run second = system.apply({.step = 2});
+  CHECK(second.exit_code() == 1);
+  CHECK_THAT(second.err, Contains("try again when that is done"));
+  CHECK(finish(first, Seconds(20)).exit_code() == 0);
+  CHECK_THAT(run_orcactl({"get", "a.step"}).out, Contains(" 1 "));
+  system.end();
+}
+
+TEST_CASE("if a process ends in the middle, everything is as before", "[system][apply]") {
+  Applied system;
+  const std::string before = run_orcactl({"graph", "--json"}).out;
+  Subprocess order(orcactl(
+      {"apply", system.write("new.xml", {.first = "test.OtherTeller", .second = "test.OtherTeller"})}));
+  REQUIRE(system.hears("heard 7:"));  // the first exchange is made, and on probation
+  REQUIRE(kill(system.host(), SIGKILL) == 0);
+  const Run run = finish(order, Seconds(20));
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  REQUIRE(system.hears("process main is back"));
+  const std::size_t mark = system.mark();
+  CHECK(system.hears_after("heard 1:", mark));
+  CHECK(run_orcactl({"graph", "--json"}).out == before);
+  CHECK_THAT(run_orcactl({"ps"}).out, !Contains("OtherTeller"));
+  CHECK_THAT(system.diff({}).out, Contains("runs like that already"));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+}
+
+TEST_CASE("another deployer that goes on with the run needs the graph that was applied", "[system][apply]") {
+  Applied system;
+  const std::string applied = system.write("new.xml", {.step = 4});
+  REQUIRE(run_orcactl({"apply", applied}).exit_code() == 0);
+  system.start_anew(applied);
+  const bool is_adopted = system.hears("process main is adopted");
+  INFO(system.log());
+  CHECK(is_adopted);
+  CHECK(comes_true(
+      [] {
+        return run_orcactl({"get", "a.step"}).out.find(" 4 ") != std::string::npos;
+      },
+      Seconds(5)));
+  system.end();
+}
+
+TEST_CASE("with --watch a graph that is saved is carried out, and one that is wrong is not",
+          "[system][apply]") {
+  Applied system({"--watch"});
+  system.write("now.xml", {.step = 2});
+  REQUIRE(system.hears("saved: ~ component a, param step: 1 -> 2"));
+  std::size_t mark = system.mark();
+  system.write("now.xml", {.first = "test.Nobody"});
+  REQUIRE(system.hears_after("all goes on as before", mark));
+  CHECK_THAT(run_orcactl({"get", "a.step"}).out, Contains(" 2 "));
+  mark = system.mark();
+  system.write("now.xml", {.first = "test.OtherTeller", .step = 3});
+  REQUIRE(system.hears_after("heard 7:", mark));
+  CHECK(comes_true(
+      [] {
+        return run_orcactl({"get", "a.step"}).out.find(" 3 ") != std::string::npos;
+      },
+      Seconds(10)));
+  system.end();
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The way from a running system to another graph: what changes while it runs, and what does not.
+#include "applying/graph_plan.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace orca;
+using namespace orca::supervisor;
+using Catch::Contains;
+
+namespace {
+
+using Contracts = std::map<std::string, Contract>;
+
+graph::Graph robot() {
+  graph::Graph graph;
+  graph.name = "robot";
+  graph::ComponentNode avoid;
+  avoid.name = "avoid";
+  avoid.type = "orca.SonarAvoid";
+  avoid.params = {{"margin", 0.1}, {"size", 0.3}};
+  graph::ComponentNode base;
+  base.name = "base";
+  base.type = "orca.RobotBaseServer";
+  base.hardware = "scout";
+  base.params = {{"rate", 10.0}, {"device", std::string("a")}};
+  graph.components = {avoid, base};
+  graph.hardware = {{"scout", "orca.hw.Sim", graph::kMainProcess, {{"seed", 1.0}}, {}}};
+  graph::Edge sonar;
+  sonar.from = {"base", "SonarPush"};
+  sonar.to = {"avoid", "sonar"};
+  graph.edges = {sonar};
+  return graph;
+}
+
+Contracts contracts() {
+  const auto param = [](const std::string& name, bool fixed) {
+    ParamContract one;
+    one.name = name;
+    one.fixed = fixed;
+    return one;
+  };
+  Contracts all;
+  all["avoid"].params = {param("margin", false), param("size", true)};
+  all["base"].params = {param("rate", false), param("device", true)};
+  return all;
+}
+
+// Returns the way to a graph that was changed so.
+template <class Change>
+GraphPlan plan_after(const Change& change) {
+  graph::Graph wanted = robot();
+  change(wanted);
+  return plan_of(robot(), wanted, contracts());
+}
+
+bool is_for_a_new_start(const GraphPlan& plan) {
+  const bool has_steps = !plan.exchanges.empty() || !plan.settings.empty();
+  return !plan.is_possible() && !has_steps && plan.lines.size() == 1;
+}
+
+}  // namespace
+
+TEST_CASE("between equal graphs there is nothing to do", "[supervisor][apply]") {
+  const GraphPlan plan = plan_of(robot(), robot(), contracts());
+  CHECK(plan.lines.empty());
+  CHECK(plan.is_possible());
+  CHECK(plan.exchanges.empty());
+  CHECK(plan.settings.empty());
+}
+
+TEST_CASE("a parameter that may change is set, alone", "[supervisor][apply]") {
+  const GraphPlan plan = plan_after([](graph::Graph& g) { g.components[0].params["margin"] = 0.2; });
+  CHECK(plan.is_possible());
+  CHECK(plan.exchanges.empty());
+  CHECK(plan.settings == std::map<std::string, graph::Params>{{"avoid", {{"margin", 0.2}}}});
+  REQUIRE(plan.lines.size() == 1);
+  const Record record = record_of(plan.lines[0]);
+  CHECK(record[0].value == "~ component avoid");
+  CHECK(record[1].value == "param margin");
+  CHECK(record[2].value == "0.1");
+  CHECK(record[3].value == "0.2");
+  CHECK_THAT(record[4].value, Contains("between two laps"));
+}
+
+TEST_CASE("a fixed parameter, or another type, means new code with all parameters", "[supervisor][apply]") {
+  const bool changes_type = GENERATE(false, true);
+  const GraphPlan plan = plan_after([&](graph::Graph& g) {
+    g.components[0].params["margin"] = 0.2;
+    if (changes_type) {
+      g.components[0].type = "orca.LaserAvoid";
+    } else {
+      g.components[0].params["size"] = 0.4;
+    }
+  });
+  CHECK(plan.is_possible());
+  CHECK(plan.settings.empty());
+  REQUIRE(plan.exchanges.size() == 1);
+  CHECK(plan.exchanges[0].component == "avoid");
+  CHECK(plan.exchanges[0].type == (changes_type ? "orca.LaserAvoid" : "orca.SonarAvoid"));
+  CHECK(plan.exchanges[0].params == graph::Params{{"margin", 0.2}, {"size", changes_type ? 0.3 : 0.4}});
+  CHECK(std::ranges::all_of(plan.lines, [](const auto& line) { return line.effort == Effort::exchange; }));
+}
+
+TEST_CASE("a component that is bound to hardware keeps its code, but takes parameters",
+          "[supervisor][apply]") {
+  CHECK(is_for_a_new_start(
+      plan_after([](graph::Graph& g) { g.components[1].params["device"] = std::string("b"); })));
+  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.components[1].type = "orca.LaserServer"; })));
+  CHECK(plan_after([](graph::Graph& g) { g.components[1].params["rate"] = 20.0; }).is_possible());
+}
+
+TEST_CASE("whatever else differs needs a new start", "[supervisor][apply]") {
+  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.components[0].priority = 5; })));
+  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.hardware[0].params["seed"] = 2.0; })));
+  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.edges.clear(); })));
+  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.edges[0].queue.depth = 17; })));
+  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.processes.push_back({.name = "other"}); })));
+  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.components.pop_back(); })));
+}
+
+TEST_CASE("what needs a new start is named, and not more of it than can be read", "[supervisor][apply]") {
+  const GraphPlan one = plan_after([](graph::Graph& g) { g.components[0].priority = 5; });
+  CHECK(obstacles_of(one) == "the system has to be started again for ~ component avoid: priority");
+  const GraphPlan many = plan_after([](graph::Graph& g) {
+    for (const std::string name : {"a", "b", "c", "d", "e", "f"}) g.processes.push_back({.name = name});
+  });
+  CHECK_THAT(obstacles_of(many),
+             Contains("+ process d") && Contains("and 2 more changes") && !Contains("+ process e"));
+}
+
+TEST_CASE("a possible change beside an impossible one does not make the plan possible",
+          "[supervisor][apply]") {
+  const GraphPlan plan = plan_after([](graph::Graph& g) {
+    g.components[0].priority = 5;
+    g.components[0].params["margin"] = 0.2;
+  });
+  CHECK_FALSE(plan.is_possible());
+  CHECK(plan.lines.size() == 2);
+}
+
+TEST_CASE("another group costs nothing", "[supervisor][apply]") {
+  const GraphPlan plan = plan_after([](graph::Graph& g) { g.groups.push_back({"all", {"avoid"}, {}}); });
+  CHECK(plan.is_possible());
+  REQUIRE(plan.lines.size() == 1);
+  CHECK(plan.lines[0].effort == Effort::none);
+}
+
+TEST_CASE("a graph that went over to another one that is possible equals it", "[supervisor][apply]") {
+  graph::Graph running = robot();
+  graph::Graph wanted = robot();
+  wanted.components[0].type = "orca.LaserAvoid";
+  wanted.components[0].params = {{"cone", 1.5}};
+  wanted.components[1].params["rate"] = 20.0;
+  wanted.groups.push_back({"all", {"avoid"}, {}});
+  REQUIRE(plan_of(running, wanted, contracts()).is_possible());
+  go_over(running, wanted);
+  CHECK(graph::diff(running, wanted).empty());
+}
