@@ -111,6 +111,18 @@ std::string all_that_is_seen() {
          run_orcactl({"get", "a", "--json"}).out + run_orcactl({"get", "b", "--json"}).out;
 }
 
+// Puts VFH+ into the place of LaserAvoid in the Pioneer's graph, which then may lie in any folder.
+std::string with_vfh_plus(std::string graph) {
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    std::size_t at = graph.find(from);
+    REQUIRE(at != std::string::npos);
+    for (; at != std::string::npos; at = graph.find(from, at + to.size())) graph.replace(at, from.size(), to);
+  };
+  replace("\"../sim/", "\"" + source_file("sim/"));
+  replace("name=\"avoid\" default=\"orca.LaserAvoid\"", "name=\"avoid\" default=\"orca.VfhPlus\"");
+  return graph;
+}
+
 }  // namespace
 
 TEST_CASE("the difference to what runs is shown with its cost, and nothing changes", "[system][apply]") {
@@ -244,4 +256,42 @@ TEST_CASE("with --watch a graph that is saved is carried out, and one that is wr
       },
       Seconds(10)));
   system.end();
+}
+
+TEST_CASE("a change at a time known before is part of a run that repeats bit for bit", "[system][apply]") {
+  const TempFolder folder;
+  const std::string now = source_file("graphs/pioneer_laser_goto.xml");
+  const std::string other = folder.write("vfh.xml", with_vfh_plus(read_text(now)));
+  const auto hash_after = [&](const Words& more) {
+    const Run run = run_deployer(Words{now, "--until", "25 s"} + virtual_clock() + more, Seconds(60));
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.says("changes to ") == !more.empty());
+    return run.trace_hash();
+  };
+  const auto plain = hash_after({});
+  REQUIRE(plain);
+  const auto changed = hash_after({"--change", other + "@10s"});
+  CHECK(changed != plain);
+  CHECK(hash_after({"--change", other + "@10s"}) == changed);
+  CHECK(hash_after({"--change", other + "@20s"}) != changed);
+  CHECK(hash_after({"--change", now + "@10s"}) == plain);  // nothing differs
+  CHECK(hash_after({"--change", now + "@20s", "--change", other + "@10s"}) != changed);
+}
+
+TEST_CASE("a change that cannot be made is refused before the run", "[system][apply]") {
+  const std::string scout = source_file("graphs/scout_goto.xml");
+  const std::string other = source_file("graphs/pioneer_laser_goto.xml");
+  const auto refusal = [&](const Words& words) {
+    const Run run = run_deployer(Words{scout} + words);
+    CHECK(run.exit_code() == 2);
+    CHECK_FALSE(run.says("arrived"));
+    return run.err;
+  };
+  CHECK_THAT(refusal(virtual_clock() + Words{"--change", other + "@10s"}),
+             Contains("has to be started again for"));
+  CHECK_THAT(refusal(virtual_clock() + Words{"--change", "/nowhere.xml@10s"}), Contains("/nowhere.xml"));
+  CHECK_THAT(refusal({"--change", scout + "@10s"}), Contains("orcactl apply"));
+  CHECK_THAT(refusal({"--change", scout}), Contains("GRAPH@TIME"));
+  CHECK_THAT(refusal({"--change", scout + "@soon"}), Contains("--change: "));
 }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "deployer.hpp"
+#include "hosted_system.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -91,6 +92,22 @@ TEST_CASE(
     CHECK_THAT(run_orcactl({"ps", "--json"}).out, Contains("next_plugins/test_teller_again.so"));
     system.end_in_order();
   }
+}
+
+TEST_CASE("a plugin whose old code cannot be unloaded is shown as pinned", "[system][swap]") {
+  Subprocess program(
+      deployer(Words{system_graph("hooligan_process.xml"), "--set", "where=work", "--set", "deed=thread"} +
+               with_test_plugins()));
+  const auto works = [] { return run_orcactl({"ps"}).out.find("WORK") != std::string::npos; };
+  REQUIRE(comes_true(works, Seconds(10)));
+  CHECK_THAT(run_orcactl({"plugins", "--json"}).out, !Contains("\"pinned\": true"));
+  const Run swapped =
+      run_orcactl({"swap", "hooligan", ORCA_BINARY_DIR "/tests/plugins/test_hooligan.so"}, Seconds(20));
+  INFO(swapped.err << program.err());
+  CHECK(swapped.exit_code() == 0);
+  CHECK_THAT(program.err(), Contains("PLUGIN_PINNED"));
+  CHECK_THAT(run_orcactl({"plugins", "--json"}).out, Contains("\"pinned\": true"));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
 }
 
 TEST_CASE("what cannot be a new version is refused with a reason, and the old one goes on",

@@ -2,8 +2,11 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "actions.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "codes.hpp"
 #include "console.hpp"
@@ -13,9 +16,11 @@
 #include "orca/graph/json.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/graph/mermaid.hpp"
+#include "orca/graph/plan.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/graph/schema.hpp"
+#include "orca/supervisor/system_facts.hpp"
 #include "processes.hpp"
 #include "progress.hpp"
 #include "streams.hpp"
@@ -116,11 +121,38 @@ ExitCode show_graph(const Options& options) {
   return show(options.json ? graph::ports_json(ports) : graph::ports_text(ports));
 }
 
-ExitCode refuse_for_processes(const char* code, const Error& error) {
+ExitCode refuse_option(const char* code, const Error& error) {
   xml::Diagnostics diagnostics;
   diagnostics.error(code, {error.where.empty() ? "command line" : error.where, 0, 0}, error.message);
   std::fputs(diagnostics.text().c_str(), stderr);
   return ExitCode::bad_input;
+}
+
+// Reads the graphs that a run goes over to, and plans how.
+// @return nothing if that is not possible, after it was said.
+std::optional<std::vector<host::TimedChange>> plan_changes(const Options& options,
+                                                           const graph::Graph& graph) {
+  std::vector<Options::PlannedChange> planned = options.changes;
+  std::ranges::stable_sort(planned, {}, &Options::PlannedChange::at);
+  std::vector<host::TimedChange> changes;
+  graph::Graph before = graph;
+  for (const Options::PlannedChange& one : planned) {
+    Loaded after(options);
+    load(one.file, options, after);
+    if (!after.graph) return std::nullopt;
+    const supervisor::SystemFacts facts = supervisor::facts_of(*after.graph, after.catalogue);
+    host::TimedChange change{one.file, one.at, graph::plan_of(before, *after.graph, facts.contracts), {}};
+    if (!change.plan.is_possible()) {
+      (void)refuse_option(
+          codes::kOptionValue,
+          fail(Code::invalid_argument, "--change " + one.file + ": " + graph::obstacles_of(change.plan)));
+      return std::nullopt;
+    }
+    for (const auto& [type, plugin] : facts.plugins) change.plugins[type] = plugin.file;
+    changes.push_back(std::move(change));
+    before = *std::move(after.graph);
+  }
+  return changes;
 }
 
 ExitCode run(const Options& options) {
@@ -133,27 +165,33 @@ ExitCode run(const Options& options) {
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;
   host::RunOptions run = options.run;
+  std::optional<std::vector<host::TimedChange>> changes = plan_changes(options, *loaded.graph);
+  if (!changes) return ExitCode::bad_input;
+  run.changes = *std::move(changes);
   run.looks_on = options.progress.value_or(stderr_can_live());
   Console console(options.stats, run.looks_on);
   if (has_host_processes(options)) {
+    if (!options.changes.empty())
+      return refuse_option(codes::kExcluding, fail(Code::invalid_argument,
+                                                   "--change: host processes are changed with orcactl apply; "
+                                                   "add --clock virtual or --in-process"));
     if (const Status fits = check_for_processes(*loaded.graph, options); !fits.ok())
-      return refuse_for_processes(codes::kExcluding, fits.error());
+      return refuse_option(codes::kExcluding, fits.error());
     const Result<std::string> machine = machine_of_run(*loaded.graph, options);
-    if (!machine) return refuse_for_processes(codes::kOptionValue, machine.error());
+    if (!machine) return refuse_option(codes::kOptionValue, machine.error());
     return exit_code_of(
         run_in_processes(*loaded.graph, *machine, options, loaded.catalogue, stop, console).outcome);
   }
   if (options.watch)
-    return refuse_for_processes(
+    return refuse_option(
         codes::kExcluding,
         fail(
             Code::invalid_argument,
             "--watch: code is exchanged in host processes only; leave out --in-process and --clock virtual"));
   if (!options.machine.empty())
-    return refuse_for_processes(codes::kExcluding,
-                                fail(Code::invalid_argument,
-                                     "--machine: here everything runs in this process; leave it "
-                                     "out"));
+    return refuse_option(codes::kExcluding, fail(Code::invalid_argument,
+                                                 "--machine: here everything runs in this process; leave it "
+                                                 "out"));
   return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, run, stop, console).outcome);
 }
 

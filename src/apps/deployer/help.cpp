@@ -20,6 +20,8 @@ What to run
   --seed N              seed of all random streams (default 1)
   --fail NAME=HOW@TIME  rehearse a failure of the component NAME, e.g. avoid=silent@20s; HOW: silent, throw, hang, or
                         slow (each lap nine periods late); may be repeated
+  --change GRAPH@TIME   with --clock virtual or --in-process: at this time of the run go over to another graph, as with
+                        orcactl apply, e.g. other.xml@20s; may be repeated
 
 How to run it
   --clock KIND          steady: real time (default); virtual: simulated time, bit-identical for the same seed

@@ -109,6 +109,17 @@ Status add_failure(Options& options, const std::string& value) {
   return ok();
 }
 
+// Reads FILE@TIME.
+Status add_change(Options& options, const std::string& value) {
+  const auto at = value.rfind('@');
+  if (at == std::string::npos || at == 0)
+    return expected("--change", "GRAPH@TIME, such as other.xml@20s", value);
+  const Result<Duration> time = xml::parse_duration(value.substr(at + 1));
+  if (!time) return fail(Code::invalid_argument, "--change: " + time.error().message);
+  options.changes.push_back({value.substr(0, at), *time});
+  return ok();
+}
+
 Status set_picture(Options& options, const std::string& value) {
   if (!value.ends_with(".svg") && !value.ends_with(".png"))
     return expected("--picture", "a file ending in .svg or .png", value);
@@ -202,6 +213,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--seed", {true, set_seed}},
       {"--until", {true, set_until}},
       {"--fail", {true, add_failure, true}},
+      {"--change", {true, add_change, true}},
       {"--trace", {true, [](Options& o, const std::string& v) { return o.run.trace_file = v, ok(); }}},
       {"--values", {false, [](Options& o, const std::string&) { return o.run.trace_values = true, ok(); }}},
       {"--record", {true, add_recording, true}},

@@ -15,6 +15,12 @@ namespace orca::deployer {
 
 /// The requests of a command line.
 struct Options {
+  /// A graph that the run goes over to.
+  struct PlannedChange {
+    std::string file;
+    Duration at{0};  ///< [s of the run's clock]
+  };
+
   enum class Action {
     run,
     check,
@@ -43,8 +49,9 @@ struct Options {
   std::vector<std::string> plugin_folders;  ///< Searched after Orca's own.
   std::vector<std::string> profiles;
   std::vector<std::string> settings;  ///< From --set: ARG=VALUE or COMPONENT.PARAM=VALUE.
-  xml::Diagnostics problems;          ///< What is wrong with the command line itself (codes Cxxx).
-  host::RunOptions run;
+  std::vector<PlannedChange> changes;
+  xml::Diagnostics problems;  ///< What is wrong with the command line itself (codes Cxxx).
+  host::RunOptions run;       ///< Without its changes, which are to be read.
   log::Level log_level = log::Level::info;
 };
 

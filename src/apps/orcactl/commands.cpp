@@ -40,7 +40,12 @@ std::vector<Command> showing_commands() {
        .text = "the components: where they run and how they are"},
       {.name = "graph", .text = "the graph, with files, arguments and profiles merged"},
       {.name = "ports", .text = "the ports of all components, and what they are connected to"},
-      {.name = "plugins", .tells = true, .text = "the plugin files, and who uses them"},
+      {.name = "plugins",
+       .tells = true,
+       .text = "the plugin files, and who uses them",
+       .details = "A file counts as pinned if it, or a copy of it that was exchanged, stays in memory "
+                  "although nothing uses "
+                  "it: the alarm PLUGIN_PINNED, which was not acknowledged, says why."},
   };
 }
 

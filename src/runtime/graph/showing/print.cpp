@@ -80,4 +80,10 @@ std::string print(const Graph& graph) {
 
 std::string print_value(const ParamValue& value) { return value_text(value); }
 
+std::map<std::string, std::string> print_values(const Params& params) {
+  std::map<std::string, std::string> texts;
+  for (const auto& [name, value] : params) texts[name] = print_value(value);
+  return texts;
+}
+
 }  // namespace orca::graph

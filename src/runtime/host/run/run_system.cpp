@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/run_system.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <exception>
@@ -20,6 +21,7 @@
 #include "orca/host/robot_finder.hpp"
 #include "orca/host/verdict.hpp"
 #include "recording/run_files.hpp"
+#include "swap/timed_changes.hpp"
 #include "watched_system.hpp"
 
 namespace orca::host {
@@ -157,10 +159,14 @@ class Run {
 
   void supervise() {
     const TimePoint end = options_.until ? executive_.now() + *options_.until : kForever;
+    changes_.begin();
     bool all_wait = false;
     while (!stop_.requested() && executive_.now() < end && !has_ended() && !report_standstill(all_wait)) {
       choose_edges();
-      all_wait = !watched_.changed().wait_until(end) && end == kForever && executive_.is_virtual();
+      const Result<TimePoint> next = changes_.go_on();
+      if (!next) return fail_with(RunOutcome::failed, next.error());
+      const TimePoint until = std::min(end, *next);
+      all_wait = !watched_.changed().wait_until(until) && until == kForever && executive_.is_virtual();
     }
     if (error_ || has_ended()) return;
     outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
@@ -242,6 +248,7 @@ class Run {
     reporter().ignore_trouble();
     if (!counters_) counters_ = collect_counters(graph_, system());
     const std::vector<std::string> stuck = system().take_down(executive_.now() + kTakeDownLimit);
+    changes_.give_up();
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
       reporter().log_error(name + " does not end; the process is ended without it");
@@ -308,6 +315,7 @@ class Run {
   const TimePoint start_ = watched_.start();
   const Reports reports_ = [this](const std::string& name) { return system().component(name)->report(); };
   EdgeChoice choice_{graph_};
+  TimedChanges changes_{graph_, watched_, catalogue_, executive_, options_.changes};
   std::optional<LiveView> view_;         // of the system
   std::optional<TimePoint> end_;         // when the taking down began
   std::optional<RunCounters> counters_;  // of the run until it was taken down

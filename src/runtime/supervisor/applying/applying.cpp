@@ -14,15 +14,17 @@
 namespace orca::supervisor {
 namespace {
 
-std::map<std::string, std::string> texts_of(const graph::Params& params) {
-  std::map<std::string, std::string> texts;
-  for (const auto& [name, value] : params) texts[name] = graph::print_value(value);
-  return texts;
+Record record_of(const graph::GraphPlan::Line& line) {
+  return Record{{"part", line.part},
+                {"field", line.change.field},
+                {"before", line.change.before},
+                {"after", line.change.after},
+                {"effect", graph::to_string(line.effort)}};
 }
 
-void answer(const ReplyPtr& reply, const Result<GraphPlan>& outcome) {
+void answer(const ReplyPtr& reply, const Result<graph::GraphPlan>& outcome) {
   if (!outcome) return reply->refuse(outcome.error());
-  for (const GraphPlan::Line& line : outcome->lines) reply->add(record_of(line));
+  for (const graph::GraphPlan::Line& line : outcome->lines) reply->add(record_of(line));
   if (outcome->lines.empty() && !reply->as_json()) reply->add("the system runs like that already\n");
 }
 
@@ -43,10 +45,10 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     reading_.reset();
     if (!read) return end(read.error());
     wanted_ = std::move(read).value();
-    plan_ = plan_of(owner_.present(), wanted_.graph, wanted_.facts.contracts);
+    plan_ = graph::plan_of(owner_.present(), wanted_.graph, wanted_.facts.contracts);
     lost_.clear();  // nothing was changed before
     if (!carries_out_) return end(std::nullopt);
-    if (!plan_.is_possible()) return end(fail(Code::failed_precondition, obstacles_of(plan_)));
+    if (!plan_.is_possible()) return end(fail(Code::failed_precondition, graph::obstacles_of(plan_)));
     exchange_next();
   }
   void lose(const std::string& process) { lost_.insert(process); }
@@ -76,13 +78,13 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   void exchange_next() {
     if (!lost_.empty()) return go_back(loss());
     if (before_.size() == plan_.exchanges.size()) return set_all();
-    const GraphPlan::Exchange& next = plan_.exchanges[before_.size()];
+    const graph::GraphPlan::Exchange& next = plan_.exchanges[before_.size()];
     const graph::ComponentNode& node = node_of(next.component);
     before_.push_back({next.component, owner_.exchanging_.code_of(node), owner_.operating_.params_of(node)});
     const CodeFacts& present = before_.back().code;
     const std::string& file =
         present.type == next.type ? present.plugin.file : wanted_.facts.plugins[next.type].file;
-    owner_.exchanging_.exchange({next.component, file, next.type, texts_of(next.params)},
+    owner_.exchanging_.exchange({next.component, file, next.type, graph::print_values(next.params)},
                                 [work = weak_from_this()](const Result<Record>& outcome) {
                                   if (const auto self = work.lock()) self->exchanged(outcome);
                                 });
@@ -127,7 +129,8 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     const Before before = std::move(before_.back());
     before_.pop_back();
     if (is_lost(before.component)) return go_back(reason);
-    SwapWish wish{before.component, before.code.plugin.file, before.code.type, texts_of(before.params)};
+    SwapWish wish{before.component, before.code.plugin.file, before.code.type,
+                  graph::print_values(before.params)};
     wish.tryout = Duration{0};  // it has worked before
     const auto gone_back = [work = weak_from_this(), reason,
                             name = before.component](const Result<Record>& outcome) {
@@ -149,7 +152,7 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   const bool carries_out_;
   const Told told_;
   CheckedSystem wanted_;
-  GraphPlan plan_;
+  graph::GraphPlan plan_;
   std::vector<Before> before_;                            // of each exchange that was begun
   std::map<std::string, graph::Params> settings_before_;  // by component
   std::set<std::string> lost_;                            // processes that have ended since the reading
@@ -163,11 +166,11 @@ Applying::Applying(const graph::Graph& graph, Operating& operating, Exchanging& 
 Applying::~Applying() = default;
 
 void Applying::compare(const std::string& file, const ReplyPtr& reply) {
-  begin(file, false, [reply](const Result<GraphPlan>& outcome) { answer(reply, outcome); });
+  begin(file, false, [reply](const Result<graph::GraphPlan>& outcome) { answer(reply, outcome); });
 }
 
 void Applying::apply(const std::string& file, const ReplyPtr& reply) {
-  begin(file, true, [reply, file](const Result<GraphPlan>& outcome) {
+  begin(file, true, [reply, file](const Result<graph::GraphPlan>& outcome) {
     answer(reply, outcome);
     if (outcome) log::info(kLogName, "an operator has applied " + file);
   });
@@ -181,11 +184,11 @@ void Applying::go_on() {
   if (work_) work_->go_on();
   if (work_ && work_->has_ended()) work_.reset();
   if (work_ || !saved_) return;
-  begin(*std::exchange(saved_, {}), true, [](const Result<GraphPlan>& outcome) {
+  begin(*std::exchange(saved_, {}), true, [](const Result<graph::GraphPlan>& outcome) {
     if (!outcome)
       return log::error(kLogName, "the graph that was saved is not carried out, and all goes on as before: " +
                                       outcome.error().text());
-    for (const GraphPlan::Line& line : outcome->lines)
+    for (const graph::GraphPlan::Line& line : outcome->lines)
       log::info(kLogName, "saved: " + line.part + ", " + line.change.field + ": " + line.change.before +
                               " -> " + line.change.after);
   });

@@ -7,12 +7,12 @@
 #include <set>
 #include <string>
 
-#include "applying/graph_plan.hpp"
 #include "control/exchanging.hpp"
 #include "control/operating.hpp"
 #include "control/reply.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
+#include "orca/graph/plan.hpp"
 #include "orca/supervisor/system_facts.hpp"
 
 namespace orca::supervisor {
@@ -52,7 +52,7 @@ class Applying {
 
  private:
   class Work;
-  using Told = std::function<void(const Result<GraphPlan>&)>;
+  using Told = std::function<void(const Result<graph::GraphPlan>&)>;
 
   void begin(const std::string& file, bool carries_out, Told told);
   [[nodiscard]] graph::Graph present() const;

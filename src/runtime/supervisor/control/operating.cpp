@@ -39,9 +39,8 @@ class CertainAnswer {
 using StatesBefore = std::vector<std::pair<const graph::ComponentNode*, std::string>>;
 
 Pairs pairs_of(const graph::Params& params) {
-  Pairs pairs;
-  for (const auto& [name, value] : params) pairs.emplace_back(name, graph::print_value(value));
-  return pairs;
+  const std::map<std::string, std::string> texts = graph::print_values(params);
+  return {texts.begin(), texts.end()};
 }
 
 // Puts a title before each line of a text.
@@ -226,8 +225,7 @@ void Operating::set(const std::vector<std::string>& words, const ReplyPtr& reply
 void Operating::change(const std::map<std::string, graph::Params>& wanted, JointOrders::Done done) {
   std::vector<Setting> settings;
   for (const auto& [name, values] : wanted) {
-    const Pairs texts = pairs_of(values);
-    settings.push_back({graph_.find_component(name), {texts.begin(), texts.end()}, values});
+    settings.push_back({graph_.find_component(name), graph::print_values(values), values});
   }
   change(settings, std::move(done));
 }

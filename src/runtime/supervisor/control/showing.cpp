@@ -2,6 +2,7 @@
 #include "control/showing.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -27,6 +28,15 @@ Cell pid_of(const Member& member) {
   Cell none{"pid", ""};
   none.kind = Cell::Kind::number;
   return none;
+}
+
+// Returns the names of the plugin files that stay in memory although nothing uses them.
+std::set<std::string> pinned_files(const std::vector<host::KeptAlarm>& alarms) {
+  std::set<std::string> names;
+  for (const host::KeptAlarm& kept : alarms)
+    if (kept.alarm.kind() == host::to_string(host::AlarmKind::plugin_pinned))
+      names.insert(kept.alarm.source());
+  return names;
 }
 
 }  // namespace
@@ -75,12 +85,18 @@ void Showing::plugins(Reply& reply) const {
   };
   for (const graph::ComponentNode& node : graph_.components) add(exchanging_.code_of(node), node.name);
   for (const graph::HardwareNode& node : graph_.hardware) add(exchanging_.code_of(node), node.name);
-  for (const auto& [file, use] : uses)
+  std::set<std::string> pinned = pinned_files(ledger_.alarms());
+  const auto show = [&](const std::string& file, const Use& use, bool is_pinned) {
     reply.add(Record{{"plugin", file},
                      {"build_id", use.build_id},
                      {"types", text_of(use.types)},
                      {"used_by", text_of(use.users)},
-                     {"swaps", use.swaps}});
+                     {"swaps", use.swaps},
+                     {"pinned", is_pinned}});
+  };
+  for (const auto& [file, use] : uses)
+    show(file, use, pinned.erase(std::filesystem::path(file).filename().string()) > 0);
+  for (const std::string& file : pinned) show(file, {}, true);
 }
 
 void Showing::names(Reply& reply) const {

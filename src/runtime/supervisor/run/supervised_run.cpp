@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "alarm_relay.hpp"
-#include "applying/graph_plan.hpp"
 #include "conclusion.hpp"
 #include "control/control_desk.hpp"
 #include "ledger.hpp"
@@ -18,6 +17,7 @@
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
+#include "orca/graph/plan.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/idleness.hpp"
@@ -124,8 +124,8 @@ class SupervisedRun {
 
   // Goes on with a graph that is carried out already. Processes that are started from now on run it.
   void accept(const CheckedSystem& wanted) {
-    go_over(graph_, wanted.graph);
-    go_over(here_, wanted.graph);
+    graph::go_over(graph_, wanted.graph);
+    graph::go_over(here_, wanted.graph);
     facts_ = wanted.facts;
     for (Member* const member : all_) member->tell(NoteGraph{graph::print(wanted.graph)});
   }

@@ -14,6 +14,7 @@
 #include "orca/host/run_outputs.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/stop_signal.hpp"
+#include "orca/host/timed_change.hpp"
 
 namespace orca::host {
 
@@ -23,6 +24,7 @@ struct RunOptions : RunOutputs {
   std::optional<std::uint64_t> seed;             ///< None: the graph's seed, or 1 if it has none.
   std::optional<Duration> until;                 ///< Time limit [s of the run's clock]; none: no limit.
   std::vector<PlannedFailure> planned_failures;  ///< What is to fail on purpose, in components of the graph.
+  std::vector<TimedChange> changes;              ///< What becomes of the graph meanwhile, sorted by time.
   std::string log_name = "orca";                 ///< Name in the log for what concerns the run as a whole.
 };
 

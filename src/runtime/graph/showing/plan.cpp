@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "applying/graph_plan.hpp"
+#include "orca/graph/plan.hpp"
 
 #include <algorithm>
 
 #include "orca/base/text.hpp"
 
-namespace orca::supervisor {
+namespace orca::graph {
 namespace {
-
-using graph::Change;
-using graph::ComponentNode;
-using graph::FieldChange;
 
 constexpr std::string_view kParam = "param ";
 
@@ -36,11 +32,11 @@ Effort effort_of(const Change& change, const ComponentNode& wanted, const Contra
 void add_component(const Change& change, const ComponentNode& wanted, const Contract* contract,
                    GraphPlan& plan) {
   const Effort effort = effort_of(change, wanted, contract);
-  graph::Params settings;
+  Params settings;
   bool changes_code = false;
   for (const FieldChange& field : change.fields) {
     const bool is_known = is_param(field) || field.field == "type";
-    plan.lines.push_back({graph::title(change), field, is_known ? effort : Effort::restart});
+    plan.lines.push_back({title(change), field, is_known ? effort : Effort::restart});
     if (is_param(field) && effort == Effort::set)
       settings[param_of(field)] = wanted.params.at(param_of(field));
     changes_code = changes_code || (is_known && effort == Effort::exchange);
@@ -51,11 +47,13 @@ void add_component(const Change& change, const ComponentNode& wanted, const Cont
 
 void add_other(const Change& change, GraphPlan& plan) {
   const Effort effort = change.part == Change::Part::group ? Effort::none : Effort::restart;
-  for (const FieldChange& field : change.fields) plan.lines.push_back({graph::title(change), field, effort});
-  if (change.fields.empty()) plan.lines.push_back({graph::title(change), {}, effort});
+  for (const FieldChange& field : change.fields) plan.lines.push_back({title(change), field, effort});
+  if (change.fields.empty()) plan.lines.push_back({title(change), {}, effort});
 }
 
-const char* text_of(Effort effort) {
+}  // namespace
+
+const char* to_string(Effort effort) {
   switch (effort) {
     case Effort::none: return "at once; nothing runs otherwise";
     case Effort::set: return "between two laps; nothing stops";
@@ -65,16 +63,14 @@ const char* text_of(Effort effort) {
   return "?";
 }
 
-}  // namespace
-
 bool GraphPlan::is_possible() const {
   return std::ranges::none_of(lines, [](const Line& line) { return line.effort == Effort::restart; });
 }
 
-GraphPlan plan_of(const graph::Graph& running, const graph::Graph& wanted,
+GraphPlan plan_of(const Graph& running, const Graph& wanted,
                   const std::map<std::string, Contract>& contracts) {
   GraphPlan plan;
-  for (const Change& change : graph::diff(running, wanted)) {
+  for (const Change& change : diff(running, wanted)) {
     const bool is_component = change.part == Change::Part::component && change.kind == Change::Kind::changed;
     if (!is_component) {
       add_other(change, plan);
@@ -87,21 +83,13 @@ GraphPlan plan_of(const graph::Graph& running, const graph::Graph& wanted,
   return plan;
 }
 
-void go_over(graph::Graph& graph, const graph::Graph& wanted) {
+void go_over(Graph& graph, const Graph& wanted) {
   for (ComponentNode& node : graph.components) {
     const ComponentNode& now = *wanted.find_component(node.name);
     node.type = now.type;
     node.params = now.params;
   }
   graph.groups = wanted.groups;
-}
-
-Record record_of(const GraphPlan::Line& line) {
-  return Record{{"part", line.part},
-                {"field", line.change.field},
-                {"before", line.change.before},
-                {"after", line.change.after},
-                {"effect", text_of(line.effort)}};
 }
 
 std::string obstacles_of(const GraphPlan& plan) {
@@ -116,4 +104,4 @@ std::string obstacles_of(const GraphPlan& plan) {
          (others > 0 ? " and " + std::to_string(others) + " more changes (orcactl diff shows them)" : "");
 }
 
-}  // namespace orca::supervisor
+}  // namespace orca::graph

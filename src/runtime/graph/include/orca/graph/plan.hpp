@@ -8,9 +8,8 @@
 #include "orca/base/contract.hpp"
 #include "orca/graph/diff.hpp"
 #include "orca/graph/graph.hpp"
-#include "orca/supervisor/record.hpp"
 
-namespace orca::supervisor {
+namespace orca::graph {
 
 /// What it takes to carry out a difference between two graphs.
 enum class Effort {
@@ -24,21 +23,20 @@ enum class Effort {
 struct GraphPlan {
   /// One difference.
   struct Line {
-    std::string part;  ///< As graph::title() writes it.
-    graph::FieldChange change;
+    std::string part;  ///< As title() writes it.
+    FieldChange change;
     Effort effort = Effort::none;
   };
   /// A component that gets other code, or the same with other parameters that cannot change while it runs.
   struct Exchange {
     std::string component;
     std::string type;
-    graph::Params params;  ///< All of them.
+    Params params;  ///< All of them.
   };
 
   std::vector<Line> lines;
-  std::vector<Exchange> exchanges;  ///< In the order of the graph.
-  std::map<std::string, graph::Params>
-      settings;  ///< What changes, by component. None of those that get other code.
+  std::vector<Exchange> exchanges;         ///< In the order of the graph.
+  std::map<std::string, Params> settings;  ///< What changes, by component. None of those that get other code.
   /// Returns whether the system can stay up.
   [[nodiscard]] bool is_possible() const;
 };
@@ -46,17 +44,17 @@ struct GraphPlan {
 /// Returns the way from one graph to another.
 /// @param contracts  of the components of the wanted graph, by component.
 /// @thread  pure function; any thread.
-[[nodiscard]] GraphPlan plan_of(const graph::Graph& running, const graph::Graph& wanted,
+[[nodiscard]] GraphPlan plan_of(const Graph& running, const Graph& wanted,
                                 const std::map<std::string, Contract>& contracts);
 
 /// Takes over from a wanted graph all that can change while the system runs. The nodes stay where they are.
 /// @pre  the plan from one to the other is possible.
-void go_over(graph::Graph& graph, const graph::Graph& wanted);
+void go_over(Graph& graph, const Graph& wanted);
 
-/// Returns a line of a plan for an operator.
-[[nodiscard]] Record record_of(const GraphPlan::Line& line);
+/// Returns what it takes, for people: "between two laps; nothing stops".
+[[nodiscard]] const char* to_string(Effort effort);
 
 /// Returns why the system cannot go over to the wanted graph. @pre  the plan is not possible.
 [[nodiscard]] std::string obstacles_of(const GraphPlan& plan);
 
-}  // namespace orca::supervisor
+}  // namespace orca::graph

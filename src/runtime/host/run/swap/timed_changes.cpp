@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "timed_changes.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "orca/graph/print.hpp"
+#include "orca/plugin/image.hpp"
+
+namespace orca::host {
+namespace {
+
+constexpr Duration kLapLimit = 10s;  // for a component to come to the end of its lap
+
+}  // namespace
+
+TimedChanges::TimedChanges(const graph::Graph& graph, WatchedSystem& watched, PluginCatalogue& catalogue,
+                           Executive& executive, const std::vector<TimedChange>& changes)
+    : watched_(watched),
+      executive_(executive),
+      changes_(changes),
+      swaps_(graph, watched.context(), catalogue, watched.system()) {}
+
+Result<TimePoint> TimedChanges::go_on() {
+  while (!error_ && next_ < changes_.size() && executive_.now() >= began_ + changes_[next_].at) {
+    const TimedChange& change = changes_[next_++];
+    watched_.reporter().log_info("changes to " + change.file);
+    if (const Status done = carry_out(change); !done.ok()) note(change, done.error());
+  }
+  const TimePoint wake_up = swaps_.go_on();
+  if (error_) return *error_;
+  return next_ < changes_.size() ? std::min(wake_up, began_ + changes_[next_].at) : wake_up;
+}
+
+Status TimedChanges::carry_out(const TimedChange& change) {
+  for (const graph::GraphPlan::Exchange& one : change.plan.exchanges) exchange(change, one);
+  for (const auto& [component, params] : change.plan.settings) {
+    const Status set = watched_.system().set_params(component, graph::print_values(params),
+                                                    watched_.changed(), executive_.now() + kLapLimit);
+    if (!set.ok()) return set;
+  }
+  return ok();
+}
+
+// The type was tried out when its graph was checked.
+void TimedChanges::exchange(const TimedChange& change, const graph::GraphPlan::Exchange& exchange) {
+  Result<plugin::PluginImage> image = plugin::PluginImage::copy(change.plugins.at(exchange.type));
+  if (!image) return note(change, image.error());
+  SwapOrder order{exchange.component, std::move(image).value(), exchange.type,
+                  graph::print_values(exchange.params)};
+  order.trial = plugin::Trial::done;
+  swaps_.begin(std::move(order), [this, &change](const Result<SwapReport>& outcome) {
+    if (!outcome) note(change, outcome.error());
+  });
+}
+
+void TimedChanges::note(const TimedChange& change, const Error& error) {
+  if (!error_)
+    error_ = fail(error.code, "the change to " + change.file + " failed: " + error.message, error.where);
+}
+
+}  // namespace orca::host

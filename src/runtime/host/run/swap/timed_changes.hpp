@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+#include "orca/host/timed_change.hpp"
+#include "run/swap/swaps.hpp"
+#include "run/system.hpp"
+#include "run/watched_system.hpp"
+
+namespace orca::host {
+
+/// Carries out changes of a system at their times: code is exchanged and parameters are set between two laps each. In virtual
+/// time the same changes give the same run.
+///
+/// Thread contract: one task, the executive's main task.
+class TimedChanges {
+ public:
+  /// All of these outlive the object.
+  /// @param graph    as Swaps.
+  /// @param changes  sorted by time.
+  TimedChanges(const graph::Graph& graph, WatchedSystem& watched, PluginCatalogue& catalogue,
+               Executive& executive, const std::vector<TimedChange>& changes);
+
+  /// Begins to count: everything is up now.
+  void begin() { began_ = executive_.now(); }
+  /// Begins what is due, and goes on with what is under way. To be called whenever a component has changed, and at the time that
+  /// it returns.
+  /// @errors  those of Swaps and System::set_params(), with the change; the run has failed then.
+  Result<TimePoint> go_on();
+  /// Ends everything as it is. @pre  the system has been taken down.
+  void give_up() { swaps_.give_up(); }
+
+ private:
+  Status carry_out(const TimedChange& change);
+  void exchange(const TimedChange& change, const graph::GraphPlan::Exchange& exchange);
+  void note(const TimedChange& change, const Error& error);
+
+  WatchedSystem& watched_;
+  Executive& executive_;
+  const std::vector<TimedChange>& changes_;
+  Swaps swaps_;
+  TimePoint began_{};
+  std::size_t next_ = 0;
+  std::optional<Error> error_;  // the first
+};
+
+}  // namespace orca::host
