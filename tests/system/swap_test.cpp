@@ -139,7 +139,9 @@ TEST_CASE("what cannot be a new version is refused with a reason, and the old on
       {next_version("test_teller_first_lap"), "not taken: work() threw std::runtime_error: no lap today"},
       {next_version("test_teller_constructor_crashes"), "its constructor"},
       {next_version("test_teller_lap_crashes"), "its laps, in the shadow of the present one,"},
-      {next_version("test_teller_lap_eats"), "bad_alloc"},
+      // The sanitizer's memory fits into no limit, so there the code goes on until its time is over.
+      {next_version("test_teller_lap_eats"),
+       kSanitized ? "in the shadow of the present one, did not return" : "bad_alloc"},
       {next_version("test_teller_lap_hangs"), "its laps, in the shadow of the present one,"},
       {next_version("test_teller_odd"), "value 1 of the state is a whole number, where a text is expected"}};
   for (const auto& [plugin, reason] : bad) {
