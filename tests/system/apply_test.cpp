@@ -23,37 +23,56 @@ struct Wish {
   std::string second = "test.Teller";
   int step = 1;
   std::string more{};  // elements
+  bool is_reordered = false;
 };
 
-// A system of two tellers, the first of which tells a talker its version a hundred times a second, and of files that it
-// may become.
-class Applied {
+// Graphs of two tellers, the first of which tells a talker its version a hundred times a second, and their plugins.
+class Tellers {
  public:
-  explicit Applied(const Words& options = {}) {
+  /// @param broken  the plugin of test.BrokenTeller.
+  explicit Tellers(const std::string& broken = "test_teller_throwing") {
     const fs::path plugins = folder_.file("plugins");
     fs::create_directory(plugins);
     copy(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so", plugins);
     copy(ORCA_BINARY_DIR "/tests/host_plugins/test_teller.so", plugins);
     copy(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_other.so", plugins);
-    copy(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_broken.so", plugins);
-    file_ = write("now.xml", {});
-    start(options);
+    copy(ORCA_BINARY_DIR "/tests/next_plugins/" + broken + ".so", plugins);
   }
 
   // Writes a graph, and returns its file.
   std::string write(const std::string& name, const Wish& wish) const {
-    const std::string step = " <param name=\"step\" value=\"" + std::to_string(wish.step) + "\"/>";
+    const std::string first = "<component name=\"a\" type=\"" + wish.first +
+                              "\"><param name=\"step\" value=\"" + std::to_string(wish.step) +
+                              "\"/></component>";
+    const std::string second = "<component name=\"b\" type=\"" + wish.second + "\" autonomous=\"true\"/>";
     return folder_.write(
         name, "<graph name=\"applied\" version=\"1\" on_supervisor_loss=\"continue\" plugins=\"" +
-                  folder_.file("plugins") + "\"><component name=\"a\" type=\"" + wish.first + "\">" + step +
-                  "</component><component name=\"b\" type=\"" + wish.second +
-                  "\" autonomous=\"true\"/><component name=\"talker\" type=\"test.Talker\"/>"
+                  folder_.file("plugins") + "\">" + (wish.is_reordered ? second + first : first + second) +
+                  "<component name=\"talker\" type=\"test.Talker\"/>"
                   "<connect from=\"talker.out\" to=\"a.in\" queue=\"1000\"/>"
                   "<connect from=\"talker.out\" to=\"b.in\" queue=\"1000\"/>"
                   "<connect from=\"talker.poke\" to=\"a.poke\" queue=\"1000\"/>"
                   "<connect from=\"a.out\" to=\"talker.back\" queue=\"1000\"/>" +
                   wish.more + "</graph>");
   }
+
+ private:
+  // The list of types lies beside a plugin.
+  static void copy(fs::path from, const fs::path& folder) {
+    fs::copy_file(from, folder / from.filename());
+    from.replace_extension(".types");
+    fs::copy_file(from, folder / from.filename());
+  }
+
+  TempFolder folder_;
+};
+
+// A system of the tellers, and what it may become.
+class Applied {
+ public:
+  explicit Applied(const Words& options = {}) : file_(write("now.xml", {})) { start(options); }
+
+  std::string write(const std::string& name, const Wish& wish) const { return tellers_.write(name, wish); }
 
   void start(const Words& options = {}) {
     program_ = std::make_unique<Subprocess>(deployer(Words{file_, "--log", "debug"} + options));
@@ -81,25 +100,10 @@ class Applied {
   }
   bool hears(const std::string& text) { return program_->wait_for_output(text, Seconds(20) * kSlowdown); }
 
-  // Ends the system, and checks that nothing was lost.
-  std::string end() {
-    CHECK(run_orcactl({"stop"}).exit_code() == 0);
-    const Run run = finish(*program_, Seconds(10));
-    INFO(run.err);
-    CHECK(run.exit_code() == 0);
-    CHECK_THAT(run.err, !Contains("gap "));
-    return run.err;
-  }
+  std::string end() { return stop_without_gaps(*program_); }
 
  private:
-  // The list of types lies beside a plugin.
-  static void copy(fs::path from, const fs::path& folder) {
-    fs::copy_file(from, folder / from.filename());
-    from.replace_extension(".types");
-    fs::copy_file(from, folder / from.filename());
-  }
-
-  TempFolder folder_;
+  const Tellers tellers_{"test_teller_broken"};
   std::string file_;
   std::unique_ptr<Subprocess> killed_;
   std::unique_ptr<Subprocess> program_;
@@ -224,8 +228,11 @@ TEST_CASE("if a process ends in the middle, everything is as before", "[system][
 
 TEST_CASE("another deployer that goes on with the run needs the graph that was applied", "[system][apply]") {
   Applied system;
-  const std::string applied = system.write("new.xml", {.step = 4});
+  const bool is_restarted = GENERATE(false, true);
+  CAPTURE(is_restarted);
+  const std::string applied = system.write("new.xml", {.step = 4, .is_reordered = true});
   REQUIRE(run_orcactl({"apply", applied}).exit_code() == 0);
+  if (is_restarted) REQUIRE(run_orcactl({"restart", "a"}).exit_code() == 0);
   system.start_anew(applied);
   const bool is_adopted = system.hears("process main is adopted");
   INFO(system.log());
@@ -277,6 +284,23 @@ TEST_CASE("a change at a time known before is part of a run that repeats bit for
   CHECK(hash_after({"--change", other + "@20s"}) != changed);
   CHECK(hash_after({"--change", now + "@10s"}) == plain);  // nothing differs
   CHECK(hash_after({"--change", now + "@20s", "--change", other + "@10s"}) != changed);
+}
+
+TEST_CASE("a change that fails makes the run a failure, and one that never came is reported",
+          "[system][apply]") {
+  const Tellers tellers;
+  const auto run_with = [&](const Wish& wish, const std::string& at) {
+    return run_deployer(Words{tellers.write("now.xml", {}), "--until", "3 s", "--change",
+                              tellers.write("new.xml", wish) + "@" + at} +
+                        virtual_clock());
+  };
+  const Run fails = run_with({.first = "test.BrokenTeller"}, "1s");
+  INFO(fails.err);
+  CHECK(fails.exit_code() == 1);
+  CHECK_THAT(fails.err, Contains("the change to ") && Contains("no lap today"));
+  const Run late = run_with({.step = 2}, "10s");
+  CHECK(late.exit_code() == 0);
+  CHECK_THAT(late.err, Contains("the run ended before its change to ") && !Contains("changes to "));
 }
 
 TEST_CASE("a change that cannot be made is refused before the run", "[system][apply]") {

@@ -40,6 +40,16 @@ bool comes_true(const Condition& condition, Seconds limit) {
   return true;
 }
 
+// Ends a system of tellers, and checks that none of them has missed an object. Returns its log.
+inline std::string stop_without_gaps(Subprocess& program) {
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+  const Run run = finish(program, Seconds(10));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.err.find("gap ") == std::string::npos);
+  return run.err;
+}
+
 // A deployer whose host processes are looked at.
 class System {
  public:

@@ -80,12 +80,14 @@ std::string without_last_newline(std::string text) {
 }
 
 // Reads and checks a graph for a system that runs, with the profiles, settings and plugin folders of the command line.
-Result<supervisor::CheckedSystem> read_system(const Options& options, const std::string& file) {
+Result<supervisor::CheckedSystem> read_system(const Options& options, const std::string& file,
+                                              const host::StopSignal& stop) {
   supervisor::CheckedSystem system;
   system.files.insert(file);
   const Result<std::string> text = xml::read_bytes(file);
   if (!text) return text.error();
   host::PluginCatalogue catalogue(plugin::PluginIndex(plugin_folders(options)));
+  catalogue.give_up_if([&stop] { return stop.requested(); });
   xml::Diagnostics diagnostics;
   const auto read = [&system](const std::string& included) {
     system.files.insert(included);
@@ -100,9 +102,9 @@ Result<supervisor::CheckedSystem> read_system(const Options& options, const std:
 }
 
 // Returns the files that the graph is made of, the main one first.
-std::vector<std::string> files_of(const Options& options) {
+std::vector<std::string> files_of(const Options& options, const host::StopSignal& stop) {
   std::vector<std::string> files{options.file};
-  const Result<supervisor::CheckedSystem> system = read_system(options, options.file);
+  const Result<supervisor::CheckedSystem> system = read_system(options, options.file, stop);
   if (!system) return files;  // it was changed just now
   for (const std::string& file : system->files)
     if (file != options.file) files.push_back(file);
@@ -167,9 +169,9 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   const std::vector<std::string> folders = plugin_folders(options);
   supervised.arguments.insert(supervised.arguments.end(), folders.begin(), folders.end());
   supervised.machine = machine;
-  supervised.read = [&options](const std::string& file) { return read_system(options, file); };
+  supervised.read = [&options, &stop](const std::string& file) { return read_system(options, file, stop); };
   supervised.watches = options.watch;
-  if (options.watch) supervised.graph_files = files_of(options);
+  if (options.watch) supervised.graph_files = files_of(options, stop);
   supervised.seed = options.run.seed;
   supervised.until = options.run.until;
   supervised.planned_failures = options.run.planned_failures;

@@ -217,6 +217,8 @@ class Run {
   // makes other components fail.
   void sum_up() {
     counters_ = collect_counters(graph_, system());
+    if (const Status changed = changes_.finish(); !changed.ok() && !error_)
+      fail_with(RunOutcome::failed, changed.error());
     if (stands_still_ || (!error_ && executive_.now() - start_ >= kShortRun)) report_idleness();
     judge();
   }

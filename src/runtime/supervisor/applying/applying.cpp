@@ -143,8 +143,7 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   void end(const std::optional<Error>& error) {
     has_ended_ = true;
     if (error) return told_(*error);
-    if (carries_out_) owner_.levers_.accept(wanted_);
-    if (carries_out_) owner_.operating_.forget_changes();
+    if (carries_out_) owner_.accept(wanted_);
     told_(plan_);
   }
 
@@ -178,6 +177,18 @@ void Applying::apply(const std::string& file, const ReplyPtr& reply) {
 
 void Applying::lose(const std::string& process) {
   if (work_) work_->lose(process);
+}
+
+void Applying::accept(const CheckedSystem& wanted) {
+  applied_ = graph::print(wanted.graph);
+  came_up(levers_.accept(wanted));
+  operating_.forget_changes();
+}
+
+// The order of the file counts for who adopts them, and is not that of the graph that was changed in place.
+void Applying::came_up(const std::vector<Member*>& members) const {
+  if (!applied_) return;
+  for (Member* const member : members) member->tell(NoteGraph{*applied_});
 }
 
 void Applying::go_on() {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <vector>
 
 #include "control/exchanging.hpp"
 #include "control/operating.hpp"
@@ -14,6 +14,7 @@
 #include "orca/graph/graph.hpp"
 #include "orca/graph/plan.hpp"
 #include "orca/supervisor/system_facts.hpp"
+#include "run/member.hpp"
 
 namespace orca::supervisor {
 
@@ -28,8 +29,9 @@ class Applying {
  public:
   /// What it needs of the run.
   struct Levers {
-    SystemReader read;                                 ///< Empty: no graph can be read.
-    std::function<void(const CheckedSystem&)> accept;  ///< Makes a graph that of the run: it is carried out.
+    SystemReader read;  ///< Empty: no graph can be read.
+    /// Makes a graph that of the run: it is carried out. Returns the processes that run it.
+    std::function<std::vector<Member*>(const CheckedSystem&)> accept;
     std::function<void()> wake;  ///< Lets go_on() be called soon. It is called on other threads.
   };
 
@@ -47,6 +49,8 @@ class Applying {
   void take_saved(const std::string& file) { saved_ = file; }
   /// Notes that a process has ended. It begins anew with the graph of before, so what is under way is taken back.
   void lose(const std::string& process);
+  /// Tells processes that work which graph the run has, if it is not that of the start.
+  void came_up(const std::vector<Member*>& members) const;
   /// Goes on with what has been read.
   void go_on();
 
@@ -55,6 +59,7 @@ class Applying {
   using Told = std::function<void(const Result<graph::GraphPlan>&)>;
 
   void begin(const std::string& file, bool carries_out, Told told);
+  void accept(const CheckedSystem& wanted);
   [[nodiscard]] graph::Graph present() const;
 
   const graph::Graph& graph_;
@@ -62,7 +67,9 @@ class Applying {
   Exchanging& exchanging_;
   const Levers levers_;
   std::optional<std::string> saved_;  // a file that waits
-  std::shared_ptr<Work> work_;        // what is under way
+  std::optional<std::string>
+      applied_;                 // the run's graph, as graph::print() writes it; none: that of the start
+  std::shared_ptr<Work> work_;  // what is under way
 };
 
 }  // namespace orca::supervisor

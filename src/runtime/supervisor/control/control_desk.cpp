@@ -101,6 +101,7 @@ void ControlDesk::built(const std::vector<Member*>& members) {
 void ControlDesk::came_up(const std::vector<Member*>& members) {
   operating_.came_up(members);
   exchanging_.came_up(members);
+  applying_.came_up(members);
 }
 
 const ControlDesk::Handlers& ControlDesk::handlers() {

@@ -18,7 +18,6 @@
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/plan.hpp"
-#include "orca/graph/print.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/idleness.hpp"
 #include "orca/supervisor/heartbeats.hpp"
@@ -118,16 +117,16 @@ class SupervisedRun {
   }
 
   Applying::Levers applying() {
-    return {options_.read, [this](const CheckedSystem& wanted) { accept(wanted); },
+    return {options_.read, [this](const CheckedSystem& wanted) { return accept(wanted); },
             [this] { poller_.wake(); }};
   }
 
   // Goes on with a graph that is carried out already. Processes that are started from now on run it.
-  void accept(const CheckedSystem& wanted) {
+  Members accept(const CheckedSystem& wanted) {
     graph::go_over(graph_, wanted.graph);
     graph::go_over(here_, wanted.graph);
     facts_ = wanted.facts;
-    for (Member* const member : all_) member->tell(NoteGraph{graph::print(wanted.graph)});
+    return all_;
   }
 
   // ---- Starting

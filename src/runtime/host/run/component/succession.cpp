@@ -117,8 +117,11 @@ bool Succession::take_back(ComponentState state, const std::string& why) {
   catch_up(state);
   parts_.run.reporter.note(make_alarm(AlarmKind::swap_undone, parts_.settings.name, "",
                                       "the new one failed, and the old one is back: " + why));
-  const std::lock_guard lock(mutex_);
-  taken_back_ = why;
+  {
+    const std::lock_guard lock(mutex_);
+    taken_back_ = why;
+  }
+  parts_.run.changed();  // whoever has ordered the exchange need not wait for the end of the probation
   return true;
 }
 

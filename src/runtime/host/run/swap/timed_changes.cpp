@@ -54,6 +54,13 @@ void TimedChanges::exchange(const TimedChange& change, const graph::GraphPlan::E
   });
 }
 
+Status TimedChanges::finish() {
+  (void)swaps_.go_on();
+  for (std::size_t i = next_; i < changes_.size(); ++i)
+    watched_.reporter().log_warning("the run ended before its change to " + changes_[i].file);
+  return error_ ? Status(*error_) : ok();
+}
+
 void TimedChanges::note(const TimedChange& change, const Error& error) {
   if (!error_)
     error_ = fail(error.code, "the change to " + change.file + " failed: " + error.message, error.where);

@@ -32,6 +32,9 @@ class TimedChanges {
   /// it returns.
   /// @errors  those of Swaps and System::set_params(), with the change; the run has failed then.
   Result<TimePoint> go_on();
+  /// Looks once more at what is under way, when the run ends, and warns of the changes whose time did not come.
+  /// @errors  as go_on().
+  Status finish();
   /// Ends everything as it is. @pre  the system has been taken down.
   void give_up() { swaps_.give_up(); }
 

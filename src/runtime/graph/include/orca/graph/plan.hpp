@@ -35,7 +35,7 @@ struct GraphPlan {
   };
 
   std::vector<Line> lines;
-  std::vector<Exchange> exchanges;         ///< In the order of the graph.
+  std::vector<Exchange> exchanges;         ///< Sorted by component.
   std::map<std::string, Params> settings;  ///< What changes, by component. None of those that get other code.
   /// Returns whether the system can stay up.
   [[nodiscard]] bool is_possible() const;
