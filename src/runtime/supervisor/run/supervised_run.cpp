@@ -189,10 +189,10 @@ class SupervisedRun {
     if (process == nullptr) return;
     hear(member);
     member.look(now());
-    const std::optional<ExitReason> exit = process->exit();
-    if (!exit) return;
+    if (!process->exit()) return;
     for (int i = 0; i < kMostReads && hear(member); ++i) continue;  // it may have said why
-    ended(member, *exit);
+    const ExitReason exit = *process->exit();
+    ended(member, exit);
   }
 
   // Takes what a process has said and printed. Returns whether it had printed something.

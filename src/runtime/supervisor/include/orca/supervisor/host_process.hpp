@@ -79,7 +79,10 @@ class HostProcess {
   [[nodiscard]] Descriptor share_output() const;
 
   /// Notes that the process has said that it ends.
-  void note_leaving() { is_leaving_ = true; }
+  void note_leaving() {
+    is_leaving_ = true;
+    if (exit_ && exit_->is_guess) exit_->status = 0;  // its end was seen first
+  }
 
   /// Orders the process to end (TakeDown), and begins to count its time. If it is already being ended, the limits can only
   /// shorten its time.
