@@ -142,6 +142,8 @@ void PushProxyArrayHandle::unsubscribe_all() { endpoint().unsubscribe_all(); }
 
 std::size_t PushProxyArrayHandle::edge_count() const { return endpoint().edges().size(); }
 
+bool PushProxyArrayHandle::is_connected(std::size_t edge) const { return this->edge(edge).has_server(); }
+
 PushEdge& PushProxyArrayHandle::edge(std::size_t index) const { return *endpoint().edges().at(index); }
 
 }  // namespace orca

@@ -65,7 +65,7 @@ template <class Port, class... Arguments>
 void ShmLinks::make_end(Port& port, const MemoryFile& file, Endpoint& other, const Arguments&... arguments) {
   auto helped = std::make_unique<Helped>(*this);
   Helped& help = *helped;
-  port.adopt(std::move(helped));
+  port.adopt(std::move(helped), other.path());
   help.begin(dynamic_cast<Intake&>(make_shm_end(port, map(file), peer(other), arguments...)));
 }
 

@@ -80,11 +80,12 @@ std::string without_last_newline(std::string text) {
 }
 
 // Reads and checks a graph for a system that runs, with the profiles, settings and plugin folders of the command line.
-Result<supervisor::CheckedSystem> read_system(const Options& options, const std::string& file,
+Result<supervisor::CheckedSystem> read_system(const Options& options, const supervisor::GraphSource& source,
                                               const host::StopSignal& stop) {
   supervisor::CheckedSystem system;
-  system.files.insert(file);
-  const Result<std::string> text = xml::read_bytes(file);
+  system.files.insert(source.file);
+  const Result<std::string> text =
+      source.text ? Result<std::string>(*source.text) : xml::read_bytes(source.file);
   if (!text) return text.error();
   host::PluginCatalogue catalogue(plugin::PluginIndex(plugin_folders(options)));
   catalogue.give_up_if([&stop] { return stop.requested(); });
@@ -93,8 +94,14 @@ Result<supervisor::CheckedSystem> read_system(const Options& options, const std:
     system.files.insert(included);
     return xml::read_bytes(included);
   };
-  std::optional<graph::Graph> graph = graph::load_text(
-      *text, file, {options.profiles, options.settings, options.strict}, catalogue, diagnostics, read);
+  graph::LoadOptions wishes;
+  wishes.strict = options.strict;
+  if (!source.text) {  // otherwise it has them already
+    wishes.profiles = options.profiles;
+    wishes.settings = options.settings;
+  }
+  std::optional<graph::Graph> graph =
+      graph::load_text(*text, source.file, wishes, catalogue, diagnostics, read);
   if (!graph) return fail(Code::invalid_argument, without_last_newline(diagnostics.text()));
   system.facts = supervisor::facts_of(*graph, catalogue);
   system.graph = *std::move(graph);
@@ -104,7 +111,7 @@ Result<supervisor::CheckedSystem> read_system(const Options& options, const std:
 // Returns the files that the graph is made of, the main one first.
 std::vector<std::string> files_of(const Options& options, const host::StopSignal& stop) {
   std::vector<std::string> files{options.file};
-  const Result<supervisor::CheckedSystem> system = read_system(options, options.file, stop);
+  const Result<supervisor::CheckedSystem> system = read_system(options, {options.file}, stop);
   if (!system) return files;  // it was changed just now
   for (const std::string& file : system->files)
     if (file != options.file) files.push_back(file);
@@ -169,7 +176,9 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   const std::vector<std::string> folders = plugin_folders(options);
   supervised.arguments.insert(supervised.arguments.end(), folders.begin(), folders.end());
   supervised.machine = machine;
-  supervised.read = [&options, &stop](const std::string& file) { return read_system(options, file, stop); };
+  supervised.read = [&options, &stop](const supervisor::GraphSource& source) {
+    return read_system(options, source, stop);
+  };
   supervised.watches = options.watch;
   if (options.watch) supervised.graph_files = files_of(options, stop);
   supervised.seed = options.run.seed;

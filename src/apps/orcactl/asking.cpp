@@ -2,6 +2,8 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "asking.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -81,7 +83,8 @@ class Printer {
 // Returns the longest wait for a part of the answer.
 Duration limit_of(const Call& call) {
   if (call.has("--follow")) return kForEver;
-  if (call.command->name == "apply") return kApplyLimit;
+  constexpr std::array<std::string_view, 4> kApplying{"apply", "connect", "disconnect", "move"};
+  if (std::ranges::find(kApplying, call.command->name) != kApplying.end()) return kApplyLimit;
   return kLimit + call.duration("--probation").value_or(Duration{0}) +
          call.duration("--tryout").value_or(Duration{0});
 }

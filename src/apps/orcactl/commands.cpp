@@ -28,8 +28,22 @@ constexpr std::string_view kApplyDetails =
     "other; then "
     "all other parameters change between two laps. If a step fails, everything goes back. A process that is "
     "started again "
-    "begins with the new graph. What needs more - components, connections, hardware, processes, machines - "
-    "is refused before anything changes.";
+    "begins with the new graph. Connections are made, removed and given other policies at last. What needs "
+    "more - "
+    "components, hardware, processes, machines, connections over DDS - is refused before anything changes.";
+
+constexpr std::string_view kRewireDetails =
+    "The graph with that change is checked as a whole, so that the order is refused if a port that must be "
+    "connected "
+    "would not be. It is carried out between two laps of the components at both ends; no other connection "
+    "notices. An "
+    "object that waits at a port whose connection is removed is dropped, a request that was not answered "
+    "gets an error, "
+    "and what a server has accepted it still handles. A process that is started again has the same "
+    "connections; "
+    "orcactl graph shows the graph with them. Connections over DDS, and those of processes that run on "
+    "demand, cannot "
+    "change while the system runs.";
 
 // What a system is and does.
 std::vector<Command> showing_commands() {
@@ -198,6 +212,21 @@ std::vector<Command> exchanging_commands() {
            "device is closed and opened anew, and the old driver is back if the new one is not ready within "
            "5 s. There "
            "is no trial and no probation then."},
+      {.name = "connect",
+       .arguments = {kPort, kPort, {"ATTRIBUTE=VALUE", Names::none, true, true}},
+       .tells = true,
+       .text = "make a connection while the system runs, or give it another policy",
+       .details = kRewireDetails},
+      {.name = "disconnect",
+       .arguments = {kPort, kPort},
+       .tells = true,
+       .text = "remove a connection while the system runs",
+       .details = kRewireDetails},
+      {.name = "move",
+       .arguments = {kPort, {"SERVER_PORT", Names::port}},
+       .tells = true,
+       .text = "let a client's port use another server from now on, with the same policy",
+       .details = kRewireDetails},
       {.name = "diff",
        .arguments = {{"GRAPH.xml", Names::file}},
        .tells = true,

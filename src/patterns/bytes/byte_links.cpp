@@ -48,9 +48,10 @@ void connect_requests(Pair pair, RequestClient<Answer>& client, Endpoint& server
   const RequestTypes types = types_of(client, server);
   auto near = std::make_unique<TargetOverFrames<Answer>>(std::move(pair.client), client.home().strand, types,
                                                          server.path(), target.patience());
-  server.adopt(std::make_unique<CallerOverFrames<Answer>>(std::move(pair.server), types, target));
+  server.adopt(std::make_unique<CallerOverFrames<Answer>>(std::move(pair.server), types, target),
+               client.path());
   client.connect(*near);
-  client.adopt(std::move(near));
+  client.adopt(std::move(near), server.path());
 }
 
 }  // namespace
@@ -69,17 +70,17 @@ ByteLinkCounters ByteLinks::counters() const {
 
 void ByteLinks::push(PushServerEndpoint& server, PushClientEndpoint& client, const QueuePolicy& policy) {
   Pair pair = make_pair(executive_, *courier_, *traffic_, capacity_, client, server);
-  PushSource& source = server.connect();
+  PushSource& source = server.connect(client.path());
   auto near = std::make_unique<PushSourceOverFrames>(std::move(pair.client), type_of(server.contract().type),
                                                      server.path(), server.base_period());
-  server.adopt(std::make_unique<PushSinkOverFrames>(std::move(pair.server), source, policy));
+  server.adopt(std::make_unique<PushSinkOverFrames>(std::move(pair.server), source, policy), client.path());
   client.connect(*near, policy);
-  client.adopt(std::move(near));
+  client.adopt(std::move(near), server.path());
 }
 
 void ByteLinks::query(QueryClientEndpoint& client, QueryServerEndpoint& server) {
   connect_requests(make_pair(executive_, *courier_, *traffic_, capacity_, client, server), client, server,
-                   server.connect());
+                   server.connect(client.path()));
 }
 
 void ByteLinks::send(SendClientEndpoint& client, SendServerEndpoint& server, const QueuePolicy& policy) {

@@ -28,26 +28,24 @@ Status check_free(const Client& client) {
   return fail(Code::already_exists, client.path() + " is connected already");
 }
 
-Status check_push(const PushServerEndpoint& server, const PushClientEndpoint& client,
-                  const QueuePolicy& policy) {
-  if (Status free = check_free(client); !free.ok()) return free;
-  if (policy.overflow == QueuePolicy::Overflow::block && server.contract().from_device)
-    return fail(Code::invalid_argument,
-                "an edge from " + server.path() +
-                    " cannot block, because a device pushes there and waits for nobody");
+}  // namespace
+
+Status Links::check_fit(const Endpoint& from, const Endpoint& to, const QueuePolicy& policy) {
+  if (!fits(from.contract(), to.contract())) return mismatch(from, to);
+  if (policy.overflow == QueuePolicy::Overflow::block && from.contract().from_device)
+    return fail(
+        Code::invalid_argument,
+        "an edge from " + from.path() + " cannot block, because a device pushes there and waits for nobody");
   return ok();
 }
 
-}  // namespace
-
 Status Links::connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy) {
-  if (!fits(from.contract(), to.contract())) return mismatch(from, to);
-  Status possible;
+  Status possible = check_fit(from, to, policy);
+  if (!possible.ok()) return possible;
   if (from.contract().pattern == Pattern::push) {
-    auto& server = static_cast<PushServerEndpoint&>(from);
     auto& client = static_cast<PushClientEndpoint&>(to);
-    possible = check_push(server, client, policy);
-    if (possible.ok()) push(server, client, policy);
+    possible = check_free(client);
+    if (possible.ok()) push(static_cast<PushServerEndpoint&>(from), client, policy);
   } else if (from.contract().pattern == Pattern::send) {
     auto& client = static_cast<SendClientEndpoint&>(from);
     possible = check_free(client);
@@ -58,6 +56,19 @@ Status Links::connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy) {
     if (possible.ok()) query(client, static_cast<QueryServerEndpoint&>(to));
   }
   return possible;
+}
+
+void Links::leave(Endpoint& port, const std::string& peer) {
+  if (auto* const server = dynamic_cast<PushServerEndpoint*>(&port)) {
+    server->cut_link(peer);  // ends the subscription
+    return server->disconnect(peer);
+  }
+  if (auto* const push = dynamic_cast<PushClientEndpoint*>(&port)) push->disconnect(peer);
+  if (auto* const asker = dynamic_cast<QueryClientEndpoint*>(&port)) asker->disconnect(peer);
+  if (auto* const sender = dynamic_cast<SendClientEndpoint*>(&port)) sender->disconnect(peer);
+  if (auto* const answerer = dynamic_cast<QueryServerEndpoint*>(&port)) answerer->disconnect(peer);
+  if (auto* const taker = dynamic_cast<SendServerEndpoint*>(&port)) taker->disconnect(peer);
+  port.cut_link(peer);
 }
 
 }  // namespace orca

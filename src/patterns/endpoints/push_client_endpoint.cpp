@@ -13,9 +13,46 @@ PushClientEndpoint::PushClientEndpoint(PortHome& home, PortContract contract)
 PushEdge& PushClientEndpoint::connect(PushSource& source, const QueuePolicy& policy) {
   if (alternatives_) alternatives_->add(source);
   if (alternatives_ && !edges_.empty()) return *edges_.back();
-  assert(contract().many || edges_.empty());
+  if (PushEdge* const edge = vacancy_for(source)) {
+    edge->set_policy(policy);
+    edge->move_to(&source);
+    return *edge;
+  }
+  const std::lock_guard lock(mutex_);
   edges_.push_back(std::make_unique<PushEdge>(*this, source, policy));
+  if (subscribes_) edges_.back()->subscribe();
   return *edges_.back();
+}
+
+// Edges of an array keep their places, by which components know them.
+PushEdge* PushClientEndpoint::vacancy_for(const PushSource& source) const {
+  if (!contract().many) return edges_.empty() ? nullptr : edges_.front().get();
+  const auto is_his = [path = source.path()](const auto& edge) {
+    return !edge->has_server() && edge->source_path() == path;
+  };
+  const auto found = std::ranges::find_if(edges_, is_his);
+  return found == edges_.end() ? nullptr : found->get();
+}
+
+void PushClientEndpoint::disconnect(const std::string& server) {
+  if (PushEdge* const edge = edge_from(server)) edge->leave();
+}
+
+PushEdge* PushClientEndpoint::edge_from(const std::string& server) const {
+  const auto found = std::ranges::find_if(
+      edges_, [&](const auto& edge) { return edge->has_server() && edge->source_path() == server; });
+  return found == edges_.end() ? nullptr : found->get();
+}
+
+bool PushClientEndpoint::connected() const {
+  return std::ranges::any_of(edges_, [](const auto& edge) { return edge->has_server(); });
+}
+
+std::optional<EdgeCounters> PushClientEndpoint::counters_from(const std::string& server) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& edge : edges_)
+    if (edge->source_path() == server) return edge->counters();
+  return std::nullopt;
 }
 
 bool PushClientEndpoint::has_new() const {
@@ -41,7 +78,7 @@ TimePoint PushClientEndpoint::watch_deadlines() {
 
 void PushClientEndpoint::allow_moves() {
   assert(!contract().many && edges_.empty());
-  alternatives_.emplace(home().strand, [this](PushSource& source) { edges_.front()->move_to(source); });
+  alternatives_.emplace(home().strand, [this](PushSource& source) { edges_.front()->move_to(&source); });
 }
 
 bool PushClientEndpoint::move_to(const std::string& server) {
@@ -50,10 +87,12 @@ bool PushClientEndpoint::move_to(const std::string& server) {
 
 void PushClientEndpoint::subscribe_all() {
   if (alternatives_) (void)alternatives_->take_in();
+  subscribes_ = !contract().many;
   for (const auto& edge : edges_) edge->subscribe();
 }
 
 void PushClientEndpoint::unsubscribe_all() {
+  subscribes_ = false;
   for (const auto& edge : edges_) edge->unsubscribe();
 }
 

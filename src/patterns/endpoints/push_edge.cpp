@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <sstream>
 #include <utility>
 
 namespace orca {
 namespace {
-
-constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
 std::string seconds_text(Duration time) {
   std::ostringstream text;
@@ -29,20 +26,59 @@ PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& poli
     : client_(client),
       strand_(client.home().strand),
       source_(&source),
-      policy_(policy),
-      mutex_(client.home().strand.executive()),
-      ring_(policy.depth) {
+      path_(source.path()),
+      mutex_(client.home().strand.executive()) {
+  fit(policy);
+}
+
+// Takes another policy. Called by the constructor, or with the lock held.
+void PushEdge::fit(const QueuePolicy& policy) {
   assert(policy.depth > 0);
+  std::vector<ObjectRef> ring(policy.depth);
+  const std::uint32_t count = count_.load(std::memory_order_relaxed);
+  const std::uint32_t kept = std::min(count, policy.depth);
+  for (std::uint32_t i = 0; i < kept; ++i)
+    ring[i] = std::move(ring_[(first_ + count - kept + i) % policy_.depth]);
+  if (count > kept) drop(counts_.dropped_oldest, count - kept);
+  ring_ = std::move(ring);
+  first_ = 0;
+  count_.store(kept, std::memory_order_release);
+  policy_ = policy;
+  deadline_ = policy.deadline.count();
   const std::optional<std::uint32_t> limit = policy.accepted_drops();
-  report_drops_at_ = limit ? *limit + std::uint64_t{1} : kNever;
+  accepted_drops_ = limit ? std::int64_t{*limit} : -1;
+  report_drops_at_ = limit ? std::max<std::uint64_t>(*limit, drops_) + 1 : kNever;
+}
+
+void PushEdge::set_policy(const QueuePolicy& policy) {
+  bool waited_for = false;
+  {
+    const std::lock_guard lock(mutex_);
+    fit(policy);
+    subscriber_stuck_ = false;
+    waited_for = std::exchange(publisher_waits_, false);
+  }
+  if (!subscribed()) return;
+  if (policy.deadline > Duration{0}) expect_first();
+  source()->change(rate());
+  if (waited_for) source()->room();
+}
+
+QueuePolicy PushEdge::policy_now() const {
+  const std::lock_guard lock(mutex_);
+  return policy_;
+}
+
+std::string PushEdge::source_path() const {
+  const std::lock_guard lock(told_mutex_);
+  return path_;
 }
 
 void PushEdge::subscribe() {
-  if (subscribed()) return;
+  if (subscribed_.exchange(true, std::memory_order_acq_rel) || !has_server()) return;
   if (policy_.deadline > Duration{0}) expect_first();
-  subscribed_.store(true, std::memory_order_release);
   tell_of_link(true);
-  source().attach(*this, rate());
+  source()->attach(*this, rate());
 }
 
 void PushEdge::tell_of_link(bool connected) const {
@@ -50,21 +86,32 @@ void PushEdge::tell_of_link(bool connected) const {
     observer->link_changed(client_.path(), source_path(), connected);
 }
 
-void PushEdge::move_to(PushSource& next) {
-  if (&next == &source()) return;
-  const bool moves = subscribed();
-  if (moves) {
-    source().detach();
+void PushEdge::move_to(PushSource* next) {
+  if (next == source()) return;
+  if (subscribed()) {
+    source()->detach();
     tell_of_link(false);
   }
-  source_.store(&next, std::memory_order_release);
-  if (!moves) return;
+  const bool had_server = has_server();
+  source_.store(next, std::memory_order_release);
+  if (next == nullptr) return;
+  {
+    const std::lock_guard lock(told_mutex_);
+    path_ = next->path();
+  }
+  if (!subscribed()) return;
   {
     const std::lock_guard lock(mutex_);
     publisher_waits_ = subscriber_stuck_ = false;
   }
+  if (!had_server && policy_.deadline > Duration{0}) expect_first();
   tell_of_link(true);
-  next.attach(*this, rate());
+  next->attach(*this, rate());
+}
+
+void PushEdge::leave() {
+  move_to(nullptr);
+  forget_objects();
 }
 
 void PushEdge::expect_first() {
@@ -74,11 +121,17 @@ void PushEdge::expect_first() {
 }
 
 void PushEdge::unsubscribe() {
-  if (!subscribed()) return;
-  source().detach();
-  tell_of_link(false);
-  if (policy_.deadline > Duration{0}) counts_.missed_deadlines = missed_until(now());
+  const bool was_subscribed = subscribed();
+  if (was_subscribed) {
+    source()->detach();
+    tell_of_link(false);
+    if (policy_.deadline > Duration{0}) counts_.missed_deadlines = missed_until(now());
+  }
   subscribed_.store(false, std::memory_order_release);
+  if (was_subscribed) forget_objects();
+}
+
+void PushEdge::forget_objects() {
   const std::lock_guard lock(mutex_);
   counts_.left_behind += count_;
   count_.store(0, std::memory_order_release);
@@ -89,7 +142,7 @@ void PushEdge::unsubscribe() {
 
 void PushEdge::ask(const UpdateRate& rate) {
   asked_ = rate;
-  if (subscribed()) source().change(this->rate());
+  if (subscribed()) source()->change(this->rate());
 }
 
 UpdateRate PushEdge::rate() const {
@@ -97,12 +150,12 @@ UpdateRate PushEdge::rate() const {
 }
 
 UpdateGrant PushEdge::grant() const {
-  const std::lock_guard lock(grant_mutex_);
+  const std::lock_guard lock(told_mutex_);
   return grant_;
 }
 
 void PushEdge::granted(const UpdateGrant& grant) {
-  const std::lock_guard lock(grant_mutex_);
+  const std::lock_guard lock(told_mutex_);
   grant_ = grant;
 }
 
@@ -164,9 +217,10 @@ std::uint64_t PushEdge::drops_to_report() {
 }
 
 void PushEdge::report_drops(std::uint64_t drops) const {
+  const QueuePolicy policy = policy_now();
   report(LinkTrouble::dropped, "objects dropped so far: " + std::to_string(drops) +
-                                   ", accepted: " + std::to_string(*policy_.accepted_drops()) + " (" +
-                                   described(policy_) + ")");
+                                   ", accepted: " + std::to_string(policy.accepted_drops().value_or(0)) +
+                                   " (" + described(policy) + ")");
 }
 
 void PushEdge::report(LinkTrouble kind, const std::string& text) const {
@@ -231,7 +285,7 @@ void PushEdge::lost(std::uint64_t objects) {
     subscriber_stuck_ = false;
     waited_for = std::exchange(publisher_waits_, false);
   }
-  if (waited_for) source().room();
+  if (waited_for && has_server()) source()->room();
   return object;
 }
 
@@ -271,7 +325,7 @@ ObjectRef PushEdge::latest() const {
 std::uint64_t PushEdge::missed_until(TimePoint time) const {
   const Duration since = time.time_since_epoch() - Duration(last_arrival_);
   if (since <= Duration{0}) return counts_.missed_deadlines;
-  return counts_.missed_deadlines + static_cast<std::uint64_t>((since - Duration{1}) / policy_.deadline);
+  return counts_.missed_deadlines + static_cast<std::uint64_t>((since - Duration{1}) / Duration(deadline_));
 }
 
 bool PushEdge::deadline_missed() const {
@@ -307,10 +361,10 @@ EdgeCounters PushEdge::counters() const {
   counted.dropped = counted.dropped_oldest + counted.dropped_newest + counted.dropped_blocked +
                     counted.dropped_by_link + counted.unmatched + counted.left_behind;
   const std::uint64_t drops = drops_;
-  if (const auto limit = policy_.accepted_drops(); limit && drops > *limit)
-    counted.over_limit = drops - *limit;
+  if (const std::int64_t limit = accepted_drops_; limit >= 0 && drops > static_cast<std::uint64_t>(limit))
+    counted.over_limit = drops - static_cast<std::uint64_t>(limit);
   counted.waits = counts_.waits;
-  const bool due = policy_.deadline > Duration{0} && subscribed();
+  const bool due = deadline_ > 0 && subscribed();
   counted.missed_deadlines = due ? missed_until(now()) : std::uint64_t{counts_.missed_deadlines};
   counted.queued = count_.load(std::memory_order_relaxed);
   counted.high_water = counts_.high_water;

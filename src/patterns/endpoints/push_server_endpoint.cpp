@@ -11,8 +11,9 @@ namespace orca {
 // One client's subscription, or the place for it.
 class PushServerEndpoint::Edge final : public PushSource {
  public:
-  explicit Edge(PushServerEndpoint& server) : server_(server) {}
+  Edge(PushServerEndpoint& server, std::string client) : server_(server), client_(std::move(client)) {}
 
+  [[nodiscard]] const std::string& client() const { return client_; }
   void attach(PushSink& sink, const UpdateRate& rate) override;
   void detach() override;
   void change(const UpdateRate& rate) override;
@@ -29,6 +30,7 @@ class PushServerEndpoint::Edge final : public PushSource {
 
  private:
   PushServerEndpoint& server_;
+  const std::string client_;
   PushSink* sink_ = nullptr;  // null: not subscribed
   UpdateRate asked_;
   UpdateGrant grant_;
@@ -57,9 +59,15 @@ PushServerEndpoint::PushServerEndpoint(PortHome& home, PortContract contract)
 
 PushServerEndpoint::~PushServerEndpoint() { cut_links(); }
 
-PushSource& PushServerEndpoint::connect() {
-  edges_.push_back(std::make_unique<Edge>(*this));
+PushSource& PushServerEndpoint::connect(std::string client) {
+  const std::lock_guard lock(mutex_);
+  edges_.push_back(std::make_unique<Edge>(*this, std::move(client)));
   return *edges_.back();
+}
+
+void PushServerEndpoint::disconnect(const std::string& client) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(edges_, [&](const auto& edge) { return edge->client() == client; });
 }
 
 void PushServerEndpoint::announce(Duration base_period) {

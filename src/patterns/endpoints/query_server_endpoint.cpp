@@ -9,7 +9,9 @@ namespace orca {
 // One client's part of the intake.
 class QueryServerEndpoint::Edge final : public QueryTarget {
  public:
-  explicit Edge(QueryServerEndpoint& server) : server_(server) {}
+  Edge(QueryServerEndpoint& server, std::string client) : server_(server), client_(std::move(client)) {}
+
+  [[nodiscard]] const std::string& client() const { return client_; }
 
   std::optional<Result<ObjectRef>> offer(const ObjectRef& request, QueryReplySink& reply_to, QueryId id,
                                          bool may_wait) override;
@@ -21,6 +23,7 @@ class QueryServerEndpoint::Edge final : public QueryTarget {
 
  private:
   QueryServerEndpoint& server_;
+  const std::string client_;
 };
 
 std::optional<Result<ObjectRef>> QueryServerEndpoint::Edge::offer(const ObjectRef& request,
@@ -53,10 +56,17 @@ QueryServerEndpoint::QueryServerEndpoint(PortHome& home, PortContract contract)
 
 QueryServerEndpoint::~QueryServerEndpoint() { cut_links(); }
 
-QueryTarget& QueryServerEndpoint::connect() {
+QueryTarget& QueryServerEndpoint::connect(std::string client) {
   const std::lock_guard lock(mutex_);
-  edges_.push_back(std::make_unique<Edge>(*this));
+  edges_.push_back(std::make_unique<Edge>(*this, std::move(client)));
   return *edges_.back();
+}
+
+void QueryServerEndpoint::disconnect(const std::string& client) {
+  const std::lock_guard lock(mutex_);
+  counters_.withdrawn +=
+      std::erase_if(waiting_, [&](const Question& one) { return one.edge->client() == client; });
+  std::erase_if(edges_, [&](const auto& edge) { return edge->client() == client; });
 }
 
 void QueryServerEndpoint::open(Handler handler) {
@@ -127,7 +137,7 @@ bool QueryServerEndpoint::has_waiting() const {
 IntakeCounters QueryServerEndpoint::counters() const {
   const std::lock_guard lock(mutex_);
   IntakeCounters now_counted = counters_;
-  now_counted.refused = counters_.refused_full + counters_.refused_closed;
+  now_counted.refused = counters_.refused_full + counters_.refused_closed + counters_.withdrawn;
   now_counted.queued = static_cast<std::uint32_t>(waiting_.size());
   return now_counted;
 }

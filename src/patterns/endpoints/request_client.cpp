@@ -28,12 +28,37 @@ RequestClient<Answer>::RequestClient(PortHome& home, PortContract contract, cons
 template <class Answer>
 void RequestClient<Answer>::connect(RequestTarget<Answer>& target) {
   if (alternatives_) alternatives_->add(target);
-  if (!alternatives_ || target_ == nullptr) target_ = &target;
+  if (!alternatives_ || target_ == nullptr) move(&target);
+}
+
+template <class Answer>
+void RequestClient<Answer>::disconnect(const std::string& server) {
+  std::vector<RequestTarget<Answer>*> gone;
+  for (const Era& era : left_)
+    if (era.path == server && era.target != nullptr) gone.push_back(era.target);
+  if (target_ != nullptr && target_path_ == server) {
+    gone.push_back(target_);
+    move(nullptr);
+  }
+  for (RequestTarget<Answer>* const target : gone) answer_all_of(*target);
+  for (Era& era : left_)
+    if (era.path == server) era.target = nullptr;
+}
+
+template <class Answer>
+void RequestClient<Answer>::answer_all_of(RequestTarget<Answer>& target) {
+  for (const RequestId id : pending_.waiting()) {
+    if (era_of(id).target != &target) continue;
+    target.withdraw(id);
+    if (pending_.state(id) == Pending::State::waiting)
+      pending_.answer(id, fail(Code::unavailable, "the connection from " + path() + " to " + target.path() +
+                                                      " was removed before the answer came"));
+  }
 }
 
 template <class Answer>
 void RequestClient<Answer>::allow_moves() {
-  alternatives_.emplace(home().strand, [this](RequestTarget<Answer>& target) { move(target); });
+  alternatives_.emplace(home().strand, [this](RequestTarget<Answer>& target) { move(&target); });
 }
 
 template <class Answer>
@@ -43,21 +68,33 @@ bool RequestClient<Answer>::move_to(const std::string& server) {
 
 // What was offered to the old server is still answered by it, or withdrawn from it.
 template <class Answer>
-void RequestClient<Answer>::move(RequestTarget<Answer>& target) {
-  if (&target == target_) return;
-  const std::uint64_t restarts = restarts_before_ + target_->renewals().value_or(0);
-  left_.push_back({first_id_, target_});
+void RequestClient<Answer>::move(RequestTarget<Answer>* target) {
+  if (target == target_) return;
+  const auto renewals = [](const RequestTarget<Answer>* of) {
+    return of == nullptr ? 0 : of->renewals().value_or(0);
+  };
+  if (target_ != nullptr) {
+    left_.push_back(present());
+    restarts_before_ += renewals(target_) + 1;
+  }
   first_id_ = last_id_ + 1;
-  target_ = &target;
-  restarts_before_ = restarts + 1 - target.renewals().value_or(0);
+  target_ = target;
+  if (target == nullptr) return;
+  target_path_ = target->path();
+  restarts_before_ -= renewals(target);
 }
 
 template <class Answer>
-RequestTarget<Answer>& RequestClient<Answer>::target_of(RequestId id) const {
-  if (id >= first_id_) return *target_;
+typename RequestClient<Answer>::Era RequestClient<Answer>::present() const {
+  return {first_id_, target_, target_path_};
+}
+
+template <class Answer>
+typename RequestClient<Answer>::Era RequestClient<Answer>::era_of(RequestId id) const {
+  if (id >= first_id_) return present();
   for (auto era = left_.rbegin(); era != left_.rend(); ++era)
-    if (id >= era->first) return *era->target;
-  return *target_;
+    if (id >= era->first) return *era;
+  return present();
 }
 
 template <class Answer>
@@ -91,7 +128,7 @@ std::optional<Answer> RequestClient<Answer>::receive(RequestId id) {
   if (!*answer) leave_if_ending();
   if (const ObjectRef object = object_of(*answer)) home().provenance.note(object.header());
   ++(*answer ? answered_ : failed_);
-  if (!*answer) report(target_of(id), "refused: " + answer->error().text());
+  if (!*answer) report(era_of(id).path, "refused: " + answer->error().text());
   return answer;
 }
 
@@ -99,15 +136,15 @@ template <class Answer>
 Answer RequestClient<Answer>::receive_until(RequestId id, TimePoint deadline) {
   home().strand.wait_for(deadline, [&] { return pending_.state(id) != Pending::State::waiting; });
   if (std::optional<Answer> answer = receive(id)) return std::move(*answer);
-  RequestTarget<Answer>& target = target_of(id);
-  target.withdraw(id);
+  const Era era = era_of(id);
+  era.target->withdraw(id);
   if (std::optional<Answer> answer = receive(id)) return std::move(*answer);  // it came at the last moment
   pending_.forget(id);
   leave_if_ending();
   ++timed_out_;
-  const Error late = fail(Code::deadline_exceeded,
-                          target.path() + " " + words_.late + " " + path() + " " + words_.late_ending);
-  report(target, late.message);
+  const Error late =
+      fail(Code::deadline_exceeded, era.path + " " + words_.late + " " + path() + " " + words_.late_ending);
+  report(era.path, late.message);
   return late;
 }
 
@@ -117,14 +154,14 @@ void RequestClient<Answer>::leave_if_ending() const {
 }
 
 template <class Answer>
-void RequestClient<Answer>::report(const RequestTarget<Answer>& server, const std::string& failure) const {
+void RequestClient<Answer>::report(const std::string& server, const std::string& failure) const {
   if (LinkObserver* observer = home().observer)
-    observer->trouble(LinkTrouble::refused, path(), server.path(), failure);
+    observer->trouble(LinkTrouble::refused, path(), server, failure);
 }
 
 template <class Answer>
 void RequestClient<Answer>::withdraw(RequestId id) {
-  if (target_ != nullptr) target_of(id).withdraw(id);
+  if (RequestTarget<Answer>* const target = era_of(id).target) target->withdraw(id);
   pending_.forget(id);
 }
 
@@ -133,7 +170,8 @@ std::optional<std::uint64_t> RequestClient<Answer>::server_restarts() const {
   if (target_ == nullptr) return std::nullopt;
   home().strand.take_in();
   const std::optional<std::uint64_t> renewals = target_->renewals();
-  return alternatives_ ? restarts_before_ + renewals.value_or(0) : renewals;
+  const bool has_moved = alternatives_ || !left_.empty();
+  return has_moved ? restarts_before_ + renewals.value_or(0) : renewals;
 }
 
 template <class Answer>

@@ -13,24 +13,30 @@ constexpr Duration kHandlingLimit = 1s;  // of a sender's wait, where the graph 
 }  // namespace
 
 // One client's part of the intake.
-class SendServerEndpoint::Edge final : public SendTarget {
+class SendServerEndpoint::Edge final : public SendTarget, public std::enable_shared_from_this<Edge> {
  public:
-  Edge(SendServerEndpoint& server, std::string client, const QueuePolicy& policy)
-      : server_(server), client_(std::move(client)), policy_(policy) {}
+  Edge(SendServerEndpoint& server, std::string client, const QueuePolicy& first)
+      : policy(first), server_(server), client_(std::move(client)) {}
 
   std::optional<Status> offer(const ObjectRef& object, SendReplySink& reply_to, SendId id,
                               bool may_wait) override;
   void withdraw(SendId id) override;
   [[nodiscard]] Duration patience() const override {
-    if (policy_.overflow == QueuePolicy::Overflow::block) return policy_.block_limit;
+    if (policy.overflow == QueuePolicy::Overflow::block) return policy.block_limit;
     return confirms_handled() ? kHandlingLimit : Duration{0};
   }
   [[nodiscard]] std::string path() const override { return server_.path(); }
 
+  [[nodiscard]] const std::string& client() const { return client_; }
+
   // Below: called with the server's lock held.
   void refuse_held(const Error& reason);
+  void leave();
   void take_next();
+  [[nodiscard]] IntakeCounters summed() const;
   IntakeCounters counters;
+  QueuePolicy policy;
+  bool is_gone = false;
 
  private:
   struct Offer {
@@ -39,13 +45,12 @@ class SendServerEndpoint::Edge final : public SendTarget {
     SendId id;
   };
 
-  [[nodiscard]] bool full() const { return counters.queued >= policy_.depth; }
-  [[nodiscard]] bool confirms_handled() const { return policy_.confirm == QueuePolicy::Confirm::handled; }
+  [[nodiscard]] bool full() const { return counters.queued >= policy.depth; }
+  [[nodiscard]] bool confirms_handled() const { return policy.confirm == QueuePolicy::Confirm::handled; }
   void take_in(const Offer& offer);
 
   SendServerEndpoint& server_;
   const std::string client_;
-  const QueuePolicy policy_;
   std::deque<Offer> held_;  // wait for room
 };
 
@@ -58,8 +63,8 @@ std::optional<Status> SendServerEndpoint::Edge::offer(const ObjectRef& object, S
       return fail(Code::unavailable, path() + " takes nothing, because " + server_.closed_because_);
     }
     if (full()) {
-      const bool waits = may_wait || policy_.overflow == QueuePolicy::Overflow::block;
-      if (waits && held_.size() < policy_.depth) {
+      const bool waits = may_wait || policy.overflow == QueuePolicy::Overflow::block;
+      if (waits && held_.size() < policy.depth) {
         ++counters.waits;
         held_.push_back({object, &reply_to, id});
         return std::nullopt;
@@ -77,7 +82,8 @@ std::optional<Status> SendServerEndpoint::Edge::offer(const ObjectRef& object, S
 }
 
 void SendServerEndpoint::Edge::take_in(const Offer& offer) {
-  server_.waiting_.push_back({offer.object, this, confirms_handled() ? offer.reply_to : nullptr, offer.id});
+  server_.waiting_.push_back(
+      {offer.object, shared_from_this(), confirms_handled() ? offer.reply_to : nullptr, offer.id});
   ++counters.accepted;
   counters.high_water = std::max(counters.high_water, ++counters.queued);
   server_.observe(offer.object);
@@ -88,7 +94,7 @@ void SendServerEndpoint::Edge::withdraw(SendId id) {
   counters.withdrawn += std::erase_if(held_, [&](const Offer& offer) { return offer.id == id; });
   if (!confirms_handled()) return;
   const auto taken_back = std::erase_if(
-      server_.waiting_, [&](const Accepted& accepted) { return accepted.edge == this && accepted.id == id; });
+      server_.waiting_, [&](const Accepted& one) { return one.edge.get() == this && one.id == id; });
   counters.accepted -= taken_back;
   counters.withdrawn += taken_back;
   for (std::size_t i = 0; i < taken_back; ++i) take_next();
@@ -98,6 +104,18 @@ void SendServerEndpoint::Edge::refuse_held(const Error& reason) {
   counters.refused_closed += held_.size();
   for (const Offer& offer : held_) offer.reply_to->reply(offer.id, reason);
   held_.clear();
+}
+
+void SendServerEndpoint::Edge::leave() {
+  is_gone = true;
+  counters.withdrawn += held_.size();
+  held_.clear();
+}
+
+IntakeCounters SendServerEndpoint::Edge::summed() const {
+  IntakeCounters sum = counters;
+  sum.refused = sum.refused_full + sum.refused_closed + sum.withdrawn;
+  return sum;
 }
 
 // An object has left the queue: the first one that waits for room takes its place.
@@ -117,8 +135,30 @@ SendServerEndpoint::~SendServerEndpoint() { cut_links(); }
 
 SendTarget& SendServerEndpoint::connect(std::string client, const QueuePolicy& policy) {
   const std::lock_guard lock(mutex_);
-  edges_.push_back(std::make_unique<Edge>(*this, std::move(client), policy));
+  edges_.push_back(std::make_shared<Edge>(*this, std::move(client), policy));
   return *edges_.back();
+}
+
+bool SendServerEndpoint::change(const std::string& client, const QueuePolicy& policy) {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::ranges::find(edges_, client, [](const auto& edge) { return edge->client(); });
+  if (found != edges_.end()) (*found)->policy = policy;
+  return found != edges_.end();
+}
+
+void SendServerEndpoint::disconnect(const std::string& client) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& edge : edges_)
+    if (edge->client() == client) leave(edge);
+  std::erase_if(edges_, [](const auto& edge) { return edge->is_gone; });
+}
+
+void SendServerEndpoint::leave(const std::shared_ptr<Edge>& edge) {
+  edge->leave();
+  for (Accepted& accepted : waiting_)
+    if (accepted.edge == edge) accepted.reply_to = nullptr;
+  of_gone_ += edge->summed();
+  of_gone_.queued = 0;  // what is left is counted no more
 }
 
 void SendServerEndpoint::open(Handler handler) {
@@ -163,7 +203,7 @@ bool SendServerEndpoint::handle_one(Status& outcome) {
 // Counts what has become of an object, and tells its sender if that waits for it.
 void SendServerEndpoint::settle(const Accepted& accepted, const Status& outcome) {
   const std::lock_guard lock(mutex_);
-  if (!outcome.ok()) ++accepted.edge->counters.failed;
+  if (!outcome.ok()) ++(accepted.edge->is_gone ? of_gone_ : accepted.edge->counters).failed;
   if (accepted.reply_to != nullptr) accepted.reply_to->reply(accepted.id, outcome);
 }
 
@@ -173,21 +213,15 @@ bool SendServerEndpoint::has_waiting() const {
 }
 
 IntakeCounters SendServerEndpoint::counters() const {
-  IntakeCounters all;
-  for (std::size_t edge = 0; edge < edge_count(); ++edge) all += counters(edge);
-  return all;
-}
-
-std::size_t SendServerEndpoint::edge_count() const {
   const std::lock_guard lock(mutex_);
-  return edges_.size();
+  IntakeCounters all = of_gone_;
+  for (const auto& edge : edges_) all += edge->summed();
+  return all;
 }
 
 IntakeCounters SendServerEndpoint::counters(std::size_t edge) const {
   const std::lock_guard lock(mutex_);
-  IntakeCounters of_edge = edges_.at(edge)->counters;
-  of_edge.refused = of_edge.refused_full + of_edge.refused_closed + of_edge.withdrawn;
-  return of_edge;
+  return edges_.at(edge)->summed();
 }
 
 }  // namespace orca

@@ -30,9 +30,11 @@ RequestTypes types_of(const Endpoint& port) {
 
 template <class Answer>
 ShmEnd& serve(Endpoint& server, RequestTarget<Answer>& target, RingSegment segment, ShmPeer client) {
+  std::string path = client.path;
   auto end = make_ring_end(Side::server, server, std::move(segment), std::move(client));
   RingEnd& made = *end;
-  server.adopt(std::make_unique<CallerOverFrames<Answer>>(std::move(end), types_of(server), target));
+  server.adopt(std::make_unique<CallerOverFrames<Answer>>(std::move(end), types_of(server), target),
+               std::move(path));
   return made;
 }
 
@@ -42,9 +44,9 @@ ShmEnd& call(RequestClient<Answer>& client, RingSegment segment, ShmPeer server,
   auto end = make_ring_end(Side::client, client, std::move(segment), std::move(server));
   RingEnd& made = *end;
   auto target = std::make_unique<TargetOverFrames<Answer>>(std::move(end), client.home().strand,
-                                                           types_of(client), std::move(path), patience);
+                                                           types_of(client), path, patience);
   client.connect(*target);
-  client.adopt(std::move(target));
+  client.adopt(std::move(target), std::move(path));
   return made;
 }
 
@@ -52,9 +54,10 @@ ShmEnd& call(RequestClient<Answer>& client, RingSegment segment, ShmPeer server,
 
 ShmEnd& make_shm_end(PushServerEndpoint& server, RingSegment segment, ShmPeer client,
                      const QueuePolicy& policy) {
+  std::string path = client.path;
   auto end = make_ring_end(Side::server, server, std::move(segment), std::move(client));
   RingEnd& made = *end;
-  server.adopt(std::make_unique<PushSinkOverFrames>(std::move(end), server.connect(), policy));
+  server.adopt(std::make_unique<PushSinkOverFrames>(std::move(end), server.connect(path), policy), path);
   return made;
 }
 
@@ -63,15 +66,16 @@ ShmEnd& make_shm_end(PushClientEndpoint& client, RingSegment segment, ShmPeer se
   std::string path = server.path;
   auto end = make_ring_end(Side::client, client, std::move(segment), std::move(server));
   RingEnd& made = *end;
-  auto source = std::make_unique<PushSourceOverFrames>(std::move(end), type_of(client.contract().type),
-                                                       std::move(path), base_period);
+  auto source = std::make_unique<PushSourceOverFrames>(std::move(end), type_of(client.contract().type), path,
+                                                       base_period);
   client.connect(*source, policy);
-  client.adopt(std::move(source));
+  client.adopt(std::move(source), std::move(path));
   return made;
 }
 
 ShmEnd& make_shm_end(QueryServerEndpoint& server, RingSegment segment, ShmPeer client) {
-  return serve(server, server.connect(), std::move(segment), std::move(client));
+  QueryTarget& target = server.connect(client.path);
+  return serve(server, target, std::move(segment), std::move(client));
 }
 
 ShmEnd& make_shm_end(QueryClientEndpoint& client, RingSegment segment, ShmPeer server) {

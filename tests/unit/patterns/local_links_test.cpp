@@ -211,3 +211,103 @@ TEST_CASE("an observer sees subscriptions and every object that gets into a queu
           std::vector<std::string>{"b.in uses a.out", "b.in got MotionCommand 1", "b.in leaves a.out"});
   });
 }
+
+// ---- While the components run
+
+namespace {
+
+QueuePolicy deep(std::uint32_t depth) { return {.depth = depth}; }
+
+Status renew(const Peer& a, const std::string& from, const Peer& b, const std::string& to,
+             const QueuePolicy& policy) {
+  return LocalLinks().renew(a.endpoint(from), b.endpoint(to), policy);
+}
+
+void push_speeds(Ends& ends, int first, int last) {
+  for (int speed = first; speed <= last; ++speed) ends.push_out.push(head(0.0, speed));
+}
+
+std::vector<int> take_speeds(Ends& ends) {
+  std::vector<int> speeds;
+  while (ends.push_in.new_data_arrived())
+    speeds.push_back(static_cast<int>(ends.push_in.get_update()->speed()));
+  return speeds;
+}
+
+}  // namespace
+
+TEST_CASE("a connection that is renewed with a smaller queue keeps the newest objects",
+          "[patterns][local][renew]") {
+  with_ends([](Ends& a, Ends& b) {
+    REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());
+    b.push_in.subscribe();
+    push_speeds(a, 1, 4);
+    REQUIRE(renew(a, "push_out", b, "push_in", deep(2)).ok());
+    CHECK(a.push_out.subscriber_count() == 1);
+    CHECK(b.push_in.counters().dropped_oldest == 2);
+    CHECK(take_speeds(b) == std::vector<int>{3, 4});
+    REQUIRE(renew(a, "push_out", b, "push_in", deep(3)).ok());
+    push_speeds(a, 5, 8);
+    CHECK(take_speeds(b) == std::vector<int>{6, 7, 8});
+  });
+}
+
+TEST_CASE("a connection that is renewed with an interval gets the new rate", "[patterns][local][renew]") {
+  with_ends([](Ends& a, Ends& b) {
+    REQUIRE(renew(a, "push_out", b, "push_in", deep(1)).ok());
+    b.push_in.subscribe();
+    a.push_out.start(10ms);
+    QueuePolicy slower = deep(1);
+    slower.min_interval = 30ms;
+    REQUIRE(renew(a, "push_out", b, "push_in", slower).ok());
+    CHECK(b.push_in.granted().multiple == 3);
+  });
+}
+
+TEST_CASE("a connection in place of another one keeps what waits", "[patterns][local][renew]") {
+  with_ends([](Ends& a, Ends& b) {
+    REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());
+    b.push_in.subscribe();
+    push_speeds(a, 1, 1);
+    REQUIRE(renew(b, "push_out", b, "push_in", deep(4)).ok());
+    CHECK(a.push_out.subscriber_count() == 0);
+    CHECK(b.push_out.subscriber_count() == 1);
+    push_speeds(b, 2, 2);
+    CHECK(take_speeds(b) == std::vector<int>{1, 2});
+    REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());  // and back
+    CHECK(a.push_out.subscriber_count() == 1);
+    CHECK(b.push_out.subscriber_count() == 0);
+  });
+}
+
+TEST_CASE("a port without a connection that the runtime has subscribed hears the first one",
+          "[patterns][local][renew]") {
+  with_ends([](Ends& a, Ends& b) {
+    b.push_in.subscribe();
+    REQUIRE(renew(a, "push_out", b, "push_in", deep(1)).ok());
+    CHECK(a.push_out.subscriber_count() == 1);
+  });
+}
+
+TEST_CASE("a Send connection that is renewed has room for more", "[patterns][local][renew]") {
+  with_ends([](Ends& a, Ends& b) {
+    QueuePolicy policy{.depth = 1, .overflow = QueuePolicy::Overflow::refuse};
+    REQUIRE(renew(a, "send_out", b, "send_in", policy).ok());
+    b.open();
+    CHECK(a.send_out.send(full_stop()).ok());
+    policy.depth = 2;
+    REQUIRE(renew(a, "send_out", b, "send_in", policy).ok());
+    CHECK(a.send_out.send(full_stop()).ok());
+    const IntakeCounters counters = static_cast<SendServerEndpoint&>(b.endpoint("send_in")).counters();
+    CHECK(counters.accepted == 2);
+    CHECK(counters.waits == 0);
+  });
+}
+
+TEST_CASE("ends that do not fit are not renewed", "[patterns][local][renew]") {
+  with_ends([](Ends& a, Ends& b) {
+    const Status refused = renew(a, "push_out", b, "odometry", deep(1));
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == Code::invalid_argument);
+  });
+}

@@ -2,8 +2,10 @@
 #include "orca/graph/plan.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "orca/base/text.hpp"
+#include "orca/graph/placement.hpp"
 
 namespace orca::graph {
 namespace {
@@ -45,8 +47,34 @@ void add_component(const Change& change, const ComponentNode& wanted, const Cont
   if (changes_code) plan.exchanges.push_back({wanted.name, wanted.type, wanted.params});
 }
 
-void add_other(const Change& change, GraphPlan& plan) {
-  const Effort effort = change.part == Change::Part::group ? Effort::none : Effort::restart;
+std::optional<Edge> find_edge(const Graph& graph, const std::string& name) {
+  const auto edge = std::ranges::find(graph.edges, name, &Edge::name);
+  return edge == graph.edges.end() ? std::nullopt : std::optional(*edge);
+}
+
+// Returns whether a connection can be made and removed while its ends run: they are there before and after, in processes that
+// run all the time, and the port uses no other server in its place.
+bool can_rewire(const Edge& edge, const Graph& running, const Graph& wanted) {
+  const auto stays = [&](const PortRef& port) {
+    const ComponentNode* const before = running.find_component(port.component);
+    const ComponentNode* const after = wanted.find_component(port.component);
+    return before != nullptr && after != nullptr && before->process == after->process &&
+           !starts_on_demand(running, before->process);
+  };
+  return edge.choice == 0 && edge.link != Link::dds && stays(edge.from) && stays(edge.to);
+}
+
+Effort add_connection(const Change& change, const Graph& running, const Graph& wanted, GraphPlan& plan) {
+  GraphPlan::Rewiring rewiring{find_edge(running, change.name), find_edge(wanted, change.name)};
+  for (const std::optional<Edge>& edge : {rewiring.before, rewiring.after})
+    if (edge && !can_rewire(*edge, running, wanted)) return Effort::restart;
+  plan.connections.push_back(std::move(rewiring));
+  return Effort::rewire;
+}
+
+void add_other(const Change& change, const Graph& running, const Graph& wanted, GraphPlan& plan) {
+  Effort effort = change.part == Change::Part::group ? Effort::none : Effort::restart;
+  if (change.part == Change::Part::connection) effort = add_connection(change, running, wanted, plan);
   for (const FieldChange& field : change.fields) plan.lines.push_back({title(change), field, effort});
   if (change.fields.empty()) plan.lines.push_back({title(change), {}, effort});
 }
@@ -57,6 +85,7 @@ const char* to_string(Effort effort) {
   switch (effort) {
     case Effort::none: return "at once; nothing runs otherwise";
     case Effort::set: return "between two laps; nothing stops";
+    case Effort::rewire: return "between two laps; no other connection notices";
     case Effort::exchange: return "tried for 1 s, then exchanged between two laps; nothing stops";
     case Effort::restart: return "only when the system is started again";
   }
@@ -73,7 +102,7 @@ GraphPlan plan_of(const Graph& running, const Graph& wanted,
   for (const Change& change : diff(running, wanted)) {
     const bool is_component = change.part == Change::Part::component && change.kind == Change::Kind::changed;
     if (!is_component) {
-      add_other(change, plan);
+      add_other(change, running, wanted, plan);
       continue;
     }
     const auto contract = contracts.find(change.name);
@@ -83,6 +112,22 @@ GraphPlan plan_of(const Graph& running, const Graph& wanted,
   return plan;
 }
 
+std::vector<GraphPlan::Rewiring> reversed(std::vector<GraphPlan::Rewiring> connections) {
+  for (GraphPlan::Rewiring& one : connections) std::swap(one.before, one.after);
+  return connections;
+}
+
+void put(const Edge& edge, bool is_there, std::vector<Edge>& edges) {
+  const auto known = std::ranges::find(edges, edge.name(), &Edge::name);
+  if (known != edges.end() && is_there) {
+    *known = edge;
+  } else if (known != edges.end()) {
+    edges.erase(known);
+  } else if (is_there) {
+    edges.push_back(edge);
+  }
+}
+
 void go_over(Graph& graph, const Graph& wanted) {
   for (ComponentNode& node : graph.components) {
     const ComponentNode& now = *wanted.find_component(node.name);
@@ -90,6 +135,7 @@ void go_over(Graph& graph, const Graph& wanted) {
     node.params = now.params;
   }
   graph.groups = wanted.groups;
+  graph.edges = wanted.edges;
 }
 
 std::string obstacles_of(const GraphPlan& plan) {

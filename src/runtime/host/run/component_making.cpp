@@ -20,6 +20,12 @@ ComponentSettings settings_of(const graph::ComponentNode& node, const std::vecto
   return settings;
 }
 
+QueuePolicy policy_of(const graph::Edge& edge) {
+  QueuePolicy policy = edge.queue;
+  policy.min_interval = edge.interval;
+  return policy;
+}
+
 Status connect(const graph::Graph& graph, const std::function<ComponentInstance*(const std::string&)>& find,
                Links& links) {
   for (const graph::Edge& edge : graph.edges) {
@@ -28,11 +34,9 @@ Status connect(const graph::Graph& graph, const std::function<ComponentInstance*
     if (from == nullptr || to == nullptr)
       return fail(Code::internal, "a port that was there when the graph was checked is not there now",
                   edge.position.text());
-    QueuePolicy policy = edge.queue;
-    policy.min_interval = edge.interval;
     Endpoint& client = edge.pattern == Pattern::push ? *to : *from;
     prepare_choice(edge, client);
-    if (Status connected = links.connect(*from, *to, policy); !connected.ok()) return connected;
+    if (Status connected = links.connect(*from, *to, policy_of(edge)); !connected.ok()) return connected;
     take_first_choice(edge, client);
   }
   return ok();

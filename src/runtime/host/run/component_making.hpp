@@ -15,6 +15,9 @@ namespace orca::host {
 [[nodiscard]] ComponentSettings settings_of(const graph::ComponentNode& node,
                                             const std::vector<PlannedFailure>& failures = {});
 
+/// Returns the whole policy of an edge.
+[[nodiscard]] QueuePolicy policy_of(const graph::Edge& edge);
+
 /// Connects the ports of a graph's components.
 /// @param find  returns a component by name.
 /// @errors  internal if a port is not there; those of the links.

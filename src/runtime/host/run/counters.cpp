@@ -6,9 +6,8 @@ namespace {
 
 // Adds the Push edge that ends at a port.
 void add_edge(const graph::Edge& node, const PushClientEndpoint& to, RunCounters& counters) {
-  for (const auto& edge : to.edges())
-    if (edge->source_path() == node.from.text())
-      counters.edges.push_back({node.from.text(), to.path(), edge->counters()});
+  if (const auto counted = to.counters_from(node.from.text()))
+    counters.edges.push_back({node.from.text(), to.path(), *counted});
 }
 
 void add_client(const Endpoint& port, RunCounters& counters) {

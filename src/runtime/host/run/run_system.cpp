@@ -21,6 +21,7 @@
 #include "orca/host/robot_finder.hpp"
 #include "orca/host/verdict.hpp"
 #include "recording/run_files.hpp"
+#include "swap/rewiring.hpp"
 #include "swap/timed_changes.hpp"
 #include "watched_system.hpp"
 
@@ -181,7 +182,7 @@ class Run {
     const auto standings = [this](const std::string& name) { return standing_of(reports_(name)); };
     for (const EdgeChoice::Move& move : choice_.look(standings)) {
       reporter().log(log::Level::warning, move.edge->client().component, move.text);
-      (void)system().move(*move.edge);
+      (void)host::move(system(), *move.edge);
     }
   }
 
@@ -304,7 +305,7 @@ class Run {
     return result;
   }
 
-  const graph::Graph& graph_;
+  graph::Graph graph_;  // as it is now
   PluginCatalogue& catalogue_;
   const RunOptions& options_;
   Executive& executive_;

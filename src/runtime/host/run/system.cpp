@@ -146,10 +146,10 @@ void System::let_go() {
   for (const auto& hardware : hardware_) hardware->seat().let_go();
 }
 
-Status System::move(const graph::Edge& edge) {
-  auto* const client = dynamic_cast<MovablePort*>(endpoint(edge.client()));
-  if (client != nullptr && client->move_to(edge.server().text())) return ok();
-  return fail(Code::not_found, edge.client().text() + " has no choice of " + edge.server().text());
+Status System::on_strand(const std::string& component, Event& changed, TimePoint deadline,
+                         std::function<Status()> rewire) {
+  return carry_out(component, changed, deadline,
+                   [&](ComponentInstance& c) { return c.order_rewiring(std::move(rewire)); });
 }
 
 Endpoint* System::endpoint(const graph::PortRef& port) const {
@@ -175,7 +175,7 @@ Status System::set_params(const std::string& name, const std::map<std::string, s
                           Event& changed, TimePoint deadline) {
   const Result<ComponentInstance*> component = instance(name);
   if (!component) return component.error();
-  Result<graph::Params> values = graph::read_settings((*component)->param_contracts(), texts);
+  Result<graph::Params> values = graph::read_settings((*component)->parts().params.contracts(), texts);
   if (!values) return values.error();
   return carry_out(name, changed, deadline,
                    [&](ComponentInstance& c) { return c.order_params(std::move(values).value()); });

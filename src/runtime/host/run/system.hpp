@@ -81,10 +81,11 @@ class System {
   Status set_params(const std::string& component, const std::map<std::string, std::string>& texts,
                     Event& changed, TimePoint deadline);
 
-  /// Lets the client of an edge use it from now on, of those that it chooses from.
-  /// @errors  not_found: the client is not in this process, or does not choose.
-  /// @thread  any, once the system is built.
-  Status move(const graph::Edge& edge);
+  /// Calls a function that changes connections of a component, on its strand between two laps. It may be called later than the
+  /// deadline.
+  /// @errors  not_found; the function's own; deadline_exceeded as above.
+  Status on_strand(const std::string& component, Event& changed, TimePoint deadline,
+                   std::function<Status()> rewire);
 
   /// Returns the endpoint of a port; null if there is none.
   [[nodiscard]] Endpoint* endpoint(const graph::PortRef& port) const;

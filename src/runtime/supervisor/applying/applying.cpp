@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "applying/edge_steps.hpp"
+#include "applying/graph_edit.hpp"
 #include "applying/system_reading.hpp"
 #include "orca/base/log.hpp"
 #include "orca/graph/print.hpp"
@@ -33,11 +35,11 @@ void answer(const ReplyPtr& reply, const Result<graph::GraphPlan>& outcome) {
 // One graph file, from its reading to its end.
 class Applying::Work : public std::enable_shared_from_this<Work> {
  public:
-  Work(Applying& owner, const std::string& file, bool carries_out, Told told)
+  Work(Applying& owner, GraphSource source, bool carries_out, Told told)
       : owner_(owner),
         carries_out_(carries_out),
         told_(std::move(told)),
-        reading_(std::in_place, owner.levers_.read, file, owner.levers_.wake) {}
+        reading_(std::in_place, owner.levers_.read, std::move(source), owner.levers_.wake) {}
 
   void go_on() {
     if (!reading_ || !reading_->is_done()) return;
@@ -105,18 +107,45 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
       const auto self = work.lock();
       if (!self) return;
       if (!outcome.ok()) return self->go_back(outcome.error());
-      self->lost_.empty() ? self->end(std::nullopt) : self->set_back();
+      self->lost_.empty() ? self->rewire() : self->set_back(self->loss());
     });
   }
 
-  void set_back() {
+  void set_back(const Error& reason) {
     std::erase_if(settings_before_, [this](const auto& one) { return is_lost(one.first); });
-    owner_.operating_.change(settings_before_, [work = weak_from_this()](const Status& outcome) {
-      const auto self = work.lock();
-      if (!self) return;
-      const Error reason = self->loss();
-      self->go_back(outcome.ok() ? reason : with(reason, "parameters", outcome.error()));
+    owner_.operating_.change(settings_before_, [work = weak_from_this(), reason](const Status& outcome) {
+      if (const auto self = work.lock())
+        self->go_back(outcome.ok() ? reason : with(reason, "parameters", outcome.error()));
     });
+  }
+
+  void rewire() {
+    if (plan_.connections.empty()) return end(std::nullopt);
+    carry_out(plan_.connections, [this](const Status& outcome) {
+      if (!outcome.ok()) return set_back(outcome.error());
+      lost_.empty() ? end(std::nullopt) : rewire_back();
+    });
+  }
+
+  void rewire_back() {
+    std::vector<graph::GraphPlan::Rewiring> back = graph::reversed(plan_.connections);
+    std::erase_if(back, [this](const auto& one) {
+      const graph::Edge& edge = one.before ? *one.before : *one.after;
+      return is_lost(edge.from.component) && is_lost(edge.to.component);
+    });
+    carry_out(back, [this](const Status& outcome) {
+      set_back(outcome.ok() ? loss() : with(loss(), "connections", outcome.error()));
+    });
+  }
+
+  void carry_out(const std::vector<graph::GraphPlan::Rewiring>& connections,
+                 std::function<void(const Status&)> done) {
+    Result<std::vector<JointStep>> steps = edge_steps(owner_.graph_, connections);
+    if (!steps) return done(steps.error());
+    owner_.operating_.carry_out(std::move(steps).value(),
+                                [work = weak_from_this(), done = std::move(done)](const Status& outcome) {
+                                  if (const auto self = work.lock()) done(outcome);
+                                });
   }
 
   static Error with(const Error& reason, const std::string& what, const Error& obstacle) {
@@ -165,14 +194,37 @@ Applying::Applying(const graph::Graph& graph, Operating& operating, Exchanging& 
 Applying::~Applying() = default;
 
 void Applying::compare(const std::string& file, const ReplyPtr& reply) {
-  begin(file, false, [reply](const Result<graph::GraphPlan>& outcome) { answer(reply, outcome); });
+  begin({file}, false, [reply](const Result<graph::GraphPlan>& outcome) { answer(reply, outcome); });
 }
 
 void Applying::apply(const std::string& file, const ReplyPtr& reply) {
-  begin(file, true, [reply, file](const Result<graph::GraphPlan>& outcome) {
+  begin({file}, true, [reply, file](const Result<graph::GraphPlan>& outcome) {
     answer(reply, outcome);
     if (outcome) log::info(kLogName, "an operator has applied " + file);
   });
+}
+
+void Applying::connect(const std::vector<std::string>& words, const ReplyPtr& reply) {
+  edit(with_connection(present(), words), reply);
+}
+
+void Applying::disconnect(const std::vector<std::string>& words, const ReplyPtr& reply) {
+  edit(without_connection(present(), words.at(0), words.at(1)), reply);
+}
+
+void Applying::move(const std::vector<std::string>& words, const ReplyPtr& reply) {
+  edit(with_other_server(present(), words.at(0), words.at(1)), reply);
+}
+
+void Applying::edit(Result<std::string> text, const ReplyPtr& reply) {
+  if (!text) return reply->refuse(text.error());
+  begin({"the changed graph", std::move(text).value()}, true,
+        [reply](const Result<graph::GraphPlan>& outcome) {
+          answer(reply, outcome);
+          if (!outcome) return;
+          for (const graph::GraphPlan::Line& line : outcome->lines)
+            log::info(kLogName, "an operator has changed the system: " + line.part);
+        });
 }
 
 void Applying::lose(const std::string& process) {
@@ -195,7 +247,7 @@ void Applying::go_on() {
   if (work_) work_->go_on();
   if (work_ && work_->has_ended()) work_.reset();
   if (work_ || !saved_) return;
-  begin(*std::exchange(saved_, {}), true, [](const Result<graph::GraphPlan>& outcome) {
+  begin({*std::exchange(saved_, {})}, true, [](const Result<graph::GraphPlan>& outcome) {
     if (!outcome)
       return log::error(kLogName, "the graph that was saved is not carried out, and all goes on as before: " +
                                       outcome.error().text());
@@ -205,14 +257,14 @@ void Applying::go_on() {
   });
 }
 
-void Applying::begin(const std::string& file, bool carries_out, Told told) {
+void Applying::begin(GraphSource source, bool carries_out, Told told) {
   if (work_)
     return told(
         fail(Code::unavailable, "another graph is being compared or applied; try again when that is done"));
   if (!levers_.read) return told(fail(Code::unimplemented, "this supervisor reads no graphs"));
   if (graph_.machines.size() > 1)
     return told(fail(Code::unimplemented, "a system on several machines takes no other graph while it runs"));
-  work_ = std::make_shared<Work>(*this, file, carries_out, std::move(told));
+  work_ = std::make_shared<Work>(*this, std::move(source), carries_out, std::move(told));
 }
 
 // Returns the graph as it would be written for what runs now.

@@ -21,8 +21,8 @@ namespace orca::supervisor {
 /// Lets a running system become what another graph file says: all of it, or nothing.
 ///
 /// A file is read and checked on a thread of its own. Then code is exchanged, one component after the other, each tried out
-/// before; then parameters change, all of them or none. If a step fails, the code that has been exchanged is exchanged
-/// back. A file that asks for more than that is refused before anything changes.
+/// before; then parameters change, all of them or none; then connections, all of them or none. If a step fails, those before
+/// it are taken back. A file that asks for more than that is refused before anything changes.
 ///
 /// Thread contract: the supervisor's thread.
 class Applying {
@@ -45,6 +45,14 @@ class Applying {
   void compare(const std::string& file, const ReplyPtr& reply);
   /// Carries a file out. The answer ends when that is done or undone, and has what was changed.
   void apply(const std::string& file, const ReplyPtr& reply);
+  // The next three are what an operator asks for with a few words. The words are those of the command.
+
+  /// Makes a connection, or gives it another policy: see with_connection().
+  void connect(const std::vector<std::string>& words, const ReplyPtr& reply);
+  /// Removes a connection: see without_connection().
+  void disconnect(const std::vector<std::string>& words, const ReplyPtr& reply);
+  /// Lets a port use another server: see with_other_server().
+  void move(const std::vector<std::string>& words, const ReplyPtr& reply);
   /// Carries out the graph's file because it was saved, after what is under way. What comes of it goes to the log.
   void take_saved(const std::string& file) { saved_ = file; }
   /// Notes that a process has ended. It begins anew with the graph of before, so what is under way is taken back.
@@ -58,7 +66,8 @@ class Applying {
   class Work;
   using Told = std::function<void(const Result<graph::GraphPlan>&)>;
 
-  void begin(const std::string& file, bool carries_out, Told told);
+  void begin(GraphSource source, bool carries_out, Told told);
+  void edit(Result<std::string> text, const ReplyPtr& reply);
   void accept(const CheckedSystem& wanted);
   [[nodiscard]] graph::Graph present() const;
 

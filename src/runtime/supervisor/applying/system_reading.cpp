@@ -7,10 +7,10 @@
 
 namespace orca::supervisor {
 
-SystemReading::SystemReading(SystemReader read, const std::string& file, std::function<void()> done) {
-  thread_ = std::thread([this, read = std::move(read), file, done = std::move(done)] {
+SystemReading::SystemReading(SystemReader read, GraphSource source, std::function<void()> done) {
+  thread_ = std::thread([this, read = std::move(read), source = std::move(source), done = std::move(done)] {
     pthread_setname_np(pthread_self(), "reading");
-    outcome_.emplace(read(file));
+    outcome_.emplace(read(source));
     done_.store(true, std::memory_order_release);
     done();
   });

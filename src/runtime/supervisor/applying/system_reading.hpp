@@ -12,14 +12,14 @@
 
 namespace orca::supervisor {
 
-/// The reading and checking of a graph file on a thread of its own, since it loads plugins and takes its time.
+/// The reading and checking of a graph on a thread of its own, since it loads plugins and takes its time.
 ///
 /// Thread contract: made, asked and destroyed by one thread.
 class SystemReading {
  public:
   /// @param read  is called on the reading's thread; nothing else uses it at that time.
   /// @param done  called once on that thread when the outcome is there.
-  SystemReading(SystemReader read, const std::string& file, std::function<void()> done);
+  SystemReading(SystemReader read, GraphSource source, std::function<void()> done);
   /// Waits for the end of the reading.
   ~SystemReading() { thread_.join(); }
   SystemReading(const SystemReading&) = delete;

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -51,6 +53,58 @@ void transfer(auto& archive, Status& status) {
 void transfer(auto& archive, EdgeMemory& edge) {
   transfer(archive, edge.edge);
   transfer(archive, edge.memory);
+}
+
+void transfer(auto& archive, Duration& time) {
+  auto number = static_cast<std::uint64_t>(time.count());
+  archive.number(number);
+  time = Duration(static_cast<Duration::rep>(number));
+}
+
+void transfer(auto& archive, std::uint32_t& value) {
+  std::uint64_t number = value;
+  archive.number(number);
+  archive.require(number <= std::numeric_limits<std::uint32_t>::max());
+  value = static_cast<std::uint32_t>(number);
+}
+
+void transfer(auto& archive, graph::PortRef& port) {
+  transfer(archive, port.component);
+  transfer(archive, port.port);
+}
+
+void transfer(auto& archive, QueuePolicy& policy) {
+  transfer(archive, policy.depth);
+  archive.require(policy.depth > 0);
+  transfer_up_to(archive, policy.overflow, QueuePolicy::Overflow::refuse);
+  transfer(archive, policy.min_interval);
+  transfer(archive, policy.deadline);
+  transfer(archive, policy.block_limit);
+  bool has_limit = policy.drop_limit.has_value();
+  std::uint32_t limit = policy.drop_limit.value_or(0);
+  transfer(archive, has_limit);
+  transfer(archive, limit);
+  policy.drop_limit = has_limit ? std::optional(limit) : std::nullopt;
+  transfer_up_to(archive, policy.confirm, QueuePolicy::Confirm::handled);
+}
+
+void transfer(auto& archive, graph::Edge& edge) {
+  transfer(archive, edge.from);
+  transfer(archive, edge.to);
+  transfer_up_to(archive, edge.pattern, Pattern::send);
+  transfer(archive, edge.queue);
+  transfer(archive, edge.interval);
+  transfer(archive, edge.late_bound);
+  transfer_up_to(archive, edge.link, graph::Link::dds);
+  transfer(archive, edge.choice);
+}
+
+void transfer(auto& archive, EdgeChange& change) {
+  transfer(archive, change.edge);
+  transfer(archive, change.makes);
+  bool has_memory = change.memory.number() >= 0;
+  transfer(archive, has_memory);
+  if (has_memory) transfer(archive, change.memory);
 }
 
 void transfer(auto& archive, Cell& cell) {

@@ -31,6 +31,7 @@ void fields(auto& archive, Meet& m) { transfer_all(archive, m.topic, m.address, 
 void fields(auto& archive, Say& m) { transfer(archive, m.state); }
 void fields(auto& archive, NoteGraph& m) { transfer(archive, m.graph); }
 void fields(auto& archive, MoveEdge& m) { transfer(archive, m.edge); }
+void fields(auto& archive, Rewire& m) { transfer(archive, m.changes); }
 
 void fields(auto& archive, Outlive& m) { transfer_all(archive, m.output, m.wait); }
 void fields(auto& /*archive*/, Adopt& /*m*/) {}

@@ -129,6 +129,11 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.applying_.compare(word(ask, 0), r); }},
       {"apply",
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.applying_.apply(word(ask, 0), r); }},
+      {"connect",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.rewire(ask, r, &Applying::connect); }},
+      {"disconnect",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.rewire(ask, r, &Applying::disconnect); }},
+      {"move", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.rewire(ask, r, &Applying::move); }},
       {"get", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.get(word(ask, 0), r); }},
       {"set", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.set(ask.words, r); }},
       {"line", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.open_line(ask, r); }},
@@ -141,6 +146,12 @@ void ControlDesk::handle(const Ask& ask, const ReplyPtr& reply) {
   if (handler != handlers().end()) return handler->second(*this, ask, reply);
   reply->refuse(
       fail(Code::unimplemented, "the supervisor does not know the command " + in_quotes(ask.command)));
+}
+
+void ControlDesk::rewire(const Ask& ask, const ReplyPtr& reply, Rewiring rewiring) {
+  for (const std::size_t at : {0U, 1U})
+    if (const auto port = names_.port(word(ask, at)); !port) return reply->refuse(port.error());
+  (applying_.*rewiring)(ask.words, reply);
 }
 
 void ControlDesk::stop_motors(const Ask& ask, const ReplyPtr& reply) {

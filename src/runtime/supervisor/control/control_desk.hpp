@@ -62,6 +62,8 @@ class ControlDesk {
 
   static const Handlers& handlers();
   void handle(const Ask& ask, const ReplyPtr& reply);
+  using Rewiring = void (Applying::*)(const std::vector<std::string>& words, const ReplyPtr& reply);
+  void rewire(const Ask& ask, const ReplyPtr& reply, Rewiring rewiring);
   void stop_motors(const Ask& ask, const ReplyPtr& reply);
   void show_log(const Ask& ask, const ReplyPtr& reply);
   void show_missions(const Ask& ask, Reply& reply) const;

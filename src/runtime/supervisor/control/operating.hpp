@@ -48,6 +48,10 @@ class Operating {
   void set(const std::vector<std::string>& words, const ReplyPtr& reply);
   /// Does the same with values that have been read and checked, by component.
   void change(const std::map<std::string, graph::Params>& wanted, JointOrders::Done done);
+  /// Carries out steps of several components, all of them or none, when no other joint order is under way.
+  void carry_out(std::vector<JointStep> steps, JointOrders::Done done) {
+    joint_orders_.add(std::move(steps), std::move(done));
+  }
   /// Forgets what was changed, since the graph says the same now.
   void forget_changes() { changed_.clear(); }
   /// Returns the present values of a component's parameters.

@@ -48,7 +48,7 @@ Result<Numbered> next_order(Channel& channel) {
 
 Error wrong_sequence() { return fail(Code::data_loss, "the supervisor's orders come in a wrong sequence"); }
 
-using Memory = std::map<std::size_t, Descriptor>;
+using Memory = std::map<std::string, Descriptor>;
 
 Memory memory_of(std::vector<EdgeMemory>& edges) {
   Memory memory;

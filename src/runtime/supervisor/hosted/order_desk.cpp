@@ -54,6 +54,14 @@ std::optional<host::PartOrder> part_order(const Order& order) {
   return std::nullopt;
 }
 
+host::PartOrder connection_order(Rewire& rewire) {
+  host::PartOrder order = about(host::PartOrder::Kind::rewire);
+  order.connections = std::make_shared<std::vector<host::ConnectionChange>>();
+  for (EdgeChange& change : rewire.changes)
+    order.connections->push_back({std::move(change.edge), change.makes, std::move(change.memory)});
+  return order;
+}
+
 }  // namespace
 
 OrderDesk::OrderDesk(std::shared_ptr<Channel> channel, host::HostedPart& part, ReportSender& reports,
@@ -131,6 +139,7 @@ void OrderDesk::carry_out(Told told) {
   if (std::holds_alternative<TakeDown>(order)) is_taken_down_ = true;
   if (std::optional<host::PartOrder> for_part = part_order(order)) return pass_on(std::move(*for_part), told);
   if (auto* swap = std::get_if<SwapCode>(&order)) return pass_on(*swap, told);
+  if (auto* rewire = std::get_if<Rewire>(&order)) return pass_on(connection_order(*rewire), told);
   if (const auto* cut = std::get_if<CutEdge>(&order))
     return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
   if (const auto* alarm = std::get_if<TellAlarm>(&order)) return hear(*alarm);

@@ -125,6 +125,7 @@ class SupervisedRun {
   Members accept(const CheckedSystem& wanted) {
     graph::go_over(graph_, wanted.graph);
     graph::go_over(here_, wanted.graph);
+    starter_.go_over();
     facts_ = wanted.facts;
     return all_;
   }
@@ -266,7 +267,7 @@ class SupervisedRun {
   void cut(const Wiring::Outer& outer, const Member& lost, const std::string& how) {
     const std::string& there = outer.from == lost.name() ? outer.to : outer.from;
     const auto other = std::ranges::find(all_, there, &Member::name);  // it may be on another machine
-    if (other != all_.end()) (*other)->tell(CutEdge{outer.edge, "process " + lost.name() + " " + how});
+    if (other != all_.end()) (*other)->tell(CutEdge{outer.name, "process " + lost.name() + " " + how});
   }
 
   void obey(const RestartDecision& decision, const std::string& text) {

@@ -41,8 +41,6 @@ Member* Trading::member_of(const std::string& component, const Members& members)
   return member == members.end() ? nullptr : *member;
 }
 
-void Trading::tell(Member& member, const graph::Edge& edge) const {
-  member.tell(MoveEdge{static_cast<std::uint64_t>(&edge - graph_.edges.data())});
-}
+void Trading::tell(Member& member, const graph::Edge& edge) { member.tell(MoveEdge{edge.name()}); }
 
 }  // namespace orca::supervisor

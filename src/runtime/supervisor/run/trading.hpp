@@ -39,7 +39,7 @@ class Trading {
  private:
   [[nodiscard]] host::Standing standing_of(const std::string& component) const;
   [[nodiscard]] Member* member_of(const std::string& component, const Members& members) const;
-  void tell(Member& member, const graph::Edge& edge) const;
+  static void tell(Member& member, const graph::Edge& edge);
 
   const graph::Graph& graph_;
   const Members& members_;

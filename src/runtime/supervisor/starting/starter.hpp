@@ -52,6 +52,8 @@ class Starter {
   [[nodiscard]] HostStart plain_start(const std::string& name) const;
 
   [[nodiscard]] const Wiring& wiring() const { return wiring_; }
+  /// Takes over the edges of the graph, which has others now that are made already.
+  void go_over() { wiring_.go_over(graph_); }
 
  private:
   [[nodiscard]] HostStart host_start(const Member& member) const;

@@ -21,14 +21,13 @@ Descriptor copy_of(int descriptor) {
 
 }  // namespace
 
-Wiring::Wiring(const graph::Graph& graph) {
-  for (std::size_t index = 0; index < graph.edges.size(); ++index) {
-    const graph::Edge& edge = graph.edges[index];
+void Wiring::go_over(const graph::Graph& graph) {
+  outer_.clear();
+  for (const graph::Edge& edge : graph.edges) {
     const std::string& from = graph.find_component(edge.from.component)->process;
     const std::string& to = graph.find_component(edge.to.component)->process;
     if (from == to) continue;
-    outer_.push_back({.edge = index,
-                      .name = edge.from.text() + " to " + edge.to.text(),
+    outer_.push_back({.name = edge.name(),
                       .from = from,
                       .to = to,
                       .needs_memory = edge.link != graph::Link::dds,
@@ -41,13 +40,13 @@ Result<Wiring::Lots> Wiring::deal(const std::set<std::string>& processes,
                                   const std::set<std::string>& waking) {
   Lots lots;
   const auto hand_out = [&](const Outer& outer, const std::string& process, const MemoryFile& file) {
-    lots.by_process[process].push_back({outer.edge, copy_of(file.descriptor())});
+    lots.by_process[process].push_back({outer.name, copy_of(file.descriptor())});
   };
   for (const Outer& outer : outer_) {
     if (!outer.needs_memory || !(processes.contains(outer.from) || processes.contains(outer.to))) continue;
     if (takes_over(outer, processes, waking)) {
       for (const std::string& process : {outer.from, outer.to})
-        if (waking.contains(process)) hand_out(outer, process, kept_.at(outer.edge).file);
+        if (waking.contains(process)) hand_out(outer, process, kept_.at(outer.name).file);
       continue;
     }
     Result<MemoryFile> file = RingSegment::create(outer.name);
@@ -63,7 +62,7 @@ Status Wiring::keep(const Outer& outer, MemoryFile file) {
   if (!outer.is_kept) return ok();
   Result<RingSegment> rings = RingSegment::map(file.descriptor());
   if (!rings) return rings.error();
-  kept_.insert_or_assign(outer.edge, Kept{std::move(file), std::move(rings).value()});
+  kept_.insert_or_assign(outer.name, Kept{std::move(file), std::move(rings).value()});
   return ok();
 }
 
@@ -73,13 +72,13 @@ bool Wiring::takes_over(const Outer& outer, const std::set<std::string>& process
   const auto is_fresh = [&](const std::string& process) {
     return processes.contains(process) && !waking.contains(process);
   };
-  return kept_.contains(outer.edge) && !is_fresh(outer.from) && !is_fresh(outer.to);
+  return kept_.contains(outer.name) && !is_fresh(outer.from) && !is_fresh(outer.to);
 }
 
 std::uint64_t Wiring::traffic_to(const std::string& process) const {
   std::uint64_t sum = 0;
   for (const Outer& outer : outer_)
-    if (const auto kept = kept_.find(outer.edge); kept != kept_.end() && outer.server == process)
+    if (const auto kept = kept_.find(outer.name); kept != kept_.end() && outer.server == process)
       sum += kept->second.rings.written_by_client();
   return sum;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -25,12 +24,13 @@ namespace orca::supervisor {
 /// Thread contract: the supervisor's thread.
 class Wiring {
  public:
-  explicit Wiring(const graph::Graph& graph);
+  explicit Wiring(const graph::Graph& graph) { go_over(graph); }
+  /// Takes over the edges of another graph. The processes have them already.
+  void go_over(const graph::Graph& graph);
 
   /// An edge between two processes.
   struct Outer {
-    std::size_t edge;  ///< Index in the graph.
-    std::string name;  ///< For people: "a.out to b.in".
+    std::string name;  ///< Of the edge.
     std::string from;  ///< Process of its `from` end.
     std::string to;
     bool needs_memory;        ///< Its objects go through shared memory.
@@ -67,7 +67,7 @@ class Wiring {
   Status keep(const Outer& outer, MemoryFile file);
 
   std::vector<Outer> outer_;
-  std::map<std::size_t, Kept> kept_;  // by edge
+  std::map<std::string, Kept> kept_;  // by edge
 };
 
 }  // namespace orca::supervisor

@@ -64,18 +64,33 @@ bool is_for_a_new_start(const GraphPlan& plan) {
   return !plan.is_possible() && !has_steps && plan.lines.size() == 1;
 }
 
+graph::Edge connection(const std::string& from, const std::string& to, int number = 0) {
+  graph::Edge edge;
+  edge.from = {from, "out" + std::to_string(number)};
+  edge.to = {to, "in"};
+  return edge;
+}
+
 // Changes a graph in one way of several. Returns whether that is possible without a new start.
 bool change_somehow(graph::Graph& graph, std::mt19937& random) {
   const auto number = [&](int most) { return std::uniform_int_distribution<>(0, most)(random); };
-  switch (number(6)) {
+  switch (number(8)) {
     case 0: graph.components[0].params["margin"] = 0.1 * number(5); return true;
     case 1: graph.components[0].params["size"] = 0.1 * (4 + number(5)); return true;
     case 2: graph.components[0].type = "orca.Other" + std::to_string(number(2)); return true;
     case 3: graph.components[1].params["rate"] = 20.0 + number(5); return true;
     case 4: graph.groups = {{"group" + std::to_string(number(3)), {"avoid"}, {}}}; return true;
     case 5: graph.components[0].priority = 1 + number(9); return false;
+    case 6: graph.edges[0].queue.depth = 2 + static_cast<std::uint32_t>(number(5)); return true;
+    case 7: graph.edges = {connection("avoid", "base"), connection("base", "avoid", number(1))}; return true;
     default: graph.processes.push_back({.name = "p" + std::to_string(graph.processes.size())}); return false;
   }
+}
+
+std::map<std::string, graph::Edge> edges_by_name(const graph::Graph& graph) {
+  std::map<std::string, graph::Edge> edges;
+  for (const graph::Edge& edge : graph.edges) edges[edge.name()] = edge;
+  return edges;
 }
 
 }  // namespace
@@ -95,6 +110,13 @@ TEST_CASE("of two hundred pairs of graphs each plan is carried out whole, or ref
     if (!is_possible) continue;
     go_over(running, wanted);
     CHECK(graph::diff(running, wanted).empty());
+    graph::Graph rewired = robot();
+    for (const GraphPlan::Rewiring& one : plan.connections)
+      put(one.after.value_or(*one.before), one.after.has_value(), rewired.edges);
+    CHECK(edges_by_name(rewired) == edges_by_name(wanted));
+    for (const GraphPlan::Rewiring& one : graph::reversed(plan.connections))
+      put(one.after.value_or(one.before.value_or(graph::Edge{})), one.after.has_value(), rewired.edges);
+    CHECK(edges_by_name(rewired) == edges_by_name(robot()));
     for (const auto& [component, params] : plan.settings)
       for (const auto& [name, value] : params)
         CHECK(wanted.find_component(component)->params.at(name) == value);
@@ -151,10 +173,48 @@ TEST_CASE("a component that is bound to hardware keeps its code, but takes param
 TEST_CASE("whatever else differs needs a new start", "[graph][apply]") {
   CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.components[0].priority = 5; })));
   CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.hardware[0].params["seed"] = 2.0; })));
-  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.edges.clear(); })));
-  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.edges[0].queue.depth = 17; })));
   CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.processes.push_back({.name = "other"}); })));
   CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.components.pop_back(); })));
+}
+
+TEST_CASE("a connection is made, removed, or gets another policy", "[graph][apply]") {
+  const GraphPlan removed = plan_after([](graph::Graph& g) { g.edges.clear(); });
+  CHECK(removed.is_possible());
+  REQUIRE(removed.connections.size() == 1);
+  CHECK(removed.connections[0].before == robot().edges[0]);
+  CHECK_FALSE(removed.connections[0].after);
+  REQUIRE(removed.lines.size() == 1);
+  CHECK(removed.lines[0].part == "- connection base.SonarPush to avoid.sonar");
+  CHECK(removed.lines[0].effort == Effort::rewire);
+
+  const GraphPlan changed = plan_after([](graph::Graph& g) { g.edges[0].queue.depth = 17; });
+  REQUIRE(changed.connections.size() == 1);
+  CHECK(changed.connections[0].before->queue.depth == 1);
+  CHECK(changed.connections[0].after->queue.depth == 17);
+
+  const GraphPlan made = plan_after([](graph::Graph& g) { g.edges.push_back(connection("avoid", "base")); });
+  CHECK(made.is_possible());
+  REQUIRE(made.connections.size() == 1);
+  CHECK_FALSE(made.connections[0].before);
+}
+
+TEST_CASE("connections that cannot change while the system runs need a new start", "[graph][apply]") {
+  const auto is_refused = [](const auto& change) {
+    const GraphPlan plan = plan_after(change);
+    return !plan.is_possible() && plan.connections.empty();
+  };
+  CHECK(is_refused([](graph::Graph& g) { g.edges[0].link = graph::Link::dds; }));
+  CHECK(is_refused([](graph::Graph& g) { g.edges[0].choice = 1; }));
+  CHECK(is_refused([](graph::Graph& g) {
+    graph::ComponentNode added;
+    added.name = "new";
+    g.components.push_back(added);
+    g.edges.push_back(connection("new", "base"));
+  }));
+  CHECK(is_refused([](graph::Graph& g) {
+    g.edges.clear();
+    g.components[0].process = "other";
+  }));
 }
 
 TEST_CASE("what needs a new start is named, and not more of it than can be read", "[graph][apply]") {
@@ -190,6 +250,7 @@ TEST_CASE("a graph that went over to another one that is possible equals it", "[
   wanted.components[0].params = {{"cone", 1.5}};
   wanted.components[1].params["rate"] = 20.0;
   wanted.groups.push_back({"all", {"avoid"}, {}});
+  wanted.edges.push_back(connection("avoid", "base"));
   REQUIRE(plan_of(running, wanted, contracts()).is_possible());
   go_over(running, wanted);
   CHECK(graph::diff(running, wanted).empty());

@@ -41,8 +41,8 @@ class Talker final : public orca::Component {
   // [/state]
 
   orca::PushServer<orca::idl::MotionCommand> out_{*this, "out"};
-  orca::SendProxy<orca::idl::GoalPoint> poke_{*this, "poke"};
-  orca::PushProxy<orca::idl::GoalPoint> back_{*this, "back"};
+  orca::SendProxy<orca::idl::GoalPoint> poke_{*this, "poke", {.optional = true}};
+  orca::PushProxy<orca::idl::GoalPoint> back_{*this, "back", {.optional = true}};
   orca::Param<double> period_{*this, "period", 0.01, {.unit = "s"}};
   orca::Param<bool> tells_{*this, "tells", true, {.text = "Whether to log what comes back."}};
   std::int64_t pokes_ = 0;

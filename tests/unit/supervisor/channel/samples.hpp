@@ -20,9 +20,32 @@ inline std::vector<std::byte> some_bytes() { return {std::byte{1}, std::byte{0},
 
 inline supervisor::Setup setup() {
   supervisor::Setup setup{"base", "<graph/>", {{"seed", "7"}, {"profile", "sim"}}, null_device(), {}};
-  setup.edges.push_back({3, null_device()});
-  setup.edges.push_back({12, null_device()});
+  setup.edges.push_back({"a.out to b.in", null_device()});
+  setup.edges.push_back({"b.out to c.in", null_device()});
   return setup;
+}
+
+inline supervisor::Rewire rewire() {
+  graph::Edge made;
+  made.from = {"a", "out"};
+  made.to = {"b", "in"};
+  made.pattern = Pattern::send;
+  made.queue = {.depth = 7,
+                .overflow = QueuePolicy::Overflow::block,
+                .min_interval = Duration{0},
+                .deadline = from_seconds(0.5),
+                .block_limit = from_seconds(0.25),
+                .drop_limit = 3,
+                .confirm = QueuePolicy::Confirm::handled};
+  made.interval = from_seconds(0.1);
+  made.link = graph::Link::shm;
+  made.choice = 2;
+  graph::Edge removed;
+  removed.from = {"c", "out"};
+  supervisor::Rewire rewire;
+  rewire.changes.push_back({made, true, null_device()});
+  rewire.changes.push_back({removed, false});
+  return rewire;
 }
 
 template <class Words, class... Word>
@@ -38,11 +61,11 @@ inline std::vector<supervisor::Order> all_orders() {
   return list_of<Order>(
       setup(), Build{}, OpenHardware{}, Configure{"avoid"}, OpenGates{}, TakeDown{}, StopMotors{"estop"},
       Suspend{"avoid"}, Resume{"avoid"}, SetParams{"avoid", {{"stop_distance", "0.5 m"}}},
-      RenewEdge{{4, null_device()}}, CutEdge{4, "process \"base\" has crashed"},
+      RenewEdge{{"a.out to b.in", null_device()}}, CutEdge{"a.out to b.in", "process \"base\" has crashed"},
       TellAlarm{"base", some_bytes()}, ForgetAlarm{"FAILED", "avoid", "behaviours"}, ReleaseMotors{}, Count{},
       OpenLine{"base", "OdometryPush", true, false, null_device()},
       Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}}, Say{some_bytes()},
-      Outlive{null_device(), 60'000'000'000}, Adopt{}, MoveEdge{7}, AskUse{},
+      Outlive{null_device(), 60'000'000'000}, Adopt{}, MoveEdge{"a.out to b.in"}, AskUse{},
       TellLines{{{log::Level::warning, "goto", "lost", 12}, {log::Level::info, "base", "", 13}}},
       SwapCode{"avoid",
                "orca.VfhPlus",
@@ -51,7 +74,7 @@ inline std::vector<supervisor::Order> all_orders() {
                "/tmp/vfh_plus.so",
                null_device(),
                true},
-      NoteGraph{"<graph name=\"robot\"/>"});
+      NoteGraph{"<graph name=\"robot\"/>"}, rewire());
 }
 
 /// Returns at least one of each report.

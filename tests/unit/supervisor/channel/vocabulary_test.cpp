@@ -91,7 +91,18 @@ TEST_CASE("Fields keep their values", "[supervisor][vocabulary]") {
   CHECK(read.options == Pairs{{"seed", "7"}, {"profile", "sim"}});
   CHECK(read.run_page);
   REQUIRE(read.edges.size() == 2);
-  CHECK(read.edges[1].edge == 12);
+  CHECK(read.edges[1].edge == "b.out to c.in");
+
+  const auto rewiring = decode_order(encode(rewire()));
+  REQUIRE(rewiring);
+  const auto& changes = std::get<Rewire>(*rewiring).changes;
+  REQUIRE(changes.size() == 2);
+  CHECK(changes[0].edge == rewire().changes[0].edge);
+  CHECK(changes[0].makes);
+  CHECK(changes[0].memory);
+  CHECK(changes[1].edge == rewire().changes[1].edge);
+  CHECK_FALSE(changes[1].makes);
+  CHECK_FALSE(changes[1].memory);
 
   const auto answer = decode_report(encode(Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")}));
   REQUIRE(answer);

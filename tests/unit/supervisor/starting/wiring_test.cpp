@@ -31,8 +31,8 @@ graph::Graph system() {
   return graph;
 }
 
-std::vector<std::size_t> edges_of(const Wiring::Lots& lots, const std::string& process) {
-  std::vector<std::size_t> edges;
+std::vector<std::string> edges_of(const Wiring::Lots& lots, const std::string& process) {
+  std::vector<std::string> edges;
   if (const auto lot = lots.by_process.find(process); lot != lots.by_process.end())
     for (const EdgeMemory& memory : lot->second) edges.push_back(memory.edge);
   return edges;
@@ -44,9 +44,9 @@ TEST_CASE("only edges between processes get memory, and both ends get the same",
   Wiring wiring(system());
   const auto lots = wiring.deal({"one", "two", "three"});
   REQUIRE(lots);
-  CHECK(edges_of(*lots, "one") == std::vector<std::size_t>{1, 2});
-  CHECK(edges_of(*lots, "two") == std::vector<std::size_t>{1});
-  CHECK(edges_of(*lots, "three") == std::vector<std::size_t>{2});
+  CHECK(edges_of(*lots, "one") == std::vector<std::string>{"a.out to c.in", "d.out to b.in"});
+  CHECK(edges_of(*lots, "two") == std::vector<std::string>{"a.out to c.in"});
+  CHECK(edges_of(*lots, "three") == std::vector<std::string>{"d.out to b.in"});
   const auto here = SharedMemory::map(lots->by_process.at("one")[0].memory.number());
   const auto there = SharedMemory::map(lots->by_process.at("two")[0].memory.number());
   REQUIRE(here);
@@ -60,8 +60,8 @@ TEST_CASE("a process that is started again gets new memory for its edges, and so
   Wiring wiring(system());
   const auto lots = wiring.deal({"two"});
   REQUIRE(lots);
-  CHECK(edges_of(*lots, "one") == std::vector<std::size_t>{1});
-  CHECK(edges_of(*lots, "two") == std::vector<std::size_t>{1});
+  CHECK(edges_of(*lots, "one") == std::vector<std::string>{"a.out to c.in"});
+  CHECK(edges_of(*lots, "two") == std::vector<std::string>{"a.out to c.in"});
   CHECK(edges_of(*lots, "three").empty());
 }
 
@@ -99,10 +99,10 @@ graph::Graph with_sleepers() {
   return graph;
 }
 
-const EdgeMemory& memory_of(const Wiring::Lots& lots, const std::string& process, std::size_t edge) {
+const EdgeMemory& memory_of(const Wiring::Lots& lots, const std::string& process, const std::string& edge) {
   for (const EdgeMemory& memory : lots.by_process.at(process))
     if (memory.edge == edge) return memory;
-  throw std::runtime_error("no memory of edge " + std::to_string(edge) + " for " + process);
+  throw std::runtime_error("no memory of edge " + edge + " for " + process);
 }
 
 // Writes what a client would: the position behind its first record stands first in the memory.
@@ -125,14 +125,15 @@ TEST_CASE("what a client has written waits for a process on demand, and is found
   const auto lots = wiring.deal({"one", "three"});
   REQUIRE(lots);
   CHECK(wiring.traffic_to("two") == 0);
-  write_as_client(memory_of(*lots, "one", 3));
+  write_as_client(memory_of(*lots, "one", "b.out to c.in"));
   CHECK(wiring.traffic_to("two") == 8);
   CHECK(wiring.traffic_to("four") == 0);
   const auto woken = wiring.deal({"two"}, {"two"});
   REQUIRE(woken);
-  CHECK(has_written(memory_of(*woken, "two", 3)));
+  CHECK(has_written(memory_of(*woken, "two", "b.out to c.in")));
   CHECK_FALSE(woken->by_process.contains("one"));  // it has its end
-  CHECK(edges_of(*woken, "two") == std::vector<std::size_t>{1, 3, 4});
+  CHECK(edges_of(*woken, "two") ==
+        std::vector<std::string>{"a.out to c.in", "b.out to c.in", "c.out to e.in"});
 }
 
 TEST_CASE("what a process on demand writes as a client of another process does not wake it",
@@ -140,7 +141,7 @@ TEST_CASE("what a process on demand writes as a client of another process does n
   Wiring wiring(with_sleepers());
   const auto lots = wiring.deal({"one"});
   REQUIRE(lots);
-  write_as_client(memory_of(*lots, "one", 1));  // an edge on which two is the client
+  write_as_client(memory_of(*lots, "one", "a.out to c.in"));  // an edge on which two is the client
   CHECK(wiring.traffic_to("two") == 0);
 }
 
@@ -149,26 +150,26 @@ TEST_CASE("two processes on demand can wake each other", "[supervisor][wiring][o
   REQUIRE(wiring.deal({"one"}));
   const auto two = wiring.deal({"two"}, {"two"});
   REQUIRE(two);
-  write_as_client(memory_of(*two, "two", 4));
+  write_as_client(memory_of(*two, "two", "c.out to e.in"));
   CHECK(wiring.traffic_to("four") == 8);
   const auto four = wiring.deal({"four"}, {"four"});
   REQUIRE(four);
-  CHECK(has_written(memory_of(*four, "four", 4)));
+  CHECK(has_written(memory_of(*four, "four", "c.out to e.in")));
 }
 
 TEST_CASE("after the end of either process its edges are fresh again", "[supervisor][wiring][on_demand]") {
   Wiring wiring(with_sleepers());
   const auto first = wiring.deal({"one"});
   REQUIRE(first);
-  write_as_client(memory_of(*first, "one", 3));
+  write_as_client(memory_of(*first, "one", "b.out to c.in"));
   const auto restarted = GENERATE(as<std::string>{}, "one", "two");
   const auto second = wiring.deal({restarted});
   REQUIRE(second);
   CHECK(wiring.traffic_to("two") == 0);
-  CHECK_FALSE(has_written(memory_of(*second, "one", 3)));
+  CHECK_FALSE(has_written(memory_of(*second, "one", "b.out to c.in")));
   const auto woken = wiring.deal({"two"}, {"two"});
   REQUIRE(woken);
-  CHECK_FALSE(has_written(memory_of(*woken, "two", 3)));
+  CHECK_FALSE(has_written(memory_of(*woken, "two", "b.out to c.in")));
 }
 
 TEST_CASE("a process on demand that starts together with a neighbour gets what both share",
@@ -177,6 +178,6 @@ TEST_CASE("a process on demand that starts together with a neighbour gets what b
   REQUIRE(wiring.deal({"one"}));
   const auto lots = wiring.deal({"one", "two"}, {"two"});
   REQUIRE(lots);
-  write_as_client(memory_of(*lots, "one", 3));
-  CHECK(has_written(memory_of(*lots, "two", 3)));
+  write_as_client(memory_of(*lots, "one", "b.out to c.in"));
+  CHECK(has_written(memory_of(*lots, "two", "b.out to c.in")));
 }

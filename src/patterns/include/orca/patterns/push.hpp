@@ -224,6 +224,7 @@ class PushProxyArrayHandle : public PushSubject {
 
  protected:
   [[nodiscard]] std::size_t edge_count() const;
+  [[nodiscard]] bool is_connected(std::size_t edge) const;
 
  private:
   friend class PushSourceHandle;
@@ -243,10 +244,12 @@ class PushProxyArray : public PushProxyArrayHandle {
   PushProxyArray(PortOwner& owner, std::string name, const PortOptions& options = {})
       : PushProxyArrayHandle(owner, std::move(name), type_id(object_type<T>()), options) {}
 
-  /// Returns the servers that the graph connects here, subscribed to or not, in the graph's order.
+  /// Returns the servers that the graph connects here, subscribed to or not, in the graph's order. Those that were connected
+  /// while the system ran come last. A source whose connection was removed meanwhile brings nothing any more.
   [[nodiscard]] std::vector<Source> sources() const {
     std::vector<Source> all;
-    for (std::size_t i = 0; i < edge_count(); ++i) all.emplace_back(*this, i);
+    for (std::size_t i = 0; i < edge_count(); ++i)
+      if (is_connected(i)) all.emplace_back(*this, i);
     return all;
   }
 };

@@ -37,6 +37,14 @@ std::shared_ptr<Order> ComponentInstance::order_take_over(ComponentInstance& suc
       [this, &successor, &report] { return life_.take_over(successor.residency_, report); });
 }
 
+std::shared_ptr<Order> ComponentInstance::order_rewiring(std::function<Status()> rewire) {
+  return parts_.orders.add([this, rewire = std::move(rewire)] {
+    Status rewired = rewire();
+    loop_.watch_deadlines();
+    return rewired;
+  });
+}
+
 std::shared_ptr<Order> ComponentInstance::order_confirmation() {
   return parts_.orders.add([this] {
     succession_.confirm();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +62,8 @@ class ComponentInstance final {
   /// Orders new parameter values. They change all together, or none does.
   /// @param values  checked against the contract.
   std::shared_ptr<Order> order_params(ParamValues values);
+  /// Orders a call of a function that changes connections of its ports.
+  std::shared_ptr<Order> order_rewiring(std::function<Status()> rewire);
   /// Orders that the successor's object takes the place of this component's, which goes to the successor.
   /// @param successor  configured, and IDLE with a closed gate. It lives until the order is done and confirm_take_over()
   ///                   as well, as `report` does.
@@ -88,8 +91,6 @@ class ComponentInstance final {
   [[nodiscard]] const char* current_hook() const { return parts_.hooks.current(); }
   /// Fills in the mission and cause of what the component works on. To be called on its strand.
   void stamp(idl::OrcaObject& object) const { parts_.home.provenance.stamp(object); }
-  /// Returns the contracts of its parameters.
-  [[nodiscard]] std::vector<ParamContract> param_contracts() const { return parts_.params.contracts(); }
   /// Returns the present values of its parameters.
   [[nodiscard]] ParamValues params() const { return parts_.params.values(); }
 

@@ -24,7 +24,7 @@ void ComponentLoop::request_exit() {
 }
 
 void ComponentLoop::run() {
-  if (parts_.ports.has_deadline()) parts_.strand.set_watch([this] { return parts_.ports.watch_deadlines(); });
+  watch_deadlines();
   if (life_.state() == ComponentState::unloaded) {
     parts_.ports.hold();
     parts_.run.changed();
@@ -33,6 +33,10 @@ void ComponentLoop::run() {
   }
   while (!is_to_exit()) turn();
   while (life_.state() != ComponentState::exit) life_.handle(ComponentEvent::exit);
+}
+
+void ComponentLoop::watch_deadlines() {
+  if (parts_.ports.has_deadline()) parts_.strand.set_watch([this] { return parts_.ports.watch_deadlines(); });
 }
 
 void ComponentLoop::turn() {

@@ -24,6 +24,8 @@ class ComponentLoop {
 
   /// Runs until request_exit().
   void run();
+  /// Looks after the deadlines of the ports from now on, if one has some. @thread  the strand.
+  void watch_deadlines();
   /// Lets the component leave IDLE: the whole system is up.
   void open_gate();
   /// Announces request_exit(). The component ends its present hook or lap and begins nothing new.

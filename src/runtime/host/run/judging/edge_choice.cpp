@@ -27,30 +27,29 @@ EdgeChoice::EdgeChoice(const graph::Graph& graph) {
     if (edge.choice == 0) continue;
     const auto [place, is_new] = places.try_emplace(edge.client(), ports_.size());
     if (is_new) ports_.emplace_back();
-    ports_[place->second].edges.push_back(&edge);
+    ports_[place->second].edges.push_back(edge);
   }
-  for (Port& port : ports_)
-    std::ranges::sort(port.edges, {}, [](const graph::Edge* edge) { return edge->choice; });
+  for (Port& port : ports_) std::ranges::sort(port.edges, {}, &graph::Edge::choice);
 }
 
 std::vector<EdgeChoice::Move> EdgeChoice::look(const Standings& standings) {
   std::vector<Move> moves;
   for (Port& port : ports_) {
-    const graph::Edge& used = *port.edges[port.used];
+    const graph::Edge& used = port.edges[port.used];
     const std::string why = standings(used.server().component).why_down;
     if (why.empty()) continue;
     const auto better = std::ranges::find_if(
-        port.edges, [&](const graph::Edge* edge) { return standings(edge->server().component).is_up; });
+        port.edges, [&](const graph::Edge& edge) { return standings(edge.server().component).is_up; });
     if (better == port.edges.end()) continue;
     port.used = static_cast<std::size_t>(better - port.edges.begin());
-    moves.push_back({*better, text_of(used, why, **better)});
+    moves.push_back({&*better, text_of(used, why, *better)});
   }
   return moves;
 }
 
 std::vector<const graph::Edge*> EdgeChoice::in_use() const {
   std::vector<const graph::Edge*> edges;
-  for (const Port& port : ports_) edges.push_back(port.edges[port.used]);
+  for (const Port& port : ports_) edges.push_back(&port.edges[port.used]);
   return edges;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/hosted_part.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
+#include "orca/graph/plan.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/host/last_words.hpp"
 #include "outer_edges.hpp"
@@ -16,6 +18,7 @@
 #include "run/counters.hpp"
 #include "run/recording/run_files.hpp"
 #include "run/sightings.hpp"
+#include "run/swap/rewiring.hpp"
 #include "run/swap/swaps.hpp"
 #include "run/watched_system.hpp"
 
@@ -48,20 +51,23 @@ class HostedPart::Inside {
         files_(place.executive),
         taps_(place.executive),
         offers_(place.executive, options.missions),
-        outer_(whole, process, options.doorbell, options.run),
+        outer_(whole_, process, options.doorbell, options.run),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
                  system_options(options), [] { return false; }),
-        swaps_(whole, watched_.context(), place.catalogue, watched_.system()) {
+        swaps_(whole_, watched_.context(), place.catalogue, watched_.system()) {
     watched_.reporter().tap(taps_);
   }
 
   WatchedSystem& watched() { return watched_; }
   PortTaps& taps() { return taps_; }
   OuterOffers& offers() { return offers_; }
-  [[nodiscard]] RunCounters counters() { return collect_counters(whole_, watched_.system()); }
+  [[nodiscard]] RunCounters counters() {
+    const std::lock_guard lock(edges_mutex_);
+    return collect_counters(whole_, watched_.system());
+  }
   OuterEdges& outer() { return outer_; }
 
-  Status build(std::map<std::size_t, Descriptor> memory) {
+  Status build(std::map<std::string, Descriptor> memory) {
     if (Status opened = open_outputs(); !opened.ok()) return opened;
     if (Status known = outer_.prepare(std::move(memory), place_.catalogue); !known.ok()) return known;
     if (Status built = watched_.build(); !built.ok()) return built;
@@ -81,9 +87,11 @@ class HostedPart::Inside {
     close_outputs();
   }
 
-  Status move(std::size_t edge) {
-    if (edge >= whole_.edges.size()) return fail(Code::not_found, "an edge that the graph does not have");
-    return watched_.system().move(whole_.edges[edge]);
+  Status move(const std::string& name) {
+    const std::lock_guard lock(edges_mutex_);
+    const auto edge = std::ranges::find(whole_.edges, name, &graph::Edge::name);
+    if (edge == whole_.edges.end()) return fail(Code::not_found, "an edge that the graph does not have");
+    return host::move(watched_.system(), *edge);
   }
 
   void prepare_for_death() {
@@ -205,9 +213,36 @@ class HostedPart::Inside {
       case PartOrder::Kind::resume: return system.resume(order.component, changed, limit);
       case PartOrder::Kind::set_params:
         return system.set_params(order.component, order.params, changed, limit);
+      case PartOrder::Kind::rewire: return rewire(order.connections, limit);
       case PartOrder::Kind::swap: break;  // is no matter of one step
     }
     return fail(Code::internal, "an unknown order");
+  }
+
+  using Connections = std::shared_ptr<std::vector<ConnectionChange>>;
+
+  Status rewire(const Connections& changes, TimePoint limit) {
+    for (const ConnectionChange& change : *changes) {
+      if (const Status done = rewire({changes, &change}, limit); !done.ok()) return done;
+      const std::lock_guard lock(edges_mutex_);
+      graph::put(change.edge, change.makes, whole_.edges);
+    }
+    return ok();
+  }
+
+  // The change is kept for as long as a strand may still come to it.
+  Status rewire(const std::shared_ptr<const ConnectionChange>& change, TimePoint limit) {
+    System& system = watched_.system();
+    const graph::Edge& edge = change->edge;
+    if (edge.link == graph::Link::local)
+      return host::rewire(system, edge, change->makes, watched_.changed(), limit);
+    const graph::PortRef& here = outer_.end_here(edge);
+    Endpoint* const port = system.endpoint(here);
+    if (port == nullptr) return no_such(here);
+    return system.on_strand(here.component, watched_.changed(), limit, [this, change, port] {
+      return change->makes ? outer_.make(change->edge, change->memory, *port)
+                           : outer_.remove(change->edge, *port);
+    });
   }
 
   // Whatever the connections refuse from here on is no trouble.
@@ -250,7 +285,8 @@ class HostedPart::Inside {
 
   const graph::Graph part_;
   const PartPlace place_;
-  const graph::Graph& whole_;
+  graph::Graph whole_;      // its edges change on the main task, with edges_mutex_ held
+  std::mutex edges_mutex_;  // held by other threads that read them
   const Duration hang_limit_;
   const RunOutputs outputs_;
   RunFiles files_;
@@ -277,7 +313,7 @@ HostedPart::HostedPart(const graph::Graph& whole, const std::string& process, co
 
 HostedPart::~HostedPart() = default;
 
-Status HostedPart::build(std::map<std::size_t, Descriptor> memory) {
+Status HostedPart::build(std::map<std::string, Descriptor> memory) {
   return inside_->build(std::move(memory));
 }
 
@@ -323,12 +359,14 @@ void HostedPart::forget_alarm(const std::string& kind, const std::string& source
   inside_->watched().reporter().alarm_news().acknowledge(kind, source, process);
 }
 
-void HostedPart::cut_edge(std::size_t edge, const Error& reason) { inside_->outer().cut(edge, reason); }
+void HostedPart::cut_edge(const std::string& edge, const Error& reason) {
+  inside_->outer().cut(edge, reason);
+}
 
-Status HostedPart::renew_edge(std::size_t edge, const Descriptor& memory) {
+Status HostedPart::renew_edge(const std::string& edge, const Descriptor& memory) {
   return inside_->outer().renew(edge, memory);
 }
 
-Status HostedPart::move_edge(std::size_t edge) { return inside_->move(edge); }
+Status HostedPart::move_edge(const std::string& edge) { return inside_->move(edge); }
 
 }  // namespace orca::host

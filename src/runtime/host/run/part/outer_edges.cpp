@@ -54,31 +54,25 @@ std::string name_in_graph(const graph::ComponentNode& node, const std::string& n
   return setting == node.ports.end() || setting->second.alias.empty() ? name : setting->second.alias;
 }
 
-QueuePolicy policy_of(const graph::Edge& edge) {
-  QueuePolicy policy = edge.queue;
-  policy.min_interval = edge.interval;
-  return policy;
-}
-
 }  // namespace
 
-Status OuterEdges::prepare(std::map<std::size_t, Descriptor> memory, PluginCatalogue& catalogue) {
+Status OuterEdges::prepare(std::map<std::string, Descriptor> memory, PluginCatalogue& catalogue) {
   memory_ = std::move(memory);
   const graph::ProcessPart part = graph::part_of(whole_, process_);
-  edges_ = part.edges_out;
-  edges_.insert(edges_.end(), part.edges_in.begin(), part.edges_in.end());
-  for (const std::size_t edge : edges_) {
-    if (memory_.contains(edge) != (whole_.edges[edge].link == graph::Link::shm))
+  for (const std::size_t index : part.edges_out) edges_.push_back(whole_.edges[index]);
+  for (const std::size_t index : part.edges_in) edges_.push_back(whole_.edges[index]);
+  for (const graph::Edge& edge : edges_) {
+    if (memory_.contains(edge.name()) != (edge.link == graph::Link::shm))
       return fail(Code::data_loss, "the memory does not fit the edges of the graph");
-    if (whole_.edges[edge].pattern != Pattern::push) continue;
+    if (edge.pattern != Pattern::push) continue;
     if (Status learned = learn(edge, catalogue); !learned.ok()) return learned;
   }
   return ok();
 }
 
 // Asks the plugin for the contract of the port that pushes.
-Status OuterEdges::learn(std::size_t edge, PluginCatalogue& catalogue) {
-  const graph::PortRef& server = whole_.edges[edge].from;
+Status OuterEdges::learn(const graph::Edge& edge, PluginCatalogue& catalogue) {
+  const graph::PortRef& server = edge.from;
   const graph::ComponentNode& node = *whole_.find_component(server.component);
   const std::optional<graph::HardwareUse> use = hardware_of(whole_, node);
   const Result<Contract> contract = catalogue.component(node.type, use ? &*use : nullptr);
@@ -86,7 +80,7 @@ Status OuterEdges::learn(std::size_t edge, PluginCatalogue& catalogue) {
   const auto port = std::ranges::find(contract->ports, server.port, [&](const PortContract& declared) {
     return name_in_graph(node, declared.name);
   });
-  if (port != contract->ports.end()) servers_.emplace(edge, *port);
+  if (port != contract->ports.end()) servers_.emplace(edge.name(), *port);
   return ok();
 }
 
@@ -99,38 +93,54 @@ const std::string& OuterEdges::process_of(const graph::PortRef& port) const {
 }
 
 Status OuterEdges::connect(System& system) {
-  for (const std::size_t edge : edges_) {
-    const graph::PortRef& here = ends_of(whole_.edges[edge]).here;
+  for (const graph::Edge& edge : edges_) {
+    const graph::PortRef& here = ends_of(edge).here;
     Endpoint* const port = system.endpoint(here);
     if (port == nullptr)
       return fail(Code::internal,
                   "port " + here.text() + " was there when the graph was checked, and is not there now");
-    const bool is_client = here == whole_.edges[edge].client();
-    if (is_client) prepare_choice(whole_.edges[edge], *port);
-    const auto memory = memory_.find(edge);
+    const bool is_client = here == edge.client();
+    if (is_client) prepare_choice(edge, *port);
+    const auto memory = memory_.find(edge.name());
     const Status connected =
         memory == memory_.end() ? connect_dds(edge, *port) : connect_memory(edge, memory->second, *port);
     if (!connected.ok()) return connected;
-    if (is_client) take_first_choice(whole_.edges[edge], *port);
+    if (is_client) take_first_choice(edge, *port);
   }
   memory_.clear();
+  edges_.clear();
   return ok();
 }
 
-Status OuterEdges::connect_memory(std::size_t index, const Descriptor& memory, Endpoint& port) {
-  const graph::Edge& edge = whole_.edges[index];
+Status OuterEdges::connect_memory(const graph::Edge& edge, const Descriptor& memory, Endpoint& port) {
   const graph::PortRef& there = ends_of(edge).there;
   Result<RingSegment> segment = RingSegment::map(memory.number());
   if (!segment) return segment.error();
-  ends_[index] = join(port, {std::move(segment).value(),
-                             {there.text(), doorbell_(there.component)},
-                             policy_of(edge),
-                             servers_[index].period});
+  const auto server = servers_.find(edge.name());
+  ShmEnd* const end = join(port, {std::move(segment).value(),
+                                  {there.text(), doorbell_(there.component)},
+                                  policy_of(edge),
+                                  server == servers_.end() ? Duration{0} : server->second.period});
+  const std::lock_guard lock(mutex_);
+  ends_[edge.name()] = end;
   return ok();
 }
 
-Status OuterEdges::connect_dds(std::size_t index, Endpoint& port) {
-  const graph::Edge& edge = whole_.edges[index];
+Status OuterEdges::make(const graph::Edge& edge, const Descriptor& memory, Endpoint& port) {
+  if (Status removed = remove(edge, port); !removed.ok()) return removed;
+  return connect_memory(edge, memory, port);
+}
+
+Status OuterEdges::remove(const graph::Edge& edge, Endpoint& port) {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_.erase(edge.name());
+  }
+  Links::leave(port, ends_of(edge).there.text());
+  return ok();
+}
+
+Status OuterEdges::connect_dds(const graph::Edge& edge, Endpoint& port) {
   const graph::PortRef& there = ends_of(edge).there;
   if (dds_ == nullptr) {
     const Result<DdsOptions> options = dds_options();
@@ -139,8 +149,10 @@ Status OuterEdges::connect_dds(std::size_t index, Endpoint& port) {
     if (!opened) return opened.error();
     dds_ = std::move(opened).value();
   }
-  return dds_->connect(port, {there.text(), process_of(there), servers_[index].type.name}, policy_of(edge),
-                       servers_[index].period);
+  reached_[edge.name()] = process_of(there);
+  const PortContract& server = servers_[edge.name()];
+  return dds_->connect(port, {there.text(), process_of(there), server.type.name}, policy_of(edge),
+                       server.period);
 }
 
 // With several machines all processes use the network between them, as those of one machine must meet, too.
@@ -165,17 +177,18 @@ Result<DdsOptions> OuterEdges::dds_options() const {
   return options;
 }
 
-void OuterEdges::cut(std::size_t edge, const Error& reason) {
+void OuterEdges::cut(const std::string& edge, const Error& reason) {
+  const std::lock_guard lock(mutex_);
   if (const auto end = ends_.find(edge); end != ends_.end()) return end->second->cut(reason);
-  if (dds_ != nullptr && edge < whole_.edges.size())
-    dds_->cut(process_of(ends_of(whole_.edges[edge]).there), reason);
+  if (const auto process = reached_.find(edge); process != reached_.end()) dds_->cut(process->second, reason);
 }
 
-Status OuterEdges::renew(std::size_t edge, const Descriptor& memory) {
-  const auto end = ends_.find(edge);
-  if (end == ends_.end()) return fail(Code::not_found, "an edge that this process does not have");
+Status OuterEdges::renew(const std::string& edge, const Descriptor& memory) {
   Result<RingSegment> segment = RingSegment::map(memory.number());
   if (!segment) return segment.error();
+  const std::lock_guard lock(mutex_);
+  const auto end = ends_.find(edge);
+  if (end == ends_.end()) return fail(Code::not_found, "an edge that this process does not have");
   end->second->renew(std::move(segment).value());
   return ok();
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -19,9 +19,10 @@
 
 namespace orca::host {
 
-/// The edges between components of this process and those of others, by their index in the graph.
+/// The edges between components of this process and those of others, by graph::Edge::name().
 ///
-/// Thread contract: prepare() and connect() before the components run; the rest from any thread afterwards.
+/// Thread contract: prepare() and connect() before the components run; make() and remove() on the strand of the port; the rest
+/// from any thread afterwards.
 class OuterEdges {
  public:
   /// Returns the word that wakes a component of the graph.
@@ -36,18 +37,26 @@ class OuterEdges {
   /// Asks the plugins what this process must know of the components at the other ends.
   /// @param memory  of each edge through shared memory.
   /// @errors  those of the catalogue; data_loss if there is memory for what needs none.
-  Status prepare(std::map<std::size_t, Descriptor> memory, PluginCatalogue& catalogue);
+  Status prepare(std::map<std::string, Descriptor> memory, PluginCatalogue& catalogue);
 
   /// Makes this process's ends of the edges. Takes part in DDS if one of them needs it.
   /// @errors  internal if a port is missing; those of RingSegment::map() and of open_dds().
   Status connect(System& system);
 
   /// Cuts an edge, because the process at its other end is gone.
-  void cut(std::size_t edge, const Error& reason);
+  void cut(const std::string& edge, const Error& reason);
   /// Gives an edge new memory, because the process at its other end has been started again. An edge through DDS finds its
   /// new peer by itself.
   /// @errors  not_found; those of RingSegment::map().
-  Status renew(std::size_t edge, const Descriptor& memory);
+  Status renew(const std::string& edge, const Descriptor& memory);
+
+  /// Makes this process's end of an edge through shared memory, in place of the one that is there.
+  /// @errors  those of RingSegment::map().
+  Status make(const graph::Edge& edge, const Descriptor& memory, Endpoint& port);
+  /// Removes this process's end of such an edge. Nothing if there is none.
+  Status remove(const graph::Edge& edge, Endpoint& port);
+  /// Returns the end of an edge that is in this process.
+  [[nodiscard]] const graph::PortRef& end_here(const graph::Edge& edge) const { return ends_of(edge).here; }
 
  private:
   // The two ends of an edge, as this process sees them.
@@ -58,20 +67,23 @@ class OuterEdges {
 
   [[nodiscard]] Ends ends_of(const graph::Edge& edge) const;
   [[nodiscard]] const std::string& process_of(const graph::PortRef& port) const;
-  Status connect_memory(std::size_t index, const Descriptor& memory, Endpoint& port);
-  Status connect_dds(std::size_t index, Endpoint& port);
+  Status connect_memory(const graph::Edge& edge, const Descriptor& memory, Endpoint& port);
+  Status connect_dds(const graph::Edge& edge, Endpoint& port);
   [[nodiscard]] Result<DdsOptions> dds_options() const;
-  Status learn(std::size_t edge, PluginCatalogue& catalogue);
+  Status learn(const graph::Edge& edge, PluginCatalogue& catalogue);
 
   const graph::Graph& whole_;
   const std::string process_;
   const Doorbell doorbell_;
   const std::string run_;
-  std::vector<std::size_t> edges_;               // to other processes
-  std::map<std::size_t, Descriptor> memory_;     // until connect()
-  std::map<std::size_t, PortContract> servers_;  // of Push
-  std::map<std::size_t, ShmEnd*> ends_;
-  std::unique_ptr<DdsBackend> dds_;  // null: not needed
+  std::vector<graph::Edge> edges_;               // to other processes, until connect()
+  std::map<std::string, Descriptor> memory_;     // until connect()
+  std::map<std::string, PortContract> servers_;  // of Push
+  std::unique_ptr<DdsBackend> dds_;              // null: not needed
+  std::map<std::string, std::string> reached_;   // over DDS: the process at the other end
+
+  std::mutex mutex_;
+  std::map<std::string, ShmEnd*> ends_;  // guarded by mutex_
 };
 
 }  // namespace orca::host

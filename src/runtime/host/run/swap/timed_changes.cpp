@@ -6,6 +6,7 @@
 
 #include "orca/graph/print.hpp"
 #include "orca/plugin/image.hpp"
+#include "rewiring.hpp"
 
 namespace orca::host {
 namespace {
@@ -14,9 +15,10 @@ constexpr Duration kLapLimit = 10s;  // for a component to come to the end of it
 
 }  // namespace
 
-TimedChanges::TimedChanges(const graph::Graph& graph, WatchedSystem& watched, PluginCatalogue& catalogue,
+TimedChanges::TimedChanges(graph::Graph& graph, WatchedSystem& watched, PluginCatalogue& catalogue,
                            Executive& executive, const std::vector<TimedChange>& changes)
-    : watched_(watched),
+    : graph_(graph),
+      watched_(watched),
       executive_(executive),
       changes_(changes),
       swaps_(graph, watched.context(), catalogue, watched.system()) {}
@@ -39,7 +41,19 @@ Status TimedChanges::carry_out(const TimedChange& change) {
                                                     watched_.changed(), executive_.now() + kLapLimit);
     if (!set.ok()) return set;
   }
+  // First those that are made, so that a port that goes over to another server misses nothing.
+  for (const graph::GraphPlan::Rewiring& one : change.plan.connections)
+    if (one.after)
+      if (const Status made = rewire(*one.after, true); !made.ok()) return made;
+  for (const graph::GraphPlan::Rewiring& one : change.plan.connections)
+    if (!one.after)
+      if (const Status removed = rewire(*one.before, false); !removed.ok()) return removed;
   return ok();
+}
+
+Status TimedChanges::rewire(const graph::Edge& edge, bool makes) {
+  graph::put(edge, makes, graph_.edges);
+  return host::rewire(watched_.system(), edge, makes, watched_.changed(), executive_.now() + kLapLimit);
 }
 
 // The type was tried out when its graph was checked.

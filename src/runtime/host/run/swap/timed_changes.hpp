@@ -21,10 +21,10 @@ namespace orca::host {
 class TimedChanges {
  public:
   /// All of these outlive the object.
-  /// @param graph    as Swaps.
+  /// @param graph    as Swaps; gets the connections that are made.
   /// @param changes  sorted by time.
-  TimedChanges(const graph::Graph& graph, WatchedSystem& watched, PluginCatalogue& catalogue,
-               Executive& executive, const std::vector<TimedChange>& changes);
+  TimedChanges(graph::Graph& graph, WatchedSystem& watched, PluginCatalogue& catalogue, Executive& executive,
+               const std::vector<TimedChange>& changes);
 
   /// Begins to count: everything is up now.
   void begin() { began_ = executive_.now(); }
@@ -43,6 +43,9 @@ class TimedChanges {
   void exchange(const TimedChange& change, const graph::GraphPlan::Exchange& exchange);
   void note(const TimedChange& change, const Error& error);
 
+  Status rewire(const graph::Edge& edge, bool makes);
+
+  graph::Graph& graph_;
   WatchedSystem& watched_;
   Executive& executive_;
   const std::vector<TimedChange>& changes_;

@@ -17,8 +17,7 @@ Status Backdrop::connect(const graph::Graph& graph, ComponentInstance& object) {
     Endpoint* const other = counterpart(comes_from ? edge.to : edge.from, *own);
     Endpoint& client = (edge.pattern == Pattern::push) == comes_from ? *other : *own;
     if (&client == own) prepare_choice(edge, client);
-    QueuePolicy policy = edge.queue;
-    policy.min_interval = edge.interval;
+    QueuePolicy policy = policy_of(edge);
     if (edge.pattern == Pattern::push && policy.overflow == QueuePolicy::Overflow::block)
       policy.overflow = QueuePolicy::Overflow::drop_newest;  // a peer here has no strand that could wait
     const Status connected = links.connect(comes_from ? *own : *other, comes_from ? *other : *own, policy);

@@ -67,8 +67,15 @@ class Endpoint {
   [[nodiscard]] Error foreign_call() const;
 
   /// Keeps the end of a link that serves this port. The port destroys it before its own members go.
-  /// @thread  before the component runs.
-  void adopt(std::unique_ptr<LinkEnd> end) { link_ends_.push_back(std::move(end)); }
+  /// @param peer  "component.port" at the other end, for cut_link(); empty: it stays until then.
+  /// @thread  before the component runs, or its strand between two laps.
+  void adopt(std::unique_ptr<LinkEnd> end, std::string peer = {}) {
+    link_ends_.push_back({std::move(peer), std::move(end)});
+  }
+  /// Destroys the ends of links to a peer. @thread  as adopt(); any if there are none.
+  void cut_link(const std::string& peer) {
+    std::erase_if(link_ends_, [&](const Joint& joint) { return joint.peer == peer; });
+  }
 
  protected:
   /// Fills the header of an object that leaves through this port.
@@ -78,12 +85,17 @@ class Endpoint {
   void cut_links() { link_ends_.clear(); }
 
  private:
+  struct Joint {
+    std::string peer;
+    std::unique_ptr<LinkEnd> end;
+  };
+
   [[nodiscard]] bool admits_stranger() const;
 
   PortHome& home_;
   PortContract contract_;
   std::uint64_t next_seq_ = 1;
-  std::vector<std::unique_ptr<LinkEnd>> link_ends_;
+  std::vector<Joint> link_ends_;
 };
 
 }  // namespace orca

@@ -32,6 +32,19 @@ class Links {
   Status connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy);
   Status connect(Endpoint& from, Endpoint& to) { return connect(from, to, to.contract().queue); }
 
+  /// Lets a port use its connection to a peer no more, and destroys its end of the link. A request that was not answered yet
+  /// gets an error; what a server has accepted it still handles; what waits at a PushProxy is dropped. The other end has to
+  /// leave as well: the client first.
+  /// @param peer  "component.port" of the other end. Nothing happens if there is no such connection.
+  /// @pre  the port is not movable (MovablePort::can_move()).
+  /// @thread  the strand of the port between two laps; for a server in the same process, that of the client as well.
+  static void leave(Endpoint& port, const std::string& peer);
+
+ protected:
+  /// Checks that two ends fit each other, apart from whether the proxy is taken.
+  /// @errors  those of connect().
+  static Status check_fit(const Endpoint& from, const Endpoint& to, const QueuePolicy& policy);
+
  private:
   // Connect two ends that fit each other and are free.
   virtual void push(PushServerEndpoint& server, PushClientEndpoint& client, const QueuePolicy& policy) = 0;

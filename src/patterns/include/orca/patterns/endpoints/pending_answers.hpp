@@ -52,6 +52,15 @@ class PendingAnswers {
     return answer;
   }
 
+  /// Returns the ids that wait for their answers.
+  [[nodiscard]] std::vector<std::uint64_t> waiting() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::uint64_t> ids;
+    for (const Entry& entry : entries_)
+      if (!entry.answer) ids.push_back(entry.id);
+    return ids;
+  }
+
   /// Discards the answer to this id, now or when it comes.
   void forget(std::uint64_t id) {
     const std::lock_guard lock(mutex_);

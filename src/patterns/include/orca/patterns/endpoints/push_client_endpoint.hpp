@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,11 +24,22 @@ class PushClientEndpoint final : public Endpoint, public MovablePort {
   [[nodiscard]] bool can_move() const override { return alternatives_.has_value(); }
   bool move_to(const std::string& server) override;
 
-  /// Adds an edge, not yet subscribed. If the port can move, all its connections are one edge, with the policy of the first.
+  /// Connects the port. If it can move, all its connections are one edge, with the policy of the first. Otherwise an edge
+  /// whose server is gone takes the new one; that of a port which is no array does so also if it has a server, and keeps what
+  /// waits. A new edge is subscribed if the runtime has subscribed the port.
   PushEdge& connect(PushSource& source, const QueuePolicy& policy);
+  /// Lets the edge from a server have none any more. The edge stays for the next connect(). Nothing if there is none.
+  void disconnect(const std::string& server);
+  /// Returns the edge from a server; null if there is none.
+  [[nodiscard]] PushEdge* edge_from(const std::string& server) const;
 
-  [[nodiscard]] bool connected() const { return !edges_.empty(); }
+  /// Returns whether an edge has a server.
+  [[nodiscard]] bool connected() const;
+  /// Returns all edges, with those whose server is gone.
   [[nodiscard]] const std::vector<std::unique_ptr<PushEdge>>& edges() const { return edges_; }
+  /// Returns the counters of the edge from a server; nothing if there is none.
+  /// @thread  any.
+  [[nodiscard]] std::optional<EdgeCounters> counters_from(const std::string& server) const;
   /// Returns whether an object waits, from any server.
   [[nodiscard]] bool has_new() const;
   /// Returns whether an object waits from every server that the port is subscribed to, and there is one.
@@ -42,7 +54,11 @@ class PushClientEndpoint final : public Endpoint, public MovablePort {
   void unsubscribe_all();
 
  private:
+  [[nodiscard]] PushEdge* vacancy_for(const PushSource& source) const;
+
+  mutable std::mutex mutex_;  // held while the strand changes the vector, and while others read it
   std::vector<std::unique_ptr<PushEdge>> edges_;
+  bool subscribes_ = false;                               // the runtime has subscribed all edges
   std::optional<Alternatives<PushSource>> alternatives_;  // if the port can move
 };
 

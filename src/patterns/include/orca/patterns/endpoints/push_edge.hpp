@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -19,18 +20,26 @@ namespace orca {
 /// The client side of one Push edge: the subscription and its queue.
 ///
 /// Thread contract: deliver(), give_up(), granted() and lost() from the server's side; counters(), grant()
-/// and the paths from any thread; the rest from the client's strand.
+/// and source_path() from any thread; the rest from the client's strand.
 class PushEdge final : public PushSink {
  public:
   PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy);
 
   void subscribe();
   void unsubscribe();
-  [[nodiscard]] bool subscribed() const { return subscribed_.load(std::memory_order_acquire); }
+  [[nodiscard]] bool subscribed() const {
+    return subscribed_.load(std::memory_order_acquire) && has_server();
+  }
 
   /// Moves the edge to another server, and with it the subscription if there is one. What waits stays, and so does the newest
   /// object until one comes from the new server.
-  void move_to(PushSource& source);
+  /// @param source  null: to none. The edge then has no subscription until it is moved to one.
+  void move_to(PushSource* source);
+  /// Moves the edge to no server, and forgets what waits and the newest object.
+  void leave();
+  [[nodiscard]] bool has_server() const { return source_.load(std::memory_order_acquire) != nullptr; }
+  /// Gives the edge another policy. What waits and finds no room any more is dropped, the oldest first.
+  void set_policy(const QueuePolicy& policy);
 
   /// Requests another update rate, from now on or from the next subscription on. The rate that the graph
   /// gives the edge is the limit.
@@ -70,11 +79,13 @@ class PushEdge final : public PushSink {
 
   [[nodiscard]] EdgeCounters counters() const;
   [[nodiscard]] const QueuePolicy& policy() const { return policy_; }
-  /// Returns "component.port" of the present server.
-  [[nodiscard]] std::string source_path() const { return source().path(); }
-  [[nodiscard]] Duration base_period() const { return source().base_period(); }
+  /// Returns "component.port" of the present server, or of the last one.
+  [[nodiscard]] std::string source_path() const;
+  [[nodiscard]] Duration base_period() const { return has_server() ? source()->base_period() : Duration{0}; }
 
  private:
+  static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
   // The numbers of EdgeCounters, each readable at any time.
   struct Counts {
     Published<std::uint64_t> delivered;
@@ -90,8 +101,11 @@ class PushEdge final : public PushSink {
   };
 
   void look() const { strand_.take_in(); }
-  [[nodiscard]] PushSource& source() const { return *source_.load(std::memory_order_acquire); }
+  [[nodiscard]] PushSource* source() const { return source_.load(std::memory_order_acquire); }
+  [[nodiscard]] QueuePolicy policy_now() const;
   void tell_of_link(bool connected) const;
+  void fit(const QueuePolicy& policy);
+  void forget_objects();
   [[nodiscard]] ObjectRef pop();
   bool make_room();
   void drop(Published<std::uint64_t>& reason, std::uint64_t objects);
@@ -108,16 +122,20 @@ class PushEdge final : public PushSink {
   Endpoint& client_;
   Strand& strand_;  // of the client: each push and each look needs it
   std::atomic<PushSource*> source_;
-  const QueuePolicy policy_;
   UpdateRate asked_;
-  std::atomic<bool> subscribed_{false};
+  std::atomic<bool> subscribed_{false};  // or will be, as soon as there is a server
   Counts counts_;
-  Published<Duration::rep> last_arrival_;  // of an object, or of the subscription; only kept with a deadline
+  Published<Duration::rep> last_arrival_;   // of an object, or of the subscription; only kept with a deadline
+  Published<Duration::rep> deadline_;       // of the policy, for all threads
+  Published<std::int64_t> accepted_drops_;  // of the policy, for all threads; -1: any number
 
-  mutable std::mutex grant_mutex_;
-  UpdateGrant grant_;  // guarded by grant_mutex_
+  mutable std::mutex told_mutex_;
+  // Guarded by told_mutex_.
+  UpdateGrant grant_;
+  std::string path_;  // of the server
 
   mutable TaskMutex mutex_;
+  QueuePolicy policy_;  // written by the client's strand with the lock held, which reads it without
   // Below: guarded by mutex_. The count may be read at any time.
   std::atomic<std::uint32_t> count_{0};
   std::uint32_t first_ = 0;
@@ -126,9 +144,9 @@ class PushEdge final : public PushSink {
   bool publisher_waits_ = false;     // for room
   bool subscriber_stuck_ = false;    // it took nothing during a whole wait: nobody waits for it until it does
   std::uint64_t late_arrivals_ = 0;  // objects that came after their deadline
-  std::uint64_t reported_delays_ = 0;  // those of them that were reported, and the present one if it was
-  Published<std::uint64_t> drops_;     // while subscribed; may be read at any time
-  std::uint64_t report_drops_at_ = 0;  // the number of drops at which they are reported next
+  std::uint64_t reported_delays_ = 0;       // those of them that were reported, and the present one if it was
+  Published<std::uint64_t> drops_;          // while subscribed; may be read at any time
+  std::uint64_t report_drops_at_ = kNever;  // the number of drops at which they are reported next
 };
 
 }  // namespace orca

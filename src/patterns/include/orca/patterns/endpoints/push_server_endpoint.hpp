@@ -26,15 +26,18 @@ class PushOutlet {
 
 /// The server side of Push. It hands every object to all subscribers, each of which has its own queue.
 ///
-/// Thread contract: connect() before the component runs; seal() and publish() from one task at a time;
-/// announce() and the sources from any task; the rest from any thread.
+/// Thread contract: connect() before the component runs, or from any task; seal() and publish() from one task at a time;
+/// disconnect(), announce() and the sources from any task; the rest from any thread.
 class PushServerEndpoint final : public Endpoint {
  public:
   PushServerEndpoint(PortHome& home, PortContract contract);
   ~PushServerEndpoint() override;
 
   /// Adds an edge, not yet subscribed.
-  PushSource& connect();
+  /// @param client  "component.port", for disconnect().
+  PushSource& connect(std::string client = {});
+  /// Removes the edges to a client. Nobody may use them any more. @pre  they are not subscribed.
+  void disconnect(const std::string& client);
   /// Adds an outlet, which is flushed after each object. It outlives the edges that use it.
   /// @thread  before the component runs.
   void add_outlet(PushOutlet& outlet) { outlets_.push_back(&outlet); }
@@ -68,14 +71,15 @@ class PushServerEndpoint final : public Endpoint {
   void give_up(const ObjectRef& object);
   [[nodiscard]] TimePoint next_limit() const;
 
-  std::vector<std::unique_ptr<Edge>> edges_;  // all that are connected
   std::vector<PushOutlet*> outlets_;
   std::atomic<std::size_t> subscribers_{0};
   Published<std::uint64_t> pushed_;
   Published<Duration::rep> base_period_;
 
   mutable TaskMutex mutex_;
-  std::vector<Edge*> subscribed_;  // in order of subscription; guarded by mutex_, as the edges' content is
+  // Below, and the edges' content: guarded by mutex_.
+  std::vector<std::unique_ptr<Edge>> edges_;  // all that are connected
+  std::vector<Edge*> subscribed_;             // in order of subscription
 };
 
 }  // namespace orca

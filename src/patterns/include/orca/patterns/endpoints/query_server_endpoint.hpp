@@ -30,7 +30,12 @@ class QueryServerEndpoint final : public Endpoint {
   ~QueryServerEndpoint() override;
 
   /// Adds an edge.
-  QueryTarget& connect();
+  /// @param client  "component.port", for disconnect().
+  QueryTarget& connect(std::string client = {});
+  /// Removes the edges to a client. Its questions that still wait are dropped, and counted as withdrawn. Nobody may use the
+  /// edges any more.
+  /// @thread  any; the client does not use them at the same time.
+  void disconnect(const std::string& client);
 
   void open(Handler handler);
   /// Closes the intake and answers the questions that still wait with `reason` as the error.

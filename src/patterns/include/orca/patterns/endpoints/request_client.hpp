@@ -24,7 +24,15 @@ namespace orca {
 template <class Answer>
 class RequestClient : public Endpoint, public MovablePort, public ReplySink<Answer> {
  public:
+  /// Connects the port. If it can move, this is one more server to choose from; otherwise what it offers from now on goes to
+  /// this one.
+  /// @thread  before the component runs, or its strand between two laps.
   void connect(RequestTarget<Answer>& target);
+  /// Lets the port use a server no more. What that has not answered yet is withdrawn from it and answered with an error, and
+  /// nothing of it is touched afterwards. Nothing if the port has never used it.
+  /// @pre  !can_move()
+  /// @thread  as connect().
+  void disconnect(const std::string& server);
   [[nodiscard]] bool connected() const { return target_ != nullptr; }
 
   void allow_moves() override;
@@ -52,8 +60,8 @@ class RequestClient : public Endpoint, public MovablePort, public ReplySink<Answ
   /// Withdraws the object. Its answer is discarded, now or when it comes.
   void withdraw(RequestId id);
 
-  /// Takes in what has arrived, and returns RequestTarget::renewals(); nothing if not connected. If the port can move, a move
-  /// counts as well, and there is always a number.
+  /// Takes in what has arrived, and returns RequestTarget::renewals(); nothing if not connected. If the port can move or has
+  /// been moved, a move counts as well, and there is always a number.
   [[nodiscard]] std::optional<std::uint64_t> server_restarts() const;
 
   void reply(RequestId id, Answer answer) override;
@@ -85,16 +93,20 @@ class RequestClient : public Endpoint, public MovablePort, public ReplySink<Answ
   // What was offered from an id on went to a target, until the next one took over.
   struct Era {
     RequestId first;
-    RequestTarget<Answer>* target;
+    RequestTarget<Answer>* target;  // null: none, or it is gone
+    std::string path;               // of the target
   };
 
-  void move(RequestTarget<Answer>& target);
-  [[nodiscard]] RequestTarget<Answer>& target_of(RequestId id) const;
-  void report(const RequestTarget<Answer>& server, const std::string& failure) const;
+  void move(RequestTarget<Answer>* target);
+  void answer_all_of(RequestTarget<Answer>& target);
+  [[nodiscard]] Era present() const;
+  [[nodiscard]] Era era_of(RequestId id) const;
+  void report(const std::string& server, const std::string& failure) const;
   void leave_if_ending() const;
 
   const Words words_;
   RequestTarget<Answer>* target_ = nullptr;
+  std::string target_path_;                                          // of the target, or of the last one
   std::optional<Alternatives<RequestTarget<Answer>>> alternatives_;  // if the port can move
   std::vector<Era> left_;              // the targets before this one, and the first id that each got
   RequestId first_id_ = 1;             // of the present target

@@ -30,6 +30,13 @@ class SendServerEndpoint final : public Endpoint {
   /// Adds an edge.
   /// @param client  path of the SendProxy, for messages.
   SendTarget& connect(std::string client, const QueuePolicy& policy);
+  /// Gives the edge to a client another policy. What waits stays.
+  /// @return false if there is none.
+  bool change(const std::string& client, const QueuePolicy& policy);
+  /// Removes the edge to a client. What it has accepted is still handled; what waits for room is dropped, and counted as
+  /// withdrawn. Nobody may use the edge any more.
+  /// @thread  any; the client does not use it at the same time.
+  void disconnect(const std::string& client);
 
   /// Opens or closes the intake. While it is closed, everything is refused with `reason`; accepted objects
   /// stay.
@@ -43,27 +50,28 @@ class SendServerEndpoint final : public Endpoint {
 
   /// Returns whether something waits to be handled.
   [[nodiscard]] bool has_waiting() const;
-  /// Returns the counters of all edges together.
+  /// Returns the counters of all edges together, with those that were removed.
   [[nodiscard]] IntakeCounters counters() const;
   /// Returns the counters of one edge; edges count in the order of connect().
   [[nodiscard]] IntakeCounters counters(std::size_t edge) const;
-  [[nodiscard]] std::size_t edge_count() const;
 
  private:
   class Edge;
   struct Accepted {
     ObjectRef object;
-    Edge* edge;
+    std::shared_ptr<Edge> edge;
     SendReplySink* reply_to;  // waits until the object is handled; null: it has its answer
     SendId id;
   };
 
   bool next(Accepted& accepted, std::shared_ptr<const Handler>& handler);
+  void leave(const std::shared_ptr<Edge>& edge);
   void settle(const Accepted& accepted, const Status& outcome);
 
   mutable std::mutex mutex_;
   // Below, and the edges' content: guarded by mutex_.
-  std::vector<std::unique_ptr<Edge>> edges_;
+  std::vector<std::shared_ptr<Edge>> edges_;
+  IntakeCounters of_gone_;  // edges that were removed
   std::deque<Accepted> waiting_;
   std::shared_ptr<const Handler> handler_;
   std::string closed_because_ = "it has not been started yet";

@@ -115,6 +115,9 @@ struct Edge {
   /// Returns the end that serves it.
   [[nodiscard]] const PortRef& server() const { return pattern == Pattern::push ? from : to; }
 
+  /// Returns what people and programs call it; no other edge of the graph is called so: "avoid.motion to fuser.motion".
+  [[nodiscard]] std::string name() const { return from.text() + " to " + to.text(); }
+
   friend bool operator==(const Edge& a, const Edge& b);
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace orca::graph {
 enum class Effort {
   none,      ///< Nothing runs otherwise.
   set,       ///< Parameters change between two laps.
+  rewire,    ///< Connections are made or removed between two laps.
   exchange,  ///< Code is tried, then exchanged between two laps.
   restart,   ///< The system has to be started again.
 };
@@ -34,7 +36,14 @@ struct GraphPlan {
     Params params;  ///< All of them.
   };
 
+  /// A connection that is made, removed or gets another policy.
+  struct Rewiring {
+    std::optional<Edge> before;  ///< Nothing: it is new.
+    std::optional<Edge> after;   ///< Nothing: it goes.
+  };
+
   std::vector<Line> lines;
+  std::vector<Rewiring> connections;       ///< Sorted by name.
   std::vector<Exchange> exchanges;         ///< Sorted by component.
   std::map<std::string, Params> settings;  ///< What changes, by component. None of those that get other code.
   /// Returns whether the system can stay up.
@@ -46,6 +55,12 @@ struct GraphPlan {
 /// @thread  pure function; any thread.
 [[nodiscard]] GraphPlan plan_of(const Graph& running, const Graph& wanted,
                                 const std::map<std::string, Contract>& contracts);
+
+/// Returns the way back.
+[[nodiscard]] std::vector<GraphPlan::Rewiring> reversed(std::vector<GraphPlan::Rewiring> connections);
+
+/// Makes an edge part of a list, in place of the one of its name, or removes that.
+void put(const Edge& edge, bool is_there, std::vector<Edge>& edges);
 
 /// Takes over from a wanted graph all that can change while the system runs. The nodes stay where they are.
 /// @pre  the plan from one to the other is possible.

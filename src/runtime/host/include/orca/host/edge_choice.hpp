@@ -31,23 +31,23 @@ class EdgeChoice {
 
   /// A move of a port from one server to another.
   struct Move {
-    const graph::Edge* edge;  ///< That the port uses from now on.
+    const graph::Edge* edge;  ///< That the port uses from now on; lives as long as the EdgeChoice.
     std::string text;         ///< For people, without the component's name.
   };
 
-  /// @param graph  outlives the object. All ports use their first choice.
+  /// All ports use their first choice.
   explicit EdgeChoice(const graph::Graph& graph);
 
   /// Chooses anew for all ports whose server is down.
   /// @return the moves that follow, in the order of the graph.
   [[nodiscard]] std::vector<Move> look(const Standings& standings);
 
-  /// Returns the edges in use, in the order of the graph.
+  /// Returns the edges in use, in the order of the graph. They live as long as the EdgeChoice.
   [[nodiscard]] std::vector<const graph::Edge*> in_use() const;
 
  private:
   struct Port {
-    std::vector<const graph::Edge*> edges;  // in the order of choice
+    std::vector<graph::Edge> edges;  // in the order of choice
     std::size_t used = 0;
   };
 

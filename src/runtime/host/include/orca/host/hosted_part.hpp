@@ -27,6 +27,13 @@
 
 namespace orca::host {
 
+/// A connection that is made or removed while its components run, at this process.
+struct ConnectionChange {
+  graph::Edge edge;
+  bool makes = true;
+  Descriptor memory{};  ///< Of a connection to another process that is made.
+};
+
 /// An order for the part of a system that one process runs.
 struct PartOrder {
   enum class Kind {
@@ -37,6 +44,7 @@ struct PartOrder {
     suspend,        ///< Pauses a component between two laps.
     resume,         ///< Resumes a component.
     set_params,     ///< Gives a component new parameter values, all or none.
+    rewire,         ///< Makes and removes connections, between two laps of the components at their ends.
     check_unused,   ///< Does nothing; refused if a component is in use, with its name.
     swap,           ///< Exchanges a component's code. Other orders are carried out meanwhile.
   };
@@ -48,6 +56,9 @@ struct PartOrder {
   std::map<std::string, std::string> params{};  ///< Values as written in a graph, with units.
   Done done{};
   std::shared_ptr<SwapOrder> swap{};  ///< What is to be exchanged, if that is the order.
+  /// The connections to make and to remove, if that is the order. What is so already is made anew, or left alone. If one cannot
+  /// be changed, those after it are not.
+  std::shared_ptr<std::vector<ConnectionChange>> connections{};
   /// Takes the outcome of a swap instead of `done`, on the part's main task. It must not block.
   std::function<void(const Result<SwapReport>&)> swapped{};
 };
@@ -99,7 +110,7 @@ struct PartPlace {
 /// Thread contract: order(), stop_motors() and all functions after it from any thread once it is built, the rest from one.
 class HostedPart {
  public:
-  /// @param whole    the graph of all processes. Outlives the object, as catalogue, executive and listener do.
+  /// @param whole    the graph of all processes. Catalogue, executive and listener outlive the object.
   /// @param process  the one that this process is.
   HostedPart(const graph::Graph& whole, const std::string& process, const PartPlace& place,
              const PartOptions& options);
@@ -108,9 +119,9 @@ class HostedPart {
   HostedPart& operator=(const HostedPart&) = delete;
 
   /// Opens the outputs, constructs everything and connects all edges.
-  /// @param memory  of each edge to another process through shared memory, by its index in the graph.
+  /// @param memory  of each edge to another process through shared memory, by graph::Edge::name().
   /// @errors  as OutputFile::open(); with the name of what cannot be constructed.
-  Status build(std::map<std::size_t, Descriptor> memory);
+  Status build(std::map<std::string, Descriptor> memory);
   /// Returns the names of the robots, by their hardware.
   /// @pre  build() has succeeded.
   [[nodiscard]] std::map<std::string, std::string> robots() const;
@@ -159,15 +170,17 @@ class HostedPart {
   /// @param process  that it is about, this one, too; empty: not one alone.
   void forget_alarm(const std::string& kind, const std::string& source, const std::string& process);
 
+  // Edges are named as graph::Edge::name() says.
+
   /// Cuts an edge to another process, because that is gone: whoever waits for an answer gets an error that says why.
-  void cut_edge(std::size_t edge, const Error& reason);
+  void cut_edge(const std::string& edge, const Error& reason);
   /// Gives an edge new memory, because the process at its other end has been started again. Subscriptions stand again
   /// without the components' doing.
   /// @errors  not_found; invalid_argument if it is no memory for an edge.
-  Status renew_edge(std::size_t edge, const Descriptor& memory);
+  Status renew_edge(const std::string& edge, const Descriptor& memory);
   /// Lets a port of this process use an edge from now on, of those that it chooses from.
   /// @errors  not_found.
-  Status move_edge(std::size_t edge);
+  Status move_edge(const std::string& edge);
 
  private:
   class Inside;

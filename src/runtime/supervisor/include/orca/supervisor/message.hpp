@@ -38,6 +38,7 @@ enum class Kind : std::uint16_t {
   tell_lines,
   swap_code = 71,
   note_graph = 72,
+  rewire = 73,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,

@@ -11,20 +11,21 @@
 #include "orca/base/descriptor.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
 #include "orca/supervisor/message.hpp"
 #include "orca/supervisor/record.hpp"
 
 namespace orca::supervisor {
 
 /// What the supervisor and its host processes say to each other. Names of components are those of the graph; an edge is
-/// named by its index in the graph.
+/// named as graph::Edge::name() says.
 
 /// Names with their values.
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
 /// The memory of an edge between two processes.
 struct EdgeMemory {
-  std::uint64_t edge = 0;
+  std::string edge;
   Descriptor memory;
 };
 
@@ -37,7 +38,7 @@ struct Setup {
   std::string graph;              ///< The expanded graph, as `deployer --print` writes it.
   Pairs options;                  ///< Of the run, by their names on the command line.
   Descriptor run_page;            ///< See orca/supervisor/run_page.hpp.
-  std::vector<EdgeMemory> edges;  ///< The edges to other processes.
+  std::vector<EdgeMemory> edges;  ///< The edges to other processes that use memory.
 };
 /// Asks to construct all components and hardware and to connect the ports. Built comes before the answer.
 struct Build {
@@ -106,7 +107,7 @@ struct RenewEdge {
 /// Says that the process at the other end of an edge is gone.
 struct CutEdge {
   static constexpr Kind kKind = Kind::cut_edge;
-  std::uint64_t edge = 0;
+  std::string edge;
   std::string reason;
 };
 /// Tells of an alarm that was raised or cleared elsewhere.
@@ -151,7 +152,7 @@ struct Adopt {
 /// Lets a port use an edge from now on, of those that it chooses from.
 struct MoveEdge {
   static constexpr Kind kKind = Kind::move_edge;
-  std::uint64_t edge = 0;
+  std::string edge;
 };
 /// Asks whether anything in the process is in use: refused, with who is, if something is.
 struct AskUse {
@@ -180,6 +181,18 @@ struct SwapCode {
   Descriptor plugin;            ///< Its bytes: see orca/plugin/image.hpp.
   bool tried = false;           ///< Whether the plugin has been tried out.
 };
+/// An edge that is made or removed while its components run, at one process.
+struct EdgeChange {
+  graph::Edge edge;
+  bool makes = true;
+  Descriptor memory{};  ///< Of an edge to another process that is made.
+};
+/// Asks to make and remove connections of the process, in this order. What is so already is made anew, or left alone. If one
+/// change fails, those after it are not made.
+struct Rewire {
+  static constexpr Kind kKind = Kind::rewire;
+  std::vector<EdgeChange> changes;
+};
 /// Says that the run has another graph now, of which the process runs its part already: a supervisor that adopts it must have
 /// the same.
 struct NoteGraph {
@@ -190,7 +203,7 @@ struct NoteGraph {
 using Order =
     std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend, Resume,
                  SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors, Count, OpenLine, Meet,
-                 Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode, NoteGraph>;
+                 Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode, NoteGraph, Rewire>;
 
 // ---- Reports, from a host process to the supervisor.
 

@@ -10,6 +10,14 @@ namespace orca {
 ///
 /// Thread contract: as Links.
 class LocalLinks final : public Links {
+ public:
+  /// Connects two ports whose components run, in place of the connection that a proxy has: what waits at a PushProxy stays. If
+  /// they are connected already, their connection gets the policy.
+  /// @errors  invalid_argument as connect().
+  /// @pre  the client is not movable (MovablePort::can_move()).
+  /// @thread  the client's strand between two laps.
+  Status renew(Endpoint& from, Endpoint& to, const QueuePolicy& policy);
+
  private:
   void push(PushServerEndpoint& server, PushClientEndpoint& client, const QueuePolicy& policy) override;
   void query(QueryClientEndpoint& client, QueryServerEndpoint& server) override;

@@ -8,7 +8,7 @@
 /// Each process makes its own end of an edge, from the same segment. The strand of the port needs a doorbell
 /// (Strand::set_doorbell). Virtual time has no such links.
 ///
-/// Thread contract of all functions here: before the component runs.
+/// Thread contract of all functions here: before the component runs, or its strand between two laps.
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,7 @@ class ShmEnd {
   [[nodiscard]] virtual ShmCounters counters() const = 0;
 };
 
-/// Make one end of an edge. It is given to the port and lives as long as the port.
+/// Make one end of an edge. It is given to the port and lives as long as the port, or until Links::leave().
 /// @param base_period  of the server [s], as its contract says; 0: irregular. Later ones come with what it grants.
 /// @param policy       of the edge, the same at both ends.
 ShmEnd& make_shm_end(PushServerEndpoint& server, RingSegment segment, ShmPeer client,

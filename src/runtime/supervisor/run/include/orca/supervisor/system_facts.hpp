@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -35,9 +36,15 @@ struct CheckedSystem {
   std::set<std::string> files;  ///< The graph's own file and those that it includes.
 };
 
-/// Reads a graph file and checks it as a run of it would, with the profiles and settings of the present run.
+/// Where a graph is to be read.
+struct GraphSource {
+  std::string file;                   ///< Or, with a text, its name for people.
+  std::optional<std::string> text{};  ///< As graph::print() writes it.
+};
+
+/// Reads a graph and checks it as a run of it would; a file with the profiles and settings of the present run.
 /// @errors  all that is wrong with it, a line each.
-using SystemReader = std::function<Result<CheckedSystem>(const std::string& file)>;
+using SystemReader = std::function<Result<CheckedSystem>(const GraphSource& source)>;
 
 /// Returns the facts of a system.
 /// @param catalogue  the one that has checked the graph.
