@@ -122,7 +122,7 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   void rewire() {
     if (plan_.connections.empty()) return end(std::nullopt);
     carry_out(plan_.connections, [this](const Status& outcome) {
-      if (!outcome.ok()) return set_back(outcome.error());
+      if (!outcome.ok()) return set_back(renewed(outcome.error()));
       lost_.empty() ? end(std::nullopt) : rewire_back();
     });
   }
@@ -134,8 +134,17 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
       return is_lost(edge.from.component) && is_lost(edge.to.component);
     });
     carry_out(back, [this](const Status& outcome) {
-      set_back(outcome.ok() ? loss() : with(loss(), "connections", outcome.error()));
+      set_back(renewed(outcome.ok() ? loss() : with(loss(), "connections", outcome.error())));
     });
+  }
+
+  // A process that comes back has made its ends as before with memory of its own, perhaps before the other ends went back.
+  Error renewed(const Error& reason) {
+    std::set<std::string> edges;
+    for (const graph::GraphPlan::Rewiring& one : plan_.connections)
+      if (one.before) edges.insert(one.before->name());
+    const Status renewed = lost_.empty() ? ok() : owner_.levers_.renew(edges);
+    return renewed.ok() ? reason : with(reason, "connections", renewed.error());
   }
 
   void carry_out(const std::vector<graph::GraphPlan::Rewiring>& connections,

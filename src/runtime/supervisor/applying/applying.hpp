@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ class Applying {
     SystemReader read;  ///< Empty: no graph can be read.
     /// Makes a graph that of the run: it is carried out. Returns the processes that run it.
     std::function<std::vector<Member*>(const CheckedSystem&)> accept;
+    /// Gives both ends of edges new memory, by name: a process was lost while they changed.
+    std::function<Status(const std::set<std::string>&)> renew;
     std::function<void()> wake;  ///< Lets go_on() be called soon. It is called on other threads.
   };
 

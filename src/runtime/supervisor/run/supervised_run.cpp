@@ -118,6 +118,7 @@ class SupervisedRun {
 
   Applying::Levers applying() {
     return {options_.read, [this](const CheckedSystem& wanted) { return accept(wanted); },
+            [this](const std::set<std::string>& edges) { return starter_.renew_edges(edges); },
             [this] { poller_.wake(); }};
   }
 

@@ -55,6 +55,13 @@ Status Starter::renew_edges_of(const Member& member) {
   return ok();
 }
 
+Status Starter::renew_edges(const std::set<std::string>& edges) {
+  Result<Wiring::Lots> lots = contain_exhaustion([&] { return wiring_.deal_edges(edges); });
+  if (!lots) return lots.error();
+  renew_others({}, *lots);
+  return ok();
+}
+
 // The supervisor itself sees to the limit of memory. The system counts what is reserved as well, such as stacks: its
 // limit only keeps a process that grows within moments from taking the memory of all others.
 HostStart Starter::host_start(const Member& member) const {

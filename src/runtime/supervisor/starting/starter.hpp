@@ -52,6 +52,10 @@ class Starter {
   [[nodiscard]] HostStart plain_start(const std::string& name) const;
 
   [[nodiscard]] const Wiring& wiring() const { return wiring_; }
+  /// Gives both ends of some edges new memory, in processes that run or are just coming up.
+  /// @param edges  by name.
+  /// @errors  unavailable if the system gives none.
+  Status renew_edges(const std::set<std::string>& edges);
   /// Takes over the edges of the graph, which has others now that are made already.
   void go_over() { wiring_.go_over(graph_); }
 

@@ -39,22 +39,37 @@ void Wiring::go_over(const graph::Graph& graph) {
 Result<Wiring::Lots> Wiring::deal(const std::set<std::string>& processes,
                                   const std::set<std::string>& waking) {
   Lots lots;
-  const auto hand_out = [&](const Outer& outer, const std::string& process, const MemoryFile& file) {
-    lots.by_process[process].push_back({outer.name, copy_of(file.descriptor())});
-  };
   for (const Outer& outer : outer_) {
     if (!outer.needs_memory || !(processes.contains(outer.from) || processes.contains(outer.to))) continue;
     if (takes_over(outer, processes, waking)) {
       for (const std::string& process : {outer.from, outer.to})
-        if (waking.contains(process)) hand_out(outer, process, kept_.at(outer.name).file);
-      continue;
+        if (waking.contains(process)) hand_out(outer, process, kept_.at(outer.name).file, lots);
+    } else if (const Status dealt = deal(outer, lots); !dealt.ok()) {
+      return dealt.error();
     }
-    Result<MemoryFile> file = RingSegment::create(outer.name);
-    if (!file) return file.error();
-    for (const std::string& process : {outer.from, outer.to}) hand_out(outer, process, *file);
-    if (const Status kept = keep(outer, std::move(file).value()); !kept.ok()) return kept.error();
   }
   return lots;
+}
+
+Result<Wiring::Lots> Wiring::deal_edges(const std::set<std::string>& edges) {
+  Lots lots;
+  for (const Outer& outer : outer_) {
+    if (!outer.needs_memory || !edges.contains(outer.name)) continue;
+    if (const Status dealt = deal(outer, lots); !dealt.ok()) return dealt.error();
+  }
+  return lots;
+}
+
+// Gives both ends of an edge new memory.
+Status Wiring::deal(const Outer& outer, Lots& lots) {
+  Result<MemoryFile> file = RingSegment::create(outer.name);
+  if (!file) return file.error();
+  for (const std::string& process : {outer.from, outer.to}) hand_out(outer, process, *file, lots);
+  return keep(outer, std::move(file).value());
+}
+
+void Wiring::hand_out(const Outer& outer, const std::string& process, const MemoryFile& file, Lots& lots) {
+  lots.by_process[process].push_back({outer.name, copy_of(file.descriptor())});
 }
 
 // Keeps the memory of an edge at a process on demand.

@@ -48,6 +48,10 @@ class Wiring {
   [[nodiscard]] Result<Lots> deal(const std::set<std::string>& processes,
                                   const std::set<std::string>& waking = {});
 
+  /// Makes new memory for edges, by name; not for those that need none.
+  /// @errors  as deal().
+  [[nodiscard]] Result<Lots> deal_edges(const std::set<std::string>& edges);
+
   /// Returns how much the clients of a process on demand have written since its edges got new memory [bytes]; 0: nobody
   /// has used it.
   [[nodiscard]] std::uint64_t traffic_to(const std::string& process) const;
@@ -64,6 +68,8 @@ class Wiring {
 
   [[nodiscard]] bool takes_over(const Outer& outer, const std::set<std::string>& processes,
                                 const std::set<std::string>& waking) const;
+  Status deal(const Outer& outer, Lots& lots);
+  static void hand_out(const Outer& outer, const std::string& process, const MemoryFile& file, Lots& lots);
   Status keep(const Outer& outer, MemoryFile file);
 
   std::vector<Outer> outer_;

@@ -65,6 +65,26 @@ TEST_CASE("a process that is started again gets new memory for its edges, and so
   CHECK(edges_of(*lots, "three").empty());
 }
 
+TEST_CASE("single edges get new memory, at both ends", "[supervisor][wiring]") {
+  Wiring wiring(system());
+  const auto lots = wiring.deal_edges({"a.out to b.in", "d.out to b.in", "no.such to edge.here"});
+  REQUIRE(lots);
+  CHECK(edges_of(*lots, "one") == std::vector<std::string>{"d.out to b.in"});
+  CHECK(edges_of(*lots, "three") == std::vector<std::string>{"d.out to b.in"});
+  CHECK(edges_of(*lots, "two").empty());
+}
+
+TEST_CASE("after the graph has gone over to other edges, those get memory", "[supervisor][wiring]") {
+  Wiring wiring(system());
+  graph::Graph other = system();
+  other.edges = {edge("d", "a")};
+  wiring.go_over(other);
+  const auto lots = wiring.deal({"one", "two", "three"});
+  REQUIRE(lots);
+  CHECK(edges_of(*lots, "one") == std::vector<std::string>{"d.out to a.in"});
+  CHECK(edges_of(*lots, "two").empty());
+}
+
 TEST_CASE("the edges at a process are known by both of their ends", "[supervisor][wiring]") {
   Wiring wiring(system());
   CHECK(wiring.edges_at("one").size() == 2);
