@@ -10,7 +10,7 @@ using namespace orca::host;
 
 namespace {
 
-idl::Alarm failed(const std::string& component) {
+idl::Alarm alarm_of(const std::string& component) {
   return make_alarm(AlarmKind::failed, component, "work()", "it threw 7");
 }
 
@@ -18,11 +18,11 @@ idl::Alarm failed(const std::string& component) {
 
 TEST_CASE("each listener hears each alarm once, from the first on", "[host][alarms]") {
   AlarmNews news;
-  news.add(failed("goto"), "");
+  news.add(alarm_of("goto"), "");
   std::uint64_t early = 0;
   REQUIRE(news.since(early).size() == 1);
   CHECK(news.since(early).empty());
-  news.add(failed("avoid"), "behaviours");
+  news.add(alarm_of("avoid"), "behaviours");
   std::uint64_t late = 0;
   CHECK(news.since(late).size() == 2);
   REQUIRE(news.since(early).size() == 1);
@@ -31,8 +31,8 @@ TEST_CASE("each listener hears each alarm once, from the first on", "[host][alar
 TEST_CASE("an alarm is kept until it is acknowledged, by the name of this process or of another",
           "[host][alarms]") {
   AlarmNews news;
-  news.add(failed("goto"), "");
-  news.add(failed("avoid"), "behaviours");
+  news.add(alarm_of("goto"), "");
+  news.add(alarm_of("avoid"), "behaviours");
   CHECK(news.kept().size() == 2);
   news.acknowledge("FAILED", "avoid", "base");
   CHECK(news.kept().size() == 2);
@@ -45,8 +45,8 @@ TEST_CASE("an alarm is kept until it is acknowledged, by the name of this proces
 TEST_CASE("who does not listen for long misses the oldest alarms", "[host][alarms]") {
   AlarmNews news;
   std::uint64_t position = 0;
-  for (std::size_t i = 0; i < AlarmNews::kMostNews + 3; ++i) news.add(failed("goto"), "");
+  for (std::size_t i = 0; i < AlarmNews::kMostNews + 3; ++i) news.add(alarm_of("goto"), "");
   CHECK(news.since(position).size() == AlarmNews::kMostNews);
-  news.add(failed("goto"), "");
+  news.add(alarm_of("goto"), "");
   CHECK(news.since(position).size() == 1);
 }

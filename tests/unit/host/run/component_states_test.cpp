@@ -13,7 +13,7 @@
 using namespace orca;
 using namespace orca::host;
 using State = ComponentState;
-using Event = ComponentEvent;
+using StateEvent = ComponentEvent;
 using Action = ComponentAction;
 
 namespace {
@@ -39,7 +39,7 @@ work_suspended  .         .       .        .        .        work no            
 exit            .         .       .        .        .        .    no             no     !      !          !       !           !    !      !      !
 )";
 
-std::string found(State state, Event event) {
+std::string found(State state, StateEvent event) {
   if (const ComponentTransition* const row = transition(state, event))
     return kStateNames[static_cast<std::size_t>(row->to)];
   switch (kind_of(event)) {
@@ -89,7 +89,7 @@ TEST_CASE("each event leads from each state to where the specification says", "[
     for (std::size_t event = 0; event < events.size(); ++event) {
       CAPTURE(state, events[event]);
       REQUIRE(cells >> cell);
-      CHECK(found(static_cast<State>(states), static_cast<Event>(event)) == cell);
+      CHECK(found(static_cast<State>(states), static_cast<StateEvent>(event)) == cell);
     }
     CHECK_FALSE(cells >> cell);
     ++states;
@@ -102,7 +102,7 @@ TEST_CASE("a row that leads to another state enters it once, and only configurin
           "[host][states]") {
   for_each_row([](const ComponentTransition& row) {
     const auto entries = std::count(row.actions.begin(), row.actions.end(), Action::enter);
-    CHECK(entries == (row.from == State::init && row.event == Event::loaded ? 0 : 1));
+    CHECK(entries == (row.from == State::init && row.event == StateEvent::loaded ? 0 : 1));
   });
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("a component subscribes to its providers when it is to start, and befo
 TEST_CASE("a component that was started is stopped before its providers are let go", "[host][states]") {
   for_each_row([](const ComponentTransition& row) {
     const bool at_work = row.from == State::connect || row.from == State::work;
-    if (!at_work || is_up(row.to) || row.event == Event::stop_threw) return;
+    if (!at_work || is_up(row.to) || row.event == StateEvent::stop_threw) return;
     const auto stop = std::min(place(row, Action::stop), place(row, Action::try_stop));
     CHECK(stop < place(row, Action::unsubscribe));
     CHECK(place(row, Action::unsubscribe) < place(row, Action::enter));
@@ -131,7 +131,7 @@ TEST_CASE("a component fails even if stop() throws, which is not called again", 
   for_each_row([](const ComponentTransition& row) {
     CHECK(has(row, Action::stop) == (is_up(row.from) && !is_up(row.to) && !is_failed(row.to)));
     if (!has(row, Action::stop)) return;
-    const ComponentTransition* const next = transition(row.from, Event::stop_threw);
+    const ComponentTransition* const next = transition(row.from, StateEvent::stop_threw);
     REQUIRE(next != nullptr);
     CHECK(is_failed(next->to));
     CHECK_FALSE(has(*next, Action::stop));
@@ -154,8 +154,8 @@ TEST_CASE("a pause calls suspend() and resume(), and leaves subscriptions and in
           "[host][states]") {
   for_each_row([](const ComponentTransition& row) {
     CHECK(has(row, Action::suspend) == is_suspended(row.to));
-    CHECK(has(row, Action::resume) == (row.event == Event::resume));
-    if (!is_suspended(row.to) && row.event != Event::resume) return;
+    CHECK(has(row, Action::resume) == (row.event == StateEvent::resume));
+    if (!is_suspended(row.to) && row.event != StateEvent::resume) return;
     for (const Action action : {Action::subscribe, Action::unsubscribe, Action::open_intake,
                                 Action::hold_intake, Action::close_intake, Action::start, Action::stop})
       CHECK_FALSE(has(row, action));
@@ -171,7 +171,7 @@ TEST_CASE("objects and queries to a component are held before its code is unload
 
 TEST_CASE("laps begin anew when a component starts and after a pause", "[host][states]") {
   for_each_row([](const ComponentTransition& row) {
-    const bool goes_on = row.to == State::work && row.event != Event::exit;
+    const bool goes_on = row.to == State::work && row.event != StateEvent::exit;
     CHECK(has(row, Action::begin_laps) == goes_on);
   });
 }
@@ -183,7 +183,7 @@ TEST_CASE("the end of the system leads from each state in which a strand can res
     if (state == State::init || state == State::connect) continue;  // they end by themselves first
     CAPTURE(kStateNames.at(i));
     for (int steps = 0; state != State::exit && steps < 3; ++steps) {
-      const ComponentTransition* const row = transition(state, Event::exit);
+      const ComponentTransition* const row = transition(state, StateEvent::exit);
       REQUIRE(row != nullptr);
       state = row->to;
     }

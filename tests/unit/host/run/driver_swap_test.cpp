@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <iterator>
 
 #include "orca/idl/navigation.hpp"
 #include "orca/plugin/library.hpp"
@@ -37,21 +36,9 @@ SwapOrder next_cart(const std::string& plugin, const std::string& trouble = "non
   return order;
 }
 
-std::string refusal(LiveSystem& live, SwapOrder wanted) {
-  const Result<SwapReport> outcome = swap(live, std::move(wanted));
-  return outcome ? "it was taken" : outcome.error().text();
-}
-
 Words operator+(Words a, const Words& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
-}
-
-Words beginning(const Words& all, const std::string& begin) {
-  Words found;
-  std::ranges::copy_if(all, std::back_inserter(found),
-                       [&](const auto& word) { return word.starts_with(begin); });
-  return found;
 }
 
 hw::HardwareState state_of_cart(LiveSystem& live) { return live.system().hardware("cart")->seat().state(); }

@@ -23,7 +23,7 @@ graph::Edge choice(const std::string& server, std::uint32_t number, const std::s
 }
 
 // A system of which some components are down.
-struct System {
+struct SystemWithLosses {
   graph::Graph graph;
   std::set<std::string> down{};
   std::set<std::string> coming_up{};
@@ -52,14 +52,14 @@ graph::Graph three_localizers() {
   return graph;
 }
 
-ComponentReport in(ComponentState state, const std::string& failure = "") {
+ComponentReport report_in(ComponentState state, const std::string& failure = "") {
   ComponentReport report;
   report.state = state;
   report.failure = failure;
   return report;
 }
 
-using Names = std::vector<std::string>;
+using Providers = std::vector<std::string>;
 
 const std::string kLives =
     R"(<component name="bad" type="test.Life" may_fail="true"><param name="mode" value="work fails"/></component>)"
@@ -81,7 +81,7 @@ std::uint64_t delivered(const RecordedRun& run, const std::string& from) {
 }  // namespace
 
 TEST_CASE("a port uses its first choice as long as that is up", "[host][trading]") {
-  System system{three_localizers()};
+  SystemWithLosses system{three_localizers()};
   REQUIRE(system.edges.in_use().size() == 1);
   CHECK(system.edges.in_use().front()->server().component == "best");
   system.down = {"good", "worst"};
@@ -89,32 +89,32 @@ TEST_CASE("a port uses its first choice as long as that is up", "[host][trading]
 }
 
 TEST_CASE("a port whose server is down moves to the next choice that is up", "[host][trading]") {
-  System system{three_localizers()};
+  SystemWithLosses system{three_localizers()};
   system.down = {"best"};
-  CHECK(system.look() == Names{"good"});
+  CHECK(system.look() == Providers{"good"});
   CHECK(system.last_text == "localizer uses good.pose from now on, because best is down: it was killed");
   CHECK(system.look().empty());
   system.down = {"best", "good"};
-  CHECK(system.look() == Names{"worst"});
+  CHECK(system.look() == Providers{"worst"});
 }
 
 TEST_CASE("a port does not move back to a better choice", "[host][trading]") {
-  System system{three_localizers()};
+  SystemWithLosses system{three_localizers()};
   system.down = {"best"};
-  CHECK(system.look() == Names{"good"});
+  CHECK(system.look() == Providers{"good"});
   system.down = {};
   CHECK(system.look().empty());
   system.down = {"good"};
-  CHECK(system.look() == Names{"best"});
+  CHECK(system.look() == Providers{"best"});
 }
 
 TEST_CASE("a port stays where it is while none of its choices is up", "[host][trading]") {
-  System system{three_localizers()};
+  SystemWithLosses system{three_localizers()};
   system.down = {"best", "good", "worst"};
   CHECK(system.look().empty());
   CHECK(system.edges.in_use().front()->server().component == "best");
   system.down = {"best", "good"};
-  CHECK(system.look() == Names{"worst"});
+  CHECK(system.look() == Providers{"worst"});
 }
 
 TEST_CASE("each port moves for itself, and one without a choice does not", "[host][trading]") {
@@ -122,19 +122,19 @@ TEST_CASE("each port moves for itself, and one without a choice does not", "[hos
   graph.edges.push_back(choice("good", 1, "avoid"));
   graph.edges.push_back(choice("best", 2, "avoid"));
   graph.edges.push_back(choice("best", 0, "fuser"));
-  System system{graph};
+  SystemWithLosses system{graph};
   system.down = {"best"};
-  CHECK(system.look() == Names{"good"});
+  CHECK(system.look() == Providers{"good"});
   CHECK(system.edges.in_use().size() == 2);
 }
 
 TEST_CASE("a port waits for a server that is coming up, and takes none that is", "[host][trading]") {
-  System system{three_localizers()};
+  SystemWithLosses system{three_localizers()};
   system.coming_up = {"best", "good"};
   CHECK(system.look().empty());
   system.coming_up = {"good"};
   system.down = {"best"};
-  CHECK(system.look() == Names{"worst"});
+  CHECK(system.look() == Providers{"worst"});
 }
 
 TEST_CASE("a component is down if it has failed, ended badly, or is lost with its process",
@@ -143,18 +143,20 @@ TEST_CASE("a component is down if it has failed, ended badly, or is lost with it
   for (const auto state :
        {ComponentState::idle, ComponentState::connect, ComponentState::work, ComponentState::work_done,
         ComponentState::suspended_work, ComponentState::unloaded})
-    CHECK(standing_of(in(state)).is_up);
-  CHECK(standing_of(in(ComponentState::unloaded, killed)).why_down == "is down: its process was killed");
-  CHECK(standing_of(in(ComponentState::broken, "work() threw 7")).why_down == "is down: work() threw 7");
-  ComponentReport retired = in(ComponentState::idle, "work() failed");
+    CHECK(standing_of(report_in(state)).is_up);
+  CHECK(standing_of(report_in(ComponentState::unloaded, killed)).why_down ==
+        "is down: its process was killed");
+  CHECK(standing_of(report_in(ComponentState::broken, "work() threw 7")).why_down ==
+        "is down: work() threw 7");
+  ComponentReport retired = report_in(ComponentState::idle, "work() failed");
   retired.ended_badly = true;
   CHECK(standing_of(retired).why_down == "is down: work() failed");
   CHECK_FALSE(standing_of(retired).is_up);
 }
 
 TEST_CASE("a component that is coming up is neither up nor down", "[host][trading]") {
-  CHECK_FALSE(standing_of(in(ComponentState::init)).is_up);
-  CHECK(standing_of(in(ComponentState::init)).why_down.empty());
+  CHECK_FALSE(standing_of(report_in(ComponentState::init)).is_up);
+  CHECK(standing_of(report_in(ComponentState::init)).why_down.empty());
 }
 
 TEST_CASE("in one process a port leaves a component that has failed, and the trace is the same each time",
@@ -162,7 +164,7 @@ TEST_CASE("in one process a port leaves a component that has failed, and the tra
   const std::string seek = R"(<connect to="user.push" seek="type == 'test.Life'"/>)";
   const RecordedRun run = run_with(seek);
   CHECK(run.warnings ==
-        Names{"user: push uses good.out from now on, because bad is down: work() failed: no work today"});
+        Providers{"user: push uses good.out from now on, because bad is down: work() failed: no work today"});
   CHECK(delivered(run, "good.out") > 10);
   CHECK(run.result.trace_hash.has_value());
   CHECK(run_with(seek).result.trace_hash == run.result.trace_hash);

@@ -11,11 +11,11 @@ using Lines = std::vector<std::string>;
 
 namespace {
 
-std::string life(const std::string& name, const std::string& attributes = "") {
+std::string silent_life(const std::string& name, const std::string& attributes = "") {
   return "<component name=\"" + name + R"(" type="test.Life" )" + attributes + "/>";
 }
 
-std::string user(const std::string& from, const std::string& until) {
+std::string user_between(const std::string& from, const std::string& until) {
   return R"(<component name="user" type="test.User"><param name="from" value=")" + from +
          R"("/><param name="until" value=")" + until + R"("/></component>)";
 }
@@ -32,39 +32,40 @@ Lines warnings_of(const std::string& elements, Duration until = 5s, const std::s
 
 TEST_CASE("a component that nobody used says at the end of the run that it has never worked",
           "[host][idleness]") {
-  CHECK(warnings_of(life("life")) ==
+  CHECK(warnings_of(silent_life("life")) ==
         Lines{"life: has never worked in this run: nobody listens to it, and it works by itself only with "
               "autonomous=\"true\" in the graph"});
-  CHECK(warnings_of(life("life", "autonomous=\"true\"")).empty());
+  CHECK(warnings_of(silent_life("life", "autonomous=\"true\"")).empty());
 }
 
 TEST_CASE("a component to which nobody subscribed names those that could have", "[host][idleness]") {
   CHECK(
-      warnings_of(life("life") + user("9", "10") + kListens) ==
+      warnings_of(silent_life("life") + user_between("9", "10") + kListens) ==
       Lines{"life: has never worked in this run: none of those that it is connected to has subscribed: user",
             "orca: no connection has carried anything in this run"});
-  CHECK(warnings_of(life("life") + user("1", "2") + kListens).empty());
+  CHECK(warnings_of(silent_life("life") + user_between("1", "2") + kListens).empty());
 }
 
 TEST_CASE("a component that only serves others, or is loaded on demand, may have had nothing to do",
           "[host][idleness]") {
-  const std::string serves = life("life") + user("9", "10") + R"(<connect from="user.send" to="life.poke"/>)";
+  const std::string serves =
+      silent_life("life") + user_between("9", "10") + R"(<connect from="user.send" to="life.poke"/>)";
   CHECK(warnings_of(serves) == Lines{"orca: no connection has carried anything in this run"});
-  CHECK(warnings_of(life("life", "start=\"on_demand\"")).empty());
+  CHECK(warnings_of(silent_life("life", "start=\"on_demand\"")).empty());
 }
 
 TEST_CASE("a component that was only asked has done something", "[host][idleness]") {
-  CHECK(
-      warnings_of(life("life") + user("1", "2") + kListens + R"(<connect from="user.query" to="life.ask"/>)")
-          .empty());
+  CHECK(warnings_of(silent_life("life") + user_between("1", "2") + kListens +
+                    R"(<connect from="user.query" to="life.ask"/>)")
+            .empty());
 }
 
 TEST_CASE("a run that was too short for everybody to begin says nothing", "[host][idleness]") {
-  CHECK(warnings_of(life("life"), 900ms).empty());
+  CHECK(warnings_of(silent_life("life"), 900ms).empty());
 }
 
 TEST_CASE("a system that stands still from the start says why, however short it lasted", "[host][idleness]") {
-  const RecordedRun run = record_run("", life("life"), virtual_run());
+  const RecordedRun run = record_run("", silent_life("life"), virtual_run());
   CHECK(run.result.outcome == RunOutcome::failed);
   CHECK(run.warnings.size() == 1);
 }
@@ -77,6 +78,6 @@ TEST_CASE("a component that failed has said so already", "[host][idleness]") {
 
 TEST_CASE("the graph's word on autonomous counts before the component's own", "[host][idleness]") {
   const std::string quiet =
-      R"(<component name="user" type="test.User" autonomous="false"/>)" + life("life") + kListens;
+      R"(<component name="user" type="test.User" autonomous="false"/>)" + silent_life("life") + kListens;
   CHECK(warnings_of(quiet).size() == 3);  // a User stays active by itself
 }

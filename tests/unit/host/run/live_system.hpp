@@ -62,6 +62,9 @@ class LiveSystem {
   std::size_t read_ = 0;
 };
 
+/// A component that works without clients.
+inline const std::string kAutonomousLife = R"(<component name="life" type="test.Life" autonomous="true"/>)";
+
 /// Where the plugin is.
 [[nodiscard]] inline std::string host_plugin(const std::string& name) {
   return std::string(ORCA_BINARY_DIR "/tests/host_plugins/") + name + ".so";

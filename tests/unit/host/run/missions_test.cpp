@@ -51,7 +51,7 @@ std::string into_the_pillar() {
 }
 
 // Returns the lines of one component.
-Lines lines_of(const std::string& name, const RecordedRun& run) {
+Lines lines_of_component(const std::string& name, const RecordedRun& run) {
   Lines lines;
   std::ranges::copy_if(run.warnings, std::back_inserter(lines),
                        [&](const std::string& line) { return line.starts_with(name + ": "); });
@@ -94,8 +94,8 @@ TEST_CASE("without a client list the fuser's command belongs to the mission of t
   RunOptions options = virtual_run();
   options.until = 1s;
   const RecordedRun run = record_run("", kFuser, options);
-  REQUIRE_FALSE(lines_of("wheels", run).empty());
-  CHECK(lines_of("wheels", run).back() == "wheels: moves because of fast (mission 80)");
+  REQUIRE_FALSE(lines_of_component("wheels", run).empty());
+  CHECK(lines_of_component("wheels", run).back() == "wheels: moves because of fast (mission 80)");
 }
 
 TEST_CASE(
@@ -105,7 +105,7 @@ TEST_CASE(
     <component name="errand" type="test.Errand"><param name="behaviours" value="fast"/></component>
     <connect from="errand.list" to="fuser.ClientListSend"/>)x",
                                      virtual_run());
-  const Lines lines = lines_of("wheels", run);
+  const Lines lines = lines_of_component("wheels", run);
   REQUIRE(lines.size() >= 2);
   CHECK(lines[lines.size() - 2] == "wheels: moves because of fast (mission 1)");
   CHECK(lines.back() == "wheels: moves because of fast (mission 2)");
@@ -126,7 +126,7 @@ TEST_CASE("a goal's mission goes down to the wheels and comes back in its result
   REQUIRE(run.result.contacts.size() ==
           1);  // what happens to the wheels happens in the mission that moves them
   CHECK(run.result.contacts[0].mission() == 2);
-  const Lines of_base = lines_of("base", run);
+  const Lines of_base = lines_of_component("base", run);
   REQUIRE_FALSE(of_base.empty());
   CHECK(of_base.front().ends_with(" (mission 2)"));
 }

@@ -11,10 +11,10 @@ using Catch::Contains;
 
 namespace {
 
-std::string life(const std::string& attributes) {
+std::string sleepy_life(const std::string& attributes) {
   return R"(<component name="life" type="test.Life" start="on_demand" )" + attributes + "/>";
 }
-std::string user(const std::string& name, double from, double until) {
+std::string busy_user(const std::string& name, double from, double until) {
   return "<component name=\"" + name + R"(" type="test.User"><param name="from" value=")" +
          std::to_string(from) + R"("/><param name="until" value=")" + std::to_string(until) +
          R"("/></component>)";
@@ -26,7 +26,7 @@ bool in_memory() { return plugin::is_mapped(host_plugin("test_life")); }
 TEST_CASE("a component on demand is loaded by its first client and unloaded when long unused",
           "[host][on_demand]") {
   for (const ExecutiveOptions& kind : virtual_executives()) {
-    LiveSystem live(life("idle_time=\"2 s\"") + user("user", 1, 2) + user("late", 5, 6) +
+    LiveSystem live(sleepy_life("idle_time=\"2 s\"") + busy_user("user", 1, 2) + busy_user("late", 5, 6) +
                     R"(<connect from="life.out" to="user.push"/><connect from="life.out" to="late.push"/>)");
     live.run(kind, [](LiveSystem& run) {
       run.sleep(500ms);
@@ -52,7 +52,7 @@ TEST_CASE("a component on demand is loaded by its first client and unloaded when
 }
 
 TEST_CASE("objects and queries to an unloaded component wait until it is loaded", "[host][on_demand]") {
-  LiveSystem live(life("idle_time=\"1 s\"") + user("user", 1, 2) +
+  LiveSystem live(sleepy_life("idle_time=\"1 s\"") + busy_user("user", 1, 2) +
                   R"(<connect from="user.send" to="life.poke"/><connect from="user.query" to="life.ask"/>)");
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     run.sleep(1500ms);
@@ -66,7 +66,7 @@ TEST_CASE("objects and queries to an unloaded component wait until it is loaded"
 }
 
 TEST_CASE("a component that is to stay warm stays loaded once it has been used", "[host][on_demand]") {
-  LiveSystem live(life("stay=\"warm\"") + user("user", 1, 2) +
+  LiveSystem live(sleepy_life("stay=\"warm\"") + busy_user("user", 1, 2) +
                   R"(<connect from="life.out" to="user.push"/>)");
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     CHECK_FALSE(in_memory());
@@ -77,7 +77,7 @@ TEST_CASE("a component that is to stay warm stays loaded once it has been used",
 }
 
 TEST_CASE("changed parameters keep their values after unloading", "[host][on_demand]") {
-  LiveSystem live(life("idle_time=\"1 s\"") + user("user", 1, 2) +
+  LiveSystem live(sleepy_life("idle_time=\"1 s\"") + busy_user("user", 1, 2) +
                   R"(<connect from="life.out" to="user.push"/>)");
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     CHECK(run.set("life", {{"low", "3"}, {"high", "4"}}).ok());  // not even loaded yet
@@ -87,7 +87,7 @@ TEST_CASE("changed parameters keep their values after unloading", "[host][on_dem
 }
 
 TEST_CASE("an on-demand component runs on threads of its own, too", "[host][on_demand]") {
-  LiveSystem live(life("idle_time=\"10 ms\"") + user("user", 0.01, 0.02) +
+  LiveSystem live(sleepy_life("idle_time=\"10 ms\"") + busy_user("user", 0.01, 0.02) +
                   R"(<connect from="life.out" to="user.push"/>)");
   live.run({ClockKind::steady, Backend::thread}, [](LiveSystem& run) {
     CHECK(eventually(run.executive(), [&] { return run.diary.has("start"); }));

@@ -11,9 +11,7 @@ using Catch::Contains;
 
 namespace {
 
-const std::string kLife = R"(<component name="life" type="test.Life" autonomous="true"/>)";
-
-std::int64_t number(LiveSystem& run, const std::string& param) {
+std::int64_t number_param(LiveSystem& run, const std::string& param) {
   return std::get<std::int64_t>(run.system().component("life")->params().at(param));
 }
 
@@ -21,24 +19,24 @@ std::int64_t number(LiveSystem& run, const std::string& param) {
 
 TEST_CASE("parameters change together between two laps", "[host][params]") {
   for (const ExecutiveOptions& kind : virtual_executives()) {
-    LiveSystem live(kLife);
+    LiveSystem live(kAutonomousLife);
     live.run(kind, [](LiveSystem& run) {
       run.sleep(50ms);
       CHECK(run.set("life", {{"low", "5"}, {"high", "7"}, {"size", "250 cm"}}).ok());
       run.sleep(100ms);
       CHECK(run.news() == Words{"configure", "start", "work 1-2", "params 5-7", "work 5-7"});
-      CHECK(number(run, "high") == 7);
+      CHECK(number_param(run, "high") == 7);
       CHECK(std::get<double>(run.system().component("life")->params().at("size")) == 2.5);
     });
   }
 }
 
 TEST_CASE("values that the component does not accept leave all as it was", "[host][params]") {
-  LiveSystem live(kLife);
+  LiveSystem live(kAutonomousLife);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     const Status set = run.set("life", {{"low", "9"}, {"size", "2 m"}});
     CHECK_THAT(set.error().text(), Contains("low is above high"));
-    CHECK(number(run, "low") == 1);
+    CHECK(number_param(run, "low") == 1);
     run.sleep(10ms);
     CHECK(run.news().back() == "work 1-2");
     CHECK(run.state("life") == ComponentState::work);
@@ -46,7 +44,7 @@ TEST_CASE("values that the component does not accept leave all as it was", "[hos
 }
 
 TEST_CASE("all wrong values are reported at once, and none is taken", "[host][params]") {
-  LiveSystem live(kLife);
+  LiveSystem live(kAutonomousLife);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     const Status set = run.set("life", {{"hihg", "1"}, {"low", "1000"}, {"size", "2 s"}, {"label", "b"}});
     CHECK(set.error().code == Code::invalid_argument);
@@ -55,12 +53,12 @@ TEST_CASE("all wrong values are reported at once, and none is taken", "[host][pa
                                        Contains("\"1000\" is out of range: 0 to 100 is allowed") &&
                                        Contains("parameter \"size\"") &&
                                        Contains("\"label\" cannot change while the component runs"));
-    CHECK(number(run, "low") == 1);
+    CHECK(number_param(run, "low") == 1);
   });
 }
 
 TEST_CASE("an exception at new values fails the component, which keeps the old ones", "[host][params]") {
-  LiveSystem live(kLife);
+  LiveSystem live(kAutonomousLife);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     CHECK_THAT(run.set("life", {{"mode", "params throw"}}).error().text(),
                Contains("params_changed() threw"));

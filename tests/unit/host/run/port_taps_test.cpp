@@ -3,25 +3,20 @@
 
 #include <catch2/catch.hpp>
 
-#include "orca/idl/motion.hpp"
+#include "numbered_command.hpp"
 
 using namespace orca;
 using namespace orca::host;
+using namespace orca::test;
 
 namespace {
 
-PortContract port(const std::string& name, Pattern pattern, Role role) {
+PortContract contract_of_port(const std::string& name, Pattern pattern, Role role) {
   PortContract contract;
   contract.name = name;
   contract.pattern = pattern;
   contract.role = role;
   return contract;
-}
-
-ObjectRef command(std::uint64_t seq) {
-  auto made = head(0.1, 0.3);
-  made->seq(seq);
-  return ObjectLoan(std::move(made)).seal();
 }
 
 }  // namespace
@@ -30,13 +25,13 @@ TEST_CASE("a tap sees what passes its port at the moment that fits the port, and
           "[host][taps]") {
   const auto executive = std::move(make_executive({ClockKind::virtual_time, Backend::fiber})).value();
   PortTaps taps(*executive);
-  taps.pass(Flow::pushed, "goto", "out", command(1));  // nobody looks
-  const auto out = taps.open("goto", port("out", Pattern::push, Role::server));
-  const auto in = taps.open("goto", port("in", Pattern::push, Role::proxy));
-  taps.pass(Flow::pushed, "goto", "out", command(2));
-  taps.pass(Flow::delivered, "goto", "out", command(3));
-  taps.pass(Flow::pushed, "avoid", "out", command(4));
-  taps.pass(Flow::delivered, "goto", "in", command(5));
+  taps.pass(Flow::pushed, "goto", "out", numbered_command(1));  // nobody looks
+  const auto out = taps.open("goto", contract_of_port("out", Pattern::push, Role::server));
+  const auto in = taps.open("goto", contract_of_port("in", Pattern::push, Role::proxy));
+  taps.pass(Flow::pushed, "goto", "out", numbered_command(2));
+  taps.pass(Flow::delivered, "goto", "out", numbered_command(3));
+  taps.pass(Flow::pushed, "avoid", "out", numbered_command(4));
+  taps.pass(Flow::delivered, "goto", "in", numbered_command(5));
   const auto passed = out->take();
   REQUIRE(passed.size() == 1);
   CHECK(passed[0].object.header().seq() == 2);
@@ -49,14 +44,14 @@ TEST_CASE("a tap that nobody empties loses objects and counts them, and one that
           "[host][taps]") {
   const auto executive = std::move(make_executive({ClockKind::virtual_time, Backend::fiber})).value();
   PortTaps taps(*executive);
-  auto tap = taps.open("goto", port("order", Pattern::send, Role::proxy));
+  auto tap = taps.open("goto", contract_of_port("order", Pattern::send, Role::proxy));
   const std::size_t live = pool_statistics(object_type<idl::MotionCommand>()).live;
   for (std::uint64_t i = 0; i < PortTap::kMost + 10; ++i)
-    taps.pass(Flow::requested, "goto", "order", command(i));
+    taps.pass(Flow::requested, "goto", "order", numbered_command(i));
   CHECK(tap->lost() == 10);
   CHECK(tap->take().size() == PortTap::kMost);
-  taps.pass(Flow::requested, "goto", "order", command(1));
+  taps.pass(Flow::requested, "goto", "order", numbered_command(1));
   tap.reset();
-  taps.pass(Flow::requested, "goto", "order", command(2));
+  taps.pass(Flow::requested, "goto", "order", numbered_command(2));
   CHECK(pool_statistics(object_type<idl::MotionCommand>()).live == live);
 }

@@ -13,9 +13,9 @@ using namespace orca::host;
 
 namespace {
 
-class Recorder final : public RunListener {
+class RunKeeper final : public RunListener {
  public:
-  explicit Recorder(RecordedRun& record) : record_(record) {}
+  explicit RunKeeper(RecordedRun& record) : record_(record) {}
 
   void started(TimePoint /*now*/) override { record_.heard.emplace_back("started"); }
   void built(const RunView& view) override {
@@ -58,7 +58,7 @@ RecordedRun record_run(const std::string& attributes, const std::string& element
   INFO(diagnostics.text());
   REQUIRE(graph);
   RecordedRun record;
-  Recorder recorder(record);
+  RunKeeper recorder(record);
   record.result = run_system(*graph, catalogue, options, stop, recorder);
   return record;
 }

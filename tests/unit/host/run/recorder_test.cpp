@@ -10,6 +10,7 @@
 #include <string>
 
 #include "executives.hpp"
+#include "numbered_command.hpp"
 #include "orca/idl/motion.hpp"
 #include "run/recording/recorder.hpp"
 #include "temp_folder.hpp"
@@ -23,13 +24,7 @@ using Catch::StartsWith;
 
 namespace {
 
-ObjectRef command(std::uint64_t seq) {
-  auto made = head(0.1, 0.3);
-  made->seq(seq);
-  return ObjectLoan(std::move(made)).seal();
-}
-
-graph::ListedPort port(const std::string& name, Pattern pattern, Role role) {
+graph::ListedPort listed_port(const std::string& name, Pattern pattern, Role role) {
   graph::ListedPort listed{{"goto", name}, {}, false, {}, {}};
   listed.contract.name = name;
   listed.contract.pattern = pattern;
@@ -39,11 +34,12 @@ graph::ListedPort port(const std::string& name, Pattern pattern, Role role) {
 }
 
 std::vector<graph::ListedPort> ports() {
-  return {port("out", Pattern::push, Role::server), port("in", Pattern::push, Role::proxy),
-          port("order", Pattern::send, Role::proxy), port("intake", Pattern::send, Role::server)};
+  return {listed_port("out", Pattern::push, Role::server), listed_port("in", Pattern::push, Role::proxy),
+          listed_port("order", Pattern::send, Role::proxy),
+          listed_port("intake", Pattern::send, Role::server)};
 }
 
-std::size_t lines_of(const std::string& text) {
+std::size_t count_lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -68,16 +64,16 @@ TEST_CASE("each port is recorded where its component's own objects pass", "[host
             .ok());
     std::uint64_t seq = 0;
     for (const char* name : {"out", "in", "order", "intake", "unknown"}) {
-      recorder.pushed("goto", name, command(++seq));
-      recorder.requested("goto", name, command(++seq));
-      recorder.delivered("goto", name, command(++seq));
-      recorder.delivered("other", name, command(0));
+      recorder.pushed("goto", name, numbered_command(++seq));
+      recorder.requested("goto", name, numbered_command(++seq));
+      recorder.delivered("goto", name, numbered_command(++seq));
+      recorder.delivered("other", name, numbered_command(0));
     }
     CHECK(recorder.close().empty());
-    recorder.pushed("goto", "out", command(99));  // too late
+    recorder.pushed("goto", "out", numbered_command(99));  // too late
   });
   const std::string text = read_text(folder.file("all.csv"));
-  CHECK(lines_of(text) == 5);
+  CHECK(count_lines(text) == 5);
   for (const char* line : {",goto.out,0,,1,", ",goto.in,0,,6,", ",goto.order,0,,8,", ",goto.intake,0,,12,"})
     CHECK_THAT(text, Contains(line));
 }
@@ -90,7 +86,7 @@ TEST_CASE("a file without objects has its columns", "[host][record]") {
     CHECK(recorder.close().empty());
     const std::string text = read_text(folder.file("none.csv"));
     CHECK_THAT(text, StartsWith("stamp,port,creation_time,"));
-    CHECK(lines_of(text) == 1);
+    CHECK(count_lines(text) == 1);
   });
 }
 
@@ -108,7 +104,7 @@ TEST_CASE("in real time nobody waits for a reader that is stuck, and what is lef
     Recorder recorder(executive);
     REQUIRE(recorder.open({{pipe, {"goto.out"}}}, ports()).ok());
     const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < kObjects; ++i) recorder.pushed("goto", "out", command(1));
+    for (int i = 0; i < kObjects; ++i) recorder.pushed("goto", "out", numbered_command(1));
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
 
     SECTION("the reader comes back") {
@@ -122,7 +118,7 @@ TEST_CASE("in real time nobody waits for a reader that is stuck, and what is lef
       text += drain(reader);
       REQUIRE(failures.size() == 1);
       CHECK(failures.front().code == Code::data_loss);
-      const std::size_t written = lines_of(text) - 1;  // without that of the columns
+      const std::size_t written = count_lines(text) - 1;  // without that of the columns
       CHECK(written >= Recorder::kMostWaiting);
       CHECK_THAT(failures.front().message, EndsWith(": " + std::to_string(kObjects - written)));
     }

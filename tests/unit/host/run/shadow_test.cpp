@@ -29,7 +29,7 @@ constexpr const char* kEndOfMemory = "bad_alloc";
 
 constexpr TimePoint kBegin{Duration{50s}};
 
-SeenObject command(int number) {
+SeenObject seen_command(int number) {
   ObjectLoan object = make_object(object_type<idl::MotionCommand>());
   const TimePoint time = kBegin + number * 10ms;
   object.header().creation_time(to_time_value(time));
@@ -48,7 +48,7 @@ SeenObject poke(int number) {
 std::vector<SeenObject> a_second() {
   std::vector<SeenObject> seen;
   for (int i = 1; i <= 100; ++i) {
-    seen.push_back(command(i));
+    seen.push_back(seen_command(i));
     if (i <= 10) seen.push_back(poke(i));
   }
   return seen;

@@ -15,9 +15,9 @@ struct Name {
   std::string name;
   std::string meaning;
 };
-using Names = std::vector<Name>;  // by the number of the enumerator
+using NameList = std::vector<Name>;  // by the number of the enumerator
 
-const Names kComponentStateNames = {
+const NameList kComponentStateNames = {
     {"UNLOADED",
      "Its code is not in memory: nobody has asked for it, or not for a while. Only with `on_demand`."},
     {"INIT", "It is being loaded and configured. In the thesis: the constructor."},
@@ -31,7 +31,7 @@ const Names kComponentStateNames = {
     {"SUSPENDED (work)", "An operator has paused it while it was at WORK."},
     {"EXIT", "Its strand ends. In the thesis: the destructor."}};
 
-const Names kComponentEventNames = {
+const NameList kComponentEventNames = {
     {"asked for", "There is a client, an object or a question for a component that is not loaded."},
     {"wanted", "It has a client, or it is to stay active."},
     {"not wanted", "It has no client, and it is not to stay active."},
@@ -66,14 +66,14 @@ const std::vector<std::string> kComponentActionNames = {"",
                                                         "destroy and unload",
                                                         "refuse orders and what is sent and asked"};
 
-const Names kHardwareStateNames = {
+const NameList kHardwareStateNames = {
     {"Closed", "The device is not open."},
     {"Opening", "The container's strand runs and opens the device."},
     {"Ready", "The device is open and polled; nobody uses it."},
     {"Active", "The device is started: readings come, and commands are carried out."},
     {"Fault", "The device or its driver has failed. It stays so."}};
 
-const Names kHardwareEventNames = {
+const NameList kHardwareEventNames = {
     {"wanted", "Somebody uses the device."},
     {"not wanted", "Nobody uses it, or it is to be closed."},
     {"the end", "The system is being stopped, or the driver exchanged, and the device is not used any more."},
@@ -93,37 +93,37 @@ const std::vector<std::string> kHardwareActionNames = {
     "call `close()`"};
 
 template <class Value>
-std::size_t number(Value value) {
+std::size_t index_of(Value value) {
   return static_cast<std::size_t>(value);
 }
 
-std::string list_of(const Names& names, const std::string& head) {
+std::string list_of(const NameList& names, const std::string& head) {
   std::string page = "| " + head + " | meaning |\n|---|---|\n";
   for (const Name& name : names) page += "| " + name.name + " | " + name.meaning + " |\n";
   return page;
 }
 
 template <class Event>
-std::string events_of(const Names& names) {
+std::string events_of(const NameList& names) {
   const std::vector<std::string> kinds = {"circumstance", "order", "outcome"};
   std::string page = "| event | kind | meaning |\n|---|---|---|\n";
   for (std::size_t i = 0; i < names.size(); ++i)
-    page += "| " + names[i].name + " | " + kinds.at(number(kind_of(static_cast<Event>(i)))) + " | " +
+    page += "| " + names[i].name + " | " + kinds.at(index_of(kind_of(static_cast<Event>(i)))) + " | " +
             names[i].meaning + " |\n";
   return page;
 }
 
 template <class Row>
-std::string table_of(std::span<const Row> rows, const Names& states, const Names& events,
+std::string table_of(std::span<const Row> rows, const NameList& states, const NameList& events,
                      const std::vector<std::string>& actions) {
   std::string page = "| state | event | next state | what is done, in this order |\n|---|---|---|---|\n";
   for (const Row& row : rows) {
-    page += "| " + states.at(number(row.from)).name + " | " + events.at(number(row.event)).name + " | " +
-            states.at(number(row.to)).name + " | ";
+    page += "| " + states.at(index_of(row.from)).name + " | " + events.at(index_of(row.event)).name + " | " +
+            states.at(index_of(row.to)).name + " | ";
     std::string steps;
     for (const auto action : row.actions) {
-      const std::string step =
-          number(action) == 0 ? "**" + states.at(number(row.to)).name + "**" : actions.at(number(action));
+      const std::string step = index_of(action) == 0 ? "**" + states.at(index_of(row.to)).name + "**"
+                                                     : actions.at(index_of(action));
       steps += (steps.empty() ? "" : ", ") + step;
     }
     page += (steps.empty() ? "nothing" : steps) + " |\n";

@@ -12,7 +12,7 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-std::string life(const std::string& mode) {
+std::string life_in_mode(const std::string& mode) {
   return R"(<component name="life" type="test.Life"><param name="mode" value=")" + mode +
          R"("/></component>)";
 }
@@ -26,7 +26,7 @@ const std::string kTwoUsers = R"(
 
 TEST_CASE("a component works from its first client to its last", "[host][states]") {
   for (const ExecutiveOptions& kind : virtual_executives()) {
-    LiveSystem live(life("") + kTwoUsers);
+    LiveSystem live(life_in_mode("") + kTwoUsers);
     live.run(kind, [](LiveSystem& run) {
       run.sleep(950ms);
       CHECK(run.state("life") == ComponentState::idle);
@@ -46,7 +46,7 @@ TEST_CASE("a component works from its first client to its last", "[host][states]
 TEST_CASE("after a failure that it reported itself a component is idle again when its clients have gone",
           "[host][states]") {
   const std::string mode = GENERATE("start fails", "work fails");
-  LiveSystem live(life(mode) + kTwoUsers);
+  LiveSystem live(life_in_mode(mode) + kTwoUsers);
   live.run(virtual_executives().front(), [&](LiveSystem& run) {
     run.sleep(1500ms);
     CHECK(run.state("life") == ComponentState::work_failed);
@@ -76,7 +76,7 @@ TEST_CASE("a component that waits in start() when the system ends is stopped and
 }
 
 TEST_CASE("a stop() that throws is called once, and its component stays in WORK_FAILED", "[host][states]") {
-  LiveSystem live(life("stop throws") + kTwoUsers);
+  LiveSystem live(life_in_mode("stop throws") + kTwoUsers);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     run.sleep(5s);
     CHECK(run.state("life") == ComponentState::broken);
@@ -87,7 +87,7 @@ TEST_CASE("a stop() that throws is called once, and its component stays in WORK_
 }
 
 TEST_CASE("a component that threw stays in WORK_FAILED, with the text", "[host][states]") {
-  LiveSystem live(life("work throws") + kTwoUsers);
+  LiveSystem live(life_in_mode("work throws") + kTwoUsers);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     run.sleep(5s);
     CHECK(run.state("life") == ComponentState::broken);

@@ -11,14 +11,13 @@ using Catch::Contains;
 
 namespace {
 
-const std::string kLife = R"(<component name="life" type="test.Life" autonomous="true"/>)";
 const std::string kIdle = R"(<component name="life" type="test.Life"/>)";
 
 }  // namespace
 
 TEST_CASE("a suspended component does nothing until it is resumed", "[host][suspend]") {
   for (const ExecutiveOptions& kind : virtual_executives()) {
-    LiveSystem live(kLife);
+    LiveSystem live(kAutonomousLife);
     live.run(kind, [](LiveSystem& run) {
       run.sleep(150ms);
       CHECK(run.suspend("life").ok());
@@ -50,7 +49,7 @@ TEST_CASE("an object sent to a suspended component waits, and is handled once it
 }
 
 TEST_CASE("all that waits for a component is handled before it starts to work", "[host][suspend]") {
-  LiveSystem live(kLife +
+  LiveSystem live(kAutonomousLife +
                   R"(<component name="user" type="test.User"/><component name="other" type="test.User"/>
     <connect from="user.send" to="life.poke"/><connect from="other.send" to="life.poke"/>)");
   live.run(virtual_executives().front(), [](LiveSystem& run) {
@@ -103,7 +102,7 @@ TEST_CASE("only an idle or working component can be suspended, and only a suspen
 }
 
 TEST_CASE("a system with a suspended component can be taken down", "[host][suspend]") {
-  LiveSystem live(kLife);
+  LiveSystem live(kAutonomousLife);
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     run.sleep(10ms);
     CHECK(run.suspend("life").ok());

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "live_system.hpp"
 #include "run/swap/swaps.hpp"
@@ -35,6 +36,21 @@ inline Result<host::SwapReport> swap(LiveSystem& live, host::SwapOrder order) {
     if (!outcome) live.changed().wait_until(next);
   }
   return *outcome;
+}
+
+/// Returns what a refused or failed swap says.
+[[nodiscard]] inline std::string refusal(LiveSystem& live, host::SwapOrder wanted) {
+  const Result<host::SwapReport> outcome = swap(live, std::move(wanted));
+  return outcome ? "it was taken" : outcome.error().text();
+}
+
+/// Returns the words that begin like this.
+[[nodiscard]] inline std::vector<std::string> beginning(const std::vector<std::string>& all,
+                                                        const std::string& begin) {
+  std::vector<std::string> found;
+  for (const std::string& word : all)
+    if (word.starts_with(begin)) found.push_back(word);
+  return found;
 }
 
 }  // namespace orca::test

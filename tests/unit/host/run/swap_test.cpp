@@ -13,24 +13,6 @@ using namespace orca::test;
 using Catch::Contains;
 using Words = std::vector<std::string>;
 
-namespace {
-
-// Returns what a refused or failed swap says.
-std::string refusal(LiveSystem& live, SwapOrder wanted) {
-  const Result<SwapReport> outcome = swap(live, std::move(wanted));
-  return outcome ? "it was taken" : outcome.error().text();
-}
-
-// Returns the words that begin like this.
-Words beginning(const Words& all, const std::string& begin) {
-  Words found;
-  for (const std::string& word : all)
-    if (word.starts_with(begin)) found.push_back(word);
-  return found;
-}
-
-}  // namespace
-
 TEST_CASE(
     "a new version takes over the state, and nothing that was pushed or sent is lost, doubled or out of "
     "order",

@@ -17,7 +17,7 @@ using namespace orca::test;
 
 namespace {
 
-ObjectRef command(double direction, std::uint64_t seq) {
+ObjectRef command_of_goto(double direction, std::uint64_t seq) {
   auto made = head(direction, 0.3);
   made->seq(seq);
   made->origin() = "goto";
@@ -45,8 +45,8 @@ TEST_CASE("the trace hash of virtual time is FNV-1a over every delivery, in orde
       Fnv1a expected;
       CHECK(trace.hash() == expected.value());
       const Duration start = executive.now().time_since_epoch();
-      const ObjectRef first = command(0.1, 1);
-      const ObjectRef second = command(0.2, 2);
+      const ObjectRef first = command_of_goto(0.1, 1);
+      const ObjectRef second = command_of_goto(0.2, 2);
       trace.delivered("fuser", "motion", first);
       trace.delivered("viewer", "in", first);  // a second reader of the same object
       sleep(executive, 50ms);
@@ -62,7 +62,7 @@ TEST_CASE("the trace hash of virtual time is FNV-1a over every delivery, in orde
 TEST_CASE("in steady time nothing is hashed", "[host][trace]") {
   run_on(steady_executives().front(), [](Executive& executive) {
     Trace trace(executive);
-    trace.delivered("fuser", "motion", command(0.1, 1));
+    trace.delivered("fuser", "motion", command_of_goto(0.1, 1));
     CHECK(trace.hash() == Fnv1a{}.value());
   });
 }
@@ -75,7 +75,7 @@ TEST_CASE("a trace file has one line for each event, with the time since the sta
     trace.link_changed("fuser.motion", "goto.MotionCmdPush", true);
     trace.state_changed("fuser", "IDLE", "CONNECT");
     sleep(executive, 1500ms);
-    trace.delivered("fuser", "motion", command(0.1, 7));
+    trace.delivered("fuser", "motion", command_of_goto(0.1, 7));
     trace.link_changed("fuser.motion", "goto.MotionCmdPush", false);
   });
   std::stringstream text;

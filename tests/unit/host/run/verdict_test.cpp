@@ -12,13 +12,15 @@ namespace {
 
 using States = std::map<std::string, ComponentReport>;
 
-ComponentReport in(ComponentState state) {
+ComponentReport report_of(ComponentState state) {
   ComponentReport report;
   report.state = state;
   return report;
 }
 
-ComponentReport failed(const std::string& why) { return {ComponentState::idle, true, true, true, why}; }
+ComponentReport failed_because(const std::string& why) {
+  return {ComponentState::idle, true, true, true, why};
+}
 
 Reports of(const States& states) {
   return [states](const std::string& component) { return states.at(component); };
@@ -41,15 +43,15 @@ graph::Graph two() {
 TEST_CASE("a run without ends never comes to an end by itself", "[host][verdict]") {
   graph::Graph graph = two();
   graph.ends.clear();
-  const States done{{"a", in(ComponentState::work_done)}, {"b", in(ComponentState::work_done)}};
+  const States done{{"a", report_of(ComponentState::work_done)}, {"b", report_of(ComponentState::work_done)}};
   CHECK_FALSE(ending(graph, of(done)).has_value());
 }
 
 TEST_CASE("a run has ended when all that it waits for are done", "[host][verdict]") {
-  States states{{"a", in(ComponentState::work_done)}, {"b", in(ComponentState::work)}};
+  States states{{"a", report_of(ComponentState::work_done)}, {"b", report_of(ComponentState::work)}};
   CHECK_FALSE(ending(two(), of(states)).has_value());
   CHECK(unfinished(two(), of(states)) == std::vector<std::string>{"b (WORK)"});
-  states["b"] = in(ComponentState::work_done);
+  states["b"] = report_of(ComponentState::work_done);
   const auto end = ending(two(), of(states));
   REQUIRE(end.has_value());
   CHECK(end->ok());
@@ -57,7 +59,7 @@ TEST_CASE("a run has ended when all that it waits for are done", "[host][verdict
 }
 
 TEST_CASE("a run has failed as soon as one of them has that may not", "[host][verdict]") {
-  const States states{{"a", in(ComponentState::work)}, {"b", failed("no way")}};
+  const States states{{"a", report_of(ComponentState::work)}, {"b", failed_because("no way")}};
   const auto end = ending(two(), of(states));
   REQUIRE(end.has_value());
   REQUIRE_FALSE(end->ok());
@@ -68,22 +70,22 @@ TEST_CASE("a run has failed as soon as one of them has that may not", "[host][ve
 TEST_CASE("one that may fail counts as done when it has failed", "[host][verdict]") {
   graph::Graph graph = two();
   graph.components[1].may_fail = true;
-  States states{{"a", in(ComponentState::work)}, {"b", failed("no way")}};
+  States states{{"a", report_of(ComponentState::work)}, {"b", failed_because("no way")}};
   CHECK_FALSE(ending(graph, of(states)).has_value());
   CHECK(failed_components(graph, of(states)).empty());
-  states["a"] = in(ComponentState::work_done);
+  states["a"] = report_of(ComponentState::work_done);
   const auto end = ending(graph, of(states));
   REQUIRE(end.has_value());
   CHECK(end->ok());
 }
 
 TEST_CASE("the error of a run names the one component that has failed, or lists them", "[host][verdict]") {
-  States states{{"a", in(ComponentState::idle)}, {"b", failed("no way")}};
+  States states{{"a", report_of(ComponentState::idle)}, {"b", failed_because("no way")}};
   auto failed_ones = failed_components(two(), of(states));
   REQUIRE(failed_ones == std::vector<std::string>{"b"});
   CHECK(failure_of(failed_ones, of(states)).message == "no way");
   CHECK(failure_of(failed_ones, of(states)).where == "b");
-  states["a"] = failed("nor here");
+  states["a"] = failed_because("nor here");
   failed_ones = failed_components(two(), of(states));
   REQUIRE(failed_ones.size() == 2);
   CHECK(failure_of(failed_ones, of(states)).message == "a, b ended in WORK_FAILED");
