@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <variant>
 
 #include "fake_catalogue.hpp"
 
@@ -65,4 +66,18 @@ inline std::string robot_with(const std::string& content) {
          "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>"
          "<component name='avoid' type='orca.SonarAvoid'>" +
          content + "</component><connect from='base.SonarRangeReadingsPush' to='avoid.sonar'/></graph>";
+}
+
+/// A base with sonars, and the connection by which an avoider hears them.
+inline const std::string kSonarBase =
+    "<hardware name='robot' type='orca.hw.Sim'/><component name='base' type='orca.RobotBaseServer' "
+    "hardware='robot'/>";
+inline const std::string kSonarEdge = "<connect from='base.SonarRangeReadingsPush' to='avoid.sonar'/>";
+
+/// Options with which a link within a process that needs two is no error.
+inline const orca::graph::LoadOptions kAnyLink{.any_link = true};
+
+/// Returns the distance [m] at which an avoider of the graph stops.
+inline double stop_distance(const orca::graph::Graph& graph, const char* component = "avoid") {
+  return std::get<double>(graph.find_component(component)->params.at("stop_distance"));
 }

@@ -47,7 +47,7 @@ using Names = std::vector<std::string>;
 using Indices = std::vector<std::size_t>;
 
 // Two processes and what the graph leaves in "main".
-Graph robot() {
+Graph placed_robot() {
   Graph graph;
   graph.processes = {process("behaviours"), process("empty"), process("base")};
   graph.hardware = {hardware("scout", "base")};
@@ -71,7 +71,7 @@ TEST_CASE("a graph that names no process has one, with default settings", "[grap
 
 TEST_CASE("processes come in the order of the graph, main last, and none in which nothing runs",
           "[graph][placement]") {
-  Graph graph = robot();
+  Graph graph = placed_robot();
   CHECK(names_of(processes_of(graph)) == Names{"behaviours", "base", "main"});
   graph.processes.insert(graph.processes.begin(), process("main"));
   graph.processes[0].priority = 5;
@@ -87,20 +87,20 @@ TEST_CASE("a process in which only hardware runs is one", "[graph][placement]") 
 
 TEST_CASE("the part of a process has its components, its hardware and the edges at them",
           "[graph][placement]") {
-  const ProcessPart behaviours = part_of(robot(), "behaviours");
+  const ProcessPart behaviours = part_of(placed_robot(), "behaviours");
   CHECK(behaviours.components == Names{"goto", "avoid"});
   CHECK(behaviours.hardware.empty());
   CHECK(behaviours.edges_within == Indices{0});
   CHECK(behaviours.edges_out == Indices{2});
   CHECK(behaviours.edges_in == Indices{1, 3});
-  const ProcessPart base = part_of(robot(), "base");
+  const ProcessPart base = part_of(placed_robot(), "base");
   CHECK(base.hardware == Names{"scout"});
   CHECK(base.edges_out == Indices{1, 4});
   CHECK(base.edges_in == Indices{2});
 }
 
 TEST_CASE("each edge is within one process, or leaves one and enters another", "[graph][placement]") {
-  const Graph graph = robot();
+  const Graph graph = placed_robot();
   std::vector<int> within(graph.edges.size());
   std::vector<int> out(graph.edges.size());
   std::vector<int> in(graph.edges.size());
@@ -156,7 +156,7 @@ TEST_CASE("of all components that could be next, the first of the graph is", "[g
 }
 
 TEST_CASE("a subgraph has what runs in one process, and the edges within it", "[graph][placement]") {
-  Graph graph = robot();
+  Graph graph = placed_robot();
   graph.edges.push_back(edge("avoid", "goto"));
   const Graph part = subgraph(graph, "behaviours");
   REQUIRE(part.components.size() == 2);
@@ -170,14 +170,14 @@ TEST_CASE("a subgraph has what runs in one process, and the edges within it", "[
 }
 
 TEST_CASE("the subgraph of a process in which nothing runs is empty", "[graph][placement]") {
-  const Graph part = subgraph(robot(), "empty");
+  const Graph part = subgraph(placed_robot(), "empty");
   CHECK(part.components.empty());
   CHECK(part.hardware.empty());
   CHECK(part.edges.empty());
 }
 
 TEST_CASE("of a graph on two machines each has its processes, and what is in them", "[graph][placement]") {
-  Graph graph = robot();
+  Graph graph = placed_robot();
   graph.machines = {{.name = "near"}, {.name = "far"}, {.name = "spare"}};
   graph.processes[0].machine = "far";
   graph.processes[2].machine = "near";
@@ -198,7 +198,7 @@ TEST_CASE("of a graph on two machines each has its processes, and what is in the
 }
 
 TEST_CASE("without machines everything runs on the one that has no name", "[graph][placement]") {
-  const Graph graph = robot();
+  const Graph graph = placed_robot();
   CHECK(names_of(processes_on(graph, "")) == names_of(processes_of(graph)));
   CHECK(part_on(graph, "") == graph);
   CHECK(machine_of(graph, "command").empty());

@@ -6,11 +6,6 @@ using namespace orca::graph;
 
 namespace {
 
-const std::string kBase =
-    "<hardware name='robot' type='orca.hw.Sim'/><component name='base' type='orca.RobotBaseServer' "
-    "hardware='robot'/>";
-const std::string kEdge = "<connect from='base.SonarRangeReadingsPush' to='avoid.sonar'/>";
-
 std::string said(const std::string& content, const std::string& ends = "") {
   return said_about("<graph name='g' ends='" + ends + "'>" + content + "</graph>");
 }
@@ -20,7 +15,7 @@ std::string said(const std::string& content, const std::string& ends = "") {
 TEST_CASE("a component that nobody listens to is warned about, unless it works by itself",
           "[graph][influence]") {
   const auto avoid = [](const std::string& attributes) {
-    return kBase + "<component name='avoid' type='orca.SonarAvoid'" + attributes + "/>" + kEdge;
+    return kSonarBase + "<component name='avoid' type='orca.SonarAvoid'" + attributes + "/>" + kSonarEdge;
   };
   CHECK(said(avoid("")).find("warning G051: component \"avoid\": nobody listens to what it pushes: motion") !=
         std::string::npos);
@@ -33,14 +28,14 @@ TEST_CASE("a component without ports has nothing to be connected to", "[graph][i
 }
 
 TEST_CASE("a component that only answers queries is useful", "[graph][influence]") {
-  CHECK(said(kBase + "<component name='planner' type='orca.Planner' autonomous='true'/>"
-                     "<connect from='planner.limits' to='base.LimitsQuery'/>")
+  CHECK(said(kSonarBase + "<component name='planner' type='orca.Planner' autonomous='true'/>"
+                          "<connect from='planner.limits' to='base.LimitsQuery'/>")
             .empty());
 }
 
 TEST_CASE("a component that only asks is warned about: asking does not make it work", "[graph][influence]") {
   const auto planner = [](const std::string& attributes) {
-    return kBase + "<component name='planner' type='orca.Planner'" + attributes +
+    return kSonarBase + "<component name='planner' type='orca.Planner'" + attributes +
            "/><connect from='planner.limits' to='base.LimitsQuery'/>";
   };
   CHECK(said(planner(""))
@@ -52,7 +47,8 @@ TEST_CASE("a component that only asks is warned about: asking does not make it w
 TEST_CASE("of a chain that nobody uses the end is warned about, and the rest is named there",
           "[graph][influence]") {
   const std::string chain =
-      kBase + "<component name='localizer' type='orca.Localizer'/><component name='goto' type='orca.Goto'" +
+      kSonarBase +
+      "<component name='localizer' type='orca.Localizer'/><component name='goto' type='orca.Goto'" +
       "/><connect from='base.OdometryPush' to='localizer.odometry'/>"
       "<connect from='localizer.pose' to='goto.localizer'/>";
   const std::string text = said(chain);
@@ -82,7 +78,7 @@ TEST_CASE("components that only use each other are warned about once, unless one
 
 TEST_CASE("a component that sends may have a reason of its own to work", "[graph][influence]") {
   const std::string command =
-      kBase +
+      kSonarBase +
       "<component name='command' type='orca.Command'/><component name='fuser' "
       "type='orca.MotionCommandFuser'/><component name='walk' type='orca.TwinGoto'/>"
       "<connect from='walk.slow' to='fuser.motion'/><connect from='fuser.base' to='base.MotionCommandSend'/>";
@@ -92,7 +88,7 @@ TEST_CASE("a component that sends may have a reason of its own to work", "[graph
 TEST_CASE("a fuser without behaviours is warned about, by the author's name of the port",
           "[graph][influence]") {
   const auto fuser = [](const std::string& port) {
-    return kBase + "<component name='fuser' type='orca.MotionCommandFuser'>" + port +
+    return kSonarBase + "<component name='fuser' type='orca.MotionCommandFuser'>" + port +
            "</component><connect from='fuser.base' to='base.MotionCommandSend'/>";
   };
   CHECK(said(fuser("")).find(
@@ -107,7 +103,7 @@ TEST_CASE("a fuser without behaviours is warned about, by the author's name of t
 }
 
 TEST_CASE("warnings about influence wait until there are no errors", "[graph][influence]") {
-  const std::string all = said(kBase + "<component name='a' type='orca.Localizer' priority='1000'/>");
+  const std::string all = said(kSonarBase + "<component name='a' type='orca.Localizer' priority='1000'/>");
   CHECK(all.find("G032") != std::string::npos);
   CHECK(all.find("G051") == std::string::npos);
 }

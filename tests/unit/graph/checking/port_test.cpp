@@ -8,12 +8,12 @@ using namespace orca::graph;
 
 namespace {
 
-const std::string kStart =
+const std::string kStartOfRobot =
     "<graph name='g'><hardware name='robot' type='orca.hw.Sim'/>"
     "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>";
 
 Graph with_fuser(const std::string& port, const std::string& rest = "") {
-  return must_load(kStart +
+  return must_load(kStartOfRobot +
                    "<component name='avoid' type='orca.SonarAvoid'/><component name='goto' type='orca.Goto'/>"
                    "<component name='localizer' type='orca.Localizer'/>"
                    "<component name='fuser' type='orca.MotionCommandFuser'>" +
@@ -25,7 +25,7 @@ Graph with_fuser(const std::string& port, const std::string& rest = "") {
 
 TEST_CASE("a renamed port has only its new name, everywhere", "[graph][port]") {
   const Graph graph =
-      must_load(kStart +
+      must_load(kStartOfRobot +
                 "<component name='avoid' type='orca.SonarAvoid' on='echoes'><port name='sonar' as='echoes'/>"
                 "</component><connect from='base.SonarRangeReadingsPush' to='avoid.echoes'/></graph>");
   CHECK(graph.edges.at(0).to.port == "echoes");

@@ -12,8 +12,9 @@ using namespace orca::graph;
 namespace {
 
 // A base, an avoider and a fuser; the texts are further attributes.
-std::string robot(const std::string& declarations, const std::string& base, const std::string& avoid,
-                  const std::string& fuser, const std::string& connect = "") {
+std::string robot_in_processes(const std::string& declarations, const std::string& base,
+                               const std::string& avoid, const std::string& fuser,
+                               const std::string& connect = "") {
   return "<graph name='g'>" + declarations +
          "<hardware name='robot' type='orca.hw.Sim'/>"
          "<component name='base' type='orca.RobotBaseServer' hardware='robot' " +
@@ -32,12 +33,10 @@ std::vector<Link> links_of(const Graph& graph) {
 
 const std::string kTwo = "<process name='a'/><process name='b'/>";
 const std::string kTwoMachines = "<machine name='m'/><machine name='n'/>";
-const LoadOptions kAnyLink{.any_link = true};
-
 }  // namespace
 
 TEST_CASE("the attributes of a process are read, in SI", "[graph][process]") {
-  const Graph graph = must_load(robot(
+  const Graph graph = must_load(robot_in_processes(
       "<machine name='m'/><process name='a' machine='m' executor='fiber' spin='50 us' processors='0 3, 1;3' "
       "priority='10' lock_memory='true' memory='200 MB' restart='transient' hang_limit='0.2 s' text='x'/>"
       "<process name='main' machine='m'/>",
@@ -56,7 +55,8 @@ TEST_CASE("the attributes of a process are read, in SI", "[graph][process]") {
 
 TEST_CASE("a process that says nothing has threads, no limits and is started again after any end",
           "[graph][process]") {
-  const ProcessNode plain = must_load(robot(kTwo, "process='a'", "process='b'", "")).processes.at(0);
+  const ProcessNode plain =
+      must_load(robot_in_processes(kTwo, "process='a'", "process='b'", "")).processes.at(0);
   CHECK(plain == ProcessNode{.name = "a"});
   CHECK(plain.executor == Backend::thread);
   CHECK(plain.restart == Restart::permanent);
@@ -68,8 +68,8 @@ TEST_CASE("a process that says nothing has threads, no limits and is started aga
 TEST_CASE("a process that is started on demand ends after 10 s without use unless the graph says otherwise",
           "[graph][process]") {
   const auto avoid_in = [](const std::string& attributes) {
-    const Graph graph =
-        must_load(robot("<process name='a' start='on_demand' " + attributes + "/>", "", "process='a'", ""));
+    const Graph graph = must_load(robot_in_processes(
+        "<process name='a' start='on_demand' " + attributes + "/>", "", "process='a'", ""));
     REQUIRE(graph.processes.size() == 1);
     CHECK(graph.processes[0].on_demand);
     CHECK(must_load(print(graph)) == graph);
@@ -84,16 +84,16 @@ TEST_CASE("a connection over DDS cannot wake a process, but one from it can be o
           "[graph][process]") {
   const std::string process = "<process name='a' start='on_demand'/>";
   const std::string here = "process='a'";
-  CHECK(must_load(robot(process, "", here, "", "link='dds'")).edges[0].link == Link::dds);
-  const std::string said = said_about(robot(process, "", here, here, "link='dds'"));
+  CHECK(must_load(robot_in_processes(process, "", here, "", "link='dds'")).edges[0].link == Link::dds);
+  const std::string said = said_about(robot_in_processes(process, "", here, here, "link='dds'"));
   CHECK(said.find("no other process uses anything in it") != std::string::npos);
 }
 
 TEST_CASE("the attributes of a machine are read", "[graph][process]") {
-  const Graph graph = must_load(
-      robot("<machine name='m' address='10.0.0.2' interface='wlan0' on_loss='go_on' loss_limit='2.5 s'/>"
-            "<machine name='n'/><process name='main' machine='m'/>",
-            "", "", ""));
+  const Graph graph = must_load(robot_in_processes(
+      "<machine name='m' address='10.0.0.2' interface='wlan0' on_loss='go_on' loss_limit='2.5 s'/>"
+      "<machine name='n'/><process name='main' machine='m'/>",
+      "", "", ""));
   REQUIRE(graph.machines.size() == 2);
   MachineNode expected{.name = "m", .address = "10.0.0.2", .interface = "wlan0"};
   CHECK(graph.machines[0] != expected);
@@ -116,7 +116,7 @@ TEST_CASE("the rules for restarts are those of the graph, or the usual ones", "[
 
 TEST_CASE("a component that names no process is in main, and hardware is where its components are",
           "[graph][process]") {
-  const Graph graph = must_load(robot(kTwo, "process='a'", "process='b'", ""));
+  const Graph graph = must_load(robot_in_processes(kTwo, "process='a'", "process='b'", ""));
   CHECK(graph.find_component("base")->process == "a");
   CHECK(graph.find_component("avoid")->process == "b");
   CHECK(graph.find_component("fuser")->process == "main");
@@ -138,8 +138,9 @@ TEST_CASE("hardware without components is in the process that it names, or in ma
 }
 
 TEST_CASE("an edge is local within a process and uses shared memory between two", "[graph][process]") {
-  CHECK(links_of(must_load(robot("", "", "", ""))) == std::vector{Link::local, Link::local, Link::local});
-  CHECK(links_of(must_load(robot(kTwo, "process='a'", "process='b'", "process='b'"))) ==
+  CHECK(links_of(must_load(robot_in_processes("", "", "", ""))) ==
+        std::vector{Link::local, Link::local, Link::local});
+  CHECK(links_of(must_load(robot_in_processes(kTwo, "process='a'", "process='b'", "process='b'"))) ==
         std::vector{Link::shm, Link::local, Link::shm});
 }
 
@@ -147,13 +148,15 @@ TEST_CASE("an edge between machines goes over the network", "[graph][process]") 
   const std::string places = kTwoMachines +
                              "<process name='a' machine='m'/><process name='b' machine='n'/>"
                              "<process name='main' machine='n'/>";
-  CHECK(links_of(must_load(robot(places, "process='a'", "process='b'", ""), kAnyLink)) ==
+  CHECK(links_of(must_load(robot_in_processes(places, "process='a'", "process='b'", ""), kAnyLink)) ==
         std::vector{Link::dds, Link::shm, Link::dds});
 }
 
 TEST_CASE("the graph may choose the link where it fits", "[graph][process]") {
   const auto first_link = [](const std::string& avoid, const std::string& link) {
-    return must_load(robot(kTwo, "process='a'", avoid, "", "link='" + link + "'"), kAnyLink).edges.at(0).link;
+    return must_load(robot_in_processes(kTwo, "process='a'", avoid, "", "link='" + link + "'"), kAnyLink)
+        .edges.at(0)
+        .link;
   };
   CHECK(first_link("process='a'", "local") == Link::local);
   CHECK(first_link("process='b'", "shm") == Link::shm);
@@ -205,7 +208,7 @@ TEST_CASE("a used graph has its own processes and machines, but main is one for 
 }
 
 TEST_CASE("a process that could not be read causes no further errors", "[graph][process]") {
-  const std::string said = said_about(robot("<proces name='a'/>", "process='a'", "", ""));
+  const std::string said = said_about(robot_in_processes("<proces name='a'/>", "process='a'", "", ""));
   CHECK(said ==
         "test.xml:1:17: error G003: there is no element <proces> in <graph>; it may contain: arg, "
         "profile, machine, process, hardware, component, group, connect, include, use; did you mean "
@@ -213,8 +216,8 @@ TEST_CASE("a process that could not be read causes no further errors", "[graph][
 }
 
 TEST_CASE("settings of processes do not hide what is wrong elsewhere", "[graph][process]") {
-  const std::string said = said_about(
-      robot("<process name='a' priority='0'/>", "process='b'", "process='a'", "start_after='nobody'"));
+  const std::string said = said_about(robot_in_processes("<process name='a' priority='0'/>", "process='b'",
+                                                         "process='a'", "start_after='nobody'"));
   CHECK(said.find("error G032: process \"a\": priority: \"0\" is out of range: 1 to 99") !=
         std::string::npos);
   CHECK(said.find("error G063: component \"base\": there is no process \"b\"") != std::string::npos);
@@ -223,10 +226,10 @@ TEST_CASE("settings of processes do not hide what is wrong elsewhere", "[graph][
 }
 
 TEST_CASE("the JSON form has machines and processes with what is not as usual", "[graph][process]") {
-  const std::string json = graph_json(
-      must_load(robot("<machine name='m'/><process name='a' machine='m' executor='fiber' processors='1 2'/>"
-                      "<process name='main' machine='m'/>",
-                      "process='a'", "", "")));
+  const std::string json = graph_json(must_load(robot_in_processes(
+      "<machine name='m'/><process name='a' machine='m' executor='fiber' processors='1 2'/>"
+      "<process name='main' machine='m'/>",
+      "process='a'", "", "")));
   CHECK(json.find("\"machines\": [\n    {\n      \"name\": \"m\"\n    }\n  ]") != std::string::npos);
   CHECK(json.find("\"name\": \"a\",\n      \"machine\": \"m\",\n      \"executor\": \"fiber\",\n      "
                   "\"processors\": \"1 2\"\n") != std::string::npos);

@@ -16,10 +16,6 @@ const std::string kRobot =
     "<component name='avoid' type='orca.SonarAvoid'><param name='stop_distance' value='${distance}'/>"
     "</component><connect from='base.SonarRangeReadingsPush' to='avoid.sonar'/></graph>";
 
-double stop_distance(const Graph& graph, const char* component = "avoid") {
-  return std::get<double>(graph.find_component(component)->params.at("stop_distance"));
-}
-
 Graph with_robot(const std::string& content, const LoadOptions& options = {}) {
   return must_load(Files{{"main.xml", "<graph name='g'>" + content + "</graph>"}, {"robot.xml", kRobot}},
                    options);

@@ -10,10 +10,6 @@ using namespace orca::graph;
 
 namespace {
 
-double stop_distance(const Graph& graph, const char* component = "avoid") {
-  return std::get<double>(graph.find_component(component)->params.at("stop_distance"));
-}
-
 LoadOptions with(std::vector<std::string> settings) { return {{}, std::move(settings)}; }
 
 const Files kPair{{"main.xml",

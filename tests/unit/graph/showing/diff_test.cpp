@@ -10,23 +10,24 @@ using namespace orca::graph;
 
 namespace {
 
-const std::string kStart =
+const std::string kStartWithEnds =
     "<graph name='g' ends='a b'><hardware name='robot' type='orca.hw.Sim'/>"
     "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>";
 
 Graph graph_with(const std::string& content) {
-  return must_load(kStart + "<component name='a' type='orca.Label'/><component name='b' type='orca.Label'/>" +
+  return must_load(kStartWithEnds +
+                   "<component name='a' type='orca.Label'/><component name='b' type='orca.Label'/>" +
                    content + "</graph>");
 }
 
-const std::string kAvoid =
+const std::string kWiredAvoid =
     "<component name='avoid' type='orca.SonarAvoid'/>"
     "<connect from='base.SonarRangeReadingsPush' to='avoid.sonar'/>";
 
 }  // namespace
 
 TEST_CASE("a graph does not differ from itself, printed or not", "[graph][diff]") {
-  const Graph graph = graph_with(kAvoid);
+  const Graph graph = graph_with(kWiredAvoid);
   CHECK(diff(graph, graph).empty());
   CHECK(diff(graph, must_load(print(graph))).empty());
 }
@@ -46,14 +47,14 @@ TEST_CASE("neither order nor the way of writing makes a difference", "[graph][di
 }
 
 TEST_CASE("added and removed parts are listed by name", "[graph][diff]") {
-  const auto changes = diff(graph_with(""), graph_with(kAvoid));
+  const auto changes = diff(graph_with(""), graph_with(kWiredAvoid));
   CHECK(diff_text(changes) == "+ component avoid\n+ connection base.SonarRangeReadingsPush to avoid.sonar\n");
-  CHECK(diff_text(diff(graph_with(kAvoid), graph_with(""))) ==
+  CHECK(diff_text(diff(graph_with(kWiredAvoid), graph_with(""))) ==
         "- component avoid\n- connection base.SonarRangeReadingsPush to avoid.sonar\n");
 }
 
 TEST_CASE("changes within a part are listed field by field, with both values", "[graph][diff]") {
-  const Graph before = graph_with(kAvoid);
+  const Graph before = graph_with(kWiredAvoid);
   Graph after = before;
   after.seed = 5;
   after.hardware[0].params["realism"] = std::string("harsh");
@@ -71,7 +72,7 @@ TEST_CASE("changes within a part are listed field by field, with both values", "
 }
 
 TEST_CASE("the difference in the other direction is the same with the values exchanged", "[graph][diff]") {
-  const Graph before = graph_with(kAvoid);
+  const Graph before = graph_with(kWiredAvoid);
   const Graph after =
       graph_with("<component name='other' type='orca.Label'><param name='label' value='x'/></component>");
   const auto there = diff(before, after);
@@ -85,7 +86,7 @@ TEST_CASE("the difference in the other direction is the same with the values exc
 
 TEST_CASE("candidates belong to their port", "[graph][diff]") {
   const auto fuser = [](const std::string& candidates) {
-    return graph_with(kAvoid +
+    return graph_with(kWiredAvoid +
                       "<component name='fuser' type='orca.MotionCommandFuser'><port name='motion' "
                       "candidates='" +
                       candidates +
@@ -97,7 +98,7 @@ TEST_CASE("candidates belong to their port", "[graph][diff]") {
 }
 
 TEST_CASE("moving a component shows its process, its links and what is declared for them", "[graph][diff]") {
-  const Graph together = graph_with(kAvoid);
+  const Graph together = graph_with(kWiredAvoid);
   const Graph apart = graph_with(
       "<process name='p' priority='9'/><component name='avoid' type='orca.SonarAvoid' process='p'/>"
       "<connect from='base.SonarRangeReadingsPush' to='avoid.sonar'/>");

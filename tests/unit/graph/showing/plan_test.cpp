@@ -17,7 +17,7 @@ namespace {
 
 using Contracts = std::map<std::string, Contract>;
 
-graph::Graph robot() {
+graph::Graph running_robot() {
   graph::Graph graph;
   graph.name = "robot";
   graph::ComponentNode avoid;
@@ -54,9 +54,9 @@ Contracts contracts() {
 // Returns the way to a graph that was changed so.
 template <class Change>
 GraphPlan plan_after(const Change& change) {
-  graph::Graph wanted = robot();
+  graph::Graph wanted = running_robot();
   change(wanted);
-  return plan_of(robot(), wanted, contracts());
+  return plan_of(running_robot(), wanted, contracts());
 }
 
 bool is_for_a_new_start(const GraphPlan& plan) {
@@ -99,8 +99,8 @@ TEST_CASE("of two hundred pairs of graphs each plan is carried out whole, or ref
   std::mt19937 random(16);  // NOLINT(cert-msc51-cpp): the same pairs each time
   int refused = 0;
   for (int pair = 0; pair < 200; ++pair) {
-    graph::Graph running = robot();
-    graph::Graph wanted = robot();
+    graph::Graph running = running_robot();
+    graph::Graph wanted = running_robot();
     bool is_possible = true;
     for (int i = 0; i < 3; ++i) is_possible = change_somehow(wanted, random) && is_possible;
     const GraphPlan plan = plan_of(running, wanted, contracts());
@@ -126,7 +126,7 @@ TEST_CASE("of two hundred pairs of graphs each plan is carried out whole, or ref
 }
 
 TEST_CASE("between equal graphs there is nothing to do", "[graph][apply]") {
-  const GraphPlan plan = plan_of(robot(), robot(), contracts());
+  const GraphPlan plan = plan_of(running_robot(), running_robot(), contracts());
   CHECK(plan.lines.empty());
   CHECK(plan.is_possible());
   CHECK(plan.exchanges.empty());
@@ -244,8 +244,8 @@ TEST_CASE("another group costs nothing", "[graph][apply]") {
 }
 
 TEST_CASE("a graph that went over to another one that is possible equals it", "[graph][apply]") {
-  graph::Graph running = robot();
-  graph::Graph wanted = robot();
+  graph::Graph running = running_robot();
+  graph::Graph wanted = running_robot();
   wanted.components[0].type = "orca.LaserAvoid";
   wanted.components[0].params = {{"cone", 1.5}};
   wanted.components[1].params["rate"] = 20.0;

@@ -145,8 +145,6 @@ class RandomGraph {
   bool late_bound_ = false;
 };
 
-const LoadOptions kAnyLink{.any_link = true};
-
 }  // namespace
 
 TEST_CASE("parse, print, parse is the identity", "[graph][property]") {
