@@ -26,7 +26,7 @@ ParamContract param(const std::string& unit, ParamValue value) {
   return param;
 }
 
-std::string fault_of(std::vector<PortContract> ports, std::vector<ParamContract> params) {
+std::string contract_fault(std::vector<PortContract> ports, std::vector<ParamContract> params) {
   Contract contract;
   contract.ports = std::move(ports);
   contract.params = std::move(params);
@@ -35,7 +35,7 @@ std::string fault_of(std::vector<PortContract> ports, std::vector<ParamContract>
   return faults.empty() ? "" : faults.front();
 }
 
-std::string fault_of(const ParamContract& param) { return fault_of({}, {param}); }
+std::string contract_fault(const ParamContract& param) { return contract_fault({}, {param}); }
 
 ParamContract between(double min, double max, ParamValue value) {
   ParamContract made = param("m", std::move(value));
@@ -47,38 +47,40 @@ ParamContract between(double min, double max, ParamValue value) {
 }  // namespace
 
 TEST_CASE("names of ports and of parameters are there once each", "[plugin][contract]") {
-  CHECK(fault_of({port("motion"), port("sonar")}, {}).empty());
-  CHECK(fault_of({port("motion"), port("motion")}, {}) ==
+  CHECK(contract_fault({port("motion"), port("sonar")}, {}).empty());
+  CHECK(contract_fault({port("motion"), port("motion")}, {}) ==
         "it has two ports of the name \"motion\"; give one of them another name");
-  CHECK_THAT(fault_of({}, {param("m", 1.0), param("m", 2.0)}), Contains("two parameters of the name \"x\""));
-  CHECK(fault_of({port("x")}, {param("m", 1.0)}).empty());
+  CHECK_THAT(contract_fault({}, {param("m", 1.0), param("m", 2.0)}),
+             Contains("two parameters of the name \"x\""));
+  CHECK(contract_fault({port("x")}, {param("m", 1.0)}).empty());
 }
 
 TEST_CASE("a name is a letter, then letters, digits and underscores", "[plugin][contract]") {
-  CHECK(fault_of({port("Motion_2Push")}, {}).empty());
+  CHECK(contract_fault({port("Motion_2Push")}, {}).empty());
   for (const char* name : {"", "2nd", "_a", "my port", "a.b", "a/b", "a[]", "caf\xc3\xa9"}) {
     CAPTURE(name);
-    CHECK_THAT(fault_of({port(name)}, {}), Contains("port is called") && Contains("a name is a letter"));
+    CHECK_THAT(contract_fault({port(name)}, {}),
+               Contains("port is called") && Contains("a name is a letter"));
   }
 }
 
 TEST_CASE("a unit is one of SI, a product or a quotient of them", "[plugin][contract]") {
   for (const char* unit : {"", "m", "s", "rad", "m/s", "rad/s2", "1/s", "m2", "N m", "kg m2", "%", "Hz"})
-    CHECK(fault_of(param(unit, 1.0)).empty());
+    CHECK(contract_fault(param(unit, 1.0)).empty());
   for (const char* unit : {"furlong", "mm", "deg", "m/", "/s", "m//s", " ", "m s-1", "2"}) {
     CAPTURE(unit);
-    CHECK_THAT(fault_of(param(unit, 1.0)), Contains("which is none of SI; write for example m, rad"));
+    CHECK_THAT(contract_fault(param(unit, 1.0)), Contains("which is none of SI; write for example m, rad"));
   }
 }
 
 TEST_CASE("a default lies within its own range", "[plugin][contract]") {
-  CHECK(fault_of(between(0.0, 1.0, 0.0)).empty());
-  CHECK(fault_of(between(0.0, 1.0, 1.0)).empty());
-  CHECK(fault_of(between(0.0, 1.0, std::int64_t{1})).empty());
+  CHECK(contract_fault(between(0.0, 1.0, 0.0)).empty());
+  CHECK(contract_fault(between(0.0, 1.0, 1.0)).empty());
+  CHECK(contract_fault(between(0.0, 1.0, std::int64_t{1})).empty());
   for (const double wrong : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()})
-    CHECK_THAT(fault_of(between(0.0, 1.0, wrong)),
+    CHECK_THAT(contract_fault(between(0.0, 1.0, wrong)),
                Contains("the default of the parameter \"x\" is outside of its own range"));
-  CHECK_THAT(fault_of(between(0.0, 1.0, std::int64_t{2})), Contains("outside of its own range"));
+  CHECK_THAT(contract_fault(between(0.0, 1.0, std::int64_t{2})), Contains("outside of its own range"));
   CHECK(faults_of([] {
           Contract contract;
           contract.params = {between(2.0, 1.0, 1.5)};
@@ -90,7 +92,8 @@ TEST_CASE("a default lies within its own range", "[plugin][contract]") {
 TEST_CASE("a default text is one of its choices", "[plugin][contract]") {
   ParamContract mode = param("", std::string("fast"));
   mode.choices = {"slow", "fast"};
-  CHECK(fault_of(mode).empty());
+  CHECK(contract_fault(mode).empty());
   mode.default_value = std::string("fats");
-  CHECK(fault_of(mode) == "the default \"fats\" of the parameter \"x\" is none of its choices: slow, fast");
+  CHECK(contract_fault(mode) ==
+        "the default \"fats\" of the parameter \"x\" is none of its choices: slow, fast");
 }

@@ -15,7 +15,7 @@ using namespace std::string_literals;
 namespace {
 
 // Returns the fault that begins so.
-std::string fault_of(const PluginFile& file, const std::string& start) {
+std::string file_fault(const PluginFile& file, const std::string& start) {
   for (const std::string& fault : file.faults(known_type))
     if (fault.starts_with(start)) return fault;
   return "none";
@@ -66,7 +66,7 @@ TEST_CASE("of many exported symbols four are named, each with at most 80 charact
   for (std::size_t i = 0; i < 4; ++i)
     expected += (i == 0 ? "" : ", ") + (names[i].size() > 80 ? names[i].substr(0, 80) + "..." : names[i]);
   const std::string start = "exports more than its manifest, so others could bind to it: ";
-  CHECK_THAT(fault_of(*file, start), Catch::StartsWith(start + expected + " and"));
+  CHECK_THAT(file_fault(*file, start), Catch::StartsWith(start + expected + " and"));
 }
 
 TEST_CASE("the layout of a type is found behind that of another one, without a gap between them",
@@ -81,7 +81,7 @@ TEST_CASE("the layout of a type is found behind that of another one, without a g
   std::string after = "A{}\0"s + before.substr(start, before.find('\0', start) - start);
   after.resize(before.size());
   image.replace(before, after);
-  CHECK_THAT(fault_of(image.plugin(), "was built for another layout of the object type GoalPoint"),
+  CHECK_THAT(file_fault(image.plugin(), "was built for another layout of the object type GoalPoint"),
              Contains("the field \"creation_time.ns\""));
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kOurs =
     "orca::Component 000000000000000a\0orca::Param<double> 000000000000000b\0"sv;
 
-std::optional<std::string> fault_of(std::string_view theirs) {
+std::optional<std::string> fault_against_ours(std::string_view theirs) {
   return layout_fault(theirs, hash_of_layouts(theirs), kOurs);
 }
 
@@ -25,13 +25,14 @@ std::optional<std::string> fault_of(std::string_view theirs) {
 
 TEST_CASE("a plugin that was built for our layouts fits, and so does one that knows fewer types",
           "[plugin][layouts]") {
-  CHECK_FALSE(fault_of(kOurs).has_value());
-  CHECK_FALSE(fault_of("orca::Param<double> 000000000000000b\0"sv).has_value());
+  CHECK_FALSE(fault_against_ours(kOurs).has_value());
+  CHECK_FALSE(fault_against_ours("orca::Param<double> 000000000000000b\0"sv).has_value());
 }
 
 TEST_CASE("a plugin that was built for another layout is refused with the type and both hashes",
           "[plugin][layouts]") {
-  const auto fault = fault_of("orca::Component 000000000000000c\0orca::Param<double> 000000000000000b\0"sv);
+  const auto fault =
+      fault_against_ours("orca::Component 000000000000000c\0orca::Param<double> 000000000000000b\0"sv);
   REQUIRE(fault.has_value());
   CHECK(
       *fault ==
@@ -40,14 +41,14 @@ TEST_CASE("a plugin that was built for another layout is refused with the type a
 }
 
 TEST_CASE("of many other layouts four are named and the rest is counted", "[plugin][layouts]") {
-  const auto fault = fault_of("A 1\0B 2\0C 3\0D 4\0E 5\0F 6\0"sv);
+  const auto fault = fault_against_ours("A 1\0B 2\0C 3\0D 4\0E 5\0F 6\0"sv);
   REQUIRE(fault.has_value());
   CHECK_THAT(*fault,
              Contains("D (4 in the plugin, none in this Orca)") && !Contains("E (5") && Contains("2 more"));
 }
 
 TEST_CASE("a plugin that was built with a type that has gone is refused", "[plugin][layouts]") {
-  const auto fault = fault_of("orca::Gone 000000000000000c\0"sv);
+  const auto fault = fault_against_ours("orca::Gone 000000000000000c\0"sv);
   REQUIRE(fault.has_value());
   CHECK_THAT(*fault, Contains("orca::Gone (000000000000000c in the plugin, none in this Orca)"));
 }

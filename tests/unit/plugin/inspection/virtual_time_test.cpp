@@ -11,7 +11,7 @@ using Catch::Contains;
 
 namespace {
 
-std::string faults_of(const std::string& plugin) {
+std::string virtual_time_faults_of(const std::string& plugin) {
   std::string all;
   const auto library = loaded(test_plugin(plugin));
   for (const std::string& fault : library->virtual_time_faults()) all += fault + "\n";
@@ -30,7 +30,7 @@ TEST_CASE("every shipped plugin may run in virtual time, except teleop", "[plugi
 
 TEST_CASE("clocks, sleeps, threads, waits and random devices are named, each with what to use instead",
           "[plugin][virtual]") {
-  const std::string faults = faults_of("test_clockwork");
+  const std::string faults = virtual_time_faults_of("test_clockwork");
   CHECK_THAT(
       faults,
       Contains("uses std::chrono::_V2::steady_clock::now, which reads the machine's clock; use now()"));
@@ -46,12 +46,12 @@ TEST_CASE("clocks, sleeps, threads, waits and random devices are named, each wit
 
 TEST_CASE("a plugin that says that it needs the steady clock is believed, and the symbols do not matter",
           "[plugin][virtual]") {
-  CHECK(faults_of("test_steady_only") ==
+  CHECK(virtual_time_faults_of("test_steady_only") ==
         "runs with the steady clock only (--clock steady): reads a joystick\n");
 }
 
 TEST_CASE("a plugin may allow itself one symbol, and no other", "[plugin][virtual]") {
-  const std::string faults = faults_of("test_allowed");
+  const std::string faults = virtual_time_faults_of("test_allowed");
   CHECK_THAT(faults, Contains("uses rand,"));
   CHECK_THAT(faults, !Contains("poll"));
 }

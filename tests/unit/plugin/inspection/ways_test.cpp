@@ -64,7 +64,7 @@ const std::vector<Way> kWays {
 #endif
 };
 
-std::vector<std::string> faults_of(const std::string& plugin) {
+std::vector<std::string> faults_of_ways(const std::string& plugin) {
   const Result<PluginFile> file = PluginFile::read(test_plugin(plugin));
   REQUIRE(file);
   return file->virtual_time_faults();
@@ -73,7 +73,7 @@ std::vector<std::string> faults_of(const std::string& plugin) {
 }  // namespace
 
 TEST_CASE("each way to time, chance and identity that a plugin's file shows is named", "[plugin][virtual]") {
-  const std::vector<std::string> faults = faults_of("test_ways");
+  const std::vector<std::string> faults = faults_of_ways("test_ways");
   for (const Way& way : kWays) {
     CAPTURE(way.what, way.fault);
     CHECK(
@@ -84,7 +84,7 @@ TEST_CASE("each way to time, chance and identity that a plugin's file shows is n
 
 // Whoever closes one of these ways moves it to the table above, and takes it off the list of limits.
 TEST_CASE("the ways that a plugin's file does not show are not named", "[plugin][virtual]") {
-  const std::vector<std::string> faults = faults_of("test_unseen_ways");
+  const std::vector<std::string> faults = faults_of_ways("test_unseen_ways");
   CHECK(faults == std::vector<std::string>{});
 }
 
