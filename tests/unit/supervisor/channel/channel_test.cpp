@@ -17,7 +17,7 @@ using namespace orca::supervisor;
 
 namespace {
 
-constexpr Duration kLong = 20s;
+constexpr Duration kLongTransfer = 20s;
 
 std::vector<std::byte> bytes_of(std::size_t count, unsigned seed = 1) {
   std::mt19937 random(seed);
@@ -82,7 +82,7 @@ TEST_CASE("A message crosses a channel with its descriptors", "[supervisor][chan
   message.request = 7;
   const auto body = message.body;
   REQUIRE(both.supervisor.post(std::move(message)).ok());
-  const auto arrived = both.host.wait_for_message(kLong);
+  const auto arrived = both.host.wait_for_message(kLongTransfer);
   REQUIRE(arrived);
   CHECK(arrived->kind == Kind::logged);
   CHECK(arrived->request == 7);
@@ -108,10 +108,10 @@ TEST_CASE("A message of any length arrives whole and in order", "[supervisor][ch
   const std::vector<std::size_t> lengths{0, 1, kFirst - 1, kFirst, kFirst + 1, 2 * kPacketBytes, 3 << 20, 5};
   std::thread writer([&] {
     for (std::size_t i = 0; i < lengths.size(); ++i)
-      (void)both.supervisor.send(message_of(lengths[i], i + 1), kLong);
+      (void)both.supervisor.send(message_of(lengths[i], i + 1), kLongTransfer);
   });
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    const auto arrived = both.host.wait_for_message(kLong);
+    const auto arrived = both.host.wait_for_message(kLongTransfer);
     CHECK(arrived.has_value());
     CHECK((arrived && arrived->request == i + 1 && arrived->body == bytes_of(lengths[i])));
   }
@@ -123,7 +123,7 @@ TEST_CASE("More descriptors than a packet takes arrive with their message", "[su
   {
     Both both;
     REQUIRE(both.supervisor.post(with_descriptors(2 * kPacketDescriptors + 1)).ok());
-    const auto arrived = both.host.wait_for_message(kLong);
+    const auto arrived = both.host.wait_for_message(kLongTransfer);
     REQUIRE(arrived);
     CHECK(arrived->descriptors.size() == 2 * kPacketDescriptors + 1);
     CHECK(std::ranges::all_of(arrived->descriptors, is_null_device));
@@ -135,7 +135,7 @@ TEST_CASE("A message that no channel carries is refused", "[supervisor][channel]
   Both both;
   CHECK(both.supervisor.post(message_of(kLongestBody + 1)).error().code == Code::invalid_argument);
   CHECK(both.supervisor.post(message_of(1)).ok());
-  CHECK(both.host.wait_for_message(kLong)->body.size() == 1);
+  CHECK(both.host.wait_for_message(kLongTransfer)->body.size() == 1);
 }
 
 TEST_CASE("A peer that does not read is never waited for, and nothing that was taken is lost",
@@ -149,7 +149,7 @@ TEST_CASE("A peer that does not read is never waited for, and nothing that was t
   CHECK(both.supervisor.has_unsent());
   for (std::uint64_t i = 0; i < taken; ++i) {
     REQUIRE(both.supervisor.flush().ok());
-    const auto arrived = both.host.wait_for_message(kLong);
+    const auto arrived = both.host.wait_for_message(kLongTransfer);
     REQUIRE(arrived);
     CHECK(arrived->request == i + 1);
   }
@@ -162,10 +162,10 @@ TEST_CASE("send() waits for a slow peer, but not beyond its limit", "[supervisor
   CHECK(both.supervisor.send(message_of(2 << 20), 20ms).error().code == Code::deadline_exceeded);
   std::thread reader([&] {
     std::this_thread::sleep_for(50ms);
-    CHECK(both.host.wait_for_message(kLong)->body.size() == 2 << 20);
-    CHECK(both.host.wait_for_message(kLong)->body.size() == 1);
+    CHECK(both.host.wait_for_message(kLongTransfer)->body.size() == 2 << 20);
+    CHECK(both.host.wait_for_message(kLongTransfer)->body.size() == 1);
   });
-  CHECK(both.supervisor.send(message_of(1), kLong).ok());
+  CHECK(both.supervisor.send(message_of(1), kLongTransfer).ok());
   CHECK_FALSE(both.supervisor.has_unsent());
   reader.join();
 }
@@ -176,11 +176,11 @@ TEST_CASE("What a peer has sent before it went is still read", "[supervisor][cha
   std::optional<Channel> host(std::in_place, std::move(pair.host));
   const bool reads_all = GENERATE(true, false);  // a peer that goes with unread data resets the connection
   REQUIRE(supervisor.post(message_of(1)).ok());
-  if (reads_all) REQUIRE(host->wait_for_message(kLong));
+  if (reads_all) REQUIRE(host->wait_for_message(kLongTransfer));
   REQUIRE(host->post(message_of(3)).ok());
   host.reset();
-  CHECK(supervisor.wait_for_message(kLong)->body.size() == 3);
-  CHECK(supervisor.wait_for_message(kLong).error().code == Code::unavailable);
+  CHECK(supervisor.wait_for_message(kLongTransfer)->body.size() == 3);
+  CHECK(supervisor.wait_for_message(kLongTransfer).error().code == Code::unavailable);
   CHECK(supervisor.receive().error().code == Code::unavailable);
   CHECK(supervisor.post(message_of(1)).error().code == Code::unavailable);
   CHECK_FALSE(supervisor.has_unsent());
@@ -191,7 +191,7 @@ TEST_CASE("A failed post() does not hide what has arrived", "[supervisor][channe
   Channel supervisor(std::move(pair.supervisor));
   REQUIRE(Channel(std::move(pair.host)).post(message_of(3)).ok());
   CHECK(supervisor.post(message_of(1)).error().code == Code::unavailable);
-  CHECK(supervisor.wait_for_message(kLong)->body.size() == 3);
+  CHECK(supervisor.wait_for_message(kLongTransfer)->body.size() == 3);
 }
 
 TEST_CASE("Impossible packets cut the channel off, and their descriptors are closed",
@@ -226,7 +226,7 @@ TEST_CASE("Impossible packets cut the channel off, and their descriptors are clo
     INFO(wrong);
     const Descriptor sent = null_device();
     half.raw(last, sent.number());
-    const auto error = half.channel.wait_for_message(kLong).error();
+    const auto error = half.channel.wait_for_message(kLongTransfer).error();
     CHECK(error.code == Code::data_loss);
     half.raw(first);
     CHECK(half.channel.receive().error().message == error.message);
@@ -239,7 +239,7 @@ TEST_CASE("A first packet where a later one is due cuts the channel off", "[supe
   const auto packets = *split(message_of(2 * kPacketBytes));
   half.raw(packets[0].bytes);
   half.raw(packets[0].bytes);
-  CHECK(half.channel.wait_for_message(kLong).error().code == Code::data_loss);
+  CHECK(half.channel.wait_for_message(kLongTransfer).error().code == Code::data_loss);
 }
 
 TEST_CASE("A receiver without free descriptors reports it and leaks none", "[supervisor][channel]") {
@@ -286,12 +286,12 @@ TEST_CASE("Messages of several threads stay whole", "[supervisor][channel]") {
     writers.emplace_back([&both, i] {
       for (int n = 0; n < kEach; ++n) {
         Message message{Kind::logged, i, std::vector<std::byte>(200'000, static_cast<std::byte>(i)), {}};
-        (void)both.host.send(std::move(message), kLong);
+        (void)both.host.send(std::move(message), kLongTransfer);
       }
     });
   int whole = 0;
   for (int n = 0; n < kThreads * kEach; ++n) {
-    const auto message = both.supervisor.wait_for_message(kLong);
+    const auto message = both.supervisor.wait_for_message(kLongTransfer);
     if (!message) break;
     const auto expected = static_cast<std::byte>(message->request);
     whole += message->body.size() == 200'000 &&

@@ -16,8 +16,8 @@ using namespace orca::supervisor;
 
 namespace {
 
-constexpr Moment kStart{100s};
-constexpr Duration kLimit = 2s;
+constexpr Moment kServerStart{100s};
+constexpr Duration kAnswerLimit = 2s;
 
 // A server whose system answers "ps" with one record, and a number of others with nothing.
 class Served {
@@ -39,7 +39,7 @@ class Served {
   Served& operator=(const Served&) = delete;
 
   [[nodiscard]] Descriptor connect() const { return std::move(connect_to_system("system")).value(); }
-  void serve(int times = 1, Moment now = kStart) {
+  void serve(int times = 1, Moment now = kServerStart) {
     for (int i = 0; i < times; ++i) server_->serve(now);
   }
   [[nodiscard]] std::size_t clients() const { return server_->clients(); }
@@ -66,7 +66,7 @@ class Served {
 };
 
 ControlAnswer next(Channel& client) {
-  return std::move(decode_answer(std::move(client.wait_for_message(kLimit)).value())).value();
+  return std::move(decode_answer(std::move(client.wait_for_message(kAnswerLimit)).value())).value();
 }
 
 }  // namespace
@@ -130,13 +130,13 @@ TEST_CASE("a client that asks without end is cut off, one that asks now and then
   for (int second = 0; second < 5; ++second) {
     for (int i = 0; i < ControlServer::kMostAsks; ++i)
       REQUIRE(modest.post(encode(Ask{"", {}, false}, 1)).ok());
-    system.serve(50, kStart + Duration(1s) * second);
+    system.serve(50, kServerStart + Duration(1s) * second);
   }
   CHECK(system.clients() == 1);
   CHECK(system.asked == 5 * ControlServer::kMostAsks);
   for (int i = 0; i <= ControlServer::kMostAsks; ++i)
     REQUIRE(modest.post(encode(Ask{"", {}, false}, 1)).ok());
-  system.serve(50, kStart + 10s);
+  system.serve(50, kServerStart + 10s);
   CHECK(system.clients() == 0);
 }
 
@@ -180,12 +180,12 @@ TEST_CASE("a client that waits while there are no descriptors left keeps nobody 
   const bool is_busy = system.has_something_to_do();
   setrlimit(RLIMIT_NOFILE, &before);
   CHECK_FALSE(is_busy);
-  system.serve(1, kStart + 199ms);
+  system.serve(1, kServerStart + 199ms);
   CHECK(system.clients() == 0);
-  system.serve(1, kStart + 200ms);
+  system.serve(1, kServerStart + 200ms);
   CHECK(system.clients() == 1);
   REQUIRE(client.post(encode(Ask{"ps", {}, false}, 1)).ok());
   CHECK(system.has_something_to_do());
-  system.serve(1, kStart + 1s);
+  system.serve(1, kServerStart + 1s);
   CHECK(system.asked == 1);
 }

@@ -11,7 +11,7 @@ using Catch::Contains;
 
 namespace {
 
-constexpr TimePoint kStart{100s};
+constexpr TimePoint kStartOfRun{100s};
 
 // The client at the other end of a reply.
 class Reader {
@@ -53,17 +53,17 @@ std::uint64_t nanoseconds(TimePoint time) {
 
 TEST_CASE("a mission is told in the order of its times, whoever has reported first",
           "[supervisor][missions]") {
-  MissionBook book(kStart);
+  MissionBook book(kStartOfRun);
   idl::Arrived arrived;
   arrived.mission(3);
   arrived.origin("goto");
   arrived.name("kitchen");
-  arrived.creation_time(to_time_value(kStart + 9s));
+  arrived.creation_time(to_time_value(kStartOfRun + 9s));
   arrived.cause().origin("localizer");
   arrived.cause().seq(17);
   book.note(arrived);
-  book.note(MissionStep{3, nanoseconds(kStart + 1s), "command.goto", "GoalPoint", 1, "", 0});
-  book.note(MissionStep{0, nanoseconds(kStart + 1s), "fuser.base", "MotionCommand", 1, "", 0});
+  book.note(MissionStep{3, nanoseconds(kStartOfRun + 1s), "command.goto", "GoalPoint", 1, "", 0});
+  book.note(MissionStep{0, nanoseconds(kStartOfRun + 1s), "fuser.base", "MotionCommand", 1, "", 0});
   Reader reader;
   CHECK(reader.lines([&](Reply& reply) { book.show(reply); }) ==
         std::vector<std::string>{"3|1.000|2|9.000|arrived kitchen|"});
@@ -73,16 +73,16 @@ TEST_CASE("a mission is told in the order of its times, whoever has reported fir
 }
 
 TEST_CASE("a mission that nobody knows is an error", "[supervisor][missions]") {
-  const MissionBook book(kStart);
+  const MissionBook book(kStartOfRun);
   Reply reply({}, 1, false);
   CHECK(book.show(5, reply).error().code == Code::not_found);
 }
 
 TEST_CASE("endless missions and endless events take no endless memory", "[supervisor][missions]") {
-  MissionBook book(kStart);
+  MissionBook book(kStartOfRun);
   for (std::uint64_t mission = 1; mission <= MissionBook::kMostMissions + 5; ++mission)
     for (std::uint64_t i = 0; i < MissionBook::kMostEvents + 3; ++i)
-      book.note(MissionStep{mission, nanoseconds(kStart) + i, "command.goto", "GoalPoint", i, "", 0});
+      book.note(MissionStep{mission, nanoseconds(kStartOfRun) + i, "command.goto", "GoalPoint", i, "", 0});
   Reader reader;
   const auto lines = reader.lines([&](Reply& reply) { book.show(reply); });
   CHECK(lines.size() == MissionBook::kMostMissions);

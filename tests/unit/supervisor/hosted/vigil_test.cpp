@@ -16,7 +16,7 @@ using orca::test::RuntimeFolder;
 namespace {
 
 // A process that waits for a supervisor.
-struct Lonely {
+struct WaitingProcess {
   RuntimeFolder folder;
   Result<ControlSocket> place = open_meeting_place("scout", "base");
   Vigil vigil{*place, [] { return Orphaned{"base", 17, {}, null_device(), null_device()}; }};
@@ -38,7 +38,7 @@ Result<Report> heard_by(Channel& visitor) {
 }  // namespace
 
 TEST_CASE("who comes hears who waits, and may adopt it", "[supervisor][adoption]") {
-  Lonely lonely;
+  WaitingProcess lonely;
   CHECK_FALSE(lonely.vigil.turn(lonely.now));
   const auto supervisor = visitor();
   CHECK_FALSE(lonely.vigil.turn(lonely.now));
@@ -57,7 +57,7 @@ TEST_CASE("who comes hears who waits, and may adopt it", "[supervisor][adoption]
 }
 
 TEST_CASE("visitors that vanish, talk nonsense or say nothing change nothing", "[supervisor][adoption]") {
-  Lonely lonely;
+  WaitingProcess lonely;
   const std::size_t before = test::open_descriptors();
   for (int i = 0; i < 100; ++i) {
     visitor().reset();
@@ -86,7 +86,7 @@ TEST_CASE("visitors that vanish, talk nonsense or say nothing change nothing", "
 }
 
 TEST_CASE("a second visitor waits until the first is gone", "[supervisor][adoption]") {
-  Lonely lonely;
+  WaitingProcess lonely;
   auto first = visitor();
   CHECK_FALSE(lonely.vigil.turn(lonely.now));
   const auto second = visitor();

@@ -20,7 +20,7 @@ using namespace orca::supervisor;
 
 namespace {
 
-constexpr Duration kLong = 30s;  // for what must happen, on a busy machine, too
+constexpr Duration kLongWait = 30s;  // for what must happen, on a busy machine, too
 
 Moment now() { return std::chrono::steady_clock::now(); }
 
@@ -41,13 +41,13 @@ bool is_readable(int descriptor, Duration limit) {
 }
 
 ExitReason end_of(HostProcess& process) {
-  REQUIRE(is_readable(process.end_descriptor(), kLong));
+  REQUIRE(is_readable(process.end_descriptor(), kLongWait));
   REQUIRE(process.exit());
   return *process.exit();
 }
 
 std::string last_words_of(HostProcess& process) {
-  auto message = process.channel().wait_for_message(kLong);
+  auto message = process.channel().wait_for_message(kLongWait);
   REQUIRE(message);
   const auto report = decode_report(std::move(*message));
   REQUIRE(report);
@@ -179,7 +179,7 @@ TEST_CASE("What a host process prints comes as lines", "[supervisor][processes]"
   const auto process = started(start_of("print"));
   std::vector<std::string> lines;
   while (process->output_descriptor() >= 0) {
-    REQUIRE(is_readable(process->output_descriptor(), kLong));
+    REQUIRE(is_readable(process->output_descriptor(), kLongWait));
     for (auto& line : process->take_output()) lines.push_back(line);
   }
   CHECK(lines == std::vector<std::string>{"one", "two\\x1b[1m", "no end"});
@@ -199,10 +199,10 @@ TEST_CASE("A host process never waits for somebody to read what it prints", "[su
 TEST_CASE("A host process that obeys ends by itself", "[supervisor][processes]") {
   const auto process = started(start_of("obey"));
   REQUIRE(process->channel().post(encode(Build{}, 1)).ok());
-  CHECK(process->channel().wait_for_message(kLong)->request == 1);
-  process->end(now(), {.when_asked = kLong, .when_terminated = kLong}, 2);
+  CHECK(process->channel().wait_for_message(kLongWait)->request == 1);
+  process->end(now(), {.when_asked = kLongWait, .when_terminated = kLongWait}, 2);
   CHECK(process->due());
-  CHECK(process->channel().wait_for_message(kLong)->request == 2);
+  CHECK(process->channel().wait_for_message(kLongWait)->request == 2);
   CHECK(end_of(*process).is_normal());
   CHECK_FALSE(process->due());
 }
@@ -222,9 +222,9 @@ TEST_CASE("Who is in a hurry shortens the time that a host process was given to 
           "[supervisor][processes]") {
   const auto process = ready("stubborn");
   const Moment begun = now();
-  process->end(begun, {.when_asked = kLong, .when_terminated = 50ms});
+  process->end(begun, {.when_asked = kLongWait, .when_terminated = 50ms});
   process->end(begun, {.when_asked = 50ms, .when_terminated = 50ms});
-  process->end(begun, {.when_asked = kLong, .when_terminated = kLong});
+  process->end(begun, {.when_asked = kLongWait, .when_terminated = kLongWait});
   CHECK(looked_after(*process).signal == SIGKILL);
   CHECK(now() - begun >= 100ms);
 }
@@ -251,14 +251,14 @@ TEST_CASE("A stopped host process is killed, and the reason is kept", "[supervis
   const auto process = ready("sleep");
   kill(process->pid(), SIGSTOP);
   process->end_by_force(Force::hang, now(), 20ms);
-  process->end_by_force(Force::memory, now() + kLong, 20ms);  // changes nothing any more
+  process->end_by_force(Force::memory, now() + kLongWait, 20ms);  // changes nothing any more
   CHECK(looked_after(*process).text() == "hung and was killed");
 }
 
 TEST_CASE("A host process that no order reaches is terminated at once", "[supervisor][processes]") {
   const auto process = ready("sleep");
   shutdown(process->channel().descriptor(), SHUT_RDWR);
-  process->end(now(), {.when_asked = kLong, .when_terminated = kLong});
+  process->end(now(), {.when_asked = kLongWait, .when_terminated = kLongWait});
   CHECK(end_of(*process).signal == SIGTERM);
 }
 

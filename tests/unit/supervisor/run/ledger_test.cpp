@@ -23,7 +23,7 @@ class Hearing final : public host::RunListener {
   host::RobotNames known;
 };
 
-graph::Graph system() {
+graph::Graph scout_in_two() {
   graph::Graph graph;
   for (const auto& [name, process] : {std::pair("goto", "behaviours"), {"base", "base"}}) {
     graph::ComponentNode node;
@@ -50,7 +50,7 @@ std::vector<std::byte> bytes_of(const T& object) {
 }  // namespace
 
 TEST_CASE("what the processes report on their components is known together", "[supervisor][ledger]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   REQUIRE(ledger.take(works("goto"), "behaviours").ok());
@@ -62,7 +62,7 @@ TEST_CASE("what the processes report on their components is known together", "[s
 
 TEST_CASE("what is said of a component that the graph does not have, or of no state, is not believed",
           "[supervisor][ledger]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   CHECK(ledger.take(works("ghost"), "behaviours").error().code == Code::data_loss);
@@ -74,7 +74,7 @@ TEST_CASE("what is said of a component that the graph does not have, or of no st
 }
 
 TEST_CASE("arrivals and alarms of all processes reach the listener and the result", "[supervisor][ledger]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   idl::Arrived arrived;
@@ -94,7 +94,7 @@ TEST_CASE("arrivals and alarms of all processes reach the listener and the resul
 
 TEST_CASE("the components of a process that is lost are gone, and nothing waits for its rest",
           "[supervisor][ledger]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   REQUIRE(ledger.take(works("goto"), "behaviours").ok());
@@ -107,7 +107,7 @@ TEST_CASE("the components of a process that is lost are gone, and nothing waits 
 }
 
 TEST_CASE("robots are introduced by the hardware of all processes", "[supervisor][ledger]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   REQUIRE(ledger.take(Built{{{"scout", "Dewey"}}}, "base").ok());
@@ -117,7 +117,7 @@ TEST_CASE("robots are introduced by the hardware of all processes", "[supervisor
 }
 
 TEST_CASE("alarms of a process stay when it is lost, until they are acknowledged", "[supervisor][ledger]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   const idl::Alarm failed = host::make_alarm(host::AlarmKind::failed, "goto", "work()", "it threw 7");
@@ -133,7 +133,7 @@ TEST_CASE("alarms of a process stay when it is lost, until they are acknowledged
 }
 
 TEST_CASE("an alarm from before this supervisor is kept once, and told to nobody", "[supervisor][ledger]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   idl::Alarm alarm;
@@ -154,7 +154,7 @@ TEST_CASE("an alarm from before this supervisor is kept once, and told to nobody
 
 TEST_CASE("an alarm whose reason is gone is not active any more, and stays until it is acknowledged",
           "[supervisor][ledger][alarms]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   ledger.settle(host::AlarmKind::machine_lost, "brain", "machine brain is heard");
@@ -172,7 +172,7 @@ TEST_CASE("an alarm whose reason is gone is not active any more, and stays until
 }
 
 TEST_CASE("an emergency stop cannot be acknowledged before it is released", "[supervisor][ledger][alarms]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   ledger.raise(host::AlarmKind::estop, "", "all motors are held");
@@ -186,7 +186,7 @@ TEST_CASE("an emergency stop cannot be acknowledged before it is released", "[su
 
 TEST_CASE("what a process on demand carried counts for all of its lives, and is not missed if it had none",
           "[supervisor][ledger][on_demand]") {
-  graph::Graph graph = system();
+  graph::Graph graph = scout_in_two();
   graph.processes = {{.name = "base", .on_demand = true}, {.name = "behaviours"}};
   graph.hardware.clear();
   Hearing hearing;

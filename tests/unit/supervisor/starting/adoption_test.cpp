@@ -28,7 +28,7 @@ class Deaf final : public host::RunListener {
   [[noreturn]] void abandon(const host::RunResult& /*result*/) override { std::abort(); }
 };
 
-graph::Graph system() {
+graph::Graph one_process() {
   graph::Graph graph;
   graph.name = "scout";
   graph::ComponentNode node;
@@ -39,15 +39,15 @@ graph::Graph system() {
 }
 
 // A run that another supervisor has begun, whose only process waits.
-class Lonely {
+class WaitingRun {
  public:
-  Lonely(std::uint64_t mark, std::string run) : mark_(mark), run_(std::move(run)) {}
-  ~Lonely() {
+  WaitingRun(std::uint64_t mark, std::string run) : mark_(mark), run_(std::move(run)) {}
+  ~WaitingRun() {
     ending_ = true;
     thread_.join();
   }
-  Lonely(const Lonely&) = delete;
-  Lonely& operator=(const Lonely&) = delete;
+  WaitingRun(const WaitingRun&) = delete;
+  WaitingRun& operator=(const WaitingRun&) = delete;
 
  private:
   void work() {
@@ -78,17 +78,17 @@ class Lonely {
 
 TEST_CASE("where nobody waits a new run begins", "[supervisor][adoption]") {
   const RuntimeFolder folder;
-  const Result<Beginning> beginning = begin_or_go_on(system(), "");
+  const Result<Beginning> beginning = begin_or_go_on(one_process(), "");
   REQUIRE(beginning);
   CHECK_FALSE(beginning->run.is_inherited);
   CHECK(beginning->processes.empty());
-  CHECK(begin_or_go_on(system(), "")->run.name != beginning->run.name);
+  CHECK(begin_or_go_on(one_process(), "")->run.name != beginning->run.name);
 }
 
 TEST_CASE("the run of processes that wait goes on", "[supervisor][adoption]") {
   const RuntimeFolder folder;
-  const Lonely waiting(mark_of(graph::print(system())), "seven");
-  const Result<Beginning> beginning = begin_or_go_on(system(), "");
+  const WaitingRun waiting(mark_of(graph::print(one_process())), "seven");
+  const Result<Beginning> beginning = begin_or_go_on(one_process(), "");
   REQUIRE(beginning);
   CHECK(beginning->run.is_inherited);
   CHECK(beginning->run.name == "seven");
@@ -100,8 +100,8 @@ TEST_CASE("the run of processes that wait goes on", "[supervisor][adoption]") {
 
 TEST_CASE("processes of another graph are no part of this one", "[supervisor][adoption]") {
   const RuntimeFolder folder;
-  const Lonely waiting(mark_of(graph::print(system())) + 1, "seven");
-  const Result<Beginning> beginning = begin_or_go_on(system(), "");
+  const WaitingRun waiting(mark_of(graph::print(one_process())) + 1, "seven");
+  const Result<Beginning> beginning = begin_or_go_on(one_process(), "");
   REQUIRE_FALSE(beginning);
   CHECK(beginning.error().code == Code::failed_precondition);
   CHECK_THAT(beginning.error().message,
@@ -109,7 +109,7 @@ TEST_CASE("processes of another graph are no part of this one", "[supervisor][ad
 }
 
 TEST_CASE("what was gone is started again unless its rule is never to", "[supervisor][adoption]") {
-  const graph::Graph graph = system();
+  const graph::Graph graph = one_process();
   Deaf deaf;
   Ledger ledger(graph, deaf, TimePoint{});
   graph::ProcessNode node;

@@ -19,7 +19,7 @@ graph::Edge edge(const std::string& from, const std::string& to) {
 }
 
 // Processes one, two, three; a and b are in one.
-graph::Graph system() {
+graph::Graph wired_processes() {
   graph::Graph graph;
   for (const auto& [name, process] : {std::pair("a", "one"), {"b", "one"}, {"c", "two"}, {"d", "three"}}) {
     graph::ComponentNode node;
@@ -41,7 +41,7 @@ std::vector<std::string> edges_of(const Wiring::Lots& lots, const std::string& p
 }  // namespace
 
 TEST_CASE("only edges between processes get memory, and both ends get the same", "[supervisor][wiring]") {
-  Wiring wiring(system());
+  Wiring wiring(wired_processes());
   const auto lots = wiring.deal({"one", "two", "three"});
   REQUIRE(lots);
   CHECK(edges_of(*lots, "one") == std::vector<std::string>{"a.out to c.in", "d.out to b.in"});
@@ -57,7 +57,7 @@ TEST_CASE("only edges between processes get memory, and both ends get the same",
 
 TEST_CASE("a process that is started again gets new memory for its edges, and so do its neighbours",
           "[supervisor][wiring]") {
-  Wiring wiring(system());
+  Wiring wiring(wired_processes());
   const auto lots = wiring.deal({"two"});
   REQUIRE(lots);
   CHECK(edges_of(*lots, "one") == std::vector<std::string>{"a.out to c.in"});
@@ -86,7 +86,7 @@ TEST_CASE("after the graph has gone over to other edges, those get memory", "[su
 }
 
 TEST_CASE("the edges at a process are known by both of their ends", "[supervisor][wiring]") {
-  Wiring wiring(system());
+  Wiring wiring(wired_processes());
   CHECK(wiring.edges_at("one").size() == 2);
   REQUIRE(wiring.edges_at("three").size() == 1);
   CHECK(wiring.edges_at("three")[0].name == "d.out to b.in");
@@ -95,7 +95,7 @@ TEST_CASE("the edges at a process are known by both of their ends", "[supervisor
 }
 
 TEST_CASE("memory that nobody takes leaves no descriptor behind", "[supervisor][wiring]") {
-  Wiring wiring(system());
+  Wiring wiring(wired_processes());
   const std::size_t before = test::open_descriptors();
   REQUIRE(wiring.deal({"one"}));
   CHECK(test::open_descriptors() == before);
@@ -105,7 +105,7 @@ namespace {
 
 // The same, with process two on demand: a pushes to c, and c sends to e, whose process four is on demand, too.
 graph::Graph with_sleepers() {
-  graph::Graph graph = system();
+  graph::Graph graph = wired_processes();
   graph.processes = {{.name = "two", .on_demand = true}, {.name = "four", .on_demand = true}};
   graph::ComponentNode node;
   node.name = "e";
