@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kTwoWorlds = "world,x,y\r\n1,-1.0,6.0\r\n1,-2.0,7.0\r\n5,-3.5,8.0\r\n";
 
-std::string errors(const std::string& path, const BitmapScale& scale = {}) {
+std::string errors_of_file(const std::string& path, const BitmapScale& scale = {}) {
   orca::xml::Diagnostics diagnostics;
   CHECK_FALSE(read_world(path, scale, diagnostics).has_value());
   return diagnostics.text();
@@ -41,30 +41,33 @@ TEST_CASE("a file of many worlds gives the requested one", "[sim][cylinders]") {
 TEST_CASE("without a number the error says which worlds the file holds", "[sim][cylinders]") {
   const TempFolder folder;
   const std::string path = folder.write("two.csv", kTwoWorlds);
-  CHECK(errors(path) == path + ": error W017: the file holds 2 worlds, numbered from 1 to 5; choose one: \"" +
-                            path + "#1\"\n");
-  CHECK_THAT(errors(path + "#3"),
+  CHECK(errors_of_file(path) ==
+        path + ": error W017: the file holds 2 worlds, numbered from 1 to 5; choose one: \"" + path +
+            "#1\"\n");
+  CHECK_THAT(errors_of_file(path + "#3"),
              Catch::Contains("there is no world 3") && Catch::Contains("did you mean 5?"));
-  CHECK_THAT(errors(path + "#first"), Catch::Contains("\"#first\" does not choose a world"));
-  CHECK_THAT(errors(path + "#"), Catch::Contains("W017"));
-  CHECK_THAT(errors(path + "#1", {10.0, {}}), Catch::Contains("error W013: map_width is for bitmaps"));
+  CHECK_THAT(errors_of_file(path + "#first"), Catch::Contains("\"#first\" does not choose a world"));
+  CHECK_THAT(errors_of_file(path + "#"), Catch::Contains("W017"));
+  CHECK_THAT(errors_of_file(path + "#1", {10.0, {}}),
+             Catch::Contains("error W013: map_width is for bitmaps"));
 }
 
 TEST_CASE("worlds that hold nothing to choose from refuse a number", "[sim][cylinders]") {
   CHECK_THAT(
-      errors(ORCA_SOURCE_DIR "/sim/worlds/office.xml#2"),
+      errors_of_file(ORCA_SOURCE_DIR "/sim/worlds/office.xml#2"),
       Catch::Contains("error W017: \"#2\" is the seed of what is generated, but nothing in this world is"));
-  CHECK_THAT(errors("map.png#2", {10.0, {}}), Catch::Contains("W017: a picture holds one world"));
+  CHECK_THAT(errors_of_file("map.png#2", {10.0, {}}), Catch::Contains("W017: a picture holds one world"));
 }
 
 TEST_CASE("a packed file that is damaged or missing is reported", "[sim][cylinders]") {
   const TempFolder folder;
   const std::string head("\x1f\x8b\x08\0\0\0\0\0\0\x03", 10);
-  CHECK_THAT(errors(folder.write("cut.csv.gz", head) + "#1"),
+  CHECK_THAT(errors_of_file(folder.write("cut.csv.gz", head) + "#1"),
              Catch::Contains("error W011: cannot read the file"));
-  CHECK_THAT(errors(folder.write("bad.csv.gz", head + "nonsense") + "#1"), Catch::Contains("error W011"));
-  CHECK_THAT(errors(folder.write("empty.csv.gz", "") + "#1"), Catch::Contains("the file is empty"));
-  CHECK_THAT(errors("/no/such.csv.gz#1"), Catch::Contains("No such file or directory"));
+  CHECK_THAT(errors_of_file(folder.write("bad.csv.gz", head + "nonsense") + "#1"),
+             Catch::Contains("error W011"));
+  CHECK_THAT(errors_of_file(folder.write("empty.csv.gz", "") + "#1"), Catch::Contains("the file is empty"));
+  CHECK_THAT(errors_of_file("/no/such.csv.gz#1"), Catch::Contains("No such file or directory"));
 }
 
 TEST_CASE("BARN worlds are read and start free between their walls", "[sim][cylinders][data]") {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include "angles.hpp"
 #include "orca/sim/robot_file.hpp"
 
 using namespace orca::sim;
 using orca::Pose2;
+using orca::sim::test::kDegree;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 const std::string kInertial = R"(<inertial><mass value="10"/>)"
                               R"(<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="0.5"/></inertial>)";
@@ -33,14 +33,14 @@ std::optional<RobotModel> read(const std::string& text, std::string& errors) {
   return model;
 }
 
-std::string errors_in(const std::string& text) {
+std::string errors_of_robot(const std::string& text) {
   std::string errors;
   CHECK_FALSE(read(text, errors).has_value());
   return errors;
 }
 
 // Errors of the base with one more part, at line 3.
-std::string errors(const std::string& more) { return errors_in(robot(kBase + "\n" + more)); }
+std::string errors_with(const std::string& more) { return errors_of_robot(robot(kBase + "\n" + more)); }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
@@ -98,39 +98,41 @@ TEST_CASE("masses and shapes of all links are carried into the frame of the root
 }
 
 TEST_CASE("a file without robot, links, drive or extension is reported", "[sim][robot_file]") {
-  CHECK_THAT(errors_in("<world/>"), Catch::Contains("r.urdf:1:1: error R001: the root element is <world>"));
-  CHECK_THAT(errors_in("<robot name='r'/>"), Catch::Contains("error R011: the robot has no <link>") &&
-                                                 Catch::Contains("needs the element <orca"));
-  CHECK_THAT(errors_in(robot(kBase, "")),
+  CHECK_THAT(errors_of_robot("<world/>"),
+             Catch::Contains("r.urdf:1:1: error R001: the root element is <world>"));
+  CHECK_THAT(errors_of_robot("<robot name='r'/>"), Catch::Contains("error R011: the robot has no <link>") &&
+                                                       Catch::Contains("needs the element <orca"));
+  CHECK_THAT(errors_of_robot(robot(kBase, "")),
              Catch::Contains("r.urdf:3:1: error R004: <orca> needs the element <drive>"));
-  CHECK_THAT(errors_in(robot("<link name='base'/>")),
+  CHECK_THAT(errors_of_robot(robot("<link name='base'/>")),
              Catch::Contains("error R018: no link of the robot has a mass") &&
                  Catch::Contains("no link of the robot has a <collision>"));
-  CHECK_THAT(errors_in("<robot"), Catch::Contains("r.urdf:1:"));
+  CHECK_THAT(errors_of_robot("<robot"), Catch::Contains("r.urdf:1:"));
 }
 
 TEST_CASE("joints that do not make a tree are reported", "[sim][robot_file]") {
-  CHECK_THAT(errors("<link name='b'/>"), Catch::Contains("error R014: the robot has 2 root links (b, base)"));
+  CHECK_THAT(errors_with("<link name='b'/>"),
+             Catch::Contains("error R014: the robot has 2 root links (b, base)"));
   CHECK_THAT(
-      errors(joint("j", "bse", "base")),
+      errors_with(joint("j", "bse", "base")),
       Catch::Contains(
           "r.urdf:3:44: error R012: there is no link \"bse\"; there is: base; did you mean \"base\"?"));
-  CHECK_THAT(errors("<link name='b'/><link name='c'/>" + joint("j", "c", "b") + joint("k", "b", "c")),
+  CHECK_THAT(errors_with("<link name='b'/><link name='c'/>" + joint("j", "c", "b") + joint("k", "b", "c")),
              Catch::Contains("error R015: link \"b\" is its own ancestor: b <- c <- b"));
-  CHECK_THAT(errors("<link name='b'/><link name='c'/>" + joint("i", "base", "b") + joint("j", "base", "c") +
-                    joint("k", "b", "c")),
+  CHECK_THAT(errors_with("<link name='b'/><link name='c'/>" + joint("i", "base", "b") +
+                         joint("j", "base", "c") + joint("k", "b", "c")),
              Catch::Contains("error R013: link \"c\" is the child of joint \"k\" and of another joint"));
-  CHECK_THAT(errors("<link name='base'/>"),
+  CHECK_THAT(errors_with("<link name='base'/>"),
              Catch::Contains("error R010: there is a link \"base\" already, at r.urdf:2:1"));
-  CHECK_THAT(errors("<joint name='j' type='fixed'/>"),
+  CHECK_THAT(errors_with("<joint name='j' type='fixed'/>"),
              Catch::Contains("<joint> needs the element <parent link=") &&
                  Catch::Contains("<joint> needs the element <child link="));
 }
 
 TEST_CASE("wrong joints are reported", "[sim][robot_file]") {
   const auto with = [](const std::string& type, const std::string& inside) {
-    return errors("<link name='b'/><joint name='j' type='" + type +
-                  "'><parent link='base'/><child link='b'/>" + inside + "</joint>");
+    return errors_with("<link name='b'/><joint name='j' type='" + type +
+                       "'><parent link='base'/><child link='b'/>" + inside + "</joint>");
   };
   CHECK_THAT(with("fixd", ""),
              Catch::Contains("error R005: type: \"fixd\" is not one of: fixed, continuous"));
@@ -148,7 +150,7 @@ TEST_CASE("wrong joints are reported", "[sim][robot_file]") {
 
 TEST_CASE("wrong masses, inertias and shapes are reported", "[sim][robot_file]") {
   const auto base = [](const std::string& from, const std::string& to) {
-    return errors_in(robot(replaced(kBase, from, to)));
+    return errors_of_robot(robot(replaced(kBase, from, to)));
   };
   CHECK_THAT(base("value=\"10\"", "value=\"0\""),
              Catch::Contains("error R018: the mass must be more than 0 kg"));
@@ -174,16 +176,16 @@ TEST_CASE("wrong masses, inertias and shapes are reported", "[sim][robot_file]")
 
 TEST_CASE("wrong devices are reported at their place", "[sim][robot_file]") {
   const auto device = [](const std::string& text, const std::string& from, const std::string& to) {
-    return errors_in(robot(kBase, kDrive + replaced(kRing, from, to) + text));
+    return errors_of_robot(robot(kBase, kDrive + replaced(kRing, from, to) + text));
   };
-  CHECK_THAT(errors_in(robot(kBase, replaced(kDrive, "1 m/s\"", "1 kg\""))),
+  CHECK_THAT(errors_of_robot(robot(kBase, replaced(kDrive, "1 m/s\"", "1 kg\""))),
              Catch::Contains("r.urdf:3:60: error R005: max_speed: \"1 kg\""));
-  CHECK_THAT(errors_in(robot(kBase, replaced(kDrive, "differential", "synkro"))),
+  CHECK_THAT(errors_of_robot(robot(kBase, replaced(kDrive, "differential", "synkro"))),
              Catch::Contains("error R005: type: \"synkro\" is not one of: differential, synchro, holonomic; "
                              "did you mean \"synchro\"?"));
-  CHECK_THAT(errors_in(robot(kBase, kDrive + kDrive)),
+  CHECK_THAT(errors_of_robot(robot(kBase, kDrive + kDrive)),
              Catch::Contains("error R010: there is a <drive> already"));
-  CHECK_THAT(errors_in(robot(kBase, kDrive + kRing + kRing)),
+  CHECK_THAT(errors_of_robot(robot(kBase, kDrive + kRing + kRing)),
              Catch::Contains("error R010: there is a sonar ring \"sonar\" already"));
   CHECK_THAT(device("", "link=\"base\"", "link=\"bas\""),
              Catch::Contains("error R012: there is no link \"bas\"; did you mean \"base\"?"));
@@ -216,15 +218,15 @@ TEST_CASE("an uneven sonar ring lists where its transducers look and sit", "[sim
   REQUIRE(placed);
   CHECK(placed->sonars[0].transducer(2) == Pose2{0.1, -0.1, -1.0});
 
-  CHECK_THAT(errors_in(ring_with("angles='90 50 -50 deg'")),
+  CHECK_THAT(errors_of_robot(ring_with("angles='90 50 -50 deg'")),
              Catch::Contains("R005: angles: \"90 50 -50 deg\" holds 3 numbers, expected 4"));
-  CHECK_THAT(errors_in(ring_with("angles='90 x -50 5 deg'")), Catch::Contains("error R005: angles"));
-  CHECK_THAT(errors_in(ring_with("angles='1 2 3 4 m'")), Catch::Contains("error R005: angles"));
-  CHECK_THAT(errors_in(ring_with("angles='1 2 3 4' pitch='90 deg'")),
+  CHECK_THAT(errors_of_robot(ring_with("angles='90 x -50 5 deg'")), Catch::Contains("error R005: angles"));
+  CHECK_THAT(errors_of_robot(ring_with("angles='1 2 3 4 m'")), Catch::Contains("error R005: angles"));
+  CHECK_THAT(errors_of_robot(ring_with("angles='1 2 3 4' pitch='90 deg'")),
              Catch::Contains("error R022: the directions are given by angles already"));
-  CHECK_THAT(errors_in(ring_with("pitch='90 deg' positions='0 0; 0 0; 0 0; 0 0'")),
+  CHECK_THAT(errors_of_robot(ring_with("pitch='90 deg' positions='0 0; 0 0; 0 0; 0 0'")),
              Catch::Contains("error R022: positions need angles"));
-  CHECK_THAT(errors_in(ring_with("angles='1 2 3 4' positions='0 0; 1 1'")),
+  CHECK_THAT(errors_of_robot(ring_with("angles='1 2 3 4' positions='0 0; 1 1'")),
              Catch::Contains("error R022: there are 2 positions for 4 transducers"));
 }
 

@@ -21,14 +21,14 @@ WorldModel good(const std::string& content) {
   return *world;
 }
 
-std::string errors_in(const std::string& text) {
+std::string errors_of_world(const std::string& text) {
   orca::xml::Diagnostics diagnostics;
   const auto world = read_world_text(text, "w.xml", diagnostics);
   CHECK_FALSE(world.has_value());
   return diagnostics.text();
 }
 
-std::string errors(const std::string& content) { return errors_in(file(content)); }
+std::string errors_within(const std::string& content) { return errors_of_world(file(content)); }
 
 }  // namespace
 
@@ -80,60 +80,65 @@ TEST_CASE("boxes, cylinders, polygons and places take units and angles", "[sim][
 }
 
 TEST_CASE("a file that is not a world is reported as that", "[sim][world_file]") {
-  CHECK(errors_in("<graph/>") ==
+  CHECK(errors_of_world("<graph/>") ==
         "w.xml:1:1: error W001: the root element is <graph>; a world file begins with <world name=\"...\" "
         "version=\"1\">\n");
-  CHECK_THAT(errors_in("<world name='w' version='2'/>"),
+  CHECK_THAT(errors_of_world("<world name='w' version='2'/>"),
              Catch::Contains("w.xml:1:26: error W010: version \"2\" of the world format is not known"));
-  CHECK_THAT(errors_in("<world name='w' version='1'>"), Catch::Contains("w.xml:1:"));
-  CHECK_THAT(errors_in("<world/>"), Catch::Contains("error W004: <world> needs the attribute \"name\"") &&
-                                        Catch::Contains("needs the attribute \"version\""));
+  CHECK_THAT(errors_of_world("<world name='w' version='1'>"), Catch::Contains("w.xml:1:"));
+  CHECK_THAT(errors_of_world("<world/>"),
+             Catch::Contains("error W004: <world> needs the attribute \"name\"") &&
+                 Catch::Contains("needs the attribute \"version\""));
 }
 
 TEST_CASE("unknown elements and attributes are reported with the nearest name", "[sim][world_file]") {
-  CHECK_THAT(errors("<wal from='0 0' to='1 1'/>"),
+  CHECK_THAT(errors_within("<wal from='0 0' to='1 1'/>"),
              Catch::Contains(
                  "w.xml:2:1: error W002: there is no element <wal> in <world>; it may contain: wall, room"));
   CHECK_THAT(
-      errors("<box x='0' y='0' lenght='1 m' length='1 m' width='1 m'/>"),
+      errors_within("<box x='0' y='0' lenght='1 m' length='1 m' width='1 m'/>"),
       Catch::Contains("w.xml:2:18: error W003: <box> has no attribute \"lenght\"; it has: name, x, y"));
-  CHECK_THAT(errors("text"), Catch::Contains("w.xml:2:1: error W006"));
+  CHECK_THAT(errors_within("text"), Catch::Contains("w.xml:2:1: error W006"));
 }
 
 TEST_CASE("wrong values are reported at their place", "[sim][world_file]") {
-  CHECK_THAT(errors("<cylinder x='0' y='0'/>"),
+  CHECK_THAT(errors_within("<cylinder x='0' y='0'/>"),
              Catch::Contains("w.xml:2:1: error W004") && Catch::Contains("radius"));
-  CHECK_THAT(errors("<cylinder x='0' y='0' radius='-1 m'/>"),
+  CHECK_THAT(errors_within("<cylinder x='0' y='0' radius='-1 m'/>"),
              Catch::Contains("w.xml:2:31: error W005: radius: \"-1 m\" is out of range: more than 0"));
-  CHECK_THAT(errors("<cylinder x='0' y='0' radius='1 kg'/>"),
+  CHECK_THAT(errors_within("<cylinder x='0' y='0' radius='1 kg'/>"),
              Catch::Contains("error W005: radius: \"1 kg\""));
-  CHECK_THAT(errors("<cylinder x='nan' y='0' radius='1 m'/>"), Catch::Contains("error W005: x"));
-  CHECK_THAT(errors("<wall from='0' to='1 1'/>"),
+  CHECK_THAT(errors_within("<cylinder x='nan' y='0' radius='1 m'/>"), Catch::Contains("error W005: x"));
+  CHECK_THAT(errors_within("<wall from='0' to='1 1'/>"),
              Catch::Contains("w.xml:2:13: error W005: from: \"0\" is not a point"));
-  CHECK_THAT(errors("<wall from='0 0' to='1 x'/>"),
+  CHECK_THAT(errors_within("<wall from='0 0' to='1 x'/>"),
              Catch::Contains("error W005: to: \"1 x\" is not a point"));
-  CHECK_THAT(errors("<place name='far' x='1e300' y='0'/>"),
+  CHECK_THAT(errors_within("<place name='far' x='1e300' y='0'/>"),
              Catch::Contains("error W005: x: \"1e300\" is out of range: -100000 to 100000 m"));
-  CHECK_THAT(errors("<wall from='0 0' to='1e6 1'/>"),
+  CHECK_THAT(errors_within("<wall from='0 0' to='1e6 1'/>"),
              Catch::Contains("error W005: to: \"1e6 1\" is farther"));
-  CHECK_THAT(errors("<place name='1st' x='0' y='0'/>"),
+  CHECK_THAT(errors_within("<place name='1st' x='0' y='0'/>"),
              Catch::Contains("error W005: name: \"1st\" is not a name"));
 }
 
 TEST_CASE("walls and rooms that cannot be built are reported", "[sim][world_file]") {
-  CHECK_THAT(errors("<wall from='1 1' to='1 1'/>"), Catch::Contains("error W008: the wall begins and ends"));
-  CHECK_THAT(errors("<wall from='0 0' to='2 0'><door at='1.8 m' width='1 m'/></wall>"),
+  CHECK_THAT(errors_within("<wall from='1 1' to='1 1'/>"),
+             Catch::Contains("error W008: the wall begins and ends"));
+  CHECK_THAT(errors_within("<wall from='0 0' to='2 0'><door at='1.8 m' width='1 m'/></wall>"),
              Catch::Contains("error W008: the door at 1.8 m, 1 m wide, reaches over the end of its wall"));
-  CHECK_THAT(errors("<wall from='0 0' to='9 0'><door at='2' width='1'/><door at='2.5' width='1'/></wall>"),
-             Catch::Contains("reaches into the door before it"));
-  CHECK_THAT(errors("<room from='0 0' to='-1 2'/>"),
+  CHECK_THAT(
+      errors_within("<wall from='0 0' to='9 0'><door at='2' width='1'/><door at='2.5' width='1'/></wall>"),
+      Catch::Contains("reaches into the door before it"));
+  CHECK_THAT(errors_within("<room from='0 0' to='-1 2'/>"),
              Catch::Contains("error W008: \"to\" must lie right of and above"));
-  CHECK_THAT(errors("<room from='0 0' to='4 4'><door side='up' at='2' width='1'/></room>"),
+  CHECK_THAT(errors_within("<room from='0 0' to='4 4'><door side='up' at='2' width='1'/></room>"),
              Catch::Contains("error W005: side: \"up\" is not one of: south, north, west, east"));
 }
 
 TEST_CASE("polygons that bound no area are reported", "[sim][world_file]") {
-  const auto polygon = [](const std::string& points) { return errors("<polygon points='" + points + "'/>"); };
+  const auto polygon = [](const std::string& points) {
+    return errors_within("<polygon points='" + points + "'/>");
+  };
   CHECK_THAT(polygon("0 0; 1 0"),
              Catch::Contains("w.xml:2:18: error W009: a polygon needs at least 3 corners, found 2"));
   CHECK_THAT(polygon("0 0; 1 0; 1 1; 0 0"), Catch::Contains("error W009: the last corner repeats the first"));
@@ -143,20 +148,20 @@ TEST_CASE("polygons that bound no area are reported", "[sim][world_file]") {
 }
 
 TEST_CASE("names must be unique, and places must lie outside obstacles", "[sim][world_file]") {
-  CHECK_THAT(errors("<place name='a' x='0' y='0'/><place name='a' x='1' y='1'/>"),
+  CHECK_THAT(errors_within("<place name='a' x='0' y='0'/><place name='a' x='1' y='1'/>"),
              Catch::Contains("error W007: the place \"a\" exists already, at w.xml:2:1"));
-  CHECK_THAT(errors("<place name='a' x='0' y='0'/><cylinder name='c' x='0' y='0' radius='1'/>"),
+  CHECK_THAT(errors_within("<place name='a' x='0' y='0'/><cylinder name='c' x='0' y='0' radius='1'/>"),
              Catch::Contains("w.xml:2:1: error W012: place \"a\" lies inside obstacle \"c\""));
 }
 
 TEST_CASE("all errors of a file are reported at once", "[sim][world_file]") {
-  const std::string text = errors("<wal/>\n<box/>\n<place name='a' x='1 kg' y='0'/>");
+  const std::string text = errors_within("<wal/>\n<box/>\n<place name='a' x='1 kg' y='0'/>");
   CHECK_THAT(text, Catch::Contains("w.xml:2:1: error W002") && Catch::Contains("w.xml:3:1: error W004") &&
                        Catch::Contains("w.xml:4:"));
 }
 
 TEST_CASE("a bitmap that cannot be read is reported at the element that names it", "[sim][world_file]") {
-  CHECK_THAT(errors("<bitmap file='no.png' width='10 m'/>"),
+  CHECK_THAT(errors_within("<bitmap file='no.png' width='10 m'/>"),
              Catch::Contains("w.xml:2:15: error W011: no.png: cannot read the picture: No such file"));
   orca::xml::Diagnostics diagnostics;
   CHECK_FALSE(read_world("no/map.png", {10.0, {}}, diagnostics).has_value());

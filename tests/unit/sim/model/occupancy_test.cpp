@@ -29,20 +29,20 @@ std::string drawn(const Occupancy& grid) {
 }
 
 // A world from (-1, 2) to (4, 6), because of its two places.
-WorldModel world_with(std::vector<Obstacle> obstacles) {
+WorldModel world_of(std::vector<Obstacle> obstacles) {
   return {.name = "test",
           .obstacles = std::move(obstacles),
           .places = {{"low", {-1.0, 2.0, 0.0}}, {"high", {4.0, 6.0, 0.0}}}};
 }
 
 std::string map_of(Obstacle obstacle, double height = 0.5) {
-  return drawn(occupancy_of(world_with({std::move(obstacle)}), 1.0, height).value());
+  return drawn(occupancy_of(world_of({std::move(obstacle)}), 1.0, height).value());
 }
 
 }  // namespace
 
 TEST_CASE("a map covers the world from its lower left corner", "[sim][occupancy]") {
-  const Occupancy grid = occupancy_of(world_with({}), 0.4, 1.0).value();
+  const Occupancy grid = occupancy_of(world_of({}), 0.4, 1.0).value();
   CHECK(grid.corner == Vec2{-1.0, 2.0});
   CHECK(grid.columns == 13);  // 5 m
   CHECK(grid.rows == 10);     // 4 m
@@ -80,7 +80,7 @@ TEST_CASE("a map says of each cell what a comparison of solids says", "[sim][occ
     const Vec2 at = somewhere();
     Shape shape = Box{{at.x, at.y, random.uniform(-3.0, 3.0)}, {random.uniform(0.01, 2.0), 0.3}};
     if (lap % 2 == 0) shape = outline_of({somewhere(), somewhere(), somewhere()});
-    const WorldModel world = world_with({solid(shape)});
+    const WorldModel world = world_of({solid(shape)});
     const Occupancy grid = occupancy_of(world, 0.25, 0.5).value();
     std::size_t different = 0;
     for (std::size_t k = 0; k < grid.cells.size(); ++k) {
@@ -95,7 +95,7 @@ TEST_CASE("a map says of each cell what a comparison of solids says", "[sim][occ
 }
 
 TEST_CASE("a map that would be too large is refused", "[sim][occupancy]") {
-  CHECK_FALSE(occupancy_of(world_with({}), 0.001, 1.0));
-  CHECK_FALSE(occupancy_of(world_with({}), 0.0, 1.0));
-  CHECK_FALSE(occupancy_of(world_with({}), std::numeric_limits<double>::quiet_NaN(), 1.0));
+  CHECK_FALSE(occupancy_of(world_of({}), 0.001, 1.0));
+  CHECK_FALSE(occupancy_of(world_of({}), 0.0, 1.0));
+  CHECK_FALSE(occupancy_of(world_of({}), std::numeric_limits<double>::quiet_NaN(), 1.0));
 }

@@ -45,7 +45,7 @@ void check_at(Vec2 found, Vec2 expected) {
   CHECK(found.y == Approx(expected.y).margin(1e-9));
 }
 
-std::string errors(const std::string& content) {
+std::string errors_of_walker(const std::string& content) {
   orca::xml::Diagnostics diagnostics;
   CHECK_FALSE(read_world_text("<world name='w' version='1'>\n" + content + "</world>", "w.xml", diagnostics)
                   .has_value());
@@ -186,17 +186,19 @@ TEST_CASE("a world file defines walkers with all their attributes", "[sim][walke
 }
 
 TEST_CASE("errors of a walker are reported at their place", "[sim][walker][world_file]") {
-  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' loop='no'/>"),
+  CHECK_THAT(errors_of_walker("<walker name='a' track='0 0; 1 0' loop='no'/>"),
              Catch::Contains("\"no\" is not one of: back, round"));
-  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0' speed='0 m/s'/>"),
+  CHECK_THAT(errors_of_walker("<walker name='a' track='0 0; 1 0' speed='0 m/s'/>"),
              Catch::Contains("speed: \"0 m/s\" is out of range: more than 0"));
-  CHECK_THAT(errors("<walker name='a' track='0 0'/>"),
+  CHECK_THAT(errors_of_walker("<walker name='a' track='0 0'/>"),
              Catch::Contains("W019: a track needs at least 2 corners"));
-  CHECK_THAT(errors("<walker name='a' track='1 1; 1 1'/>"), Catch::Contains("W019: the track has no length"));
-  CHECK_THAT(errors("<walker track='0 0; 1 0'/>"), Catch::Contains("W004"));
-  CHECK_THAT(errors("<walker name='a' track='0 0; 1 0'/><walker name='a' track='0 2; 1 2'/>"),
+  CHECK_THAT(errors_of_walker("<walker name='a' track='1 1; 1 1'/>"),
+             Catch::Contains("W019: the track has no length"));
+  CHECK_THAT(errors_of_walker("<walker track='0 0; 1 0'/>"), Catch::Contains("W004"));
+  CHECK_THAT(errors_of_walker("<walker name='a' track='0 0; 1 0'/><walker name='a' track='0 2; 1 2'/>"),
              Catch::Contains("error W007"));
   CHECK_THAT(
-      errors("<walker name='a' track='0 0; 4 0'/><box name='desk' x='2' y='0.3' length='1' width='0.4'/>"),
+      errors_of_walker(
+          "<walker name='a' track='0 0; 4 0'/><box name='desk' x='2' y='0.3' length='1' width='0.4'/>"),
       Catch::Contains("w.xml:2:1: error W019: \"a\" would walk through obstacle \"desk\""));
 }

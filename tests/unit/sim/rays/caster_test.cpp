@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include "angles.hpp"
 #include "orca/base/random.hpp"
 #include "orca/sim/caster.hpp"
 
@@ -9,10 +10,9 @@ using orca::direction;
 using orca::Pose2;
 using orca::rotated;
 using orca::Vec2;
+using orca::sim::test::kPi;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The reference: in a frame whose x axis is the ray, an edge is met where its line crosses y = 0.
 double brute_force(const WorldModel& world, const Ray& ray) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "angles.hpp"
 #include "meshes.hpp"
 #include "orca/sim/caster.hpp"
 
@@ -14,10 +15,10 @@ using namespace orca::sim;
 using orca::direction;
 using orca::rotated;
 using orca::Vec2;
+using orca::sim::test::kPi;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kExact = 1e-3;    // [m] Largest difference between the answers.
 constexpr double kSure = 1e-7;     // [m] Larger differences are only allowed at a corner.
 constexpr double kGrazing = 1e-8;  // [m] A ray that passes a corner this closely may meet it or not.

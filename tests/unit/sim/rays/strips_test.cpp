@@ -2,6 +2,7 @@
 // How far a cone of rays is empty: never farther than its nearest hit, and not much nearer.
 #include <catch2/catch.hpp>
 
+#include "angles.hpp"
 #include "orca/base/random.hpp"
 #include "rays/grid.hpp"
 #include "rays/strips.hpp"
@@ -13,10 +14,10 @@ using orca::direction;
 using orca::RandomStream;
 using orca::rotated;
 using orca::Vec2;
+using orca::sim::test::kPi;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kReach = 9.0;
 constexpr double kHeight = 0.3;
 

@@ -2,6 +2,7 @@
 // The guarantee of a view: every ray that it allows has the same hit as a ray cast by itself.
 #include <catch2/catch.hpp>
 
+#include "angles.hpp"
 #include "orca/base/random.hpp"
 #include "orca/sim/caster.hpp"
 
@@ -11,10 +12,9 @@ using orca::Pose2;
 using orca::RandomStream;
 using orca::rotated;
 using orca::Vec2;
+using orca::sim::test::kPi;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Shape random_shape(RandomStream& random, Vec2 middle) {
   const Pose2 pose{middle.x + random.uniform(-6, 6), middle.y + random.uniform(-6, 6),

@@ -31,13 +31,13 @@ RobotModel scout_with_infrared() {
   return model;
 }
 
-WorldModel wall(double distance) {
+WorldModel world_with_wall(double distance) {
   return {"wall", {{"wall", Box{{distance + 0.1, 0, 0}, {0.1, 5}}, 2.5}}, {}};
 }
 
 // Returns that many readings of the sensor that looks ahead, at a wall `range` from it.
 std::vector<double> readings(double range, int n, Realism realism) {
-  World world(wall(0.19 + range), {.seed = 4, .realism = realism});
+  World world(world_with_wall(0.19 + range), {.seed = 4, .realism = realism});
   const RobotId id = *world.add_robot("dewey", scout_with_infrared(), {});
   std::vector<double> seen;
   while (static_cast<int>(seen.size()) < n) {
@@ -50,7 +50,7 @@ std::vector<double> readings(double range, int n, Realism realism) {
 }  // namespace
 
 TEST_CASE("an infrared ring measures all around at once, at its period", "[sim][infrared]") {
-  World world(wall(0.59), {.seed = 1, .realism = Realism::ideal});
+  World world(world_with_wall(0.59), {.seed = 1, .realism = Realism::ideal});
   const RobotId id = *world.add_robot("dewey", scout_with_infrared(), {});
   for (int tick = 1; tick <= 20; ++tick) {
     world.step();
@@ -63,7 +63,7 @@ TEST_CASE("an infrared ring measures all around at once, at its period", "[sim][
 
 TEST_CASE("the nearest obstacle in an infrared beam counts, even at the beam's rim", "[sim][infrared]") {
   // A pin on the rim of the beam, before a wall.
-  WorldModel model = wall(0.79);
+  WorldModel model = world_with_wall(0.79);
   const Vec2 at = Vec2{0.19, 0.0} + 0.3 * direction(3.0 * kDegree);
   model.obstacles.push_back({"pin", Circle{at, 0.005}, 2.5});
   World world(std::move(model), {.seed = 1, .realism = Realism::ideal});

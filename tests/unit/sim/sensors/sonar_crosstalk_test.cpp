@@ -17,13 +17,13 @@ namespace {
 constexpr double kSoundSpeed = 343.0;
 constexpr auto kNobody = static_cast<std::size_t>(-1);
 
-detail::Beam beam_at(const Pose2& sensor) {
+detail::Beam ring_beam_at(const Pose2& sensor) {
   return {sensor, detail::Lobe(12.5 * kDegree), 0.15, 6.5, 0.3, kNobody};
 }
 
 detail::Echo echo_at(const Caster& caster, const Pose2& sensor) {
   detail::Echo echo;
-  detail::listen_for(caster, beam_at(sensor), std::tan(25.0 * kDegree), echo);
+  detail::listen_for(caster, ring_beam_at(sensor), std::tan(25.0 * kDegree), echo);
   return echo;
 }
 
@@ -32,7 +32,7 @@ detail::Echo echo_at(const Caster& caster, const Pose2& sensor) {
 std::optional<double> heard_by(const Caster& caster, detail::SonarAir& air, const Pose2& listener,
                                orca::TimePoint now) {
   detail::Echo echo = echo_at(caster, listener);
-  const std::uint64_t own = air.send(now, beam_at(listener), echo);
+  const std::uint64_t own = air.send(now, ring_beam_at(listener), echo);
   echo.range.reset();
   detail::Sectors::Search search;
   return air.first_heard(caster, own, echo, search);
@@ -44,7 +44,7 @@ std::optional<double> stray(const WorldModel& world, const Pose2& sender, const 
                             orca::Duration earlier = 0ms) {
   const Caster caster(world);
   detail::SonarAir air;
-  air.send(kNow - earlier, beam_at(sender), echo_at(caster, sender));
+  air.send(kNow - earlier, ring_beam_at(sender), echo_at(caster, sender));
   return heard_by(caster, air, listener, kNow);
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("sound is reflected by a body that has moved on since, and not by one 
   const auto crate = [](double distance) { return Box{{distance + 0.1, 0, 0}, {0.1, 1.0}}; };
   const std::size_t first = caster.add_body({crate(3.0), 0.0, 1.0});
   detail::SonarAir air;
-  air.send(kNow - 10ms, beam_at(neighbour), echo_at(caster, neighbour));
+  air.send(kNow - 10ms, ring_beam_at(neighbour), echo_at(caster, neighbour));
   caster.move_body(first, crate(3.02));
   const double way = std::hypot(2.0 * 3.02, 0.4);
   CHECK(heard_by(caster, air, kAhead, kNow).value() ==
@@ -129,10 +129,10 @@ TEST_CASE("thousands of bodies that come and go do not change the sound reflecte
   for (int i = 0; i < 3000; ++i) {
     const orca::TimePoint now = kNow + i * 100ms;
     air.settle(now - 10ms);
-    air.send(now - 5ms, beam_at(neighbour), echo_at(caster, neighbour));
+    air.send(now - 5ms, ring_beam_at(neighbour), echo_at(caster, neighbour));
     const std::size_t passing = caster.add_body({Circle{{2.9, -3.0}, 0.05}, 0.0, 1.0});
     const Pose2 aside{0, -3.0, 0};
-    air.send(now - 4ms, beam_at(aside), echo_at(caster, aside));
+    air.send(now - 4ms, ring_beam_at(aside), echo_at(caster, aside));
     caster.remove_body(passing);
     air.settle(now - 4ms);
     CAPTURE(i);
@@ -165,8 +165,8 @@ TEST_CASE("the first arrival counts: its own echo or another's sound", "[sim][so
   REQUIRE(echo.range.value() == Approx(3.0));
   for (const bool earlier : {false, true}) {
     detail::SonarAir air;
-    air.send(earlier ? kNow - 10ms : kNow, beam_at({0, 0.4, 0}), echo_at(caster, {0, 0.4, 0}));
-    const std::uint64_t own = air.send(kNow, beam_at(kAhead), echo);
+    air.send(earlier ? kNow - 10ms : kNow, ring_beam_at({0, 0.4, 0}), echo_at(caster, {0, 0.4, 0}));
+    const std::uint64_t own = air.send(kNow, ring_beam_at(kAhead), echo);
     const double stray = 0.5 * (std::hypot(6.0, 0.4) - kSoundSpeed * 0.010);
     detail::Sectors::Search search;
     CHECK(air.first_heard(caster, own, echo, search).value() == Approx(earlier ? stray : 3.0).margin(1e-9));

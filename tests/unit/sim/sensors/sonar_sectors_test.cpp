@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "angles.hpp"
 #include "orca/base/random.hpp"
 #include "sensors/sonar_sectors.hpp"
 
@@ -14,10 +15,9 @@ using namespace orca;
 using namespace orca::sim;
 using detail::Sector;
 using detail::Sectors;
+using orca::sim::test::kPi;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Sector sector_at(const Pose2& sensor, double half_angle, double sent, double silent) {
   return {detail::Beam(sensor, detail::Lobe(half_angle), 0.0, 1.0, 0.0, 0), sent, silent};

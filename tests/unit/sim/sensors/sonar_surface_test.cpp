@@ -16,14 +16,14 @@ namespace {
 constexpr double kCritical = 25.0 * kDegree;
 constexpr double kHalfLobe = 12.5 * kDegree;
 
-detail::Beam beam_at(const Pose2& sensor) {
+detail::Beam lone_beam_at(const Pose2& sensor) {
   return {sensor, detail::Lobe(kHalfLobe), 0.15, 6.5, 0.3, static_cast<std::size_t>(-1)};
 }
 
 std::optional<double> heard(const WorldModel& world, const Pose2& sensor) {
   const Caster caster(world);
   detail::Echo echo;
-  detail::listen_for(caster, beam_at(sensor), std::tan(kCritical), echo);
+  detail::listen_for(caster, lone_beam_at(sensor), std::tan(kCritical), echo);
   return echo.range;
 }
 

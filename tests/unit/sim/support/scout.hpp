@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "angles.hpp"
 #include "orca/sim/robot_model.hpp"
 #include "orca/sim/world_model.hpp"
 
 namespace orca::sim::test {
-
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A robot like the Nomad Scout, made here so that tests of the simulation depend on no file.
 inline RobotModel scout() {

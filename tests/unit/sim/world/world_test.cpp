@@ -16,7 +16,7 @@ void run(World& world, double seconds) {
   for (int i = 0; i < static_cast<int>(seconds * 100.0 + 0.5); ++i) world.step();
 }
 
-World world_with(RobotId& id, Realism realism, Pose2 start = {}) {
+World world_with_scout(RobotId& id, Realism realism, Pose2 start = {}) {
   World world(test_room(), {.seed = 1, .realism = realism});
   const auto added = world.add_robot("dewey", scout(), start);
   REQUIRE(added);
@@ -95,7 +95,7 @@ TEST_CASE("another robot's arrival leaves a robot's own noise unchanged", "[sim]
 TEST_CASE("a small command is followed after the dead time with the drive's first-order lag",
           "[sim][drive]") {
   RobotId id{};
-  World world = world_with(id, Realism::nominal);
+  World world = world_with_scout(id, Realism::nominal);
   REQUIRE(world.set_velocity_command(id, 0.05, 0.0));
   run(world, 0.05);
   CHECK(world.velocity(id).forward == 0.0);
@@ -107,7 +107,7 @@ TEST_CASE("a small command is followed after the dead time with the drive's firs
 
 TEST_CASE("a large command is followed with the acceleration limit up to the speed limit", "[sim][drive]") {
   RobotId id{};
-  World world = world_with(id, Realism::ideal, {-4, 2, 0});
+  World world = world_with_scout(id, Realism::ideal, {-4, 2, 0});
   REQUIRE(world.set_velocity_command(id, 3.0, 0.0));
   run(world, 1.0);
   CHECK(world.velocity(id).forward == Approx(0.76));
@@ -117,7 +117,7 @@ TEST_CASE("a large command is followed with the acceleration limit up to the spe
 
 TEST_CASE("a base that drives and turns follows the exact arc", "[sim][drive]") {
   RobotId id{};
-  World world = world_with(id, Realism::ideal);
+  World world = world_with_scout(id, Realism::ideal);
   REQUIRE(world.set_velocity_command(id, 0.0076, 0.04));  // Reached in one tick.
   run(world, 10.0);
   const double radius = 0.0076 / 0.04;
@@ -129,7 +129,7 @@ TEST_CASE("a base that drives and turns follows the exact arc", "[sim][drive]") 
 
 TEST_CASE("a command that is not finite is refused and the former one stays", "[sim][drive]") {
   RobotId id{};
-  World world = world_with(id, Realism::ideal);
+  World world = world_with_scout(id, Realism::ideal);
   REQUIRE(world.set_velocity_command(id, 0.1, 0.0));
   CHECK_FALSE(world.set_velocity_command(id, std::nan(""), 0.0));
   run(world, 1.0);
@@ -139,7 +139,7 @@ TEST_CASE("a command that is not finite is refused and the former one stays", "[
 TEST_CASE("a wall stops the robot, and the contact is reported once, with the wall's name",
           "[sim][contact]") {
   RobotId id{};
-  World world = world_with(id, Realism::nominal, {0, 3, 0});
+  World world = world_with_scout(id, Realism::nominal, {0, 3, 0});
   REQUIRE(world.set_velocity_command(id, 0.8, 0.0));
   std::vector<ContactEvent> events;
   for (int i = 0; i < 1500; ++i) {
@@ -158,7 +158,7 @@ TEST_CASE("a wall stops the robot, and the contact is reported once, with the wa
 
 TEST_CASE("backing off and coming again is a second contact", "[sim][contact]") {
   RobotId id{};
-  World world = world_with(id, Realism::nominal, {4, 3, 0});
+  World world = world_with_scout(id, Realism::nominal, {4, 3, 0});
   std::size_t contacts = 0;
   const auto drive = [&](double speed, int ticks) {
     REQUIRE(world.set_velocity_command(id, speed, 0.0));
@@ -178,7 +178,7 @@ TEST_CASE("backing off and coming again is a second contact", "[sim][contact]") 
 
 TEST_CASE("a robot that drives and turns in the open has no contact", "[sim][contact]") {
   RobotId id{};
-  World world = world_with(id, Realism::nominal, {0, 1, 0});
+  World world = world_with_scout(id, Realism::nominal, {0, 1, 0});
   REQUIRE(world.set_velocity_command(id, 0.5, 0.6));
   for (int i = 0; i < 3000; ++i) {
     world.step();
@@ -220,7 +220,7 @@ TEST_CASE("the boundary of a bitmap stops a robot like a wall does", "[sim][cont
 TEST_CASE("odometry is exact at ideal realism and drifts at nominal", "[sim][odometry]") {
   for (const Realism realism : {Realism::ideal, Realism::nominal}) {
     RobotId id{};
-    World world = world_with(id, realism, {-2, -2, 0.5});
+    World world = world_with_scout(id, realism, {-2, -2, 0.5});
     REQUIRE(world.set_velocity_command(id, 0.4, 0.3));
     run(world, 20.0);
     const Pose2 believed = Pose2{-2, -2, 0.5} * world.odometry(id).value().pose;
@@ -233,7 +233,7 @@ TEST_CASE("odometry is exact at ideal realism and drifts at nominal", "[sim][odo
 
 TEST_CASE("odometry comes with its period and the stamp of its tick", "[sim][odometry]") {
   RobotId id{};
-  World world = world_with(id, Realism::ideal);
+  World world = world_with_scout(id, Realism::ideal);
   for (int tick = 1; tick <= 20; ++tick) {
     world.step();
     REQUIRE(world.odometry(id).has_value() == (tick % 5 == 0));
@@ -243,7 +243,7 @@ TEST_CASE("odometry comes with its period and the stamp of its tick", "[sim][odo
 
 TEST_CASE("a robot is not set down in a wall, in another robot, without a name or twice", "[sim][world]") {
   RobotId id{};
-  World world = world_with(id, Realism::ideal);
+  World world = world_with_scout(id, Realism::ideal);
   const auto error = [&](const std::string& name, Pose2 pose) {
     const auto added = world.add_robot(name, scout(), pose);
     return added ? "" : added.error().message;
@@ -265,7 +265,7 @@ TEST_CASE("a robot is not set down in a wall, in another robot, without a name o
 TEST_CASE("a snapshot holds the world's edges and circles, its places and the way the robot came",
           "[sim][snapshot]") {
   RobotId id{};
-  World world = world_with(id, Realism::ideal, {-2, -2, 0});
+  World world = world_with_scout(id, Realism::ideal, {-2, -2, 0});
   REQUIRE(world.set_velocity_command(id, 0.5, 0.0));
   run(world, 3.0);
   const Snapshot snapshot = world.snapshot();
