@@ -9,7 +9,7 @@
 using namespace orca;
 using namespace orca::hw;
 using State = HardwareState;
-using Event = HardwareEvent;
+using HardwareChange = HardwareEvent;
 using Action = HardwareAction;
 using Actions = std::vector<Action>;
 
@@ -31,14 +31,14 @@ Cell impossible() { return nowhere(EventKind::outcome); }
 
 const Actions kFault = {Action::halt, Action::forget, Action::enter};
 const Actions kFaultWhileActive = {Action::halt, Action::try_stop, Action::forget, Action::enter};
-const Actions kStop = {Action::halt, Action::stand, Action::stop, Action::forget, Action::enter};
+const Actions kActionsOfStop = {Action::halt, Action::stand, Action::stop, Action::forget, Action::enter};
 
 // By state, then by event: wanted, unwanted, shut_down, run, begun, failed.
 std::vector<std::vector<Cell>> specification() {
   const Cell opens = leads(State::opening, {Action::enter});
   const Cell opened = leads(State::ready, {Action::open, Action::enter});
   const Cell starts = leads(State::active, {Action::halt, Action::start, Action::enter});
-  const Cell stops = leads(State::ready, kStop);
+  const Cell stops = leads(State::ready, kActionsOfStop);
   const Cell closes = leads(State::closed, {Action::close, Action::enter});
   const Cell fails = leads(State::fault, kFault);
   return {
@@ -63,10 +63,11 @@ TEST_CASE("each event leads a container from each state to where the specificati
     for (std::size_t event = 0; event < kHardwareEvents; ++event) {
       CAPTURE(to_string(static_cast<State>(state)), event);
       const Cell& expected = cells[state][event];
-      const HardwareTransition* const row = transition(static_cast<State>(state), static_cast<Event>(event));
+      const HardwareTransition* const row =
+          transition(static_cast<State>(state), static_cast<HardwareChange>(event));
       REQUIRE((row != nullptr) == expected.leads);
       if (row == nullptr) {
-        CHECK(kind_of(static_cast<Event>(event)) == expected.without_row);
+        CHECK(kind_of(static_cast<HardwareChange>(event)) == expected.without_row);
       } else {
         CHECK(row->to == expected.to);
         CHECK(Actions(row->actions.begin(), row->actions.end()) == expected.actions);

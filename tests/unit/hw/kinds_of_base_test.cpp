@@ -24,7 +24,7 @@ bool offers(ScoutBase& base, const std::string& port) {
                              [&](const auto& e) { return e->contract().name == port; });
 }
 
-Loan<idl::HolonomicVelocity> velocity(double forward, double left) {
+Loan<idl::HolonomicVelocity> straight_velocity(double forward, double left) {
   auto made = make_object<idl::HolonomicVelocity>();
   made->forward(forward);
   made->left(left);
@@ -54,7 +54,7 @@ TEST_CASE("a holonomic velocity starts an idle base, is carried out, and expires
     ScoutBase base(executive, {}, with(idl::HOLONOMIC, false));
     base.connect("velocity", "HolonomicVelocitySend");
     base.run();
-    REQUIRE(base.client.velocity.send(velocity(0.25, -0.5)).ok());
+    REQUIRE(base.client.velocity.send(straight_velocity(0.25, -0.5)).ok());
     CHECK(base.robot.notes("drive 0.25 0 left -0.5"));
     CHECK(base.robot.notes("drive 0 0 left 0"));
     CHECK(base.gets(HardwareState::ready));
@@ -67,10 +67,10 @@ TEST_CASE("a holonomic velocity of zero stops a moving base at once and releases
     ScoutBase base(executive, {}, with(idl::HOLONOMIC, false));
     base.connect("velocity", "HolonomicVelocitySend");
     base.run();
-    REQUIRE(base.client.velocity.send(velocity(0.0, 0.5)).ok());
+    REQUIRE(base.client.velocity.send(straight_velocity(0.0, 0.5)).ok());
     REQUIRE(base.robot.notes("drive 0 0 left 0.5"));
     const TimePoint sent = executive.now();
-    REQUIRE(base.client.velocity.send(velocity(0.0, 0.0)).ok());
+    REQUIRE(base.client.velocity.send(straight_velocity(0.0, 0.0)).ok());
     CHECK(base.robot.notes("drive 0 0 left 0"));
     if (executive.is_virtual()) CHECK(executive.now() - sent < 10ms);
     CHECK(base.gets(HardwareState::ready));

@@ -11,9 +11,9 @@ using Catch::Contains;
 namespace {
 
 constexpr TimePoint kNow{1000s};
-constexpr DriveSetpoint kStop{.at_once = true};
+constexpr DriveSetpoint kStandstill{.at_once = true};
 
-struct Base {
+struct ObstructedBase {
   MotionHW motion{{.max_speed = 1.0, .max_turn_rate = 2.0, .type = idl::HOLONOMIC}, 200ms};
 
   Status drive(double forward, double turn_rate = 0.0, double left = 0.0) {
@@ -23,7 +23,7 @@ struct Base {
     velocity->turn_rate(turn_rate);
     return motion.command(*velocity, kNow);
   }
-  [[nodiscard]] bool stands() { return motion.due(kNow) == kStop; }
+  [[nodiscard]] bool stands() { return motion.due(kNow) == kStandstill; }
 };
 
 const std::vector<Obstruction::Pressed> kFrontPressed{{{1.0, 0.0}, "front"}};
@@ -32,7 +32,7 @@ const std::vector<Obstruction::Pressed> kFrontPressed{{{1.0, 0.0}, "front"}};
 
 TEST_CASE("a base that meets something stands at once, and refuses to go on with the reason",
           "[hw][obstruction]") {
-  Base base;
+  ObstructedBase base;
   REQUIRE(base.drive(0.5, 0.1).ok());
   base.motion.obstruct("it touched a wall");
   CHECK(base.stands());
@@ -50,7 +50,7 @@ TEST_CASE("a command in another direction frees the base, and then it may go any
     double forward, turn_rate, left;
   };
   for (const Way& way : {Way{-0.2, 0.0, 0.0}, Way{0.0, 0.5, 0.0}, Way{0.0, 0.0, 0.3}, Way{-0.1, 1.0, 0.1}}) {
-    Base base;
+    ObstructedBase base;
     REQUIRE(base.drive(0.5).ok());
     base.motion.obstruct("it touched a wall");
     CHECK(base.drive(way.forward, way.turn_rate, way.left).ok());
@@ -61,7 +61,7 @@ TEST_CASE("a command in another direction frees the base, and then it may go any
 }
 
 TEST_CASE("a stop is no other direction", "[hw][obstruction]") {
-  Base base;
+  ObstructedBase base;
   REQUIRE(base.drive(0.5).ok());
   base.motion.obstruct("it touched a wall");
   CHECK(base.drive(0.0).ok());
@@ -70,7 +70,7 @@ TEST_CASE("a stop is no other direction", "[hw][obstruction]") {
 
 TEST_CASE("a base that is stalled while it turns on the spot may turn the other way, or drive",
           "[hw][obstruction]") {
-  Base base;
+  ObstructedBase base;
   REQUIRE(base.drive(0.0, 0.5).ok());
   base.motion.obstruct("its motors are stalled");
   CHECK_FALSE(base.drive(0.0, 0.2).ok());
@@ -79,13 +79,13 @@ TEST_CASE("a base that is stalled while it turns on the spot may turn the other 
 }
 
 TEST_CASE("what comes to a standing base obstructs nothing", "[hw][obstruction]") {
-  Base base;
+  ObstructedBase base;
   base.motion.obstruct("a person touched it");
   CHECK(base.drive(0.5).ok());
 }
 
 TEST_CASE("a pressed bumper stops a base that drives towards it, and only that", "[hw][obstruction]") {
-  Base base;
+  ObstructedBase base;
   REQUIRE(base.drive(-0.5).ok());
   base.motion.press(kFrontPressed);
   CHECK_FALSE(base.stands());
@@ -97,7 +97,7 @@ TEST_CASE("a pressed bumper stops a base that drives towards it, and only that",
 
 TEST_CASE("while a bumper is pressed nothing moves the base towards it, after that any command does",
           "[hw][obstruction]") {
-  Base base;
+  ObstructedBase base;
   base.motion.press(kFrontPressed);
   CHECK_THAT(base.drive(0.3).error().text(), Contains("\"front\" is pressed"));
   CHECK(base.drive(0.0, 0.5).ok());
@@ -109,7 +109,7 @@ TEST_CASE("while a bumper is pressed nothing moves the base towards it, after th
 
 TEST_CASE("a bumper that was pressed for a moment holds the base until a command asks for another direction",
           "[hw][obstruction]") {
-  Base base;
+  ObstructedBase base;
   REQUIRE(base.drive(0.5).ok());
   base.motion.press(kFrontPressed);
   base.motion.press({});
