@@ -59,7 +59,7 @@ Pose2 end_of(idl::DriveType type, const Way& way, const Errors& errors, const st
   return pose;
 }
 
-Vector<3> vector_of(const Pose2& pose) { return {pose.x, pose.y, pose.yaw}; }
+Vector<3> numbers_of(const Pose2& pose) { return {pose.x, pose.y, pose.yaw}; }
 
 Way random_way(RandomStream& random, idl::DriveType type, int steps) {
   Way way;
@@ -90,7 +90,7 @@ Matrix<3> covariance_after(idl::DriveType type, const Way& way, const WheelError
 Matrix<3> expected_covariance(idl::DriveType type, const Way& way, const WheelErrorGuess& guess) {
   std::vector<Vector<3>> slip(way.size(), Vector<3>::Zero());
   const auto by_error =
-      jacobian<3, 4>([&](const Errors& errors) { return vector_of(end_of(type, way, errors, slip)); },
+      jacobian<3, 4>([&](const Errors& errors) { return numbers_of(end_of(type, way, errors, slip)); },
                      Errors::Zero().eval());
   const double wheel = guess.diameter * guess.diameter;
   const Errors variance(wheel, wheel, wheel, guess.track * guess.track);
@@ -100,7 +100,7 @@ Matrix<3> expected_covariance(idl::DriveType type, const Way& way, const WheelEr
         [&](const Vector<3>& of_step) {
           std::vector<Vector<3>> one = slip;
           one[i] = of_step;
-          return vector_of(end_of(type, way, Errors::Zero(), one));
+          return numbers_of(end_of(type, way, Errors::Zero(), one));
         },
         Vector<3>::Zero().eval());
     const Vector<3> spread = guess.slip * guess.slip * rolled(type, way[i]).cwiseAbs();

@@ -3,19 +3,19 @@
 #include <catch2/catch.hpp>
 
 #include <complex>
-#include <numbers>
 #include <type_traits>
 
 #include "orca/base/random.hpp"
 #include "orca/geometry/arc.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "rounding.hpp"
 
 using namespace orca;
+using test::kPi;
+using test::kRounding;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kRounding = 1e-13;
 using Complex = std::complex<double>;
 
 Complex complex_of(Vec2 v) { return {v.x, v.y}; }

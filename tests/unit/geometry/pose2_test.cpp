@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <numbers>
-
 #include "poses.hpp"
+#include "rounding.hpp"
 
 using namespace orca;
 using namespace orca::test;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-// Positions of metres and angles, in a handful of operations.
-constexpr double kRounding = 1e-13;
 
 bool near(const idl::Pose2D& a, const idl::Pose2D& b) {
   return difference<3>(vector_of(a), vector_of(b)).norm() < kRounding &&

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <numbers>
-
 #include "poses.hpp"
+#include "rounding.hpp"
 
 using namespace orca;
 using namespace orca::test;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kRounding = 1e-13;
 
 // Compared as rotations, because roll, pitch and yaw are not unique.
 bool same_place(const idl::Pose3D& a, const idl::Pose3D& b) {
