@@ -10,50 +10,50 @@ using orca::Pose2;
 namespace {
 
 constexpr double kQuarter = std::numbers::pi / 2;
-constexpr EchoMemory::Limits kLimits{4.0, 0.25, 0.15, 0.8};
+constexpr EchoMemory::Limits kMemoryLimits{4.0, 0.25, 0.15, 0.8};
 constexpr Pose2 kStill{};
 
 }  // namespace
 
 TEST_CASE("a single echo is forgotten after a moment", "[avoidance][memory]") {
   EchoMemory memory;
-  memory.hear({0.5, 0.0}, kLimits);
-  memory.advance(kStill, 0.2, kLimits);
+  memory.hear({0.5, 0.0}, kMemoryLimits);
+  memory.advance(kStill, 0.2, kMemoryLimits);
   CHECK(memory.echoes().size() == 1);
-  memory.advance(kStill, 0.1, kLimits);
+  memory.advance(kStill, 0.1, kMemoryLimits);
   CHECK(memory.echoes().empty());
 }
 
 TEST_CASE("an echo that was heard twice is kept for seconds and moves with the robot",
           "[avoidance][memory]") {
   EchoMemory memory;
-  memory.hear({0.5, 0.0}, kLimits);
-  memory.hear({0.51, 0.0}, kLimits);
+  memory.hear({0.5, 0.0}, kMemoryLimits);
+  memory.hear({0.51, 0.0}, kMemoryLimits);
   REQUIRE(memory.echoes().size() == 1);
-  memory.advance({0.2, 0.0, 0.0}, 3.9, kLimits);
+  memory.advance({0.2, 0.0, 0.0}, 3.9, kMemoryLimits);
   REQUIRE(memory.echoes().size() == 1);
   CHECK(memory.echoes()[0].x == Approx(0.31));
-  memory.advance(kStill, 0.2, kLimits);
+  memory.advance(kStill, 0.2, kMemoryLimits);
   CHECK(memory.echoes().empty());
 }
 
 TEST_CASE("echoes along a wall confirm each other and all stay", "[avoidance][memory]") {
   EchoMemory memory;
-  for (int i = 0; i < 4; ++i) memory.hear({0.1 * i, 0.4}, kLimits);
-  memory.advance(kStill, 1.0, kLimits);
+  for (int i = 0; i < 4; ++i) memory.hear({0.1 * i, 0.4}, kMemoryLimits);
+  memory.advance(kStill, 1.0, kMemoryLimits);
   CHECK(memory.echoes().size() == 4);
 }
 
 TEST_CASE("an echo from far away is not kept, however often it is heard", "[avoidance][memory]") {
   EchoMemory memory;
-  for (int i = 0; i < 3; ++i) memory.hear({2.0, 0.0}, kLimits);
-  memory.advance(kStill, 0.3, kLimits);
+  for (int i = 0; i < 3; ++i) memory.hear({2.0, 0.0}, kMemoryLimits);
+  memory.advance(kStill, 0.3, kMemoryLimits);
   CHECK(memory.echoes().empty());
 }
 
 TEST_CASE("the memory is bounded: the oldest echo makes room", "[avoidance][memory]") {
   EchoMemory memory;
-  for (int i = 0; i < 1000; ++i) memory.hear({0.2 * i, 0.0}, kLimits);
+  for (int i = 0; i < 1000; ++i) memory.hear({0.2 * i, 0.0}, kMemoryLimits);
   CHECK(memory.echoes().size() == 256);
   CHECK(memory.echoes().back().x == Approx(0.2 * 999));
 }
@@ -61,14 +61,14 @@ TEST_CASE("the memory is bounded: the oldest echo makes room", "[avoidance][memo
 TEST_CASE("an echo is certain when it was just heard, and less and less until it is forgotten",
           "[avoidance][memory]") {
   EchoMemory memory;
-  memory.hear({0.5, 0.0}, kLimits);
-  CHECK(memory.certainty(0, kLimits) == 1.0);
-  memory.advance(kStill, 0.1, kLimits);
-  CHECK(memory.certainty(0, kLimits) == Approx(1.0 - 0.1 / 0.25));
-  memory.hear({0.5, 0.0}, kLimits);
-  CHECK(memory.certainty(0, kLimits) == 1.0);
-  memory.advance(kStill, 1.0, kLimits);
-  CHECK(memory.certainty(0, kLimits) == Approx(1.0 - 1.0 / 4.0));
+  memory.hear({0.5, 0.0}, kMemoryLimits);
+  CHECK(memory.certainty(0, kMemoryLimits) == 1.0);
+  memory.advance(kStill, 0.1, kMemoryLimits);
+  CHECK(memory.certainty(0, kMemoryLimits) == Approx(1.0 - 0.1 / 0.25));
+  memory.hear({0.5, 0.0}, kMemoryLimits);
+  CHECK(memory.certainty(0, kMemoryLimits) == 1.0);
+  memory.advance(kStill, 1.0, kMemoryLimits);
+  CHECK(memory.certainty(0, kMemoryLimits) == Approx(1.0 - 1.0 / 4.0));
 }
 
 TEST_CASE("where echoes are not kept at all, those of this moment are certain", "[avoidance][memory]") {

@@ -33,7 +33,7 @@ Scan scan_of(const std::vector<double>& ranges, const orca::Pose2& mount = {}) {
 std::vector<double> nothing() { return std::vector<double>(181, kMaxRange); }
 
 // Ranges of a wall across the way, `ahead` [m] from the sensor, `half_width` [m] to both sides.
-std::vector<double> wall(double ahead, double half_width) {
+std::vector<double> scan_of_wall(double ahead, double half_width) {
   std::vector<double> ranges = nothing();
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double angle = -pi / 2 + static_cast<double>(i) * pi / 180;
@@ -107,7 +107,7 @@ TEST_CASE("only the nearest reading in a sector is kept, so a scan costs no more
 
 TEST_CASE("a scan forgets echoes that it no longer sees in its field of view, and keeps those behind",
           "[avoidance][laser]") {
-  EchoMemory memory = memory_of(wall(0.6, 0.3));
+  EchoMemory memory = memory_of(scan_of_wall(0.6, 0.3));
   memory.hear({-0.5, 0.0}, kKeep);
   see(scan_of(nothing()), kSector, 2.0, kKeep, memory);
   REQUIRE(memory.echoes().size() == 1);
@@ -117,12 +117,12 @@ TEST_CASE("a scan forgets echoes that it no longer sees in its field of view, an
 TEST_CASE("in front of a wall that a scan sees the robot slows down and turns away", "[avoidance][laser]") {
   double last_speed = kLimits.max_speed;
   for (double ahead = 1.0; ahead > 0.35; ahead -= 0.05) {
-    const EchoMemory memory = memory_of(wall(ahead, 0.4));
+    const EchoMemory memory = memory_of(scan_of_wall(ahead, 0.4));
     const Advice advice = avoid(memory.echoes(), {.last_direction = 0.1}, kLimits);
     REQUIRE(advice.needed);
     CHECK(advice.speed <= last_speed);
     last_speed = advice.speed;
   }
-  CHECK(avoid(memory_of(wall(0.6, 0.4)).echoes(), {.last_direction = 0.1}, kLimits).direction > 0.3);
+  CHECK(avoid(memory_of(scan_of_wall(0.6, 0.4)).echoes(), {.last_direction = 0.1}, kLimits).direction > 0.3);
   CHECK(last_speed == 0.0);
 }
