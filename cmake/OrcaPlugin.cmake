@@ -50,7 +50,12 @@ endfunction()
 # may hold any number of ORCA_COMPONENT and ORCA_HARDWARE types.
 function(orca_add_component name)
   cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
-  add_library(${name} MODULE ${arg_UNPARSED_ARGUMENTS} ${ORCA_PLUGIN_SUPPORT_DIR}/plugin_entry.cpp)
+  if(TARGET orca_plugin_entry)
+    set(entry $<TARGET_OBJECTS:orca_plugin_entry>)
+  else()
+    set(entry ${ORCA_PLUGIN_SUPPORT_DIR}/plugin_entry.cpp)
+  endif()
+  add_library(${name} MODULE ${arg_UNPARSED_ARGUMENTS} ${entry})
   set_target_properties(${name} PROPERTIES
     PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${ORCA_PLUGIN_DIR}
     LINK_DEPENDS ${ORCA_PLUGIN_SUPPORT_DIR}/plugin.map)

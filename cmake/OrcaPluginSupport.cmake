@@ -24,6 +24,16 @@ function(orca_add_plugin_layouts)
   add_custom_target(orca_plugin_layouts DEPENDS ${header})
 endfunction()
 
+# orca_add_plugin_entry(): what is the same in every plugin, compiled once for all of this build.
+function(orca_add_plugin_entry)
+  add_library(orca_plugin_entry OBJECT ${ORCA_PLUGIN_SUPPORT_DIR}/plugin_entry.cpp)
+  target_compile_options(orca_plugin_entry PRIVATE ${ORCA_PLUGIN_OPTIONS})
+  target_compile_definitions(orca_plugin_entry PRIVATE ORCA_BUILD_ID="${ORCA_BUILD_ID}")
+  target_link_libraries(orca_plugin_entry PRIVATE orca::component_api orca::hw_api ${ORCA_PLUGIN_LANGUAGE})
+  orca_use_precompiled_headers(orca_plugin_entry orca_plugin_headers)
+  orca_use_plugin_layouts(orca_plugin_entry)
+endfunction()
+
 # orca_export(): lets other projects use this build, with find_package(Orca) and -DOrca_DIR=BUILD: see docs/first_component.md.
 function(orca_export)
   export(TARGETS orca_language orca_options orca_base orca_idl orca_xml orca_text orca_geometry orca_geometry_objects orca_patterns
