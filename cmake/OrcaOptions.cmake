@@ -29,6 +29,11 @@ target_link_libraries(orca_options INTERFACE orca_language)
 target_compile_options(orca_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${ORCA_WERROR}>:-Werror>)
 
+# g++ collects garbage once a unit takes 128 MB of memory, again and again. Later and less often saves a tenth of the time
+# for a large unit, for a fifth more memory.
+add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=524288>
+                    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-expand=200>)
+
 # Sources that are compiled together: g++ takes all but the first line of such a unit for headers, and warns of their
 # unnamed namespaces. Preset "dev" compiles each alone, without this option.
 if(CMAKE_UNITY_BUILD)
