@@ -110,13 +110,13 @@ TEST_CASE("of two hundred pairs of graphs each plan is carried out whole, or ref
     if (!is_possible) continue;
     go_over(running, wanted);
     CHECK(graph::diff(running, wanted).empty());
-    graph::Graph rewired = robot();
+    graph::Graph rewired = running_robot();
     for (const GraphPlan::Rewiring& one : plan.connections)
       put(one.after.value_or(*one.before), one.after.has_value(), rewired.edges);
     CHECK(edges_by_name(rewired) == edges_by_name(wanted));
     for (const GraphPlan::Rewiring& one : graph::reversed(plan.connections))
       put(one.after.value_or(one.before.value_or(graph::Edge{})), one.after.has_value(), rewired.edges);
-    CHECK(edges_by_name(rewired) == edges_by_name(robot()));
+    CHECK(edges_by_name(rewired) == edges_by_name(running_robot()));
     for (const auto& [component, params] : plan.settings)
       for (const auto& [name, value] : params)
         CHECK(wanted.find_component(component)->params.at(name) == value);
@@ -181,7 +181,7 @@ TEST_CASE("a connection is made, removed, or gets another policy", "[graph][appl
   const GraphPlan removed = plan_after([](graph::Graph& g) { g.edges.clear(); });
   CHECK(removed.is_possible());
   REQUIRE(removed.connections.size() == 1);
-  CHECK(removed.connections[0].before == robot().edges[0]);
+  CHECK(removed.connections[0].before == running_robot().edges[0]);
   CHECK_FALSE(removed.connections[0].after);
   REQUIRE(removed.lines.size() == 1);
   CHECK(removed.lines[0].part == "- connection base.SonarPush to avoid.sonar");

@@ -66,7 +66,7 @@ TEST_CASE("a process that is started again gets new memory for its edges, and so
 }
 
 TEST_CASE("single edges get new memory, at both ends", "[supervisor][wiring]") {
-  Wiring wiring(system());
+  Wiring wiring(wired_processes());
   const auto lots = wiring.deal_edges({"a.out to b.in", "d.out to b.in", "no.such to edge.here"});
   REQUIRE(lots);
   CHECK(edges_of(*lots, "one") == std::vector<std::string>{"d.out to b.in"});
@@ -75,8 +75,8 @@ TEST_CASE("single edges get new memory, at both ends", "[supervisor][wiring]") {
 }
 
 TEST_CASE("after the graph has gone over to other edges, those get memory", "[supervisor][wiring]") {
-  Wiring wiring(system());
-  graph::Graph other = system();
+  Wiring wiring(wired_processes());
+  graph::Graph other = wired_processes();
   other.edges = {edge("d", "a")};
   wiring.go_over(other);
   const auto lots = wiring.deal({"one", "two", "three"});
