@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
+#include <thread>
 
 #include "executives.hpp"
 #include "run/component/order_queue.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tables that no linker writes: each is refused with the reason, or read as far as it makes sense.
+#include <set>
+
 #include "elf_image.hpp"
 
 using namespace orca;

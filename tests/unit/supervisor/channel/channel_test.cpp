@@ -6,6 +6,8 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include <catch2/catch.hpp>
+
 #include <cstring>
 #include <random>
 

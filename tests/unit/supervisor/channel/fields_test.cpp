@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "channel/fields.hpp"
 
+#include <catch2/catch.hpp>
+
 #include <cstring>
 
 using namespace orca::supervisor;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/supervisor/vocabulary.hpp"
 
+#include <catch2/catch.hpp>
+
 #include "open_descriptors.hpp"
 #include "samples.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/supervisor/exit_reason.hpp"
 
+#include <catch2/catch.hpp>
+
 #include <csignal>
 
 using namespace orca::supervisor;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/supervisor/heartbeats.hpp"
 
+#include <catch2/catch.hpp>
+
 using namespace orca;
 using namespace orca::supervisor;
 

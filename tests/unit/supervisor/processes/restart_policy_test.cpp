@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/supervisor/restart_policy.hpp"
 
+#include <catch2/catch.hpp>
+
 #include <random>
 
 using namespace orca;

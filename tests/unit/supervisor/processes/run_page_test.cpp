@@ -5,6 +5,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <catch2/catch.hpp>
+
 #include "open_descriptors.hpp"
 
 using namespace orca;
