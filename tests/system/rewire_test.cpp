@@ -169,6 +169,19 @@ TEST_CASE("processes that are started again have the connections that were made"
   CHECK(run_orcactl({"stop"}).exit_code() == 0);
 }
 
+TEST_CASE("what an operator has set stays so when a connection changes, and is not the graph's",
+          "[system][rewire]") {
+  Talking system("front");
+  REQUIRE(run_orcactl({"set", "a.step", "3"}).exit_code() == 0);
+  const Run removed = run_orcactl({"disconnect", "talker.poke", "a.poke"});
+  REQUIRE(removed.exit_code() == 0);
+  CHECK_THAT(removed.out, !Contains("step"));
+  CHECK_THAT(run_orcactl({"get", "a.step"}).out, Contains(" 3 "));
+  REQUIRE(run_orcactl({"restart", "front"}).exit_code() == 0);
+  CHECK_THAT(run_orcactl({"get", "a.step"}).out, Contains(" 1 "));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+}
+
 TEST_CASE("a connection that would not be right is refused, with the reason", "[system][rewire]") {
   Talking system(both_places());
   const std::string before = shown_graph();

@@ -38,6 +38,7 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   Work(Applying& owner, GraphSource source, bool carries_out, Told told)
       : owner_(owner),
         carries_out_(carries_out),
+        is_edit_(source.text.has_value()),
         told_(std::move(told)),
         reading_(std::in_place, owner.levers_.read, std::move(source), owner.levers_.wake) {}
 
@@ -47,7 +48,8 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     reading_.reset();
     if (!read) return end(read.error());
     wanted_ = std::move(read).value();
-    plan_ = graph::plan_of(owner_.present(), wanted_.graph, wanted_.facts.contracts);
+    plan_ =
+        graph::plan_of(is_edit_ ? owner_.graph_ : owner_.present(), wanted_.graph, wanted_.facts.contracts);
     lost_.clear();  // nothing was changed before
     if (!carries_out_) return end(std::nullopt);
     if (!plan_.is_possible()) return end(fail(Code::failed_precondition, graph::obstacles_of(plan_)));
@@ -182,11 +184,13 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     has_ended_ = true;
     if (error) return told_(*error);
     if (carries_out_) owner_.accept(wanted_);
+    if (carries_out_ && !is_edit_) owner_.operating_.forget_changes();
     told_(plan_);
   }
 
   Applying& owner_;
   const bool carries_out_;
+  const bool is_edit_;  // of the run's graph: what operators have set and exchanged stays as it is
   const Told told_;
   CheckedSystem wanted_;
   graph::GraphPlan plan_;
@@ -214,15 +218,15 @@ void Applying::apply(const std::string& file, const ReplyPtr& reply) {
 }
 
 void Applying::connect(const std::vector<std::string>& words, const ReplyPtr& reply) {
-  edit(with_connection(present(), words), reply);
+  edit(with_connection(graph_, words), reply);
 }
 
 void Applying::disconnect(const std::vector<std::string>& words, const ReplyPtr& reply) {
-  edit(without_connection(present(), words.at(0), words.at(1)), reply);
+  edit(without_connection(graph_, words.at(0), words.at(1)), reply);
 }
 
 void Applying::move(const std::vector<std::string>& words, const ReplyPtr& reply) {
-  edit(with_other_server(present(), words.at(0), words.at(1)), reply);
+  edit(with_other_server(graph_, words.at(0), words.at(1)), reply);
 }
 
 void Applying::edit(Result<std::string> text, const ReplyPtr& reply) {
@@ -243,7 +247,6 @@ void Applying::lose(const std::string& process) {
 void Applying::accept(const CheckedSystem& wanted) {
   applied_ = graph::print(wanted.graph);
   came_up(levers_.accept(wanted));
-  operating_.forget_changes();
 }
 
 // The order of the file counts for who adopts them, and is not that of the graph that was changed in place.
