@@ -21,13 +21,13 @@ endif()
 
 # orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [OPTIMISED] [TOGETHER])
 #
-# Adds a Catch2 program with one ctest entry. TIMEOUT [s] is a bound on hangs in the release build; the default is 60 s.
+# Adds a Catch2 program with one ctest entry. TIMEOUT [s] is a bound on hangs in the release build; the default is 300 s.
 # OPTIMISED is for tests that compute much themselves. TOGETHER are sources whose unnamed namespaces have no name in common:
 # they are compiled in units if the preset does so.
 function(orca_add_test name)
   cmake_parse_arguments(arg "OPTIMISED;TOGETHER" "TIMEOUT" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 60)
+    set(arg_TIMEOUT 300)
   endif()
   if(ORCA_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
     math(EXPR arg_TIMEOUT "5 * ${arg_TIMEOUT}")  # code of these builds is many times slower
@@ -62,7 +62,7 @@ endfunction()
 function(orca_add_optional_cases test tag)
   cmake_parse_arguments(arg "" "TIMEOUT" "LABELS" ${ARGN})
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 60)
+    set(arg_TIMEOUT 300)
   endif()
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
