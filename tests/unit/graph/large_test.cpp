@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sys/resource.h>
 
-#include <chrono>
+#include <ctime>
 
 #include "loading.hpp"
 
@@ -24,29 +24,33 @@ std::string big_graph(int n, int every) {
   return text + "</graph>\n";
 }
 
+// Processor time [s] that this program has used: what else the machine does is not in it.
+double used_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 double seconds_for(const std::string& text, std::size_t& errors) {
   FakeCatalogue catalogue;
   orca::xml::Diagnostics diagnostics;
-  const auto start = std::chrono::steady_clock::now();
+  const double start = used_seconds();
   (void)load_text(text, "big.xml", {}, catalogue, diagnostics);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   errors = diagnostics.error_count();
-  return seconds;
+  return used_seconds() - start;
 }
 
-// The bound holds for ordinary builds. Sanitizers are ten times slower and more, and so is a build without
-// optimisation and with counters for coverage. The bound there only detects hangs.
+// [s] Below what a check takes whose time grows with the square of the names, and ten times what an ordinary machine needs.
+// Sanitizers are ten times slower and more, and so is a build without optimisation and with counters for coverage.
 #if defined(ORCA_RELEASE)
-constexpr double kBound = 1.0;
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double kBound = 20.0;
+constexpr double kBound = 10.0;
 #else
-constexpr double kBound = 60.0;
+constexpr double kBound = 100.0;
 #endif
 
 }  // namespace
 
-TEST_CASE("a graph of one megabyte with fifty faults is checked in less than a second", "[graph][large]") {
+TEST_CASE("a graph of one megabyte with fifty faults is checked in no time", "[graph][large]") {
   const std::string text = big_graph(6000, 120);
   REQUIRE(text.size() > 1'000'000);
   std::size_t errors = 0;
@@ -61,7 +65,7 @@ TEST_CASE("thousands of unknown names do not cost more than that", "[graph][larg
     text += "<connect from='rabot_" + std::to_string(i) + "x.pose' to='nobody.at_all'/>";
   }
   std::size_t errors = 0;
-  CHECK(seconds_for(text + "</graph>", errors) < 2 * kBound);
+  CHECK(seconds_for(text + "</graph>", errors) < kBound);
   CHECK(errors == 18000);
 }
 
@@ -72,7 +76,7 @@ TEST_CASE("ten thousand components in a row start one after the other", "[graph]
             std::to_string(std::max(0, i + 1) % 10'000) + "'/>";
   }
   std::size_t errors = 0;
-  CHECK(seconds_for(text + "</graph>", errors) < 2 * kBound);
+  CHECK(seconds_for(text + "</graph>", errors) < kBound);
   CHECK(errors == 1);
 }
 
@@ -106,14 +110,14 @@ std::string widest_graph() {
 
 }  // namespace
 
-TEST_CASE("ten thousand components with twenty thousand connections are checked in two seconds and 500 MB",
+TEST_CASE("ten thousand components with twenty thousand connections are checked in no time and 500 MB",
           "[graph][large]") {
   const std::string text = widest_graph();
   std::size_t errors = 0;
   const double seconds = seconds_for(text, errors);
   WARN("checked in " << seconds << " s; the test program had " << peak_memory() << " MB at most");
   CHECK(errors == 0);
-  CHECK(seconds < 2 * kBound);
+  CHECK(seconds < kBound);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   CHECK(peak_memory() < 500.0);
 #endif
@@ -145,11 +149,11 @@ TEST_CASE("files that include each other tenfold, ten deep, end in one error and
   }
   files["f10.xml"] = "<graph name='g'/>";
   orca::xml::Diagnostics diagnostics;
-  const auto start = std::chrono::steady_clock::now();
+  const double start = used_seconds();
   CHECK_FALSE(load_files(files, diagnostics).has_value());
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = used_seconds() - start;
   CHECK(diagnostics.error_count() == 1);
-  CHECK(seconds < 5 * kBound);
+  CHECK(seconds < kBound);
 }
 
 TEST_CASE(
@@ -163,9 +167,9 @@ TEST_CASE(
   }
   files["f18.xml"] = "<graph name='g'><component name='a' type='orca.Label'/></graph>";
   orca::xml::Diagnostics diagnostics;
-  const auto start = std::chrono::steady_clock::now();
+  const double start = used_seconds();
   CHECK_FALSE(load_files(files, diagnostics).has_value());
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = used_seconds() - start;
   WARN("refused in " << seconds << " s");
   CHECK_THAT(diagnostics.text(),
              Catch::Contains("G045: with this file the graph includes and uses files more than 10000 times"));
