@@ -35,7 +35,7 @@ std::map<std::string, pid_t> processes_of(System& system) {
 
 void kill_deployer(System& system) {
   system.program().send(SIGKILL);
-  REQUIRE(system.program().wait(Seconds(2)));
+  REQUIRE(system.program().wait(Seconds(2) * kSlowdown));
 }
 
 bool all_live(const std::map<std::string, pid_t>& processes) {

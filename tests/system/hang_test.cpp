@@ -14,7 +14,7 @@ using namespace orca::test;
 
 namespace {
 
-constexpr double kEndLimit = 3.0;  // [s]
+constexpr double kEndLimit = 3.0 * kSlowdown;  // [s]
 
 struct Stopped {
   Run run;
@@ -30,7 +30,7 @@ struct Place {
 const std::vector<Place> kPlaces{{{"--in-process"}, "2.5 s after the signal to stop"}, {{}, "in time"}};
 
 // Sends SIGTERM after a while in which the program has come to where it hangs.
-Stopped stop(const Words& words, double after = 1.0) {
+Stopped stop(const Words& words, double after = 3.0) {
   Subprocess program(deployer(words));
   std::this_thread::sleep_for(Seconds(after));
   CHECK(program.group_lives());

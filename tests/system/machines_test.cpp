@@ -55,7 +55,7 @@ class Pair {
   // Kills the deployer of a machine, and starts another one. What the first has started may live on.
   void replace(int machine) {
     at(machine).send(SIGKILL);
-    REQUIRE(at(machine).wait(Seconds(2)));
+    REQUIRE(at(machine).wait(Seconds(2) * kSlowdown));
     killed_.push_back(std::move(programs_[machine]));
     start(machine);
   }

@@ -145,7 +145,7 @@ void kill_something(Telling& telling, int round, std::mt19937& random) {
     default: telling.lose_deployer(); break;
   }
   (void)finish(swap, Seconds(20));
-  std::this_thread::sleep_for(Seconds(0.6 * kSlowdown));  // a swap that goes on is done by then
+  std::this_thread::sleep_for(Seconds(kSanitized ? 12.0 : 1.5));  // a swap that goes on is done by then
 }
 
 void kill_again_and_again(int times) {
