@@ -57,7 +57,8 @@ class Telling {
 
   // Ends the system, and checks that nothing was lost, doubled or out of order in all that time.
   void end_in_order() {
-    CHECK(run_orcactl({"suspend", "talker"}).exit_code() == 0);  // two processes do not end at the same moment
+    CHECK(run_orcactl({"suspend", "talker"}).exit_code() ==
+          0);  // two processes do not end at the same moment
     CHECK(run_orcactl({"stop"}).exit_code() == 0);
     const Run run = finish(program_, Seconds(10));
     CHECK(run.exit_code() == 0);
@@ -164,9 +165,8 @@ TEST_CASE("what cannot be a new version is refused with a reason, and the old on
 TEST_CASE("new code is tried with what reaches the old one, and the log says with how much",
           "[system][swap]") {
   Telling system("talking");
-  REQUIRE(
-      system.swap(next_version("test_teller_2"), {"--set", "step=3", "--probation", "0 s"}).exit_code() ==
-      0);
+  REQUIRE(system.swap(next_version("test_teller_2"), {"--set", "step=3", "--probation", "0 s"}).exit_code() ==
+          0);
   if (!kThreadSanitizer) {
     CHECK(system.hears("the new code was tried out: it got "));
     CHECK_THAT(system.log(), !Contains("it got 0 objects"));

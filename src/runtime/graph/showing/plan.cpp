@@ -2,6 +2,8 @@
 #include "orca/graph/plan.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <utility>
 
 #include "orca/base/text.hpp"
@@ -38,7 +40,8 @@ void add_component(const Change& change, const ComponentNode& wanted, const Cont
   bool changes_code = false;
   for (const FieldChange& field : change.fields) {
     const bool is_known = is_param(field) || field.field == "type";
-    plan.lines.push_back({title(change), field, is_known ? effort : Effort::restart});
+    const Effort other = field.field == "start_after" ? Effort::none : Effort::restart;
+    plan.lines.push_back({title(change), field, is_known ? effort : other});
     if (is_param(field) && effort == Effort::set)
       settings[param_of(field)] = wanted.params.at(param_of(field));
     changes_code = changes_code || (is_known && effort == Effort::exchange);
@@ -52,16 +55,52 @@ std::optional<Edge> find_edge(const Graph& graph, const std::string& name) {
   return edge == graph.edges.end() ? std::nullopt : std::optional(*edge);
 }
 
-// Returns whether a connection can be made and removed while its ends run: they are there before and after, in processes that
-// run all the time, and the port uses no other server in its place.
+// Returns whether a connection can be made and removed while its ends run: they are in the same process before and after, or
+// come or go, that process runs all the time, and the port uses no other server in its place.
 bool can_rewire(const Edge& edge, const Graph& running, const Graph& wanted) {
   const auto stays = [&](const PortRef& port) {
     const ComponentNode* const before = running.find_component(port.component);
     const ComponentNode* const after = wanted.find_component(port.component);
-    return before != nullptr && after != nullptr && before->process == after->process &&
-           !starts_on_demand(running, before->process);
+    if (before == nullptr || after == nullptr) return true;
+    return before->process == after->process && !starts_on_demand(running, before->process);
   };
   return edge.choice == 0 && edge.link != Link::dds && stays(edge.from) && stays(edge.to);
+}
+
+// Returns whether a component can come or go while the others run: there are the same processes before and after, its own runs
+// all the time, and it chooses nothing.
+bool can_come_or_go(const ComponentNode& node, const Graph& running, const Graph& wanted) {
+  const std::vector<ProcessNode> before = processes_of(running);
+  const bool are_same =
+      std::ranges::equal(before, processes_of(wanted), {}, &ProcessNode::name, &ProcessNode::name);
+  const bool is_there = std::ranges::find(before, node.process, &ProcessNode::name) != before.end();
+  const bool chooses =
+      std::ranges::any_of(node.ports, [](const auto& port) { return !port.second.candidates.empty(); });
+  return are_same && is_there && running.machines.size() < 2 && !node.on_demand &&
+         !starts_on_demand(running, node.process) && !chooses;
+}
+
+Effort add_or_remove(const Change& change, const Graph& running, const Graph& wanted, GraphPlan& plan) {
+  const bool comes = change.kind == Change::Kind::added;
+  const ComponentNode& node = *(comes ? wanted : running).find_component(change.name);
+  if (!can_come_or_go(node, running, wanted)) return Effort::restart;
+  if (comes) {
+    plan.added.push_back(node);
+  } else {
+    plan.removed.push_back(node.name);
+  }
+  return comes ? Effort::add : Effort::remove;
+}
+
+// Sorts what comes as it starts, and what goes the other way round.
+void sort_by_start(const Graph& running, const Graph& wanted, GraphPlan& plan) {
+  const auto place = [](const std::vector<std::string>& order) {
+    return [&order](const std::string& name) { return std::ranges::find(order, name) - order.begin(); };
+  };
+  const std::vector<std::string> start = start_order(wanted);
+  const std::vector<std::string> present = start_order(running);
+  std::ranges::sort(plan.added, {}, [&](const ComponentNode& node) { return place(start)(node.name); });
+  std::ranges::sort(plan.removed, std::greater<>(), place(present));
 }
 
 Effort add_connection(const Change& change, const Graph& running, const Graph& wanted, GraphPlan& plan) {
@@ -75,6 +114,7 @@ Effort add_connection(const Change& change, const Graph& running, const Graph& w
 void add_other(const Change& change, const Graph& running, const Graph& wanted, GraphPlan& plan) {
   Effort effort = change.part == Change::Part::group ? Effort::none : Effort::restart;
   if (change.part == Change::Part::connection) effort = add_connection(change, running, wanted, plan);
+  if (change.part == Change::Part::component) effort = add_or_remove(change, running, wanted, plan);
   for (const FieldChange& field : change.fields) plan.lines.push_back({title(change), field, effort});
   if (change.fields.empty()) plan.lines.push_back({title(change), {}, effort});
 }
@@ -86,10 +126,21 @@ const char* to_string(Effort effort) {
     case Effort::none: return "at once; nothing runs otherwise";
     case Effort::set: return "between two laps; nothing stops";
     case Effort::rewire: return "between two laps; no other connection notices";
+    case Effort::add: return "comes up beside the others; nothing stops";
+    case Effort::remove: return "ends when its connections are gone; nothing else stops";
     case Effort::exchange: return "tried for 1 s, then exchanged between two laps; nothing stops";
     case Effort::restart: return "only when the system is started again";
   }
   return "?";
+}
+
+std::vector<GraphPlan::Rewiring> GraphPlan::connections_of(bool newcomers) const {
+  std::vector<Rewiring> chosen = connections;
+  std::erase_if(chosen, [&](const Rewiring& one) {
+    const std::string& client = (one.after ? *one.after : *one.before).client().component;
+    return (std::ranges::find(added, client, &ComponentNode::name) != added.end()) != newcomers;
+  });
+  return chosen;
 }
 
 bool GraphPlan::is_possible() const {
@@ -109,6 +160,7 @@ GraphPlan plan_of(const Graph& running, const Graph& wanted,
     add_component(change, *wanted.find_component(change.name),
                   contract == contracts.end() ? nullptr : &contract->second, plan);
   }
+  sort_by_start(running, wanted, plan);
   return plan;
 }
 
@@ -129,11 +181,19 @@ void put(const Edge& edge, bool is_there, std::vector<Edge>& edges) {
 }
 
 void go_over(Graph& graph, const Graph& wanted) {
+  const auto is_in = [](const Graph& other) {
+    return [&other](const ComponentNode& node) { return other.find_component(node.name) != nullptr; };
+  };
+  std::vector<ComponentNode> added = wanted.components;
+  std::erase_if(added, is_in(graph));
+  std::erase_if(graph.components, std::not_fn(is_in(wanted)));
   for (ComponentNode& node : graph.components) {
     const ComponentNode& now = *wanted.find_component(node.name);
     node.type = now.type;
     node.params = now.params;
+    node.start_after = now.start_after;
   }
+  std::ranges::move(added, std::back_inserter(graph.components));
   graph.groups = wanted.groups;
   graph.edges = wanted.edges;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "component_making.hpp"
 
+#include <optional>
+
 namespace orca::host {
 
 ComponentSettings settings_of(const graph::ComponentNode& node, const std::vector<PlannedFailure>& failures) {
@@ -18,6 +20,17 @@ ComponentSettings settings_of(const graph::ComponentNode& node, const std::vecto
   for (const PlannedFailure& failure : failures)
     if (failure.component == node.name) settings.failure = failure;
   return settings;
+}
+
+Status declare(const graph::Graph& graph, const graph::ComponentNode& node, ComponentInstance& instance,
+               PluginCatalogue& catalogue) {
+  std::optional<graph::HardwareUse> use;
+  if (const graph::HardwareNode* hardware = graph.find_hardware(node.hardware))
+    use = {hardware->name, hardware->type, hardware->params};
+  const Result<Contract> contract = catalogue.component(node.type, use ? &*use : nullptr);
+  if (!contract) return contract.error();
+  instance.declare(*contract);
+  return ok();
 }
 
 QueuePolicy policy_of(const graph::Edge& edge) {

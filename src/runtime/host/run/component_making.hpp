@@ -7,6 +7,7 @@
 
 #include "component/component_instance.hpp"
 #include "orca/graph/graph.hpp"
+#include "orca/host/catalogue.hpp"
 #include "orca/patterns/endpoints/links.hpp"
 
 namespace orca::host {
@@ -14,6 +15,11 @@ namespace orca::host {
 /// Returns what the graph sets for a component, and how the run's options make it fail.
 [[nodiscard]] ComponentSettings settings_of(const graph::ComponentNode& node,
                                             const std::vector<PlannedFailure>& failures = {});
+
+/// Makes the ports of a component that is loaded on demand. They exist from the start.
+/// @errors  those of the catalogue.
+Status declare(const graph::Graph& graph, const graph::ComponentNode& node, ComponentInstance& instance,
+               PluginCatalogue& catalogue);
 
 /// Returns the whole policy of an edge.
 [[nodiscard]] QueuePolicy policy_of(const graph::Edge& edge);

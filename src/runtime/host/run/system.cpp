@@ -13,14 +13,13 @@
 #include "orca/patterns/local/local_links.hpp"
 
 namespace orca::host {
-
 Status System::build(PluginCatalogue& catalogue) {
   if (Status built = build_hardware(catalogue); !built.ok()) return built;
   if (Status built = build_components(catalogue); !built.ok()) return built;
   catalogue.forget_answers();
   LocalLinks within_this_process;
   return connect(
-      graph_, [this](const std::string& name) { return find(name); }, within_this_process);
+      graph_, [this](const std::string& name) { return components_.find(name); }, within_this_process);
 }
 
 Status System::build_hardware(PluginCatalogue& catalogue) {
@@ -36,35 +35,52 @@ Status System::build_hardware(PluginCatalogue& catalogue) {
 
 Status System::build_components(PluginCatalogue& catalogue) {
   for (const graph::ComponentNode& node : graph_.components) {
-    auto instance = std::make_unique<ComponentInstance>(
-        run_, settings_of(node, run_.failures),
-        [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
-        [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
-        hardware(node.hardware) != nullptr ? &hardware(node.hardware)->seat() : nullptr);
-    if (run_.doorbell) instance->set_doorbell(*run_.doorbell(node.name));
-    const Status made = node.on_demand ? declare(node, *instance, catalogue) : instance->load();
-    if (!made.ok()) return made;
-    components_.push_back(std::move(instance));
+    Result<std::unique_ptr<ComponentInstance>> instance = make(node, catalogue);
+    if (!instance) return instance.error();
+    components_.add(std::move(instance).value());
   }
   return ok();
 }
 
-// Makes the ports of a component. They exist from the start; the code is loaded when somebody asks for it.
-Status System::declare(const graph::ComponentNode& node, ComponentInstance& instance,
-                       PluginCatalogue& catalogue) {
-  std::optional<graph::HardwareUse> use;
-  if (const graph::HardwareNode* hardware = graph_.find_hardware(node.hardware))
-    use = {hardware->name, hardware->type, hardware->params};
-  const Result<Contract> contract = catalogue.component(node.type, use ? &*use : nullptr);
-  if (!contract) return contract.error();
-  instance.declare(*contract);
+Result<std::unique_ptr<ComponentInstance>> System::make(const graph::ComponentNode& node,
+                                                        PluginCatalogue& catalogue) {
+  HardwarePlace* const place = hardware(node.hardware);
+  auto instance = std::make_unique<ComponentInstance>(
+      run_, settings_of(node, run_.failures),
+      [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
+      [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
+      place != nullptr ? &place->seat() : nullptr);
+  if (run_.doorbell) instance->set_doorbell(*run_.doorbell(node.name));
+  const Status made = node.on_demand ? declare(graph_, node, *instance, catalogue) : instance->load();
+  if (!made.ok()) return made.error();
+  return instance;
+}
+
+Status System::add(const graph::ComponentNode& node, PluginCatalogue& catalogue) {
+  if (components_.find(node.name) != nullptr)
+    return fail(Code::already_exists, "it is there already", node.name);
+  Result<std::unique_ptr<ComponentInstance>> instance = make(node, catalogue);
+  if (!instance) return instance.error();
+  components_.add(std::move(instance).value());
+  fresh_.insert(node.name);
   return ok();
+}
+
+Result<std::unique_ptr<ComponentInstance>> System::remove(const std::string& name, TimePoint deadline) {
+  const Result<ComponentInstance*> component = instance(name);
+  if (!component) return component.error();
+  fresh_.erase(name);
+  (*component)->announce_exit();
+  (*component)->request_exit();
+  if ((*component)->join_until(deadline)) return components_.take(name);
+  const std::string hook = (*component)->current_hook();
+  return fail(Code::deadline_exceeded, "it does not end" + (hook.empty() ? "" : "; it is in " + hook), name);
 }
 
 Status System::bring_up(Event& changed, TimePoint deadline) {
   if (Status opened = open_hardware(changed, deadline); !opened.ok()) return opened;
   for (const std::string& name : graph::start_order(graph_))
-    if (Status configured = configure(*find(name), changed, deadline); !configured.ok()) return configured;
+    if (Status configured = configure(name, changed, deadline); !configured.ok()) return configured;
   return ok();
 }
 
@@ -85,42 +101,41 @@ Status System::open_hardware(Event& changed, TimePoint deadline) {
 }
 
 Status System::configure(const std::string& name, Event& changed, TimePoint deadline) {
-  const Result<ComponentInstance*> component = instance(name);
-  return component ? configure(**component, changed, deadline) : component.error();
-}
-
-Status System::configure(ComponentInstance& component, Event& changed, TimePoint deadline) {
+  const Result<ComponentInstance*> found = instance(name);
+  if (!found) return found.error();
+  ComponentInstance& component = **found;
+  fresh_.erase(name);
   component.start();
   wait_until_holds(run_.executive, changed, deadline,
                    [&] { return give_up_() || component.state() != ComponentState::init; });
   if (component.state() == ComponentState::init)
-    return fail(Code::deadline_exceeded, "configure() did not return in time", component.name());
-  if (component.has_failed()) return fail(Code::failed_precondition, component.failure(), component.name());
+    return fail(Code::deadline_exceeded, "configure() did not return in time", name);
+  if (component.has_failed()) return fail(Code::failed_precondition, component.failure(), name);
   return ok();
 }
 
 void System::open_gates() {
-  for (const auto& component : components_) component->open_gate();
+  for (const auto& component : components_.all()) component->open_gate();
 }
 
 bool System::at_rest() const {
-  return std::all_of(components_.begin(), components_.end(), [](const auto& c) { return c->at_rest(); }) &&
+  return std::ranges::all_of(components_.all(), [](const auto& c) { return c->at_rest(); }) &&
          std::all_of(hardware_.begin(), hardware_.end(),
                      [](const auto& h) { return h->seat().state() != hw::HardwareState::active; });
 }
 
 Status System::check_unused() const {
-  for (const auto& component : components_)
+  for (const auto& component : components_.all())
     if (component->is_in_use()) return fail(Code::failed_precondition, "it is in use", component->name());
   return ok();
 }
 
 std::vector<std::string> System::take_down(TimePoint deadline) {
-  for (const auto& component : components_) component->announce_exit();
+  for (const auto& component : components_.all()) component->announce_exit();
   for (const auto& hardware : hardware_) hardware->shut_down();
-  for (const auto& component : components_) component->request_exit();
+  for (const auto& component : components_.all()) component->request_exit();
   std::vector<std::string> stuck;
-  for (const auto& component : components_) {
+  for (const auto& component : components_.all()) {
     if (component->join_until(deadline)) continue;
     const std::string hook = component->current_hook();
     stuck.push_back(component->name() + (hook.empty() ? "" : " (in " + hook + ")"));
@@ -148,19 +163,14 @@ void System::let_go() {
 
 Status System::on_strand(const std::string& component, Event& changed, TimePoint deadline,
                          std::function<Status()> rewire) {
+  if (fresh_.contains(component)) return rewire();
   return carry_out(component, changed, deadline,
                    [&](ComponentInstance& c) { return c.order_rewiring(std::move(rewire)); });
 }
 
 Endpoint* System::endpoint(const graph::PortRef& port) const {
-  const ComponentInstance* const owner = find(port.component);
+  const ComponentInstance* const owner = components_.find(port.component);
   return owner == nullptr ? nullptr : owner->endpoint(port.port);
-}
-
-ComponentInstance* System::find(const std::string& name) const {
-  for (const auto& component : components_)
-    if (component->name() == name) return component.get();
-  return nullptr;
 }
 
 Status System::suspend(const std::string& name, Event& changed, TimePoint deadline) {
@@ -195,13 +205,13 @@ Status System::carry_out(const std::string& name, Event& changed, TimePoint dead
 }
 
 Result<ComponentInstance*> System::instance(const std::string& name) const {
-  if (ComponentInstance* const found = find(name)) return found;
+  if (ComponentInstance* const found = components_.find(name)) return found;
   std::vector<std::string> names;
-  for (const auto& component : components_) names.push_back(component->name());
+  for (const auto& component : components_.all()) names.push_back(component->name());
   return fail(Code::not_found, "there is no component \"" + name + "\"; the system has: " + listed(names));
 }
 
-const ComponentInstance* System::component(const std::string& name) const { return find(name); }
+const ComponentInstance* System::component(const std::string& name) const { return components_.find(name); }
 
 HardwarePlace* System::hardware(const std::string& name) const {
   for (const auto& hardware : hardware_)
@@ -217,15 +227,7 @@ std::map<std::string, std::string> System::robots() const {
 }
 
 std::vector<RunGlance::Unwell> System::unwell() const {
-  std::vector<RunGlance::Unwell> unwell;
-  for (const auto& component : components_) {
-    const ComponentState state = component->state();
-    if (component->report().ended_badly) {
-      unwell.push_back({component->name(), to_string(ComponentState::work_failed)});
-    } else if (is_unsettled(state)) {
-      unwell.push_back({component->name(), to_string(state)});
-    }
-  }
+  std::vector<RunGlance::Unwell> unwell = components_.unwell();
   for (const auto& hardware : hardware_) {
     const hw::HardwareState state = hardware->seat().state();
     if (state == hw::HardwareState::opening || state == hw::HardwareState::fault)

@@ -4,13 +4,13 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "component/component_instance.hpp"
-#include "hardware_place.hpp"
+#include "component_list.hpp"
+#include "hardware/hardware_place.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/run_view.hpp"
@@ -81,8 +81,17 @@ class System {
   Status set_params(const std::string& component, const std::map<std::string, std::string>& texts,
                     Event& changed, TimePoint deadline);
 
-  /// Calls a function that changes connections of a component, on its strand between two laps. It may be called later than the
-  /// deadline.
+  /// Constructs one more component, unconnected.
+  /// @param node  its hardware is in this process.
+  /// @errors  as build(); already_exists.
+  Status add(const graph::ComponentNode& node, PluginCatalogue& catalogue);
+  /// Ends a component that nobody is connected to.
+  /// @return what is left of it, without a strand.
+  /// @errors  not_found; deadline_exceeded with what it is doing. It may end later all the same.
+  Result<std::unique_ptr<ComponentInstance>> remove(const std::string& component, TimePoint deadline);
+
+  /// Calls a function that changes connections of a component, on its strand between two laps, or at once before it is
+  /// configured. It may be called later than the deadline.
   /// @errors  not_found; the function's own; deadline_exceeded as above.
   Status on_strand(const std::string& component, Event& changed, TimePoint deadline,
                    std::function<Status()> rewire);
@@ -93,9 +102,7 @@ class System {
   /// Returns a component, to change it.
   /// @errors  not_found with the names that there are.
   [[nodiscard]] Result<ComponentInstance*> instance(const std::string& name) const;
-  [[nodiscard]] const std::vector<std::unique_ptr<ComponentInstance>>& components() const {
-    return components_;
-  }
+  [[nodiscard]] const ComponentList& components() const { return components_; }
   /// Returns the place of a hardware element of the graph, to change it; null: it is not in this process.
   [[nodiscard]] HardwarePlace* hardware(const std::string& name) const;
   /// Returns the names of the robots, by their hardware.
@@ -109,18 +116,17 @@ class System {
  private:
   Status build_hardware(PluginCatalogue& catalogue);
   Status build_components(PluginCatalogue& catalogue);
-  Status declare(const graph::ComponentNode& node, ComponentInstance& instance, PluginCatalogue& catalogue);
-  Status configure(ComponentInstance& component, Event& changed, TimePoint deadline);
+  Result<std::unique_ptr<ComponentInstance>> make(const graph::ComponentNode& node,
+                                                  PluginCatalogue& catalogue);
   Status carry_out(const std::string& name, Event& changed, TimePoint deadline,
                    const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make);
-  [[nodiscard]] ComponentInstance* find(const std::string& name) const;
 
   const graph::Graph& graph_;
   RunContext& run_;
   std::function<bool()> give_up_;
   std::vector<std::unique_ptr<HardwarePlace>> hardware_;
-  // In the order of the graph; destroyed before the hardware.
-  std::vector<std::unique_ptr<ComponentInstance>> components_;
+  std::set<std::string> fresh_;  // components that were added and not configured yet
+  ComponentList components_;     // in the order of the graph at first; destroyed before the hardware
 };
 
 }  // namespace orca::host

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "applying/component_steps.hpp"
 #include "applying/edge_steps.hpp"
 #include "applying/graph_edit.hpp"
 #include "applying/system_reading.hpp"
@@ -67,7 +68,8 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   };
 
   [[nodiscard]] const graph::ComponentNode& node_of(const std::string& component) const {
-    return *owner_.graph_.find_component(component);
+    const graph::ComponentNode* const present = owner_.graph_.find_component(component);
+    return present != nullptr ? *present : *wanted_.graph.find_component(component);
   }
 
   // Returns whether a component's process has ended meanwhile, so that it begins as before.
@@ -109,7 +111,7 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
       const auto self = work.lock();
       if (!self) return;
       if (!outcome.ok()) return self->go_back(outcome.error());
-      self->lost_.empty() ? self->rewire() : self->set_back(self->loss());
+      self->lost_.empty() ? self->come() : self->set_back(self->loss());
     });
   }
 
@@ -121,22 +123,112 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     });
   }
 
-  void rewire() {
-    if (plan_.connections.empty()) return end(std::nullopt);
-    carry_out(plan_.connections, [this](const Status& outcome) {
-      if (!outcome.ok()) return set_back(renewed(outcome.error()));
-      lost_.empty() ? end(std::nullopt) : rewire_back();
+  // Constructs new components beside those that are there, and those that will go.
+  void come() {
+    if (plan_.added.empty() && plan_.removed.empty()) return rewire();
+    owner_.operating_.expect(comers());
+    for (const std::string& name : plan_.removed)
+      if (owner_.exchanging_.is_busy(name))
+        return set_back(fail(Code::unavailable, "its code is being exchanged; try again later", name));
+    const Result<std::vector<AddComponent>> orders = introduced();
+    if (!orders) return set_back(orders.error());
+    carry_out(arrival_steps(*orders), [this](const Status& outcome) {
+      if (!outcome.ok()) return leave(outcome.error());
+      lost_.empty() ? settle() : leave(loss());
     });
   }
 
-  void rewire_back() {
-    std::vector<graph::GraphPlan::Rewiring> back = graph::reversed(plan_.connections);
-    std::erase_if(back, [this](const auto& one) {
-      const graph::Edge& edge = one.before ? *one.before : *one.after;
-      return is_lost(edge.from.component) && is_lost(edge.to.component);
+  // Returns the processes of the components that come and go.
+  [[nodiscard]] std::map<std::string, std::string> comers() const {
+    std::map<std::string, std::string> comers;
+    for (const graph::ComponentNode& node : plan_.added) comers[node.name] = node.process;
+    for (const std::string& name : plan_.removed) comers[name] = node_of(name).process;
+    return comers;
+  }
+
+  [[nodiscard]] Result<std::vector<AddComponent>> introduced() const {
+    std::vector<AddComponent> orders;
+    for (const graph::ComponentNode& node : plan_.added) {
+      Result<AddComponent> order = owner_.levers_.introduce(node);
+      if (!order) return order.error();
+      orders.push_back(std::move(order).value());
+    }
+    if (const Status told = announce(orders, owner_.all_); !told.ok()) return told.error();
+    return orders;
+  }
+
+  // Lets the new components go again.
+  void leave(const Error& reason) {
+    std::vector<std::string> names;
+    for (const graph::ComponentNode& node : plan_.added) names.push_back(node.name);
+    let_go(std::move(names), [this, reason] { set_back(reason); });
+  }
+
+  // Ends components, the last first, and goes on when that is done.
+  void let_go(std::vector<std::string> names, std::function<void()> done) {
+    if (names.empty()) return done();
+    const std::string name = names.back();
+    names.pop_back();
+    announce_end(name, owner_.operating_.process_of(name), owner_.all_);
+    const auto gone = [work = weak_from_this(), name, names, done](const Status& outcome) {
+      const auto self = work.lock();
+      if (!self) return;
+      if (!outcome.ok() && outcome.error().code != Code::unavailable)
+        log::warning(name, "nobody is connected to it any more, but " + outcome.error().message +
+                               "; it goes when its process ends");
+      self->let_go(names, done);
+    };
+    const Status sent = owner_.operating_.send(name, RemoveComponent{name}, gone);
+    if (!sent.ok()) gone(sent);  // its process has ended
+  }
+
+  // Connects the new components with what they use, then configures them: they find their connections, as at a start.
+  void settle() {
+    change(plan_.connections_of(true), [this](const Status& outcome) {
+      if (!outcome.ok()) return leave(renewed(outcome.error()));
+      configure(0);
     });
-    carry_out(back, [this](const Status& outcome) {
-      set_back(renewed(outcome.ok() ? loss() : with(loss(), "connections", outcome.error())));
+  }
+
+  void configure(std::size_t next) {
+    if (!lost_.empty()) return part(loss());
+    if (next == plan_.added.size()) return rewire();
+    const std::string& name = plan_.added[next].name;
+    const auto configured = [work = weak_from_this(), next](const Status& outcome) {
+      const auto self = work.lock();
+      if (!self) return;
+      outcome.ok() ? self->configure(next + 1) : self->part(outcome.error());
+    };
+    const Status sent = owner_.operating_.send(name, Configure{name}, configured);
+    if (!sent.ok()) part(sent.error());
+  }
+
+  // Lets the others change their connections, to the new components as well.
+  void rewire() {
+    change(plan_.connections_of(false), [this](const Status& outcome) {
+      if (!outcome.ok()) return part(outcome.error());
+      lost_.empty() ? commit() : undo(plan_.connections_of(false), loss(), &Work::part);
+    });
+  }
+
+  // From here on the run has the new graph. Nobody is connected to what it does not have any more.
+  void commit() {
+    for (const graph::ComponentNode& node : plan_.added)
+      (void)owner_.operating_.send(node.name, OpenGate{node.name}, [](const Status&) {});
+    owner_.accept(wanted_);
+    if (!is_edit_) owner_.operating_.forget_changes();
+    for (const std::string& name : plan_.removed) owner_.exchanging_.forget(name);
+    std::vector<std::string> names(plan_.removed.rbegin(), plan_.removed.rend());
+    let_go(std::move(names), [this] { end(std::nullopt); });
+  }
+
+  // Removes the connections of the new components again.
+  void part(const Error& reason) { undo(plan_.connections_of(true), reason, &Work::leave); }
+
+  void undo(const std::vector<graph::GraphPlan::Rewiring>& connections, const Error& reason,
+            void (Work::*then)(const Error&)) {
+    change(graph::reversed(connections), [this, reason, then](const Status& outcome) {
+      (this->*then)(renewed(outcome.ok() ? reason : with(reason, "connections", outcome.error())));
     });
   }
 
@@ -149,11 +241,17 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     return renewed.ok() ? reason : with(reason, "connections", renewed.error());
   }
 
-  void carry_out(const std::vector<graph::GraphPlan::Rewiring>& connections,
-                 std::function<void(const Status&)> done) {
-    Result<std::vector<JointStep>> steps = edge_steps(owner_.graph_, connections);
+  void change(const std::vector<graph::GraphPlan::Rewiring>& connections,
+              std::function<void(const Status&)> done) {
+    graph::Graph both = owner_.graph_;
+    both.components.insert(both.components.end(), plan_.added.begin(), plan_.added.end());
+    Result<std::vector<JointStep>> steps = edge_steps(both, connections, lost_);
     if (!steps) return done(steps.error());
-    owner_.operating_.carry_out(std::move(steps).value(),
+    carry_out(std::move(steps).value(), std::move(done));
+  }
+
+  void carry_out(std::vector<JointStep> steps, std::function<void(const Status&)> done) {
+    owner_.operating_.carry_out(std::move(steps),
                                 [work = weak_from_this(), done = std::move(done)](const Status& outcome) {
                                   if (const auto self = work.lock()) done(outcome);
                                 });
@@ -182,9 +280,8 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
 
   void end(const std::optional<Error>& error) {
     has_ended_ = true;
+    owner_.operating_.expect({});
     if (error) return told_(*error);
-    if (carries_out_) owner_.accept(wanted_);
-    if (carries_out_ && !is_edit_) owner_.operating_.forget_changes();
     told_(plan_);
   }
 
@@ -201,8 +298,9 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   std::optional<SystemReading> reading_;
 };
 
-Applying::Applying(const graph::Graph& graph, Operating& operating, Exchanging& exchanging, Levers levers)
-    : graph_(graph), operating_(operating), exchanging_(exchanging), levers_(std::move(levers)) {}
+Applying::Applying(const graph::Graph& graph, const std::vector<Member*>& all, Operating& operating,
+                   Exchanging& exchanging, Levers levers)
+    : graph_(graph), all_(all), operating_(operating), exchanging_(exchanging), levers_(std::move(levers)) {}
 
 Applying::~Applying() = default;
 
@@ -246,13 +344,15 @@ void Applying::lose(const std::string& process) {
 
 void Applying::accept(const CheckedSystem& wanted) {
   applied_ = graph::print(wanted.graph);
-  came_up(levers_.accept(wanted));
+  levers_.accept(wanted);
+  came_up(all_);
 }
 
 // The order of the file counts for who adopts them, and is not that of the graph that was changed in place.
 void Applying::came_up(const std::vector<Member*>& members) const {
   if (!applied_) return;
-  for (Member* const member : members) member->tell(NoteGraph{*applied_});
+  for (Member* const member : members)
+    if (member->is_built()) member->tell(NoteGraph{*applied_});  // others are told when they have come up
 }
 
 void Applying::go_on() {

@@ -22,8 +22,9 @@ namespace orca::supervisor {
 /// Lets a running system become what another graph file says: all of it, or nothing.
 ///
 /// A file is read and checked on a thread of its own. Then code is exchanged, one component after the other, each tried out
-/// before; then parameters change, all of them or none; then connections, all of them or none. If a step fails, those before
-/// it are taken back. A file that asks for more than that is refused before anything changes.
+/// before; then parameters change, all of them or none; then new components come up, then connections change, all of them or
+/// none; then the new components work. If a step fails, those before it are taken back. At last components that nobody is
+/// connected to any more end. A file that asks for more than that is refused before anything changes.
 ///
 /// Thread contract: the supervisor's thread.
 class Applying {
@@ -31,15 +32,19 @@ class Applying {
   /// What it needs of the run.
   struct Levers {
     SystemReader read;  ///< Empty: no graph can be read.
-    /// Makes a graph that of the run: it is carried out. Returns the processes that run it.
-    std::function<std::vector<Member*>(const CheckedSystem&)> accept;
+    /// Makes a graph that of the run: it is carried out.
+    std::function<void(const CheckedSystem&)> accept;
     /// Gives both ends of edges new memory, by name: a process was lost while they changed.
     std::function<Status(const std::set<std::string>&)> renew;
+    /// Makes the order that tells of a component which comes: it is reported from now on.
+    std::function<Result<AddComponent>(const graph::ComponentNode&)> introduce;
     std::function<void()> wake;  ///< Lets go_on() be called soon. It is called on other threads.
   };
 
   /// The references outlive the object.
-  Applying(const graph::Graph& graph, Operating& operating, Exchanging& exchanging, Levers levers);
+  /// @param all  the processes of the run.
+  Applying(const graph::Graph& graph, const std::vector<Member*>& all, Operating& operating,
+           Exchanging& exchanging, Levers levers);
   ~Applying();
   Applying(const Applying&) = delete;
   Applying& operator=(const Applying&) = delete;
@@ -75,6 +80,7 @@ class Applying {
   [[nodiscard]] graph::Graph present() const;
 
   const graph::Graph& graph_;
+  const std::vector<Member*>& all_;
   Operating& operating_;
   Exchanging& exchanging_;
   const Levers levers_;

@@ -108,7 +108,8 @@ JointStep step_of(const graph::Graph& graph, const std::string& process, Duties 
 }  // namespace
 
 Result<std::vector<JointStep>> edge_steps(const graph::Graph& graph,
-                                          const std::vector<graph::GraphPlan::Rewiring>& connections) {
+                                          const std::vector<graph::GraphPlan::Rewiring>& connections,
+                                          const std::set<std::string>& lost) {
   StageMaker maker(graph);
   const Status added = contain_exhaustion([&] {
     for (const graph::GraphPlan::Rewiring& one : connections)
@@ -118,7 +119,8 @@ Result<std::vector<JointStep>> edge_steps(const graph::Graph& graph,
   if (!added.ok()) return added.error();
   std::vector<JointStep> steps;
   for (auto& stage : maker.stages())
-    for (auto& [process, duties] : stage) steps.push_back(step_of(graph, process, std::move(duties)));
+    for (auto& [process, duties] : stage)
+      if (!lost.contains(process)) steps.push_back(step_of(graph, process, std::move(duties)));
   return steps;
 }
 

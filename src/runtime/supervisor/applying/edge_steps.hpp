@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <set>
+#include <string>
 #include <vector>
 
 #include "control/joint_orders.hpp"
@@ -15,8 +17,10 @@ namespace orca::supervisor {
 /// client makes all its connections before it removes any, so that a port that goes over to another server misses nothing.
 ///
 /// @param graph  that has the components of all connections.
+/// @param lost   processes that take no part: what they run begins anew.
 /// @errors  unavailable if the system gives no memory.
 [[nodiscard]] Result<std::vector<JointStep>> edge_steps(
-    const graph::Graph& graph, const std::vector<graph::GraphPlan::Rewiring>& connections);
+    const graph::Graph& graph, const std::vector<graph::GraphPlan::Rewiring>& connections,
+    const std::set<std::string>& lost = {});
 
 }  // namespace orca::supervisor

@@ -107,6 +107,38 @@ void transfer(auto& archive, EdgeChange& change) {
   if (has_memory) transfer(archive, change.memory);
 }
 
+template <class T>
+void transfer(auto& archive, std::optional<T>& value) {
+  bool is_there = value.has_value();
+  T content = value.value_or(T{});
+  transfer(archive, is_there);
+  transfer(archive, content);
+  value = is_there ? std::optional(std::move(content)) : std::nullopt;
+}
+
+void transfer(auto& archive, int& value) {
+  auto number = static_cast<std::uint32_t>(value);
+  transfer(archive, number);
+  value = static_cast<int>(number);
+}
+
+void transfer(auto& archive, Trigger& trigger) {
+  transfer_up_to(archive, trigger.kind, Trigger::Kind::on_stamps);
+  transfer(archive, trigger.period);
+  transfer(archive, trigger.ports);
+  transfer(archive, trigger.within);
+}
+
+// Ports are transferred by name; what a component may subscribe to by name is not.
+void transfer(auto& archive, graph::ComponentNode& node) {
+  transfer_all(archive, node.name, node.type, node.hardware, node.process, node.priority, node.autonomous,
+               node.trigger);
+  std::vector<std::pair<std::string, std::string>> aliases;
+  for (const auto& [port, setting] : node.ports) aliases.emplace_back(port, setting.alias);
+  transfer(archive, aliases);
+  for (const auto& [port, alias] : aliases) node.ports[port].alias = alias;
+}
+
 void transfer(auto& archive, Cell& cell) {
   transfer(archive, cell.name);
   transfer(archive, cell.value);

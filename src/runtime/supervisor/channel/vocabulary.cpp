@@ -7,7 +7,7 @@ namespace orca::supervisor {
 // The fields of each order and each report.
 
 void fields(auto& archive, Setup& m) {
-  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.edges);
+  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.edges, m.doorbells);
 }
 void fields(auto& /*archive*/, Build& /*m*/) {}
 void fields(auto& /*archive*/, OpenHardware& /*m*/) {}
@@ -32,6 +32,9 @@ void fields(auto& archive, Say& m) { transfer(archive, m.state); }
 void fields(auto& archive, NoteGraph& m) { transfer(archive, m.graph); }
 void fields(auto& archive, MoveEdge& m) { transfer(archive, m.edge); }
 void fields(auto& archive, Rewire& m) { transfer(archive, m.changes); }
+void fields(auto& archive, AddComponent& m) { transfer_all(archive, m.node, m.values, m.doorbell); }
+void fields(auto& archive, RemoveComponent& m) { transfer(archive, m.component); }
+void fields(auto& archive, OpenGate& m) { transfer(archive, m.component); }
 
 void fields(auto& archive, Outlive& m) { transfer_all(archive, m.output, m.wait); }
 void fields(auto& /*archive*/, Adopt& /*m*/) {}
@@ -63,7 +66,7 @@ void fields(auto& archive, MissionStep& m) {
 }
 
 void fields(auto& archive, Orphaned& m) {
-  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.output);
+  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.output, m.doorbells);
 }
 void fields(auto& archive, ExchangedCode& m) {
   transfer_all(archive, m.component, m.type, m.file, m.build_id, m.swaps);

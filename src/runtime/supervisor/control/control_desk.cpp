@@ -50,7 +50,7 @@ ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
       names_(graph, facts.ports, members),
       operating_(graph, facts, names_, ledger.reports(), levers),
       exchanging_(graph, facts, names_, operating_, levers.wake),
-      applying_(graph, operating_, exchanging_, std::move(applying)),
+      applying_(graph, members, operating_, exchanging_, std::move(applying)),
       showing_(graph, facts, members, ledger, exchanging_, levers.edges_in_use),
       motors_(members, ledger) {}
 

@@ -242,7 +242,9 @@ void Exchanging::exchange(Open& open, const host::ShadowReport& tried) {
   } else {
     log::warning(component, "the new code could not be tried out: " + tried.untried);
   }
-  const Result<Member*> member = names_.ready_member_of(**names_.component(component));
+  const Result<const graph::ComponentNode*> node = names_.component(component);
+  if (!node) return open.pending->end(node.error());  // it has gone meanwhile
+  const Result<Member*> member = names_.ready_member_of(**node);
   if (!member) return open.pending->end(member.error());
   plugin::PluginImage image = open.tryout->take_plugin();
   const std::string file = image.origin();

@@ -77,6 +77,10 @@ class Exchanging {
   /// Returns the plugin that the graph's search finds for a type.
   [[nodiscard]] const PluginFacts& plugin_of(const std::string& type) const;
 
+  /// Returns whether the code of a component is being tried out or exchanged.
+  [[nodiscard]] bool is_busy(const std::string& component) const;
+  /// Forgets a component that has gone.
+  void forget(const std::string& component) { exchanged_.erase(component); }
   /// Notes that a component runs other code.
   void note(const ExchangedCode& code);
   /// Notes that processes work again. They run the code that the graph names.
@@ -93,7 +97,6 @@ class Exchanging {
     PendingPtr pending;
   };
 
-  [[nodiscard]] bool is_busy(const std::string& component) const;
   void swap_rebuilt(const graph::ComponentNode& node);
   [[nodiscard]] std::vector<PortContract> ports_of(const std::string& component) const;
   void go_on(Open& open);

@@ -35,8 +35,21 @@ class CertainAnswer {
   JointOrders::Answered take_;
 };
 
-// The states of a group's components before an order.
-using StatesBefore = std::vector<std::pair<const graph::ComponentNode*, std::string>>;
+using Nodes = std::vector<const graph::ComponentNode*>;
+
+// A component of a group, and its state before an order. Nodes of the graph may move while the order waits.
+struct StateBefore {
+  std::string component;
+  std::string process;
+  std::string state;
+};
+using StatesBefore = std::vector<StateBefore>;
+
+std::vector<std::string> names_of(const Nodes& nodes) {
+  std::vector<std::string> names;
+  for (const graph::ComponentNode* const node : nodes) names.push_back(node->name);
+  return names;
+}
 
 Pairs pairs_of(const graph::Params& params) {
   const std::map<std::string, std::string> texts = graph::print_values(params);
@@ -62,7 +75,7 @@ class Operating::SettingReader {
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) take(words[i], words[i + 1]);
     if (words.size() % 2 != 0) note(fail(Code::invalid_argument, "which value? for " + words.back()));
     const bool is_alone = words.size() == 2;
-    for (Setting& setting : settings_) read_values(setting, is_alone ? "" : setting.component->name + ": ");
+    for (Setting& setting : settings_) read_values(setting, is_alone ? "" : setting.component + ": ");
     if (errors_.empty()) return std::move(settings_);
     return fail(code_, joined(errors_, "\n"));
   }
@@ -74,14 +87,14 @@ class Operating::SettingReader {
     const graph::ComponentNode& component = *name->component;
     if (name->param.empty() || !facts_.contracts.contains(component.name))
       return note(fail(Code::invalid_argument, "name one parameter: " + component.name + ".PARAM"));
-    auto setting = std::ranges::find(settings_, &component, &Setting::component);
-    if (setting == settings_.end()) setting = settings_.insert(setting, {&component, {}, {}});
+    auto setting = std::ranges::find(settings_, component.name, &Setting::component);
+    if (setting == settings_.end()) setting = settings_.insert(setting, {component.name, {}, {}});
     if (!setting->texts.emplace(name->param, value).second)
       note(fail(Code::invalid_argument, what + " is given twice; give it one value"));
   }
 
   void read_values(Setting& setting, const std::string& title) {
-    const Contract& contract = facts_.contracts.at(setting.component->name);
+    const Contract& contract = facts_.contracts.at(setting.component);
     Result<graph::Params> values = graph::read_settings(contract.params, setting.texts);
     if (values) {
       setting.values = std::move(values).value();
@@ -114,17 +127,30 @@ Operating::Operating(const graph::Graph& graph, const SystemFacts& facts, const 
       }) {}
 
 Status Operating::send(const std::string& component, Order order, JointOrders::Answered answered) const {
-  const Result<Member*> member = names_.ready_member_of(*graph_.find_component(component));
+  const Result<Member*> member = ready_member_of(component);
   if (!member) return member.error();
   const auto answer = std::make_shared<CertainAnswer>((*member)->name(), std::move(answered));
   (*member)->ask(std::move(order), [answer](const Status& outcome) { answer->give(outcome); });
   return ok();
 }
 
-Status Operating::are_ready(const Nodes& nodes) const {
+std::string Operating::process_of(const std::string& component) const {
+  const graph::ComponentNode* const node = graph_.find_component(component);
+  if (node != nullptr) return node->process;
+  const auto comer = comers_.find(component);
+  return comer == comers_.end() ? "" : comer->second;
+}
+
+Result<Member*> Operating::ready_member_of(const std::string& component) const {
+  const std::string process = process_of(component);
+  if (!process.empty()) return names_.ready_member(process);
+  return fail(Code::not_found, "the system does not have it any more", component);
+}
+
+Status Operating::are_ready(const std::vector<std::string>& components) const {
   std::set<std::string> errors;  // several components may be in one process
-  for (const graph::ComponentNode* const node : nodes)
-    if (const Result<Member*> member = names_.ready_member_of(*node); !member)
+  for (const std::string& component : components)
+    if (const Result<Member*> member = ready_member_of(component); !member)
       errors.insert(member.error().message);
   if (errors.empty()) return ok();
   return fail(Code::unavailable, joined(std::vector<std::string>(errors.begin(), errors.end()), "\n"));
@@ -139,18 +165,19 @@ void Operating::resume(const std::string& name, const ReplyPtr& reply) { pause(n
 void Operating::pause(const std::string& name, bool suspends, const ReplyPtr& reply) {
   Result<Nodes> nodes = names_.component_or_group(name);
   if (!nodes) return reply->refuse(nodes.error());
-  if (const Status ready = are_ready(*nodes); !ready.ok()) return reply->refuse(ready.error());
+  if (const Status ready = are_ready(names_of(*nodes)); !ready.ok()) return reply->refuse(ready.error());
   if (suspends) std::ranges::reverse(*nodes);
   const bool is_group = graph_.find_group(name) != nullptr;
   const auto before = std::make_shared<StatesBefore>();
   std::vector<JointStep> steps;
   for (const graph::ComponentNode* const node : *nodes) {
-    const auto make = [this, node, suspends, is_group, before]() -> std::optional<ThereAndBack> {
-      const host::ComponentState state = reports_(node->name).state;
-      before->emplace_back(node, host::to_string(state));
+    const auto make = [this, component = node->name, process = node->process, suspends, is_group,
+                       before]() -> std::optional<ThereAndBack> {
+      const host::ComponentState state = reports_(component).state;
+      before->push_back({component, process, host::to_string(state)});
       if (is_group && host::is_suspended(state) == suspends) return std::nullopt;
-      if (suspends) return ThereAndBack{Suspend{node->name}, Resume{node->name}};
-      return ThereAndBack{Resume{node->name}, Suspend{node->name}};
+      if (suspends) return ThereAndBack{Suspend{component}, Resume{component}};
+      return ThereAndBack{Resume{component}, Suspend{component}};
     };
     steps.push_back({node->name, make, [](bool) {}});
   }
@@ -158,11 +185,11 @@ void Operating::pause(const std::string& name, bool suspends, const ReplyPtr& re
     if (!end.ok()) return reply->refuse(end.error());
     log::info(kLogName, std::string("an operator has ") + (suspends ? "suspended " : "resumed ") + name);
     if (!is_group) return;
-    for (const auto& [node, state] : *before)
-      reply->add(Record{{"component", node->name},
-                        {"process", node->process},
-                        {"before", state},
-                        {"now", host::to_string(reports_(node->name).state)}});
+    for (const StateBefore& one : *before)
+      reply->add(Record{{"component", one.component},
+                        {"process", one.process},
+                        {"before", one.state},
+                        {"now", host::to_string(reports_(one.component).state)}});
   });
 }
 
@@ -225,25 +252,24 @@ void Operating::set(const std::vector<std::string>& words, const ReplyPtr& reply
 void Operating::change(const std::map<std::string, graph::Params>& wanted, JointOrders::Done done) {
   std::vector<Setting> settings;
   for (const auto& [name, values] : wanted) {
-    settings.push_back({graph_.find_component(name), graph::print_values(values), values});
+    settings.push_back({name, graph::print_values(values), values});
   }
   change(settings, std::move(done));
 }
 
 void Operating::change(const std::vector<Setting>& settings, JointOrders::Done done) {
-  Nodes nodes;
+  std::vector<std::string> components;
   std::vector<JointStep> steps;
   for (const Setting& setting : settings) {
-    nodes.push_back(setting.component);
+    components.push_back(setting.component);
     steps.push_back(step_of(setting));
   }
-  if (const Status ready = are_ready(nodes); !ready.ok()) return done(ready);
+  if (const Status ready = are_ready(components); !ready.ok()) return done(ready);
   joint_orders_.add(std::move(steps), [done = std::move(done), settings](const Status& end) {
     if (end.ok())
       for (const Setting& setting : settings)
         for (const auto& [param, value] : setting.values)
-          log::info(setting.component->name,
-                    "an operator has set " + param + " to " + graph::print_value(value));
+          log::info(setting.component, "an operator has set " + param + " to " + graph::print_value(value));
     done(end);
   });
 }
@@ -251,17 +277,19 @@ void Operating::change(const std::vector<Setting>& settings, JointOrders::Done d
 JointStep Operating::step_of(const Setting& setting) {
   const auto before = std::make_shared<graph::Params>();
   const auto make = [this, setting, before]() -> std::optional<ThereAndBack> {
-    const graph::Params present = params_of(*setting.component);
+    const graph::ComponentNode* const node = graph_.find_component(setting.component);
+    if (node == nullptr) return std::nullopt;  // it has gone meanwhile
+    const graph::Params present = params_of(*node);
     for (const auto& [param, value] : setting.values) before->insert_or_assign(param, present.at(param));
-    const std::string& name = setting.component->name;
+    const std::string& name = setting.component;
     return ThereAndBack{SetParams{name, {setting.texts.begin(), setting.texts.end()}},
                         SetParams{name, pairs_of(*before)}};
   };
   const auto obeyed = [this, setting, before](bool has_gone) {
     for (const auto& [param, value] : has_gone ? setting.values : *before)
-      changed_[setting.component->name].insert_or_assign(param, value);
+      changed_[setting.component].insert_or_assign(param, value);
   };
-  return {setting.component->name, make, obeyed};
+  return {setting.component, make, obeyed};
 }
 
 // ---- The run

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/joint_orders.hpp"
@@ -52,6 +53,13 @@ class Operating {
   void carry_out(std::vector<JointStep> steps, JointOrders::Done done) {
     joint_orders_.add(std::move(steps), std::move(done));
   }
+  /// Learns where components are that are not in the graph, because they come or go; by name.
+  void expect(std::map<std::string, std::string> processes) { comers_ = std::move(processes); }
+  /// Returns the process of a component of the graph, or of one that comes or goes; empty: there is no such component.
+  [[nodiscard]] std::string process_of(const std::string& component) const;
+  /// Sends an order to a component. `answered` is called exactly once, unless the order cannot be sent.
+  /// @errors  not_found; unavailable if its process takes no orders at present.
+  Status send(const std::string& component, Order order, JointOrders::Answered answered) const;
   /// Forgets what was changed, since the graph says the same now.
   void forget_changes() { changed_.clear(); }
   /// Returns the present values of a component's parameters.
@@ -75,20 +83,19 @@ class Operating {
   [[nodiscard]] std::string value_of(const ParamName& name) const;
   void add_param(const ParamName& name, Reply& reply) const;
 
-  using Nodes = std::vector<const graph::ComponentNode*>;
   // What is to change in one component.
   struct Setting {
-    const graph::ComponentNode* component;
+    std::string component;
     std::map<std::string, std::string> texts;  // as they were given
     graph::Params values;
   };
   class SettingReader;
 
   void pause(const std::string& name, bool suspends, const ReplyPtr& reply);
-  [[nodiscard]] Status are_ready(const Nodes& nodes) const;
+  [[nodiscard]] Status are_ready(const std::vector<std::string>& components) const;
   void change(const std::vector<Setting>& settings, JointOrders::Done done);
   [[nodiscard]] JointStep step_of(const Setting& setting);
-  Status send(const std::string& component, Order order, JointOrders::Answered answered) const;
+  [[nodiscard]] Result<Member*> ready_member_of(const std::string& component) const;
 
   const graph::Graph& graph_;
   const SystemFacts& facts_;
@@ -96,6 +103,7 @@ class Operating {
   const host::Reports reports_;
   const RunLevers levers_;
   std::map<std::string, graph::Params> changed_;    // by component: what is not as in the graph
+  std::map<std::string, std::string> comers_;       // see expect()
   std::multimap<const Member*, ReplyPtr> awaited_;  // restarts
   std::vector<ReplyPtr> until_end_;
   JointOrders joint_orders_;

@@ -77,6 +77,8 @@ Result<Member*> SystemNames::ready_member_of(const graph::ComponentNode& compone
   return ready(member_of(component));
 }
 
+Result<Member*> SystemNames::ready_member(const std::string& process) const { return ready(member(process)); }
+
 Result<Member*> SystemNames::ready_member_of(const graph::HardwareNode& hardware) const {
   return ready(member(hardware.process));
 }

@@ -38,6 +38,10 @@ class SystemNames {
   /// Returns the same if the process takes orders at present.
   /// @errors  unavailable.
   [[nodiscard]] Result<Member*> ready_member_of(const graph::ComponentNode& component) const;
+  /// Returns a process if it takes orders at present.
+  /// @pre  it is one of this machine.
+  /// @errors  unavailable.
+  [[nodiscard]] Result<Member*> ready_member(const std::string& process) const;
   /// Returns the process of a hardware element if it takes orders at present.
   /// @errors  unavailable.
   [[nodiscard]] Result<Member*> ready_member_of(const graph::HardwareNode& hardware) const;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "doorbells.hpp"
 #include "graph_mark.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
@@ -119,10 +120,10 @@ class Life {
     LiveLine::on_pause([this](bool begins) { reports_->send(Prompting{begins}); });
     if (Status loaded = load(setup); !loaded.ok()) return loaded;
     if (Status placed = place(setup.process); !placed.ok()) return placed;
-    Result<RunPage> page =
-        RunPage::map(std::move(setup.run_page), processes_.size(), whole_->components.size());
+    Result<RunPage> page = RunPage::map(std::move(setup.run_page), processes_.size(), setup.doorbells.size());
     if (!page) return page.error();
     page_.emplace(std::move(page).value());
+    doorbells_.emplace(*whole_, processes_, wishes->executor, std::move(setup.doorbells), *page_);
     shows_ = wishes->outputs.looks_on;
     return make_part(setup.process, *wishes);
   }
@@ -169,7 +170,7 @@ class Life {
                               wishes.outputs,
                               wishes.run};
     if (graph::processes_of(*whole_).size() > 1)
-      options.doorbell = [this](const std::string& component) { return &doorbell(component); };
+      options.doorbell = [this](const std::string& component) { return &doorbells_->of(component); };
     part_.emplace(*whole_, process, host::PartPlace{catalogue_, *executive_, *reports_}, options);
     return ok();
   }
@@ -190,14 +191,6 @@ class Life {
     return executor_.value_or(node.executor);
   }
 
-  // Returns the word that wakes a component of this machine, in whatever process it is. Fibers have one word together.
-  DoorbellWord& doorbell(const std::string& name) {
-    const auto component = std::ranges::find(whole_->components, name, &graph::ComponentNode::name);
-    const std::size_t process = index_of(component->process);
-    if (executor_of(processes_[process]) == Backend::fiber) return page_->process_doorbell(process);
-    return page_->doorbell(static_cast<std::size_t>(component - whole_->components.begin()));
-  }
-
   [[nodiscard]] Pairs robots() const {
     const auto robots = part_->robots();
     return {robots.begin(), robots.end()};
@@ -205,7 +198,16 @@ class Life {
 
   // For a supervisor that has not started this process. The output is the desk's.
   [[nodiscard]] Orphaned introduction() const {
-    return {processes_[index_].name, mark_, options_, page_->descriptor(), {}};
+    return {processes_[index_].name, mark_, options_, page_->descriptor(), {}, doorbells_->names()};
+  }
+
+  OrderDesk::Site site() {
+    return {whole_->name,
+            processes_[index_].name,
+            page_->heartbeat(index_),
+            shows_,
+            [this] { return introduction(); },
+            [this](const AddComponent& added) { doorbells_->add(added.node, added.doorbell); }};
   }
 
   void work() {
@@ -215,9 +217,7 @@ class Life {
     });
     stop_.on_request([this] { part_->order({.kind = host::PartOrder::Kind::take_down}); });
     {
-      const OrderDesk desk(channel_, *part_, *reports_,
-                           {whole_->name, processes_[index_].name, page_->heartbeat(index_), shows_,
-                            [this] { return introduction(); }});
+      const OrderDesk desk(channel_, *part_, *reports_, site());
       die_with_supervisor(false);  // the desk sees its end, and stops the motors first
       part_->run();
       part_->write_outputs();
@@ -233,6 +233,7 @@ class Life {
   std::optional<ReportSender> reports_;
   std::optional<graph::Graph> whole_;
   std::optional<RunPage> page_;
+  std::optional<Doorbells> doorbells_;
   std::vector<graph::ProcessNode> processes_;  // of this machine
   std::size_t index_ = 0;                      // of this process among them
   std::optional<Backend> executor_;            // that the command line asks for

@@ -49,6 +49,8 @@ std::optional<host::PartOrder> part_order(const Order& order) {
     return about(Kind::configure, configure->component);
   if (const auto* suspend = std::get_if<Suspend>(&order)) return about(Kind::suspend, suspend->component);
   if (const auto* resume = std::get_if<Resume>(&order)) return about(Kind::resume, resume->component);
+  if (const auto* gate = std::get_if<OpenGate>(&order)) return about(Kind::open_gate, gate->component);
+  if (const auto* gone = std::get_if<RemoveComponent>(&order)) return about(Kind::remove, gone->component);
   if (const auto* set = std::get_if<SetParams>(&order))
     return host::PartOrder{Kind::set_params, set->component, {set->values.begin(), set->values.end()}};
   return std::nullopt;
@@ -59,6 +61,13 @@ host::PartOrder connection_order(Rewire& rewire) {
   order.connections = std::make_shared<std::vector<host::ConnectionChange>>();
   for (EdgeChange& change : rewire.changes)
     order.connections->push_back({std::move(change.edge), change.makes, std::move(change.memory)});
+  return order;
+}
+
+host::PartOrder arrival_order(AddComponent& added) {
+  host::PartOrder order = about(host::PartOrder::Kind::add, added.node.name);
+  order.node = std::make_shared<graph::ComponentNode>(std::move(added.node));
+  order.params = {added.values.begin(), added.values.end()};
   return order;
 }
 
@@ -140,6 +149,10 @@ void OrderDesk::carry_out(Told told) {
   if (std::optional<host::PartOrder> for_part = part_order(order)) return pass_on(std::move(*for_part), told);
   if (auto* swap = std::get_if<SwapCode>(&order)) return pass_on(*swap, told);
   if (auto* rewire = std::get_if<Rewire>(&order)) return pass_on(connection_order(*rewire), told);
+  if (auto* added = std::get_if<AddComponent>(&order)) {
+    site_.learn(*added);
+    return pass_on(arrival_order(*added), told);
+  }
   if (const auto* cut = std::get_if<CutEdge>(&order))
     return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
   if (const auto* alarm = std::get_if<TellAlarm>(&order)) return hear(*alarm);

@@ -37,6 +37,8 @@ class OrderDesk {
     bool shows = false;                     ///< Whether to report again and again what the part is like.
     /// Makes what the process says of itself if it has no supervisor, but for the output.
     std::function<Orphaned()> introduce;
+    /// Learns of a component that is new, in whatever process it is.
+    std::function<void(const AddComponent&)> learn;
   };
 
   OrderDesk(std::shared_ptr<Channel> channel, host::HostedPart& part, ReportSender& reports, Site site);

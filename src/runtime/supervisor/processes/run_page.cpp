@@ -58,9 +58,10 @@ Result<RunPage> RunPage::create(std::size_t processes, std::size_t components) {
 Result<RunPage> RunPage::map(Descriptor file, std::size_t processes, std::size_t components) {
   auto memory = SharedMemory::map(file.number());
   if (!memory) return fail(Code::data_loss, "the run page: " + memory.error().message);
-  if (memory->bytes().size() != size_of(processes, components) || head_of(*memory).magic != kMagic)
+  const std::size_t size = memory->bytes().size();
+  if (size < size_of(processes, components) || size % kLine != 0 || head_of(*memory).magic != kMagic)
     return fail(Code::data_loss, "the run page is for another graph, or of another version of the deployer");
-  return RunPage(std::move(file), std::move(*memory), processes, components);
+  return RunPage(std::move(file), std::move(*memory), processes, (size - size_of(processes, 0)) / kLine);
 }
 
 std::atomic<std::uint64_t>& RunPage::missions() const { return head_of(memory_).missions; }

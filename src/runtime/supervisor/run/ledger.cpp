@@ -37,8 +37,20 @@ idl::Alarm own_alarm(host::AlarmKind kind, const std::string& source, const std:
 Ledger::Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start, std::string log_name)
     : graph_(graph), listener_(listener), start_(start), log_name_(std::move(log_name)) {
   for (const graph::ComponentNode& node : graph.components) components_[node.name] = {};
+  go_over();
   so_far_.start = start;
   listener_.started(start);
+}
+
+void Ledger::expect(const std::string& component) {
+  const std::lock_guard lock(mutex_);
+  components_[component] = {};
+}
+
+void Ledger::go_over() {
+  const std::lock_guard lock(mutex_);
+  names_.clear();
+  for (const graph::ComponentNode& node : graph_.components) names_.push_back(node.name);
 }
 
 Status Ledger::take(const Report& report, const std::string& process) {
@@ -214,11 +226,11 @@ host::RunGlance Ledger::look() const {
   host::RunGlance glance;
   glance.time = steady_now() - start_;
   const std::lock_guard lock(mutex_);
-  for (const graph::ComponentNode& node : graph_.components) {
-    const host::ComponentReport& report = components_.at(node.name);
+  for (const std::string& name : names_) {
+    const host::ComponentReport& report = components_.at(name);
     if (report.state == host::ComponentState::work) ++glance.working;
     if (report.ended_badly || host::is_unsettled(report.state))
-      glance.unwell.push_back({node.name, host::to_string(report.state)});
+      glance.unwell.push_back({name, host::to_string(report.state)});
   }
   for (const auto& [process, shown] : glances_) add(shown, glance);
   if (!so_far_.alarms.empty()) glance.last_alarm = host::alarm_text(so_far_.alarms.back());

@@ -42,6 +42,11 @@ class Ledger final : public host::RunView {
   /// Notes that all components of a process are gone with it.
   void lose(const std::string& process, const std::string& why);
 
+  /// Takes reports of a component that comes now. Those of one that has gone are still taken.
+  void expect(const std::string& component);
+  /// Goes on with the components that the graph has now.
+  void go_over();
+
   /// Raises an alarm of the supervisor itself, and writes it to the log.
   /// @param process  that the alarm is about; empty: not one alone.
   /// @param source   what else it is about, such as a machine; empty: nothing.
@@ -106,6 +111,7 @@ class Ledger final : public host::RunView {
 
   mutable std::mutex mutex_;
   // Below: guarded by mutex_.
+  std::vector<std::string> names_;  // of the graph's components
   std::map<std::string, host::ComponentReport> components_;
   std::map<std::string, Glance> glances_;  // by process
   host::RunResult so_far_;

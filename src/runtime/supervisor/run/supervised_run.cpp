@@ -119,16 +119,20 @@ class SupervisedRun {
   Applying::Levers applying() {
     return {options_.read, [this](const CheckedSystem& wanted) { return accept(wanted); },
             [this](const std::set<std::string>& edges) { return starter_.renew_edges(edges); },
+            [this](const graph::ComponentNode& node) {
+              ledger_.expect(node.name);
+              return starter_.introduce(node);
+            },
             [this] { poller_.wake(); }};
   }
 
   // Goes on with a graph that is carried out already. Processes that are started from now on run it.
-  Members accept(const CheckedSystem& wanted) {
+  void accept(const CheckedSystem& wanted) {
     graph::go_over(graph_, wanted.graph);
     graph::go_over(here_, wanted.graph);
     starter_.go_over();
+    ledger_.go_over();
     facts_ = wanted.facts;
-    return all_;
   }
 
   // ---- Starting
@@ -240,8 +244,8 @@ class SupervisedRun {
 
   void lose(Member& member, const std::string& how, const Loss& loss) {
     beats_.forget(member.index());
+    control_.lose(member);  // before its orders are answered by its end
     member.forget();
-    control_.lose(member);
     arrivals_.lose(member);
     ledger_.lose(member.name(), "its process " + how);
     for (const Wiring::Outer& outer : starter_.wiring().edges_at(member.name())) cut(outer, member, how);

@@ -120,7 +120,7 @@ Result<RunIdentity> identity_of(Orphaned& first, const graph::Graph& graph, cons
                                       graph.components.size());
   if (!page) return page.error();
   set_steady_epoch(wishes->epoch);
-  return RunIdentity{std::move(page).value(), wishes->start, wishes->run, true};
+  return RunIdentity{std::move(page).value(), wishes->start, wishes->run, std::move(first.doorbells), true};
 }
 
 }  // namespace

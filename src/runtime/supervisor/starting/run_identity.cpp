@@ -13,6 +13,8 @@
 namespace orca::supervisor {
 namespace {
 
+constexpr std::size_t kMostNewcomers = 256;  // that may be added to a run; a cache line of memory each
+
 // The name of a run on several machines is the same for all of them, and for one that is started again.
 std::string run_name(const graph::Graph& graph) {
   if (graph.machines.size() > 1) return std::to_string(mark_of(graph::print(graph)));
@@ -23,9 +25,12 @@ std::string run_name(const graph::Graph& graph) {
 }  // namespace
 
 Result<RunIdentity> begin_run(const graph::Graph& graph, const std::string& machine) {
-  Result<RunPage> page = RunPage::create(graph::processes_on(graph, machine).size(), graph.components.size());
+  std::vector<std::string> doorbells;
+  for (const graph::ComponentNode& node : graph.components) doorbells.push_back(node.name);
+  Result<RunPage> page =
+      RunPage::create(graph::processes_on(graph, machine).size(), doorbells.size() + kMostNewcomers);
   if (!page) return page.error();
-  return RunIdentity{std::move(page).value(), steady_now(), run_name(graph)};
+  return RunIdentity{std::move(page).value(), steady_now(), run_name(graph), std::move(doorbells)};
 }
 
 }  // namespace orca::supervisor

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
@@ -14,9 +15,10 @@ namespace orca::supervisor {
 /// on with theirs.
 struct RunIdentity {
   RunPage page;
-  TimePoint start;            ///< Of the run, which the log counts from.
-  std::string name;           ///< Which no other run has.
-  bool is_inherited = false;  ///< Another supervisor has begun the run.
+  TimePoint start;                     ///< Of the run, which the log counts from.
+  std::string name;                    ///< Which no other run has.
+  std::vector<std::string> doorbells;  ///< The components whose doorbells are in the page, in this order.
+  bool is_inherited = false;           ///< Another supervisor has begun the run.
 };
 
 /// Begins a new run.

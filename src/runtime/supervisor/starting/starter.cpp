@@ -22,7 +22,7 @@ constexpr std::uint64_t kReserved = std::uint64_t{1} << 30;  // [bytes] of stack
 
 Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunIdentity& run,
                  const Members& all)
-    : graph_(graph), options_(options), run_(run), all_(all), wiring_(graph) {}
+    : graph_(graph), options_(options), run_(run), all_(all), doorbells_(run.doorbells), wiring_(graph) {}
 
 Starter::Begun Starter::start(const Members& members) {
   Begun begun;
@@ -88,7 +88,19 @@ Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
                          options_.planned_failures,
                          outputs_for(member),
                          run_.name};
-  return {member.name(), graph::print(graph_), to_pairs(wishes), run_.page.descriptor(), std::move(edges)};
+  return {member.name(),          graph::print(graph_), to_pairs(wishes),
+          run_.page.descriptor(), std::move(edges),     doorbells_};
+}
+
+Result<AddComponent> Starter::introduce(const graph::ComponentNode& component) {
+  const auto known = std::ranges::find(doorbells_, component.name);
+  const auto place = static_cast<std::size_t>(known - doorbells_.begin());
+  if (place == run_.page.components())
+    return fail(Code::failed_precondition,
+                "too many components have come and gone in this run; start the system again", component.name);
+  if (known == doorbells_.end()) doorbells_.push_back(component.name);
+  const std::map<std::string, std::string> values = graph::print_values(component.params);
+  return AddComponent{component, {values.begin(), values.end()}, place};
 }
 
 // A process that is started again would overwrite what was written before.

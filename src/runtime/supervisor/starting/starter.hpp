@@ -56,6 +56,9 @@ class Starter {
   /// @param edges  by name.
   /// @errors  unavailable if the system gives none.
   Status renew_edges(const std::set<std::string>& edges);
+  /// Makes the order that tells of a component which comes. It has its place in the run page from then on.
+  /// @errors  failed_precondition if the page is full.
+  Result<AddComponent> introduce(const graph::ComponentNode& component);
   /// Takes over the edges of the graph, which has others now that are made already.
   void go_over() { wiring_.go_over(graph_); }
 
@@ -69,6 +72,7 @@ class Starter {
   const SupervisedOptions& options_;
   const RunIdentity& run_;
   const Members& all_;
+  std::vector<std::string> doorbells_;  // the components, in the order of their words in the run page
   Wiring wiring_;
   std::set<std::string> started_;  // processes that have been started once
 };

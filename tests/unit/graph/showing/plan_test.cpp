@@ -29,7 +29,10 @@ graph::Graph running_robot() {
   base.type = "orca.RobotBaseServer";
   base.hardware = "scout";
   base.params = {{"rate", 10.0}, {"device", std::string("a")}};
-  graph.components = {avoid, base};
+  graph::ComponentNode spare;
+  spare.name = "spare";
+  spare.type = "orca.LogServer";
+  graph.components = {avoid, base, spare};
   graph.hardware = {{"scout", "orca.hw.Sim", graph::kMainProcess, {{"seed", 1.0}}, {}}};
   graph::Edge sonar;
   sonar.from = {"base", "SonarPush"};
@@ -71,10 +74,18 @@ graph::Edge connection(const std::string& from, const std::string& to, int numbe
   return edge;
 }
 
+graph::ComponentNode newcomer(const std::string& name) {
+  graph::ComponentNode node;
+  node.name = name;
+  node.type = "orca.Goto";
+  return node;
+}
+
 // Changes a graph in one way of several. Returns whether that is possible without a new start.
 bool change_somehow(graph::Graph& graph, std::mt19937& random) {
   const auto number = [&](int most) { return std::uniform_int_distribution<>(0, most)(random); };
-  switch (number(8)) {
+  const auto is_there = [&](const std::string& name) { return graph.find_component(name) != nullptr; };
+  switch (number(10)) {
     case 0: graph.components[0].params["margin"] = 0.1 * number(5); return true;
     case 1: graph.components[0].params["size"] = 0.1 * (4 + number(5)); return true;
     case 2: graph.components[0].type = "orca.Other" + std::to_string(number(2)); return true;
@@ -83,6 +94,13 @@ bool change_somehow(graph::Graph& graph, std::mt19937& random) {
     case 5: graph.components[0].priority = 1 + number(9); return false;
     case 6: graph.edges[0].queue.depth = 2 + static_cast<std::uint32_t>(number(5)); return true;
     case 7: graph.edges = {connection("avoid", "base"), connection("base", "avoid", number(1))}; return true;
+    case 8:
+      if (!is_there("more")) graph.components.push_back(newcomer("more"));
+      graph.edges.push_back(connection("more", "base", number(3)));
+      return true;
+    case 9:
+      std::erase_if(graph.components, [](const auto& node) { return node.name == "spare"; });
+      return true;
     default: graph.processes.push_back({.name = "p" + std::to_string(graph.processes.size())}); return false;
   }
 }
@@ -110,6 +128,9 @@ TEST_CASE("of two hundred pairs of graphs each plan is carried out whole, or ref
     if (!is_possible) continue;
     go_over(running, wanted);
     CHECK(graph::diff(running, wanted).empty());
+    for (const graph::ComponentNode& node : plan.added) CHECK(node == *wanted.find_component(node.name));
+    for (const std::string& name : plan.removed) CHECK(wanted.find_component(name) == nullptr);
+    CHECK(plan.connections_of(true).size() + plan.connections_of(false).size() == plan.connections.size());
     graph::Graph rewired = running_robot();
     for (const GraphPlan::Rewiring& one : plan.connections)
       put(one.after.value_or(*one.before), one.after.has_value(), rewired.edges);
@@ -174,7 +195,49 @@ TEST_CASE("whatever else differs needs a new start", "[graph][apply]") {
   CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.components[0].priority = 5; })));
   CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.hardware[0].params["seed"] = 2.0; })));
   CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.processes.push_back({.name = "other"}); })));
-  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.components.pop_back(); })));
+}
+
+TEST_CASE("components come and go beside the others, in the order in which they start", "[graph][apply]") {
+  const GraphPlan plan = plan_after([](graph::Graph& g) {
+    g.components.back() = newcomer("second");
+    g.components.back().start_after = {"first"};
+    g.components.push_back(newcomer("first"));
+    g.edges.push_back(connection("second", "first"));
+    g.edges.push_back(connection("first", "avoid"));
+    g.edges.back().pattern = Pattern::push;
+  });
+  CHECK(plan.is_possible());
+  REQUIRE(plan.added.size() == 2);
+  CHECK(plan.added[0].name == "first");
+  CHECK(plan.added[1].name == "second");
+  CHECK(plan.removed == std::vector<std::string>{"spare"});
+  REQUIRE(plan.lines.size() == 5);
+  CHECK(plan.lines[0].part == "+ component first");
+  CHECK(plan.lines[0].effort == Effort::add);
+  CHECK(plan.lines[2].part == "- component spare");
+  CHECK(plan.lines[2].effort == Effort::remove);
+  REQUIRE(plan.connections_of(true).size() == 1);
+  CHECK(plan.connections_of(true)[0].after->name() == "second.out0 to first.in");
+  REQUIRE(plan.connections_of(false).size() == 1);
+  CHECK(plan.connections_of(false)[0].after->name() == "first.out0 to avoid.in");
+}
+
+TEST_CASE("components that need another process, or are there on demand, need a new start",
+          "[graph][apply]") {
+  const auto with = [](const auto& change) {
+    return [change](graph::Graph& g) {
+      g.components.push_back(newcomer("more"));
+      change(g.components.back());
+    };
+  };
+  CHECK(is_for_a_new_start(plan_after(with([](graph::ComponentNode& node) { node.on_demand = true; }))));
+  CHECK(is_for_a_new_start(plan_after(with([](graph::ComponentNode& node) { node.process = "other"; }))));
+  CHECK(is_for_a_new_start(plan_after(with([](graph::ComponentNode& node) {
+    node.ports["pose"].candidates = {{"a", "b"}};
+  }))));
+  const GraphPlan plan = plan_after([](graph::Graph& g) { g.components.pop_back(); });
+  CHECK(plan.is_possible());
+  CHECK(plan.removed == std::vector<std::string>{"spare"});
 }
 
 TEST_CASE("a connection is made, removed, or gets another policy", "[graph][apply]") {
@@ -206,12 +269,6 @@ TEST_CASE("connections that cannot change while the system runs need a new start
   CHECK(is_refused([](graph::Graph& g) { g.edges[0].link = graph::Link::dds; }));
   CHECK(is_refused([](graph::Graph& g) { g.edges[0].choice = 1; }));
   CHECK(is_refused([](graph::Graph& g) {
-    graph::ComponentNode added;
-    added.name = "new";
-    g.components.push_back(added);
-    g.edges.push_back(connection("new", "base"));
-  }));
-  CHECK(is_refused([](graph::Graph& g) {
     g.edges.clear();
     g.components[0].process = "other";
   }));
@@ -234,6 +291,18 @@ TEST_CASE("a possible change beside an impossible one does not make the plan pos
   });
   CHECK_FALSE(plan.is_possible());
   CHECK(plan.lines.size() == 2);
+}
+
+TEST_CASE("another order of the start counts from the next start on", "[graph][apply]") {
+  const GraphPlan plan = plan_after([](graph::Graph& g) { g.components[0].start_after = {"base"}; });
+  CHECK(plan.is_possible());
+  REQUIRE(plan.lines.size() == 1);
+  CHECK(plan.lines[0].effort == Effort::none);
+  graph::Graph running = running_robot();
+  graph::Graph wanted = running_robot();
+  wanted.components[0].start_after = {"base"};
+  go_over(running, wanted);
+  CHECK(graph::diff(running, wanted).empty());
 }
 
 TEST_CASE("another group costs nothing", "[graph][apply]") {

@@ -19,7 +19,8 @@ inline Descriptor null_device() { return Descriptor(open("/dev/null", O_RDWR | O
 inline std::vector<std::byte> some_bytes() { return {std::byte{1}, std::byte{0}, std::byte{255}}; }
 
 inline supervisor::Setup setup() {
-  supervisor::Setup setup{"base", "<graph/>", {{"seed", "7"}, {"profile", "sim"}}, null_device(), {}};
+  supervisor::Setup setup{"base",        "<graph/>", {{"seed", "7"}, {"profile", "sim"}},
+                          null_device(), {},         {"a", "b", "c"}};
   setup.edges.push_back({"a.out to b.in", null_device()});
   setup.edges.push_back({"b.out to c.in", null_device()});
   return setup;
@@ -48,6 +49,22 @@ inline supervisor::Rewire rewire() {
   return rewire;
 }
 
+inline supervisor::AddComponent newcomer() {
+  supervisor::AddComponent added;
+  added.node.name = "avoid";
+  added.node.type = "orca.SonarAvoid";
+  added.node.hardware = "scout";
+  added.node.process = "behaviours";
+  added.node.priority = -7;
+  added.node.autonomous = true;
+  added.node.trigger =
+      Trigger{Trigger::Kind::on_stamps, from_seconds(0.5), {"sonar", "odometry"}, from_seconds(0.01)};
+  added.node.ports["motion"].alias = "wish";
+  added.values = {{"stop_distance", "0.5 m"}};
+  added.doorbell = 9;
+  return added;
+}
+
 template <class Words, class... Word>
 std::vector<Words> list_of(Word... word) {
   std::vector<Words> words;
@@ -74,26 +91,27 @@ inline std::vector<supervisor::Order> all_orders() {
                "/tmp/vfh_plus.so",
                null_device(),
                true},
-      NoteGraph{"<graph name=\"robot\"/>"}, rewire());
+      NoteGraph{"<graph name=\"robot\"/>"}, rewire(), newcomer(), RemoveComponent{"avoid"},
+      OpenGate{"avoid"});
 }
 
 /// Returns at least one of each report.
 inline std::vector<supervisor::Report> all_reports() {
   using namespace supervisor;
-  return list_of<Report>(Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
-                         Built{{{"hardware", "scout"}}}, StateChange{"avoid", 6, "no echo", true, true, true},
-                         RestChange{true}, ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()},
-                         ContactReport{{}}, AlarmReport{some_bytes()}, HeardReport{some_bytes()},
-                         Logged{log::Level::warning, "avoid", "text"}, LastWordsReport{"SIGSEGV"},
-                         Tally{{{"3", {1, 2}}}, {{"goto.send", {4}}}, {}, {{"base", {12'000}}}},
-                         OutputFailed{fail(Code::unavailable, "no space", "run.csv")},
-                         Glance{{{"scout", "Fault"}}, {{"kitchen", {2'500}}}}, Prompting{false},
-                         Answer{ok(), {{{"name", "goto"}, {"restarts", 3}, {"active", true}}, {}}},
-                         MissionStep{7, 1'000'000, "command.goto", "GoalPoint", 2, "goto", 5},
-                         Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device()},
-                         ExchangedCode{"avoid", "orca.VfhPlus", "/tmp/vfh_plus.so", "abc", 3},
-                         Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}},
-                         Leaving{}, LogWished{true});
+  return list_of<Report>(
+      Answer{}, Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")},
+      Built{{{"hardware", "scout"}}}, StateChange{"avoid", 6, "no echo", true, true, true}, RestChange{true},
+      ArrivedReport{some_bytes()}, GoalFailedReport{some_bytes()}, ContactReport{{}},
+      AlarmReport{some_bytes()}, HeardReport{some_bytes()}, Logged{log::Level::warning, "avoid", "text"},
+      LastWordsReport{"SIGSEGV"}, Tally{{{"3", {1, 2}}}, {{"goto.send", {4}}}, {}, {{"base", {12'000}}}},
+      OutputFailed{fail(Code::unavailable, "no space", "run.csv")},
+      Glance{{{"scout", "Fault"}}, {{"kitchen", {2'500}}}}, Prompting{false},
+      Answer{ok(), {{{"name", "goto"}, {"restarts", 3}, {"active", true}}, {}}},
+      MissionStep{7, 1'000'000, "command.goto", "GoalPoint", 2, "goto", 5},
+      Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device(), {"base", "avoid"}},
+      ExchangedCode{"avoid", "orca.VfhPlus", "/tmp/vfh_plus.so", "abc", 3},
+      Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}}, Leaving{},
+      LogWished{true});
 }
 
 /// Returns one of each word that a client of the control socket hears.

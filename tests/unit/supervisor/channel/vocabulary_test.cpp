@@ -94,6 +94,7 @@ TEST_CASE("Fields keep their values", "[supervisor][vocabulary]") {
   CHECK(read.run_page);
   REQUIRE(read.edges.size() == 2);
   CHECK(read.edges[1].edge == "b.out to c.in");
+  CHECK(read.doorbells == std::vector<std::string>{"a", "b", "c"});
 
   const auto rewiring = decode_order(encode(rewire()));
   REQUIRE(rewiring);
@@ -105,6 +106,13 @@ TEST_CASE("Fields keep their values", "[supervisor][vocabulary]") {
   CHECK(changes[1].edge == rewire().changes[1].edge);
   CHECK_FALSE(changes[1].makes);
   CHECK_FALSE(changes[1].memory);
+
+  const auto arrival = decode_order(encode(newcomer()));
+  REQUIRE(arrival);
+  const auto& added = std::get<AddComponent>(*arrival);
+  CHECK(added.node == newcomer().node);
+  CHECK(added.values == newcomer().values);
+  CHECK(added.doorbell == 9);
 
   const auto answer = decode_report(encode(Answer{fail(Code::deadline_exceeded, "too late", "a.xml:1:2")}));
   REQUIRE(answer);

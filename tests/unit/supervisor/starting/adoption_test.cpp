@@ -61,7 +61,7 @@ class WaitingRun {
     wishes.epoch = epoch_;
     wishes.start = TimePoint{42s};
     wishes.run = run_;
-    return {"main", mark_, to_pairs(wishes), page_.descriptor(), null_device()};
+    return {"main", mark_, to_pairs(wishes), page_.descriptor(), null_device(), {}};
   }
 
   const std::uint64_t mark_;

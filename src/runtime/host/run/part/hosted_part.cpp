@@ -10,11 +10,11 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
-#include "orca/graph/plan.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/host/last_words.hpp"
 #include "outer_edges.hpp"
 #include "outer_offers.hpp"
+#include "part_changes.hpp"
 #include "run/counters.hpp"
 #include "run/recording/run_files.hpp"
 #include "run/sightings.hpp"
@@ -33,17 +33,14 @@ SystemOptions system_options(const PartOptions& options) {
           options.missions, options.doorbell};
 }
 
-Error no_such(const graph::PortRef& port) {
-  return fail(Code::not_found, "there is no port " + port.text() + " in this process");
-}
-
 }  // namespace
 
 class HostedPart::Inside {
  public:
   Inside(const graph::Graph& whole, const std::string& process, const PartPlace& place,
          const PartOptions& options)
-      : part_(graph::subgraph(whole, process)),
+      : process_(process),
+        part_(graph::subgraph(whole, process)),
         place_(place),
         whole_(whole),
         hang_limit_(options.hang_limit),
@@ -59,13 +56,26 @@ class HostedPart::Inside {
   }
 
   WatchedSystem& watched() { return watched_; }
-  PortTaps& taps() { return taps_; }
-  OuterOffers& offers() { return offers_; }
   [[nodiscard]] RunCounters counters() {
-    const std::lock_guard lock(edges_mutex_);
+    const std::lock_guard lock(graph_mutex_);
     return collect_counters(whole_, watched_.system());
   }
   OuterEdges& outer() { return outer_; }
+
+  Result<std::shared_ptr<PortTap>> tap(const graph::PortRef& port) {
+    const std::lock_guard lock(graph_mutex_);
+    const Endpoint* const endpoint = watched_.system().endpoint(port);
+    if (endpoint == nullptr) return no_such(port);
+    return taps_.open(port.component, endpoint->contract());
+  }
+
+  Status offer(const graph::PortRef& port, ObjectLoan object,
+               std::function<void(Result<ObjectRef>)> answered) {
+    const std::lock_guard lock(graph_mutex_);
+    Endpoint* const endpoint = watched_.system().endpoint(port);
+    if (endpoint == nullptr) return no_such(port);
+    return offers_.offer(*endpoint, std::move(object), std::move(answered));
+  }
 
   Status build(std::map<std::string, Descriptor> memory) {
     if (Status opened = open_outputs(); !opened.ok()) return opened;
@@ -88,7 +98,7 @@ class HostedPart::Inside {
   }
 
   Status move(const std::string& name) {
-    const std::lock_guard lock(edges_mutex_);
+    const std::lock_guard lock(graph_mutex_);
     const auto edge = std::ranges::find(whole_.edges, name, &graph::Edge::name);
     if (edge == whole_.edges.end()) return fail(Code::not_found, "an edge that the graph does not have");
     return host::move(watched_.system(), *edge);
@@ -213,36 +223,20 @@ class HostedPart::Inside {
       case PartOrder::Kind::resume: return system.resume(order.component, changed, limit);
       case PartOrder::Kind::set_params:
         return system.set_params(order.component, order.params, changed, limit);
-      case PartOrder::Kind::rewire: return rewire(order.connections, limit);
+      case PartOrder::Kind::add: return changes_.add(*order.node, order.params);
+      case PartOrder::Kind::remove: return remove(order.component);
+      case PartOrder::Kind::open_gate: return changes_.open_gate(order.component);
+      case PartOrder::Kind::rewire: return changes_.rewire(order.connections, limit);
       case PartOrder::Kind::swap: break;  // is no matter of one step
     }
     return fail(Code::internal, "an unknown order");
   }
 
-  using Connections = std::shared_ptr<std::vector<ConnectionChange>>;
-
-  Status rewire(const Connections& changes, TimePoint limit) {
-    for (const ConnectionChange& change : *changes) {
-      if (const Status done = rewire({changes, &change}, limit); !done.ok()) return done;
-      const std::lock_guard lock(edges_mutex_);
-      graph::put(change.edge, change.makes, whole_.edges);
-    }
-    return ok();
-  }
-
-  // The change is kept for as long as a strand may still come to it.
-  Status rewire(const std::shared_ptr<const ConnectionChange>& change, TimePoint limit) {
-    System& system = watched_.system();
-    const graph::Edge& edge = change->edge;
-    if (edge.link == graph::Link::local)
-      return host::rewire(system, edge, change->makes, watched_.changed(), limit);
-    const graph::PortRef& here = outer_.end_here(edge);
-    Endpoint* const port = system.endpoint(here);
-    if (port == nullptr) return no_such(here);
-    return system.on_strand(here.component, watched_.changed(), limit, [this, change, port] {
-      return change->makes ? outer_.make(change->edge, change->memory, *port)
-                           : outer_.remove(change->edge, *port);
-    });
+  Status remove(const std::string& name) {
+    const Status removed = changes_.remove(name, place_.executive.now() + kTakeDownLimit,
+                                           [this](const ComponentInstance& last) { report_change(last); });
+    if (removed.ok()) reported_.erase(name);
+    return removed;
   }
 
   // Whatever the connections refuse from here on is no trouble.
@@ -261,15 +255,17 @@ class HostedPart::Inside {
   }
 
   void report_changes() {
-    for (const auto& component : watched_.system().components()) {
-      const ComponentReport report = component->report();
-      auto [known, is_new] = reported_.try_emplace(component->name(), report);
-      if (!is_new && known->second == report) continue;
-      known->second = report;
-      place_.listener.component_changed(component->name(), report);
-    }
+    for (const auto& component : watched_.system().components().all()) report_change(*component);
     if (const bool rests = watched_.system().at_rest(); std::exchange(at_rest_, rests) != rests)
       place_.listener.rest_changed(rests);
+  }
+
+  void report_change(const ComponentInstance& component) {
+    const ComponentReport report = component.report();
+    const auto [known, is_new] = reported_.try_emplace(component.name(), report);
+    if (!is_new && known->second == report) return;
+    known->second = report;
+    place_.listener.component_changed(component.name(), report);
   }
 
   // A component hangs, and perhaps all others with it.
@@ -283,10 +279,11 @@ class HostedPart::Inside {
     place_.listener.abandon(result);
   }
 
-  const graph::Graph part_;
+  const std::string process_;
+  const graph::Graph part_;  // as it was built
   const PartPlace place_;
-  graph::Graph whole_;      // its edges change on the main task, with edges_mutex_ held
-  std::mutex edges_mutex_;  // held by other threads that read them
+  graph::Graph whole_;      // its components and edges change on the main task, with graph_mutex_ held
+  std::mutex graph_mutex_;  // held by other threads that read them, or use ports
   const Duration hang_limit_;
   const RunOutputs outputs_;
   RunFiles files_;
@@ -296,6 +293,7 @@ class HostedPart::Inside {
   OuterEdges outer_;
   WatchedSystem watched_;
   Swaps swaps_;
+  PartChanges changes_{process_, {whole_, graph_mutex_}, place_.catalogue, watched_, outer_, offers_, swaps_};
   bool is_open_ = false;  // its components may work
   bool taken_down_ = false;
   std::map<std::string, ComponentReport> reported_;
@@ -337,17 +335,11 @@ void HostedPart::let_go() { inside_->watched().system().let_go(); }
 
 RunCounters HostedPart::counters() const { return inside_->counters(); }
 
-Result<std::shared_ptr<PortTap>> HostedPart::tap(const graph::PortRef& port) {
-  const Endpoint* const endpoint = inside_->watched().system().endpoint(port);
-  if (endpoint == nullptr) return no_such(port);
-  return inside_->taps().open(port.component, endpoint->contract());
-}
+Result<std::shared_ptr<PortTap>> HostedPart::tap(const graph::PortRef& port) { return inside_->tap(port); }
 
 Status HostedPart::offer(const graph::PortRef& port, ObjectLoan object,
                          std::function<void(Result<ObjectRef>)> answered) {
-  Endpoint* const endpoint = inside_->watched().system().endpoint(port);
-  if (endpoint == nullptr) return no_such(port);
-  return inside_->offers().offer(*endpoint, std::move(object), std::move(answered));
+  return inside_->offer(port, std::move(object), std::move(answered));
 }
 
 void HostedPart::hear(const idl::Alarm& alarm, const std::string& process) {

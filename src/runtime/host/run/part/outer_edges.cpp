@@ -56,6 +56,16 @@ std::string name_in_graph(const graph::ComponentNode& node, const std::string& n
 
 }  // namespace
 
+OuterEdges::OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run)
+    : whole_(whole), process_(std::move(process)), doorbell_(std::move(doorbell)), run_(std::move(run)) {
+  for (const graph::ComponentNode& node : whole.components) learn(node);
+}
+
+void OuterEdges::learn(const graph::ComponentNode& component) {
+  const std::lock_guard lock(mutex_);
+  processes_[component.name] = component.process;
+}
+
 Status OuterEdges::prepare(std::map<std::string, Descriptor> memory, PluginCatalogue& catalogue) {
   memory_ = std::move(memory);
   const graph::ProcessPart part = graph::part_of(whole_, process_);
@@ -84,12 +94,15 @@ Status OuterEdges::learn(const graph::Edge& edge, PluginCatalogue& catalogue) {
   return ok();
 }
 
-OuterEdges::Ends OuterEdges::ends_of(const graph::Edge& edge) const {
+OuterEdges::Ends OuterEdges::ends_of(const graph::Edge& edge) {
   return process_of(edge.from) == process_ ? Ends{edge.from, edge.to} : Ends{edge.to, edge.from};
 }
 
-const std::string& OuterEdges::process_of(const graph::PortRef& port) const {
-  return whole_.find_component(port.component)->process;
+const std::string& OuterEdges::process_of(const graph::PortRef& port) {
+  static const std::string nowhere;
+  const std::lock_guard lock(mutex_);
+  const auto process = processes_.find(port.component);
+  return process == processes_.end() ? nowhere : process->second;
 }
 
 Status OuterEdges::connect(System& system) {

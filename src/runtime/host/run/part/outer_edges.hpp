@@ -31,8 +31,7 @@ class OuterEdges {
   /// @param whole    the graph of all processes; outlives the object.
   /// @param process  the one that this process is.
   /// @param run      the name of the run.
-  OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run)
-      : whole_(whole), process_(std::move(process)), doorbell_(std::move(doorbell)), run_(std::move(run)) {}
+  OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run);
 
   /// Asks the plugins what this process must know of the components at the other ends.
   /// @param memory  of each edge through shared memory.
@@ -42,6 +41,9 @@ class OuterEdges {
   /// Makes this process's ends of the edges. Takes part in DDS if one of them needs it.
   /// @errors  internal if a port is missing; those of RingSegment::map() and of open_dds().
   Status connect(System& system);
+
+  /// Learns of a component that was added to the graph.
+  void learn(const graph::ComponentNode& component);
 
   /// Cuts an edge, because the process at its other end is gone.
   void cut(const std::string& edge, const Error& reason);
@@ -56,7 +58,7 @@ class OuterEdges {
   /// Removes this process's end of such an edge. Nothing if there is none.
   Status remove(const graph::Edge& edge, Endpoint& port);
   /// Returns the end of an edge that is in this process.
-  [[nodiscard]] const graph::PortRef& end_here(const graph::Edge& edge) const { return ends_of(edge).here; }
+  [[nodiscard]] const graph::PortRef& end_here(const graph::Edge& edge) { return ends_of(edge).here; }
 
  private:
   // The two ends of an edge, as this process sees them.
@@ -65,8 +67,8 @@ class OuterEdges {
     const graph::PortRef& there;
   };
 
-  [[nodiscard]] Ends ends_of(const graph::Edge& edge) const;
-  [[nodiscard]] const std::string& process_of(const graph::PortRef& port) const;
+  [[nodiscard]] Ends ends_of(const graph::Edge& edge);
+  [[nodiscard]] const std::string& process_of(const graph::PortRef& port);
   Status connect_memory(const graph::Edge& edge, const Descriptor& memory, Endpoint& port);
   Status connect_dds(const graph::Edge& edge, Endpoint& port);
   [[nodiscard]] Result<DdsOptions> dds_options() const;
@@ -83,7 +85,9 @@ class OuterEdges {
   std::map<std::string, std::string> reached_;   // over DDS: the process at the other end
 
   std::mutex mutex_;
-  std::map<std::string, ShmEnd*> ends_;  // guarded by mutex_
+  // Below: guarded by mutex_.
+  std::map<std::string, ShmEnd*> ends_;
+  std::map<std::string, std::string> processes_;  // by component; also of those that have gone
 };
 
 }  // namespace orca::host

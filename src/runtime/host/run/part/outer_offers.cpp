@@ -109,4 +109,12 @@ Status OuterOffers::offer(Endpoint& port, ObjectLoan object, Answered answered) 
   return ok();
 }
 
+void OuterOffers::forget(const std::string& component) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(edges_, [&](const auto& edge) {
+    const std::string path = edge.first->path();
+    return path.substr(0, path.rfind('.')) == component;
+  });
+}
+
 }  // namespace orca::host

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 
 #include "orca/base/executive.hpp"
 #include "orca/base/result.hpp"
@@ -18,7 +19,7 @@ namespace orca::host {
 /// The objects that come from outside the graph, from an operator: a client of SendServers and QueryServers that has an
 /// edge of its own at each port that it was ever used for.
 ///
-/// Thread contract: any thread. It outlives the ports.
+/// Thread contract: any thread. It outlives the ports, but for those that it is told to forget.
 class OuterOffers {
  public:
   /// Takes the outcome; see HostedPart::offer().
@@ -33,6 +34,8 @@ class OuterOffers {
   /// Hands an object to a port.
   /// @errors  invalid_argument if the port takes no such object.
   Status offer(Endpoint& port, ObjectLoan object, Answered answered);
+  /// Forgets the ports of a component that is about to be destroyed.
+  void forget(const std::string& component);
 
  private:
   class Edge;

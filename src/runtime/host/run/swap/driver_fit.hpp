@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "run/hardware_instance.hpp"
+#include "run/hardware/hardware_instance.hpp"
 
 namespace orca::host {
 

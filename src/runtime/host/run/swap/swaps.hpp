@@ -37,6 +37,11 @@ class Swaps {
   /// @return kForever if nothing is to be done by then.
   TimePoint go_on();
 
+  /// Returns whether the code of a component, or a driver, is being exchanged.
+  [[nodiscard]] bool is_under_way(const std::string& name) const;
+  /// Forgets what a component has run that is not there any more.
+  void forget(const std::string& component) { types_.erase(component); }
+
   /// Returns whether a driver is being exchanged.
   [[nodiscard]] bool concern_drivers() const;
 
@@ -51,7 +56,6 @@ class Swaps {
 
   Result<std::unique_ptr<Exchange>> make(SwapOrder order);
   [[nodiscard]] std::string type_of(const std::string& name, const std::string& in_graph) const;
-  [[nodiscard]] bool is_under_way(const std::string& name) const;
   void conclude(Open& open, const Result<SwapReport>& outcome);
 
   const graph::Graph& graph_;

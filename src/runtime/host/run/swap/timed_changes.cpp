@@ -19,6 +19,7 @@ TimedChanges::TimedChanges(graph::Graph& graph, WatchedSystem& watched, PluginCa
                            Executive& executive, const std::vector<TimedChange>& changes)
     : graph_(graph),
       watched_(watched),
+      catalogue_(catalogue),
       executive_(executive),
       changes_(changes),
       swaps_(graph, watched.context(), catalogue, watched.system()) {}
@@ -41,13 +42,46 @@ Status TimedChanges::carry_out(const TimedChange& change) {
                                                     watched_.changed(), executive_.now() + kLapLimit);
     if (!set.ok()) return set;
   }
-  // First those that are made, so that a port that goes over to another server misses nothing.
-  for (const graph::GraphPlan::Rewiring& one : change.plan.connections)
+  if (Status come = add(change.plan); !come.ok()) return come;
+  if (Status changed = rewire(change.plan.connections_of(false)); !changed.ok()) return changed;
+  for (const graph::ComponentNode& node : change.plan.added)
+    (*watched_.system().instance(node.name))->open_gate();
+  return remove(change.plan.removed);
+}
+
+// A component finds its connections when it is configured, as at a start.
+Status TimedChanges::add(const graph::GraphPlan& plan) {
+  System& system = watched_.system();
+  for (const graph::ComponentNode& node : plan.added) {
+    if (Status made = system.add(node, catalogue_); !made.ok()) return made;
+    graph_.components.push_back(node);
+  }
+  if (Status connected = rewire(plan.connections_of(true)); !connected.ok()) return connected;
+  for (const graph::ComponentNode& node : plan.added) {
+    Status configured = system.configure(node.name, watched_.changed(), executive_.now() + kLapLimit);
+    if (!configured.ok()) return configured;
+  }
+  return ok();
+}
+
+Status TimedChanges::remove(const std::vector<std::string>& components) {
+  for (const std::string& name : components) {
+    std::erase_if(graph_.components, [&](const auto& node) { return node.name == name; });
+    const auto removed = watched_.system().remove(name, executive_.now() + kLapLimit);
+    if (!removed) return removed.error();
+    swaps_.forget(name);
+  }
+  return ok();
+}
+
+// First those that are made, so that a port that goes over to another server misses nothing.
+Status TimedChanges::rewire(const std::vector<graph::GraphPlan::Rewiring>& connections) {
+  for (const graph::GraphPlan::Rewiring& one : connections)
     if (one.after)
-      if (const Status made = rewire(*one.after, true); !made.ok()) return made;
-  for (const graph::GraphPlan::Rewiring& one : change.plan.connections)
+      if (Status made = rewire(*one.after, true); !made.ok()) return made;
+  for (const graph::GraphPlan::Rewiring& one : connections)
     if (!one.after)
-      if (const Status removed = rewire(*one.before, false); !removed.ok()) return removed;
+      if (Status removed = rewire(*one.before, false); !removed.ok()) return removed;
   return ok();
 }
 

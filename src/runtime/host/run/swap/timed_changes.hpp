@@ -21,7 +21,7 @@ namespace orca::host {
 class TimedChanges {
  public:
   /// All of these outlive the object.
-  /// @param graph    as Swaps; gets the connections that are made.
+  /// @param graph    as Swaps; gets the components and connections that come and go.
   /// @param changes  sorted by time.
   TimedChanges(graph::Graph& graph, WatchedSystem& watched, PluginCatalogue& catalogue, Executive& executive,
                const std::vector<TimedChange>& changes);
@@ -30,7 +30,7 @@ class TimedChanges {
   void begin() { began_ = executive_.now(); }
   /// Begins what is due, and goes on with what is under way. To be called whenever a component has changed, and at the time that
   /// it returns.
-  /// @errors  those of Swaps and System::set_params(), with the change; the run has failed then.
+  /// @errors  those of Swaps and of System, with the change; the run has failed then.
   Result<TimePoint> go_on();
   /// Looks once more at what is under way, when the run ends, and warns of the changes whose time did not come.
   /// @errors  as go_on().
@@ -43,10 +43,14 @@ class TimedChanges {
   void exchange(const TimedChange& change, const graph::GraphPlan::Exchange& exchange);
   void note(const TimedChange& change, const Error& error);
 
+  Status add(const graph::GraphPlan& plan);
+  Status remove(const std::vector<std::string>& components);
+  Status rewire(const std::vector<graph::GraphPlan::Rewiring>& connections);
   Status rewire(const graph::Edge& edge, bool makes);
 
   graph::Graph& graph_;
   WatchedSystem& watched_;
+  PluginCatalogue& catalogue_;
   Executive& executive_;
   const std::vector<TimedChange>& changes_;
   Swaps swaps_;

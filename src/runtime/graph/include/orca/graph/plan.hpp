@@ -17,6 +17,8 @@ enum class Effort {
   none,      ///< Nothing runs otherwise.
   set,       ///< Parameters change between two laps.
   rewire,    ///< Connections are made or removed between two laps.
+  add,       ///< A component comes up beside the others.
+  remove,    ///< A component ends when its connections are gone.
   exchange,  ///< Code is tried, then exchanged between two laps.
   restart,   ///< The system has to be started again.
 };
@@ -43,9 +45,13 @@ struct GraphPlan {
   };
 
   std::vector<Line> lines;
+  std::vector<ComponentNode> added;        ///< In the order in which they start.
+  std::vector<std::string> removed;        ///< In the order in which they end.
   std::vector<Rewiring> connections;       ///< Sorted by name.
   std::vector<Exchange> exchanges;         ///< Sorted by component.
   std::map<std::string, Params> settings;  ///< What changes, by component. None of those that get other code.
+  /// Returns the connections whose clients come, or those of all other clients.
+  [[nodiscard]] std::vector<Rewiring> connections_of(bool newcomers) const;
   /// Returns whether the system can stay up.
   [[nodiscard]] bool is_possible() const;
 };
@@ -62,7 +68,8 @@ struct GraphPlan {
 /// Makes an edge part of a list, in place of the one of its name, or removes that.
 void put(const Edge& edge, bool is_there, std::vector<Edge>& edges);
 
-/// Takes over from a wanted graph all that can change while the system runs. The nodes stay where they are.
+/// Takes over from a wanted graph all that can change while the system runs. The nodes stay where they are unless components
+/// come or go.
 /// @pre  the plan from one to the other is possible.
 void go_over(Graph& graph, const Graph& wanted);
 

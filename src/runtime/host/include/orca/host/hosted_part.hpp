@@ -44,9 +44,12 @@ struct PartOrder {
     suspend,        ///< Pauses a component between two laps.
     resume,         ///< Resumes a component.
     set_params,     ///< Gives a component new parameter values, all or none.
-    rewire,         ///< Makes and removes connections, between two laps of the components at their ends.
-    check_unused,   ///< Does nothing; refused if a component is in use, with its name.
-    swap,           ///< Exchanges a component's code. Other orders are carried out meanwhile.
+    add,     ///< Learns of a component that is new in the graph, and constructs it if it is this process's.
+    remove,  ///< Ends a component that nobody is connected to any more.
+    open_gate,     ///< Lets one component work.
+    rewire,        ///< Makes and removes connections, between two laps of the components at their ends.
+    check_unused,  ///< Does nothing; refused if a component is in use, with its name.
+    swap,          ///< Exchanges a component's code. Other orders are carried out meanwhile.
   };
   /// Takes the outcome, on the part's main task. It must not block.
   using Done = std::function<void(const Status&)>;
@@ -55,6 +58,8 @@ struct PartOrder {
   std::string component{};                      ///< Of the orders that concern one.
   std::map<std::string, std::string> params{};  ///< Values as written in a graph, with units.
   Done done{};
+  /// The component to add, if that is the order. Its parameters are those in `params`.
+  std::shared_ptr<graph::ComponentNode> node{};
   std::shared_ptr<SwapOrder> swap{};  ///< What is to be exchanged, if that is the order.
   /// The connections to make and to remove, if that is the order. What is so already is made anew, or left alone. If one cannot
   /// be changed, those after it are not.

@@ -39,6 +39,9 @@ enum class Kind : std::uint16_t {
   swap_code = 71,
   note_graph = 72,
   rewire = 73,
+  add_component = 74,
+  remove_component = 75,
+  open_gate = 76,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,

@@ -14,19 +14,21 @@
 namespace orca::supervisor {
 
 /// The memory that all host processes of a machine share with their supervisor: a count of missions, a heartbeat for each
-/// process, and doorbells. Processes and components are counted in the order of the graph. Each word has a cache line of
-/// its own.
+/// process, and doorbells. Processes are counted in the order of the graph, components as the supervisor says: some may come
+/// later. Each word has a cache line of its own.
 ///
 /// Any of the processes may write anything into it, so a reader must cope with every value of every word. No size and no
-/// place is read from it.
+/// place is read from what is written in it.
 ///
 /// Thread contract: any thread.
 class RunPage {
  public:
   /// Makes the page of a machine, with all words 0.
+  /// @param components  those that there may ever be.
   /// @errors  as MemoryFile::create().
   [[nodiscard]] static Result<RunPage> create(std::size_t processes, std::size_t components);
   /// Maps the page that the supervisor has made for the same graph.
+  /// @param components  those that there are at least.
   /// @errors  data_loss if the memory is no page for so many processes and components.
   [[nodiscard]] static Result<RunPage> map(Descriptor file, std::size_t processes, std::size_t components);
 

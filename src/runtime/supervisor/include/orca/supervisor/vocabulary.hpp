@@ -34,11 +34,12 @@ struct EdgeMemory {
 /// Tells a new process who it is. The first order.
 struct Setup {
   static constexpr Kind kKind = Kind::setup;
-  std::string process;            ///< Its name in the graph.
-  std::string graph;              ///< The expanded graph, as `deployer --print` writes it.
-  Pairs options;                  ///< Of the run, by their names on the command line.
-  Descriptor run_page;            ///< See orca/supervisor/run_page.hpp.
-  std::vector<EdgeMemory> edges;  ///< The edges to other processes that use memory.
+  std::string process;                 ///< Its name in the graph.
+  std::string graph;                   ///< The expanded graph, as `deployer --print` writes it.
+  Pairs options;                       ///< Of the run, by their names on the command line.
+  Descriptor run_page;                 ///< See orca/supervisor/run_page.hpp.
+  std::vector<EdgeMemory> edges;       ///< The edges to other processes that use memory.
+  std::vector<std::string> doorbells;  ///< The components whose doorbells are in the run page, in this order.
 };
 /// Asks to construct all components and hardware and to connect the ports. Built comes before the answer.
 struct Build {
@@ -193,6 +194,23 @@ struct Rewire {
   static constexpr Kind kKind = Kind::rewire;
   std::vector<EdgeChange> changes;
 };
+/// Tells of a component that is new in the graph. The process that has it constructs it.
+struct AddComponent {
+  static constexpr Kind kKind = Kind::add_component;
+  graph::ComponentNode node;   ///< Without parameters and properties.
+  Pairs values;                ///< Its parameters, as texts.
+  std::uint64_t doorbell = 0;  ///< Place of its doorbell in the run page.
+};
+/// Tells of a component that nobody is connected to any more, and that goes. The process that has it ends it.
+struct RemoveComponent {
+  static constexpr Kind kKind = Kind::remove_component;
+  std::string component;
+};
+/// Asks to let one component work.
+struct OpenGate {
+  static constexpr Kind kKind = Kind::open_gate;
+  std::string component;
+};
 /// Says that the run has another graph now, of which the process runs its part already: a supervisor that adopts it must have
 /// the same.
 struct NoteGraph {
@@ -200,10 +218,10 @@ struct NoteGraph {
   std::string graph;  ///< As graph::print() writes it.
 };
 
-using Order =
-    std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend, Resume,
-                 SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors, Count, OpenLine, Meet,
-                 Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode, NoteGraph, Rewire>;
+using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
+                           Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors,
+                           Count, OpenLine, Meet, Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode,
+                           NoteGraph, Rewire, AddComponent, RemoveComponent, OpenGate>;
 
 // ---- Reports, from a host process to the supervisor.
 
@@ -311,7 +329,8 @@ struct Orphaned {
   std::uint64_t graph = 0;  ///< mark_of() the expanded graph.
   Pairs options;            ///< Of the run, as in Setup.
   Descriptor run_page;
-  Descriptor output;  ///< The reading end of its stdout and stderr.
+  Descriptor output;                   ///< The reading end of its stdout and stderr.
+  std::vector<std::string> doorbells;  ///< As in Setup, with those of components that came later.
 };
 /// A component runs other code from now on than the graph names.
 struct ExchangedCode {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/host/catalogue.hpp"
+#include "orca/host/hosted_part.hpp"
+#include "outer_edges.hpp"
+#include "outer_offers.hpp"
+#include "run/swap/swaps.hpp"
+#include "run/watched_system.hpp"
+
+namespace orca::host {
+
+/// Returns the error of who asks for a port that is not there.
+[[nodiscard]] Error no_such(const graph::PortRef& port);
+
+/// What changes in the part of a system while it runs: components come and go, in this process or in others, and connections.
+///
+/// Thread contract: the part's main task.
+class PartChanges {
+ public:
+  /// The graph of all processes, as it is now.
+  struct Whole {
+    graph::Graph& graph;
+    std::mutex& mutex;  ///< Held while it changes, and by other threads that read it or use ports.
+  };
+
+  /// @param process  the one that this process is. All others outlive the object.
+  PartChanges(std::string process, Whole whole, PluginCatalogue& catalogue, WatchedSystem& watched,
+              OuterEdges& outer, OuterOffers& offers, Swaps& swaps);
+
+  /// Learns of a component, and constructs it if it is this process's.
+  /// @param params  all of them, as written in a graph.
+  /// @errors  those of System::add(); invalid_argument for the parameters.
+  Status add(graph::ComponentNode node, const std::map<std::string, std::string>& params);
+  /// Lets a component work.
+  /// @errors  not_found.
+  Status open_gate(const std::string& name);
+  /// Forgets a component, after it has ended if it was this process's.
+  /// @param last  takes it before it is destroyed.
+  /// @errors  those of System::remove(); failed_precondition while its code is being exchanged.
+  Status remove(const std::string& name, TimePoint limit,
+                const std::function<void(const ComponentInstance&)>& last);
+  /// Makes and removes connections; see PartOrder::connections.
+  Status rewire(const std::shared_ptr<std::vector<ConnectionChange>>& changes, TimePoint limit);
+
+ private:
+  Result<graph::Params> read_params(const graph::ComponentNode& node,
+                                    const std::map<std::string, std::string>& texts);
+  Status rewire(const std::shared_ptr<const ConnectionChange>& change, TimePoint limit);
+
+  const std::string process_;
+  const Whole whole_;
+  PluginCatalogue& catalogue_;
+  WatchedSystem& watched_;
+  OuterEdges& outer_;
+  OuterOffers& offers_;
+  Swaps& swaps_;
+};
+
+}  // namespace orca::host

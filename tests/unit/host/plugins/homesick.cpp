@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <csignal>
+#include <fstream>
+#include <string>
+
+#include "orca/component.hpp"
+
+namespace {
+
+/// Cannot be configured in one process, although it can be in the deployer's, where a graph is checked.
+class Homesick final : public orca::Component {
+ public:
+  explicit Homesick(orca::ComponentHost& host) : Component(host) {}
+
+ private:
+  orca::Status configure() override {
+    lap_every(orca::from_seconds(0.1));
+    stay_active(true);
+    std::ifstream name("/proc/self/comm");
+    std::string here;
+    std::getline(name, here);
+    if (here != *abroad_) return orca::ok();
+    if (*crashes_) std::raise(SIGSEGV);
+    return orca::fail(orca::Code::failed_precondition, "this is not home");
+  }
+  orca::Outcome work() override { return orca::again(); }
+
+  orca::Param<std::string> abroad_{*this, "abroad", "", {.text = "Process in which it cannot be."}};
+  orca::Param<bool> crashes_{*this, "crashes", false, {.text = "Whether it crashes there."}};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(Homesick, "test.Homesick")
