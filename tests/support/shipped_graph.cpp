@@ -52,6 +52,8 @@ void ShippedGraph::remove(const std::string& component) {
   text_ = without(text_, "; " + component + "(?=\")");
 }
 
+void ShippedGraph::add(const std::string& elements) { insert_before(text_, "</graph>", elements); }
+
 void ShippedGraph::watch_motion(const std::string& base) {
   const std::string watch = base.substr(0, base.rfind('/') + 1) + "watch";
   std::smatch found;

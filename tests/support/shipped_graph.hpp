@@ -18,6 +18,8 @@ class ShippedGraph {
 
   /// Takes a component away with all that names it: its connections, and its place in lists of behaviours.
   void remove(const std::string& component);
+  /// Adds elements at its end.
+  void add(const std::string& elements);
   /// Adds test.MotionWatch, which reports in the log when the robot moves and rests. It is called "watch", in the
   /// context of the base.
   /// @param base  name of the component that gives its odometry.

@@ -11,6 +11,7 @@
 
 #include "deployer.hpp"
 #include "hosted_system.hpp"
+#include "shipped_graph.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -260,6 +261,35 @@ TEST_CASE("a system becomes each of many graphs, and what stays never misses an 
     }
   }
   system.end();
+}
+
+TEST_CASE("a component comes and goes at hardware that others use, while the robot drives",
+          "[system][grow]") {
+  const TempFolder folder;
+  ShippedGraph graph("scout_goto_processes");
+  const std::string start = folder.write("start.xml", graph.text());
+  graph.add(
+      "  <component name=\"second\" type=\"orca.TruthLocalizer\" process=\"base\" hardware=\"scout\" "
+      "autonomous=\"true\"/>\n");
+  const std::string more = folder.write("more.xml", graph.text());
+  Subprocess program(deployer({start}));
+  const auto drives = [] {
+    return run_orcactl({"hz", "base.MotionCommandSend", "--for", "300ms"}).exit_code() == 0;
+  };
+  REQUIRE(comes_true(drives, Seconds(10)));
+  for (int i = 0; i < 2; ++i) {
+    const Run come = run_orcactl({"apply", more});
+    INFO(come.err << program.err());
+    REQUIRE(come.exit_code() == 0);
+    CHECK(run_orcactl({"echo", "second.RobotPosePush", "--count", "3"}).exit_code() == 0);
+    REQUIRE(run_orcactl({"apply", start}).exit_code() == 0);
+    CHECK(run_orcactl({"echo", "localizer.RobotPosePush", "--count", "3"}).exit_code() == 0);
+  }
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+  const Run run = finish(program, Seconds(10));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK_FALSE(run.says("alarm"));
 }
 
 TEST_CASE("in virtual time components come and go at given times, and the run repeats", "[system][grow]") {

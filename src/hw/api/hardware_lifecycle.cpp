@@ -13,6 +13,11 @@ void HardwareLifecycle::watch(Strand& strand) {
   watchers_.push_back(&strand);
 }
 
+void HardwareLifecycle::unwatch(const Strand& strand) {
+  const std::lock_guard lock(mutex_);
+  std::erase(watchers_, &strand);
+}
+
 void HardwareLifecycle::fail_with(const std::string& reason) {
   report(reason);
   handle(HardwareEvent::failed);

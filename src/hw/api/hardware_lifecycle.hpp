@@ -16,7 +16,7 @@ namespace orca::hw {
 /// The state of one hardware container. It looks an event up in the table of hardware_states.hpp, carries out
 /// the actions, and keeps the reason why the container failed.
 ///
-/// Thread contract: state(), fault() and watch() from any strand; the rest on the container's strand, or
+/// Thread contract: state(), fault(), watch() and unwatch() from any strand; the rest on the container's strand, or
 /// before that strand starts.
 class HardwareLifecycle {
  public:
@@ -37,6 +37,8 @@ class HardwareLifecycle {
   [[nodiscard]] std::string fault() const;
   /// Wakes `strand` at every change of state.
   void watch(Strand& strand);
+  /// Forgets `strand`, which is not woken once this has returned.
+  void unwatch(const Strand& strand);
 
  private:
   using FollowUp = std::optional<HardwareEvent>;  // the event that an action ended in

@@ -93,6 +93,12 @@ void HardwareSeat::watch(Strand& strand) {
   driver_->watch(strand);
 }
 
+void HardwareSeat::unwatch(const Strand& strand) {
+  const std::lock_guard lock(mutex_);
+  std::erase(watchers_, &strand);
+  driver_->unwatch(strand);
+}
+
 void HardwareSeat::hold(const std::string& reason) {
   const std::lock_guard lock(mutex_);
   held_ = reason;

@@ -116,7 +116,9 @@ HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectT
   }
 }
 
-HardwareServer::~HardwareServer() = default;
+HardwareServer::~HardwareServer() {
+  if (watches_) seat_->unwatch(host().strand());
+}
 
 void HardwareServer::offer_motion() {
   const std::optional<DriveLimits> base = seat_ != nullptr ? seat_->limits() : std::nullopt;
@@ -134,6 +136,7 @@ void HardwareServer::offer_motion() {
 Status HardwareServer::configure() {
   if (seat_ == nullptr) return fail(Code::failed_precondition, "the graph binds no hardware to it");
   seat_->watch(host().strand());
+  watches_ = true;
   for (const auto& sensor : sensors_) sensor->connect();
   return ok();
 }

@@ -207,3 +207,19 @@ TEST_CASE("observers of a container are woken when its state changes", "[hw][con
     robot.end();
   });
 }
+
+TEST_CASE("an observer that has gone is not woken", "[hw][container]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    Strand watcher(executive, {"watcher", 0});
+    RunningScout robot(executive);
+    robot.scout.watch(watcher);
+    CHECK(
+        watcher.wait_for(executive.now() + 5s, [&] { return robot.scout.state() == HardwareState::ready; }));
+    robot.scout.unwatch(watcher);
+    robot.scout.acquire();
+    const TimePoint begin = executive.now();
+    (void)watcher.wait_for(begin + 300ms, [&] { return robot.scout.state() == HardwareState::active; });
+    CHECK(executive.now() >= begin + 300ms);
+    robot.end();
+  });
+}

@@ -128,8 +128,9 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     if (plan_.added.empty() && plan_.removed.empty()) return rewire();
     owner_.operating_.expect(comers());
     for (const std::string& name : plan_.removed)
-      if (owner_.exchanging_.is_busy(name))
-        return set_back(fail(Code::unavailable, "its code is being exchanged; try again later", name));
+      if (owner_.exchanging_.is_busy(name) || owner_.exchanging_.is_busy(node_of(name).hardware))
+        return set_back(
+            fail(Code::unavailable, "its code, or its driver, is being exchanged; try again later", name));
     const Result<std::vector<AddComponent>> orders = introduced();
     if (!orders) return set_back(orders.error());
     carry_out(arrival_steps(*orders), [this](const Status& outcome) {

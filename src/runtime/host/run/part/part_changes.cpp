@@ -59,7 +59,8 @@ Status PartChanges::open_gate(const std::string& name) {
 
 Status PartChanges::remove(const std::string& name, TimePoint limit,
                            const std::function<void(const ComponentInstance&)>& last) {
-  if (swaps_.is_under_way(name)) return fail(Code::failed_precondition, "its code is being exchanged", name);
+  if (swaps_.is_under_way(name) || swaps_.concern_drivers())
+    return fail(Code::failed_precondition, "its code, or a driver, is being exchanged", name);
   std::unique_ptr<ComponentInstance> rest;
   if (watched_.system().component(name) != nullptr) {
     Result<std::unique_ptr<ComponentInstance>> removed = watched_.system().remove(name, limit);

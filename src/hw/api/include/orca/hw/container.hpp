@@ -103,6 +103,8 @@ class HardwareContainer {
   [[nodiscard]] std::string fault() const;
   /// Wakes `strand` at every change of state.
   void watch(Strand& strand);
+  /// Forgets `strand`, which is not woken once this has returned.
+  void unwatch(const Strand& strand);
 
  protected:
   /// @pre  called from prepare(); the endpoints live as long as the container.

@@ -71,6 +71,8 @@ class HardwareSeat final : public Device {
   [[nodiscard]] std::string fault() const;
   /// Wakes `strand` at every change of state.
   void watch(Strand& strand);
+  /// Forgets `strand`, which is not woken once this has returned.
+  void unwatch(const Strand& strand);
 
   // For the process.
 

@@ -59,6 +59,7 @@ class HardwareServer : public Component {
   void release_idle_motion();
 
   HardwareSeat* const seat_;
+  bool watches_ = false;  // whether the seat wakes the strand
   std::vector<std::unique_ptr<SensorPorts>> sensors_;
   std::unique_ptr<SendServer<idl::MotionCommand>> motion_;
   std::unique_ptr<SendServer<idl::HolonomicVelocity>> velocity_;
