@@ -8,7 +8,7 @@
 namespace orca::host {
 namespace {
 
-constexpr int kMostLateLaps = 3;
+constexpr std::size_t kMostLateLaps = 3;
 
 bool works(ComponentState state) {
   return state == ComponentState::work || state == ComponentState::suspended_work;
@@ -46,7 +46,8 @@ Status Succession::take_over(Residency& successor, ComponentState state, TakeOve
     return entered;
   }
   predecessor_ = &successor;
-  late_laps_ = 0;
+  allowed_late_laps_ = 2 * late_laps_.count() + kMostLateLaps;
+  late_laps_ = {};
   const std::lock_guard lock(mutex_);
   taken_back_.reset();
   report.pause = parts_.now() - began;
@@ -113,6 +114,7 @@ void Succession::seat(ComponentState state) {
 bool Succession::take_back(ComponentState state, const std::string& why) {
   if (predecessor_ == nullptr) return false;
   residency_.trade_places(*std::exchange(predecessor_, nullptr));
+  late_laps_ = {};
   seat(state);
   catch_up(state);
   parts_.run.reporter.note(make_alarm(AlarmKind::swap_undone, parts_.settings.name, "",
@@ -161,14 +163,14 @@ Status Succession::pause() {
 
 bool Succession::is_too_slow(TimePoint began) {
   const Duration period = parts_.laps.period();
-  if (period > Duration{0} && parts_.now() - began > period) ++late_laps_;
-  return late_laps_ >= kMostLateLaps;
+  late_laps_.note(period > Duration{0} && parts_.now() - began > period);
+  return predecessor_ != nullptr && late_laps_.count() >= allowed_late_laps_;
 }
 
 std::string Succession::too_slow_text() const {
   char text[96];
-  std::snprintf(text, sizeof text, "%d of its laps took longer than their period of %g s", late_laps_,
-                to_seconds(parts_.laps.period()));
+  std::snprintf(text, sizeof text, "%zu of its laps took longer than their period of %g s",
+                late_laps_.count(), to_seconds(parts_.laps.period()));
   return text;
 }
 

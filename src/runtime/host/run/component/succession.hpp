@@ -2,6 +2,8 @@
 #pragma once
 
 #include <atomic>
+#include <bitset>
+#include <cstddef>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -18,6 +20,26 @@ struct TakeOver {
   Duration pause{0};  ///< Time during which neither of them could work [s of the run's clock].
   /// The state that went from the old object to the new one; nothing: the new one began afresh.
   std::optional<StateTag> state;
+};
+
+/// How many of the last laps took longer than their period.
+///
+/// Thread contract: one thread.
+class LateLaps {
+ public:
+  static constexpr std::size_t kWindow = 200;  ///< Laps that count.
+
+  void note(bool is_late) {
+    count_ += static_cast<std::size_t>(is_late) - static_cast<std::size_t>(late_[next_]);
+    late_[next_] = is_late;
+    next_ = (next_ + 1) % kWindow;
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  std::bitset<kWindow> late_;
+  std::size_t next_ = 0;
+  std::size_t count_ = 0;
 };
 
 /// The exchange of one component's object for another one while the component runs, and the way back. The old object keeps
@@ -38,10 +60,11 @@ class Succession {
   /// Ends the time in which the old object may come back.
   void confirm() { predecessor_ = nullptr; }
 
-  /// Brings the old object back if too many laps of the new one have taken longer than their period, before confirm().
+  /// Notes how long a lap has taken. Brings the old object back if too many laps of the new one have taken longer than their
+  /// period, before confirm(): three more than twice as many as of the old one's last laps, since on a busy machine any lap may.
   /// @return whether it is back.
   bool judge_lap(ComponentState state, TimePoint began) {
-    return predecessor_ != nullptr && is_too_slow(began) && take_back(state, too_slow_text());
+    return is_too_slow(began) && take_back(state, too_slow_text());
   }
 
   /// Puts the old object back, if confirm() has not been called.
@@ -69,8 +92,9 @@ class Succession {
 
   ComponentParts& parts_;
   Residency& residency_;
-  Residency* predecessor_ = nullptr;  // holds the old object; null: there is no way back
-  int late_laps_ = 0;                 // of the new object
+  Residency* predecessor_ = nullptr;   // holds the old object; null: there is no way back
+  LateLaps late_laps_;                 // of the present object
+  std::size_t allowed_late_laps_ = 0;  // of the new object on probation
   mutable std::mutex mutex_;
   std::optional<std::string> taken_back_;  // guarded by mutex_
 };
