@@ -24,9 +24,9 @@ HardwareState HardwareContainer::state() const { return loop_->life().state(); }
 
 std::string HardwareContainer::fault() const { return loop_->life().fault(); }
 
-void HardwareContainer::watch(Strand& strand) { loop_->life().watch(strand); }
-
-void HardwareContainer::unwatch(const Strand& strand) { loop_->life().unwatch(strand); }
+void HardwareContainer::watch(Strand& strand, bool on) {
+  on ? loop_->life().watch(strand) : loop_->life().unwatch(strand);
+}
 
 Status HardwareContainer::check_active() const {
   if (motion_ == nullptr) return fail(Code::failed_precondition, host_.name() + " has nothing that moves");

@@ -93,10 +93,10 @@ void HardwareSeat::watch(Strand& strand) {
   driver_->watch(strand);
 }
 
-void HardwareSeat::unwatch(const Strand& strand) {
+void HardwareSeat::unwatch(Strand& strand) {
   const std::lock_guard lock(mutex_);
   std::erase(watchers_, &strand);
-  driver_->unwatch(strand);
+  driver_->watch(strand, false);
 }
 
 void HardwareSeat::hold(const std::string& reason) {

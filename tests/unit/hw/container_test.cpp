@@ -215,7 +215,7 @@ TEST_CASE("an observer that has gone is not woken", "[hw][container]") {
     robot.scout.watch(watcher);
     CHECK(
         watcher.wait_for(executive.now() + 5s, [&] { return robot.scout.state() == HardwareState::ready; }));
-    robot.scout.unwatch(watcher);
+    robot.scout.watch(watcher, false);
     robot.scout.acquire();
     const TimePoint begin = executive.now();
     (void)watcher.wait_for(begin + 300ms, [&] { return robot.scout.state() == HardwareState::active; });

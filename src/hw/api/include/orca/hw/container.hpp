@@ -102,9 +102,8 @@ class HardwareContainer {
   /// Returns why the state is Fault.
   [[nodiscard]] std::string fault() const;
   /// Wakes `strand` at every change of state.
-  void watch(Strand& strand);
-  /// Forgets `strand`, which is not woken once this has returned.
-  void unwatch(const Strand& strand);
+  /// @param on  false: no more. It is not woken once this has returned.
+  void watch(Strand& strand, bool on = true);
 
  protected:
   /// @pre  called from prepare(); the endpoints live as long as the container.

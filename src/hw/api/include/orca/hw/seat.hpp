@@ -72,7 +72,7 @@ class HardwareSeat final : public Device {
   /// Wakes `strand` at every change of state.
   void watch(Strand& strand);
   /// Forgets `strand`, which is not woken once this has returned.
-  void unwatch(const Strand& strand);
+  void unwatch(Strand& strand);
 
   // For the process.
 
