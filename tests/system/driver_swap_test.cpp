@@ -81,7 +81,7 @@ TEST_CASE(
   CHECK(run.exit_code() == 0);
   REQUIRE(run.arrivals().size() == 1);
   CHECK(run.arrivals().front().x == Approx(6.0).margin(0.5));
-  const std::string pause = from(run.err, "cart 1 stops at once");
+  const std::string pause = from(from(run.err, "its driver is to be exchanged"), "cart 1 stops at once");
   CHECK(pause.find("cart 1 close") < pause.find("cart 2 open"));
   CHECK_THAT(pause, !Contains("cart 1 moves"));
   CHECK_THAT(run.err, !Contains("PLUGIN_PINNED"));
