@@ -26,6 +26,8 @@ inline constexpr bool kThreadSanitizer = false;
 /// Factor on upper bounds of time, which are for the optimised program on a machine that has nothing else to do. Sanitizers make
 /// it many times slower, and so does a machine with other work.
 inline constexpr double kSlowdown = kSanitized ? 20.0 : 4.0;
+/// The same for processor time, which other work does not change.
+inline constexpr double kSlowCode = kSanitized ? 20.0 : 1.0;
 
 /// Whether a run over DDS is to end without an alarm: with ThreadSanitizer, plugins stay in memory in a process that has
 /// opened Fast DDS, and each is reported as PLUGIN_PINNED.

@@ -33,10 +33,10 @@ class Tellers {
   explicit Tellers(const std::string& broken = "test_teller_throwing") {
     const fs::path plugins = folder_.file("plugins");
     fs::create_directory(plugins);
-    copy(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so", plugins);
-    copy(ORCA_BINARY_DIR "/tests/host_plugins/test_teller.so", plugins);
-    copy(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_other.so", plugins);
-    copy(ORCA_BINARY_DIR "/tests/next_plugins/" + broken + ".so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_teller.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_other.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/next_plugins/" + broken + ".so", plugins);
   }
 
   // Writes a graph, and returns its file.
@@ -57,13 +57,6 @@ class Tellers {
   }
 
  private:
-  // The list of types lies beside a plugin.
-  static void copy(fs::path from, const fs::path& folder) {
-    fs::copy_file(from, folder / from.filename());
-    from.replace_extension(".types");
-    fs::copy_file(from, folder / from.filename());
-  }
-
   TempFolder folder_;
 };
 

@@ -51,10 +51,10 @@ class Graphs {
   Graphs() {
     const fs::path plugins = folder_.file("plugins");
     fs::create_directory(plugins);
-    copy(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so", plugins);
-    copy(ORCA_BINARY_DIR "/tests/host_plugins/test_teller.so", plugins);
-    copy(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_other.so", plugins);
-    copy(ORCA_BINARY_DIR "/tests/host_plugins/test_homesick.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_teller.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_other.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_homesick.so", plugins);
   }
 
   // Writes a graph, and returns its file.
@@ -76,13 +76,6 @@ class Graphs {
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
 
  private:
-  // The list of types lies beside a plugin.
-  static void copy(fs::path from, const fs::path& folder) {
-    fs::copy_file(from, folder / from.filename());
-    from.replace_extension(".types");
-    fs::copy_file(from, folder / from.filename());
-  }
-
   TempFolder folder_;
 };
 

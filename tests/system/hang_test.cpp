@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One signal ends the process within 3 s, whatever hangs and whenever, and the last line names it.
+// One signal ends the process within 3 s if the machine has nothing else to do, whatever hangs and whenever, and the last line names it.
 #include <signal.h>
 #include <sys/stat.h>
 

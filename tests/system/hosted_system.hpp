@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <random>
 #include <sstream>
@@ -28,6 +29,13 @@ inline constexpr Seconds kMoment{0.001};  // between two looks at what happens
 inline Seconds since_boot() { return Clock::now().time_since_epoch(); }
 
 using Nobody = std::vector<std::string>;
+
+// Copies a plugin into a folder, with the list of its types, which lies beside it.
+inline void copy_plugin(std::filesystem::path from, const std::filesystem::path& folder) {
+  std::filesystem::copy_file(from, folder / from.filename());
+  from.replace_extension(".types");
+  std::filesystem::copy_file(from, folder / from.filename());
+}
 
 // Waits until something is so; false if it is not in time.
 template <class Condition>

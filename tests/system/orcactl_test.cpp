@@ -378,7 +378,7 @@ TEST_CASE(
     CHECK(run_orcactl({"ps"}).exit_code() == 0);
   }
   CHECK(run_orcactl({"ps"}).exit_code() == 0);
-  CHECK(cpu_time_of(system.program().pid()) - cpu_before < Seconds(1.0) * kSlowdown);
+  CHECK(cpu_time_of(system.program().pid()) - cpu_before < Seconds(1.0) * kSlowCode);
   system.stop();
 }
 

@@ -323,6 +323,6 @@ TEST_CASE("the supervisor needs nearly no CPU time", "[system][processes]") {
   std::this_thread::sleep_for(Seconds(20));
   const double share = (cpu_time_of(system.program().pid()) - before) / Seconds(20);
   std::printf("CPU time of the supervisor: %.2f %%\n", 100.0 * share);
-  CHECK(share < 0.05 * kSlowdown);
+  CHECK(share < 0.05 * kSlowCode);
   stop(system);
 }

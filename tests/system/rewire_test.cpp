@@ -24,9 +24,9 @@ class Talk {
   explicit Talk(const std::string& process) : process_(process) {
     const fs::path plugins = folder_.file("plugins");
     fs::create_directory(plugins);
-    copy(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so", plugins);
-    copy(ORCA_BINARY_DIR "/tests/host_plugins/test_teller.so", plugins);
-    copy(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_other.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_teller.so", plugins);
+    copy_plugin(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_other.so", plugins);
     file_ = write("talk.xml", "<connect from=\"a.out\" to=\"talker.back\" queue=\"1000\"/>");
   }
 
@@ -48,13 +48,6 @@ class Talk {
   [[nodiscard]] const std::string& process() const { return process_; }
 
  private:
-  // The list of types lies beside a plugin.
-  static void copy(fs::path from, const fs::path& folder) {
-    fs::copy_file(from, folder / from.filename());
-    from.replace_extension(".types");
-    fs::copy_file(from, folder / from.filename());
-  }
-
   const std::string process_;
   TempFolder folder_;
   std::string file_;

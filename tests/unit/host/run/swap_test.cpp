@@ -32,7 +32,7 @@ TEST_CASE(
     CHECK(beginning(said, "poke").empty());
     CHECK(beginning(said, "not sent").empty());
     const Words heard = beginning(said, "heard ");
-    REQUIRE(heard.size() > 20);
+    REQUIRE(heard.size() > (kind.clock == ClockKind::steady ? 20U : 200U));  // a busy machine says less
     const auto first_new =
         std::ranges::find_if(heard, [](const auto& h) { return h.starts_with("heard 2:"); });
     REQUIRE(first_new != heard.end());
