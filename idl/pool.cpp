@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "pool.hpp"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <new>
 #include <utility>
 
+#include "orca/idl/object_type.hpp"
+
 namespace orca {
 namespace detail {
 namespace {
+
+// ThreadSanitizer does not follow copies of a process, and follows 64 locks at once.
+#if !defined(__SANITIZE_THREAD__)
+void lock_all() {
+  for (const ObjectType* const type : object_types()) type->pool.lock();
+}
+void unlock_all() {
+  for (const ObjectType* const type : object_types()) type->pool.unlock();
+}
+
+[[maybe_unused]] const int g_registered = pthread_atfork(lock_all, unlock_all, unlock_all);
+#endif
 
 constexpr std::size_t kFirstSlab = 16;
 constexpr std::size_t kLargestSlab = 1024;

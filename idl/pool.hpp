@@ -25,6 +25,10 @@ class Pool {
   void recycle(Slot* slot) noexcept;
   [[nodiscard]] PoolStatistics statistics();
 
+  /// Keep other threads out while the process is copied (fork), so that the copy finds the pool whole and free.
+  void lock() { mutex_.lock(); }
+  void unlock() { mutex_.unlock(); }
+
  private:
   struct Slab {
     Slab* next;

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "orca/base/log_mute.hpp"
+
 namespace orca::log {
 namespace {
 
@@ -33,11 +35,13 @@ DistantListener::~DistantListener() {
 }
 
 bool wants_distant() {
+  if (is_muted()) return false;
   const std::lock_guard lock(listeners().mutex);
   return !listeners().all.empty();
 }
 
 void hear_distant(const Line& line) {
+  if (is_muted()) return;
   const std::lock_guard lock(listeners().mutex);
   for (const DistantListener* const listener : listeners().all) listener->heard_(line);
 }

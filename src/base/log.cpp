@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "orca/base/live_line.hpp"
+#include "orca/base/log_mute.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::log {
@@ -80,6 +81,7 @@ Listener::~Listener() {
 }
 
 void write(Level level, std::string_view who, std::string_view words) {
+  if (is_muted()) return;
   State& s = state();
   const bool shown = s.logger->should_log(to_spdlog(level));
   if (!shown && !s.has_listeners) return;

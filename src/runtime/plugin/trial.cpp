@@ -23,6 +23,7 @@
 #include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/log_mute.hpp"
 
 namespace orca::plugin {
 namespace {
@@ -108,6 +109,7 @@ void skip_leak_check() {
 [[noreturn]] void run_copy(int report_fd, const std::function<void(TrialLine&)>& attempt, Effects effects) {
   const int high = fcntl(report_fd, F_DUPFD_CLOEXEC, kHighDescriptor);
   g_report_fd = high < 0 ? report_fd : high;
+  log::mute();
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // however the parent ends, the copy does not outlive it
   for (const int signal : kSignals) ::signal(signal, SIG_DFL);
   std::set_terminate(report_terminate);

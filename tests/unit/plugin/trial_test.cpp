@@ -15,6 +15,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -24,6 +25,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "orca/base/log.hpp"
+#include "orca/idl/object.hpp"
+#include "orca/idl/object_type.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca;
@@ -64,6 +68,23 @@ TrialResult without_effects(const std::function<void()>& deed) {
   CHECK(tried.findings.front() == "before");
   return tried.ending == Ending::effect && tried.findings.size() == 1;
 }
+
+// A thread that does the same again and again while it lives.
+class Busy {
+ public:
+  explicit Busy(const std::function<void()>& deed)
+      : thread_([this, deed] {
+          while (!ended_) deed();
+        }) {}
+  ~Busy() {
+    ended_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::atomic<bool> ended_{false};
+  std::thread thread_;
+};
 
 void no_way_out() { throw std::runtime_error("no way out"); }
 
@@ -249,6 +270,23 @@ TEST_CASE("a trial that is given up ends soon, and blames nobody", "[plugin][tri
   const TrialResult tried = run_trial([](TrialLine&) { pause(); }, 30s, Effects::none, [&] { return true; });
   CHECK(tried.ending == Ending::silent);
   CHECK(std::chrono::steady_clock::now() - start < 10s);
+}
+
+TEST_CASE("what is tried out may log and make objects whatever other threads did when it began",
+          "[plugin][trial]") {
+  const log::Listener slow([](const log::Line&) { std::this_thread::sleep_for(100us); });
+  const ObjectType& type = *object_types().front();
+  const auto speak = [] { log::debug("busy", "a line that is only heard"); };
+  const auto make = [&type] { (void)make_object(type); };
+  const Busy speaker(speak), maker(make);
+  for (int i = 0; i < 50; ++i) {
+    const TrialResult tried = without_effects([&] {
+      speak();
+      make();
+    });
+    INFO("trial " << i << ": " << tried.text);
+    REQUIRE(tried.ending == Ending::well);
+  }
 }
 
 TEST_CASE("code that closes all its descriptors does not escape its trial, nor hold it up",

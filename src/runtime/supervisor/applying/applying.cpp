@@ -270,7 +270,7 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     if (is_lost(before.component)) return go_back(reason);
     SwapWish wish{before.component, before.code.plugin.file, before.code.type,
                   graph::print_values(before.params)};
-    wish.tryout = Duration{0};  // it has worked before
+    wish.has_worked = true;
     const auto gone_back = [work = weak_from_this(), reason,
                             name = before.component](const Result<Record>& outcome) {
       if (const auto self = work.lock())

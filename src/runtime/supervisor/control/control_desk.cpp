@@ -99,9 +99,9 @@ void ControlDesk::built(const std::vector<Member*>& members) {
 }
 
 void ControlDesk::came_up(const std::vector<Member*>& members) {
-  operating_.came_up(members);
-  exchanging_.came_up(members);
   applying_.came_up(members);
+  exchanging_.came_up(members);
+  operating_.came_up(members);  // the last: it answers whoever has waited for this
 }
 
 const ControlDesk::Handlers& ControlDesk::handlers() {

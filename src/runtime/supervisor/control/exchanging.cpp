@@ -188,6 +188,7 @@ void Exchanging::exchange(SwapWish wish, Told told) {
                           operating_.params_of(**node),
                           std::move(wish.params),
                           wish.tryout};
+  if (wish.has_worked) return order_swap(order, std::move(image).value(), wish.probation, true, pending);
   std::vector<WatchedPort> ports;
   if (wish.tryout > Duration{0}) ports = watch(graph_, wish.component, **member);
   open_.push_back(
@@ -213,9 +214,13 @@ void Exchanging::begin_driver(const SwapWish& wish, const graph::HardwareNode& h
 }
 
 void Exchanging::go_on() {
-  for (Open& open : open_)
-    if (open.tryout->is_done()) go_on(open);
-  std::erase_if(open_, [](const Open& open) { return open.tryout->is_done(); });
+  for (Open& open : std::exchange(open_, {})) {  // whoever is told of an end may begin another exchange
+    if (open.tryout->is_done()) {
+      go_on(open);
+    } else {
+      open_.push_back(std::move(open));
+    }
+  }
   for (const graph::ComponentNode& node : graph_.components)
     if (rebuilt_.contains(node.name) && !is_busy(node.name)) {
       rebuilt_.erase(node.name);
@@ -235,28 +240,31 @@ void Exchanging::go_on(Open& open) {
 
 void Exchanging::exchange(Open& open, const host::ShadowReport& tried) {
   const host::ShadowOrder& order = open.tryout->order();
-  const std::string component = order.component;
+  const std::string& component = order.component;
   if (tried.untried.empty()) {
     log::info(component, "the new code was tried out: it got " + counted(tried.given, "object") +
                              " and pushed " + std::to_string(tried.pushed));
   } else {
     log::warning(component, "the new code could not be tried out: " + tried.untried);
   }
-  const Result<const graph::ComponentNode*> node = names_.component(component);
-  if (!node) return open.pending->end(node.error());  // it has gone meanwhile
+  order_swap(order, open.tryout->take_plugin(), open.probation, tried.untried.empty(), open.pending);
+}
+
+void Exchanging::order_swap(const host::ShadowOrder& order, plugin::PluginImage plugin, Duration probation,
+                            bool was_tried, const PendingPtr& pending) const {
+  const Result<const graph::ComponentNode*> node = names_.component(order.component);
+  if (!node) return pending->end(node.error());  // it has gone meanwhile
   const Result<Member*> member = names_.ready_member_of(**node);
-  if (!member) return open.pending->end(member.error());
-  plugin::PluginImage image = open.tryout->take_plugin();
-  const std::string file = image.origin();
-  SwapCode swap{component,
+  if (!member) return pending->end(member.error());
+  const std::string file = plugin.origin();
+  SwapCode swap{order.component,
                 order.type,
                 {order.new_params.begin(), order.new_params.end()},
-                static_cast<std::uint64_t>(open.probation.count()),
+                static_cast<std::uint64_t>(probation.count()),
                 file,
-                std::move(image).take_bytes(),
-                tried.untried.empty()};
-  (*member)->ask_for(std::move(swap),
-                     [pending = open.pending](const Answer& answer) { pending->end(answer); });
+                std::move(plugin).take_bytes(),
+                was_tried};
+  (*member)->ask_for(std::move(swap), [pending](const Answer& answer) { pending->end(answer); });
 }
 
 void Exchanging::note(const ExchangedCode& code) {

@@ -38,6 +38,7 @@ struct SwapWish {
   std::map<std::string, std::string> params;  ///< New values, as written in a graph.
   Duration tryout{1s};
   Duration probation{2s};
+  bool has_worked = false;  ///< In this system before, so it is not tried out.
 };
 
 /// Exchanges the code of components and drivers at an operator's word, and knows which code each of them runs.
@@ -101,6 +102,8 @@ class Exchanging {
   [[nodiscard]] std::vector<PortContract> ports_of(const std::string& component) const;
   void go_on(Open& open);
   void exchange(Open& open, const host::ShadowReport& tried);
+  void order_swap(const host::ShadowOrder& order, plugin::PluginImage plugin, Duration probation,
+                  bool was_tried, const PendingPtr& pending) const;
   void begin_driver(const SwapWish& wish, const graph::HardwareNode& hardware, const PendingPtr& pending);
   [[nodiscard]] CodeFacts code_of(const std::string& name, const std::string& type) const;
   void forget_exchange(const std::string& name, const std::string& type);

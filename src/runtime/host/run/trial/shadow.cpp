@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "backdrop.hpp"
-#include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/settings.hpp"
 #include "orca/host/last_words.hpp"
@@ -166,7 +165,6 @@ void limit_memory() {
 void play(const ShadowOrder& order, plugin::PluginImage& plugin, std::vector<SeenObject>& seen,
           TrialLine& line) {
   LastWords::leave_copy();
-  log::set_level(log::Level::off);  // another thread may hold the lock of the log, for ever here
   limit_memory();
   const auto refuse = [&line](const Error& error) {
     line.find(marked(Mark::refused, error.text()));
