@@ -279,6 +279,46 @@ TEST_CASE("a change at a time known before is part of a run that repeats bit for
   CHECK(hash_after({"--change", now + "@20s", "--change", other + "@10s"}) != changed);
 }
 
+TEST_CASE("a change that the graph names is carried out as one of the command line", "[system][apply]") {
+  const std::string graph = source_file("sim/experiments/vfh_on_the_way.xml");
+  const std::string other = source_file("sim/experiments/vfh_on_the_way/vfh.xml");
+  const Run run = run_deployer(Words{graph} + virtual_clock(), Seconds(60));
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  REQUIRE(run.arrivals().size() == 3);
+  CHECK(run_deployer(Words{graph} + virtual_clock(), Seconds(60)).trace_hash() == run.trace_hash());
+  const TempFolder folder;
+  std::string plain = read_text(graph);
+  plain.replace(plain.find("../../graphs/"), 13, source_file("graphs/"));
+  plain.erase(plain.find("<change "), plain.find("/>", plain.find("<change ")) + 2 - plain.find("<change "));
+  const std::string without = folder.write("without.xml", plain);
+  const Run ordered = run_deployer(Words{without, "--change", other + "@20s"} + virtual_clock(), Seconds(60));
+  CHECK(ordered.trace_hash() == run.trace_hash());
+  const Run slower = run_deployer(Words{without} + virtual_clock(), Seconds(60));
+  REQUIRE(slower.arrivals().size() == 3);
+  CHECK(slower.arrivals()[2].t > run.arrivals()[2].t + 2.0);
+}
+
+TEST_CASE("a change that the graph names and that cannot be made is refused at its place",
+          "[system][apply]") {
+  const TempFolder folder;
+  const auto refusal = [&](const std::string& change, const Words& words) {
+    const Run run = run_deployer(
+        Words{folder.write(
+            "now.xml",
+            "<graph name=\"vfh_on_the_way\" version=\"1\" default_profile=\"sim\">\n<include file=\"" +
+                source_file("graphs/pioneer_laser_goto.xml") + "\"/>\n" + change + "</graph>")} +
+        words);
+    CHECK(run.exit_code() == 2);
+    return run.err;
+  };
+  const std::string other = source_file("graphs/scout_goto.xml");
+  for (const Words& words : {Words{"--check"}, virtual_clock()})
+    CHECK_THAT(refusal("<change at=\"1 s\" graph=\"" + other + "\"/>", words),
+               Contains("now.xml:3:1: error G074") && Contains("has to be started again for"));
+  CHECK_THAT(refusal("<change at=\"1 s\" graph=\"none.xml\"/>", {"--check"}), Contains("none.xml"));
+}
+
 TEST_CASE("a change that fails makes the run a failure, and one that never came is reported",
           "[system][apply]") {
   const Tellers tellers;

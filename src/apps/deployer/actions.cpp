@@ -11,6 +11,7 @@
 #include "codes.hpp"
 #include "console.hpp"
 #include "describe.hpp"
+#include "orca/base/text.hpp"
 #include "orca/graph/diff.hpp"
 #include "orca/graph/dot.hpp"
 #include "orca/graph/json.hpp"
@@ -77,18 +78,6 @@ ExitCode describe(const Options& options) {
   return ExitCode::bad_input;
 }
 
-ExitCode check(const Options& options) {
-  Loaded loaded(options);
-  load(options.file, options, loaded);
-  if (options.json) show(loaded.diagnostics.json());
-  if (!loaded.graph) return ExitCode::bad_input;
-  if (!options.json) {
-    std::fprintf(stderr, "%s: no errors; %zu components, %zu connections\n", options.file.c_str(),
-                 loaded.graph->components.size(), loaded.graph->edges.size());
-  }
-  return ExitCode::finished;
-}
-
 // Returns 0 if both describe the same system, 1 if they do not, 2 if one of them describes none.
 ExitCode compare(const Options& options) {
   Loaded before(options);
@@ -128,24 +117,37 @@ ExitCode refuse_option(const char* code, const Error& error) {
   return ExitCode::bad_input;
 }
 
-// Reads the graphs that a run goes over to, and plans how.
+// Says why a run cannot go over to another graph.
+void refuse_change(const graph::PlannedChange& change, const std::string& obstacles) {
+  if (change.position.file.empty()) {
+    (void)refuse_option(codes::kOptionValue,
+                        fail(Code::invalid_argument, "--change " + change.file + ": " + obstacles));
+    return;
+  }
+  xml::Diagnostics diagnostics;
+  diagnostics.error(codes::kChange, change.position,
+                    "<change> to " + in_quotes(change.file) + ": " + obstacles);
+  std::fputs(diagnostics.text().c_str(), stderr);
+}
+
+// Reads the graphs that a run goes over to, and plans how. Those of the graph come before those of the command line if their
+// times are the same.
 // @return nothing if that is not possible, after it was said.
 std::optional<std::vector<host::TimedChange>> plan_changes(const Options& options,
                                                            const graph::Graph& graph) {
-  std::vector<Options::PlannedChange> planned = options.changes;
-  std::ranges::stable_sort(planned, {}, &Options::PlannedChange::at);
+  std::vector<graph::PlannedChange> planned = graph.changes;
+  planned.insert(planned.end(), options.changes.begin(), options.changes.end());
+  std::ranges::stable_sort(planned, {}, &graph::PlannedChange::at);
   std::vector<host::TimedChange> changes;
   graph::Graph before = graph;
-  for (const Options::PlannedChange& one : planned) {
+  for (const graph::PlannedChange& one : planned) {
     Loaded after(options);
     load(one.file, options, after);
     if (!after.graph) return std::nullopt;
     const supervisor::SystemFacts facts = supervisor::facts_of(*after.graph, after.catalogue);
     host::TimedChange change{one.file, one.at, graph::plan_of(before, *after.graph, facts.contracts), {}};
     if (!change.plan.is_possible()) {
-      (void)refuse_option(
-          codes::kOptionValue,
-          fail(Code::invalid_argument, "--change " + one.file + ": " + graph::obstacles_of(change.plan)));
+      refuse_change(one, graph::obstacles_of(change.plan));
       return std::nullopt;
     }
     for (const auto& [type, plugin] : facts.plugins) change.plugins[type] = plugin.file;
@@ -153,6 +155,18 @@ std::optional<std::vector<host::TimedChange>> plan_changes(const Options& option
     before = *std::move(after.graph);
   }
   return changes;
+}
+
+ExitCode check(const Options& options) {
+  Loaded loaded(options);
+  load(options.file, options, loaded);
+  if (options.json) show(loaded.diagnostics.json());
+  if (!loaded.graph || !plan_changes(options, *loaded.graph)) return ExitCode::bad_input;
+  if (!options.json) {
+    std::fprintf(stderr, "%s: no errors; %zu components, %zu connections\n", options.file.c_str(),
+                 loaded.graph->components.size(), loaded.graph->edges.size());
+  }
+  return ExitCode::finished;
 }
 
 ExitCode run(const Options& options) {
@@ -171,10 +185,11 @@ ExitCode run(const Options& options) {
   run.looks_on = options.progress.value_or(stderr_can_live());
   Console console(options.stats, run.looks_on);
   if (has_host_processes(options)) {
-    if (!options.changes.empty())
-      return refuse_option(codes::kExcluding, fail(Code::invalid_argument,
-                                                   "--change: host processes are changed with orcactl apply; "
-                                                   "add --clock virtual or --in-process"));
+    if (!run.changes.empty())
+      return refuse_option(codes::kExcluding,
+                           fail(Code::invalid_argument,
+                                "a change at a given time (--change, <change>) needs --clock virtual or "
+                                "--in-process; host processes are changed with orcactl apply"));
     if (const Status fits = check_for_processes(*loaded.graph, options); !fits.ok())
       return refuse_option(codes::kExcluding, fits.error());
     const Result<std::string> machine = machine_of_run(*loaded.graph, options);

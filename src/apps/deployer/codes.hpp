@@ -11,5 +11,7 @@ inline constexpr const char* kOptionValue = "C002";
 inline constexpr const char* kOptionTwice = "C003";
 inline constexpr const char* kExcluding = "C004";
 inline constexpr const char* kFiles = "C005";
+// Of a <change>: what only shows when the other graph is read.
+inline constexpr const char* kChange = "G074";
 
 }  // namespace orca::deployer::codes

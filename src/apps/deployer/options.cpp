@@ -116,7 +116,7 @@ Status add_change(Options& options, const std::string& value) {
     return expected("--change", "GRAPH@TIME, such as other.xml@20s", value);
   const Result<Duration> time = xml::parse_duration(value.substr(at + 1));
   if (!time) return fail(Code::invalid_argument, "--change: " + time.error().message);
-  options.changes.push_back({value.substr(0, at), *time});
+  options.changes.push_back({value.substr(0, at), *time, {}});
   return ok();
 }
 

@@ -8,6 +8,7 @@
 
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
 #include "orca/host/run_system.hpp"
 #include "orca/xml/diagnostics.hpp"
 
@@ -15,12 +16,6 @@ namespace orca::deployer {
 
 /// The requests of a command line.
 struct Options {
-  /// A graph that the run goes over to.
-  struct PlannedChange {
-    std::string file;
-    Duration at{0};  ///< [s of the run's clock]
-  };
-
   enum class Action {
     run,
     check,
@@ -48,10 +43,10 @@ struct Options {
   std::optional<bool> progress;             ///< Show how a run is going; nothing: if stderr is a terminal.
   std::vector<std::string> plugin_folders;  ///< Searched after Orca's own.
   std::vector<std::string> profiles;
-  std::vector<std::string> settings;  ///< From --set: ARG=VALUE or COMPONENT.PARAM=VALUE.
-  std::vector<PlannedChange> changes;
-  xml::Diagnostics problems;  ///< What is wrong with the command line itself (codes Cxxx).
-  host::RunOptions run;       ///< Without its changes, which are to be read.
+  std::vector<std::string> settings;          ///< From --set: ARG=VALUE or COMPONENT.PARAM=VALUE.
+  std::vector<graph::PlannedChange> changes;  ///< Beside those of the graph.
+  xml::Diagnostics problems;                  ///< What is wrong with the command line itself (codes Cxxx).
+  host::RunOptions run;                       ///< Without its changes, which are to be read.
   log::Level log_level = log::Level::info;
 };
 

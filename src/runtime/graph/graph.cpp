@@ -54,6 +54,8 @@ bool operator==(const Edge& a, const Edge& b) {
   return content(a) == content(b);
 }
 
+bool operator==(const PlannedChange& a, const PlannedChange& b) { return a.file == b.file && a.at == b.at; }
+
 const HardwareNode* Graph::find_hardware(const std::string& wanted) const { return find(hardware, wanted); }
 
 const ComponentNode* Graph::find_component(const std::string& wanted) const {

@@ -6,6 +6,7 @@
 #include "checking/placing/demand.hpp"
 #include "checking/placing/placement.hpp"
 #include "checking/placing/processes.hpp"
+#include "changes.hpp"
 #include "components.hpp"
 #include "configuration.hpp"
 #include "endpoints.hpp"
@@ -102,6 +103,7 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
     check_component_exists(name, command_line(), shown_option("--fail", name), model, report);
   for (const std::string& name : options.recorded) check_recorded_port(name, model, report);
   graph.groups = check_groups(parts.groups, model, report);
+  graph.changes = check_changes(parts.changes, report);
   WiredEdges wired = check_wiring(parts.connections, model, report);
   graph.edges = std::move(wired.edges);
   check_waiting_room(model, graph.edges, report);

@@ -74,5 +74,6 @@ inline constexpr const char* kUnknownProperty = "G070";
 inline constexpr const char* kNothingFits = "G071";
 inline constexpr const char* kTrade = "G072";
 inline constexpr const char* kGroup = "G073";
+inline constexpr const char* kChange = "G074";
 
 }  // namespace orca::graph::codes

@@ -38,6 +38,7 @@ std::string Node::whereabouts() const {
 }
 
 std::string Node::title() const {
+  if (is("change")) return "<change>";
   const Text* name = known("name");
   return std::string(rule->name) + (name == nullptr ? " without a name" : " " + in_quotes(name->value));
 }

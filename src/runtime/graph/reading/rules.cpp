@@ -212,6 +212,10 @@ constexpr std::array kGroup{
     AttributeRule{"name", true, "Name of the group; no component has the same."},
     AttributeRule{"components", true,
                   "Its components, of any processes; a component may be in several groups."}};
+constexpr std::array kChange{
+    AttributeRule{"at", true, "Time of the run at which it begins, counted as by --until, for example 20 s.",
+                  seconds(0.0)},
+    AttributeRule{"graph", true, "File of the other graph."}};
 constexpr std::array kPort{
     AttributeRule{"name", true, "Name that the component's author gave the port."},
     AttributeRule{"as", false, "New name of the port, everywhere in this graph."},
@@ -251,6 +255,10 @@ constexpr ElementRule kGroupRule{
     .attributes = kGroup,
     .text = "Components that an operator suspends and resumes together, by one name."};
 
+constexpr ElementRule kChangeRule{.name = "change",
+                                  .attributes = kChange,
+                                  .text = "Another graph that the run goes over to at a time known before."};
+
 constexpr ElementRule kMachineRule{
     .name = "machine", .attributes = kMachine, .text = "A computer of the system."};
 constexpr ElementRule kProcessRule{
@@ -277,16 +285,17 @@ constexpr ElementRule kUseRule{
     .children = kInBringer,
     .text = "Another graph file as a sub-graph: its names get a context of their own."};
 
-constexpr std::array kInProfile{&kMachineRule, &kProcessRule, &kHardwareRule, &kComponentRule,
-                                &kGroupRule,   &kConnectRule, &kIncludeRule,  &kUseRule};
+constexpr std::array kInProfile{&kMachineRule, &kProcessRule, &kHardwareRule, &kComponentRule, &kGroupRule,
+                                &kConnectRule, &kChangeRule,  &kIncludeRule,  &kUseRule};
 constexpr ElementRule kProfileRule{
     .name = "profile",
     .attributes = kProfile,
     .children = kInProfile,
     .text = "Parts that are added, or override others, when the profile is chosen."};
 
-constexpr std::array kInGraph{&kArgRule,       &kProfileRule, &kMachineRule, &kProcessRule, &kHardwareRule,
-                              &kComponentRule, &kGroupRule,   &kConnectRule, &kIncludeRule, &kUseRule};
+constexpr std::array kInGraph{&kArgRule,      &kProfileRule,   &kMachineRule, &kProcessRule,
+                              &kHardwareRule, &kComponentRule, &kGroupRule,   &kConnectRule,
+                              &kChangeRule,   &kIncludeRule,   &kUseRule};
 constexpr ElementRule kGraphRule{.name = "graph",
                                  .attributes = kGraph,
                                  .children = kInGraph,
@@ -295,7 +304,7 @@ constexpr ElementRule kGraphRule{.name = "graph",
 
 constexpr std::array kElements{&kGraphRule,    &kArgRule,       &kProfileRule, &kMachineRule,  &kProcessRule,
                                &kHardwareRule, &kComponentRule, &kParamRule,   &kPropertyRule, &kGroupRule,
-                               &kConnectRule,  &kPortRule,      &kIncludeRule, &kUseRule};
+                               &kConnectRule,  &kPortRule,      &kChangeRule,  &kIncludeRule,  &kUseRule};
 
 constexpr xml::FileRules kFile{"a graph",
                                kElements,

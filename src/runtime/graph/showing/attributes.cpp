@@ -130,6 +130,10 @@ Attributes attributes_of(const PortSetting& setting) {
 
 Attributes attributes_of(const GroupNode& node) { return {{"components", joined(node.components, " ")}}; }
 
+Attributes attributes_of(const PlannedChange& change) {
+  return {{"at", seconds_text(change.at)}, {"graph", change.file}};
+}
+
 Attributes attributes_of(const Edge& edge) {
   Attributes result;
   if (edge.pattern != Pattern::query) {

@@ -11,6 +11,9 @@
 
 namespace orca::graph {
 
+// How diff() calls a planned change, before its time.
+inline constexpr const char* kChangeField = "change at ";
+
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 // Return the attributes of a part, without its name and without values equal to the default.
@@ -21,6 +24,8 @@ Attributes attributes_of(const HardwareNode& node);
 Attributes attributes_of(const ComponentNode& node);
 Attributes attributes_of(const PortSetting& setting);
 Attributes attributes_of(const GroupNode& node);
+// The time comes first.
+Attributes attributes_of(const PlannedChange& change);
 // Returns the attributes without the ends; the policy is complete.
 Attributes attributes_of(const Edge& edge);
 

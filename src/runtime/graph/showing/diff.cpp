@@ -54,6 +54,8 @@ Parts parts_of(const Graph& graph, Change::Part part) {
     std::ranges::sort(sorted.ends);
     parts["graph"] = fields_of(attributes_of(sorted));
     parts["graph"]["name"] = graph.name;
+    for (const PlannedChange& change : graph.changes)
+      parts["graph"][kChangeField + attributes_of(change).front().second] = change.file;
   } else if (part == Change::Part::machine) {
     for (const MachineNode& node : graph.machines) parts[node.name] = fields_of(attributes_of(node));
   } else if (part == Change::Part::process) {

@@ -98,6 +98,13 @@ std::string graph_json(const Graph& graph) {
   json.key("connections").begin_array();
   for (const Edge& edge : graph.edges) write(edge, json);
   json.end();
+  json.key("changes").begin_array();
+  for (const PlannedChange& change : graph.changes) {
+    json.begin_object();
+    write(attributes_of(change), json);
+    json.end();
+  }
+  json.end();
   json.end();
   return json.text();
 }

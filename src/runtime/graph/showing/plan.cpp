@@ -16,6 +16,9 @@ constexpr std::string_view kParam = "param ";
 
 bool is_param(const FieldChange& change) { return change.field.starts_with(kParam); }
 
+// Returns whether it says what a run goes over to later; one that is under way has taken note of that already.
+bool is_planned(const FieldChange& change) { return change.field.starts_with(kChangeField); }
+
 std::string param_of(const FieldChange& change) { return change.field.substr(kParam.size()); }
 
 bool can_change(const FieldChange& change, const Contract* contract) {
@@ -115,7 +118,8 @@ void add_other(const Change& change, const Graph& running, const Graph& wanted, 
   Effort effort = change.part == Change::Part::group ? Effort::none : Effort::restart;
   if (change.part == Change::Part::connection) effort = add_connection(change, running, wanted, plan);
   if (change.part == Change::Part::component) effort = add_or_remove(change, running, wanted, plan);
-  for (const FieldChange& field : change.fields) plan.lines.push_back({title(change), field, effort});
+  for (const FieldChange& field : change.fields)
+    plan.lines.push_back({title(change), field, is_planned(field) ? Effort::none : effort});
   if (change.fields.empty()) plan.lines.push_back({title(change), {}, effort});
 }
 

@@ -68,7 +68,7 @@ std::vector<std::string> texts(const std::vector<PortRef>& refs) {
 }
 
 template <class Value>
-void write(const char* key, const std::vector<Value>& values, JsonWriter& json) {
+void write_values(const char* key, const std::vector<Value>& values, JsonWriter& json) {
   json.key(key).begin_array();
   for (const Value value : values) json.value(value);
   json.end();
@@ -98,8 +98,8 @@ void write(const ListedPort& port, JsonWriter& json) {
   json.member("disabled", port.disabled);
   json.member("connected_to", texts(peers));
   json.member("links", links);
-  write("choices", choices, json);
-  write("in_use", in_use, json);
+  write_values("choices", choices, json);
+  write_values("in_use", in_use, json);
   json.member("candidates", texts(port.candidates));
   json.member("text", port.contract.text);
   json.end();

@@ -75,6 +75,8 @@ std::string print(const Graph& graph) {
   for (const GroupNode& node : graph.groups) result += plain_text("group", node);
   for (const Edge& edge : graph.edges)
     if (!edge.late_bound) result += edge_text(edge);
+  for (const PlannedChange& change : graph.changes)
+    result += element("change", text_of(attributes_of(change)), "");
   return result + "</graph>\n";
 }
 

@@ -211,7 +211,7 @@ TEST_CASE("a process that could not be read causes no further errors", "[graph][
   const std::string said = said_about(robot_in_processes("<proces name='a'/>", "process='a'", "", ""));
   CHECK(said ==
         "test.xml:1:17: error G003: there is no element <proces> in <graph>; it may contain: arg, "
-        "profile, machine, process, hardware, component, group, connect, include, use; did you mean "
+        "profile, machine, process, hardware, component, group, connect, change, include, use; did you mean "
         "\"process\"?\n");
 }
 

@@ -179,7 +179,8 @@ Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& c
   std::map<std::string_view, Merger> mergers{
       {"machine", {parts.machines, clashes}},  {"process", {parts.processes, clashes}},
       {"hardware", {parts.hardware, clashes}}, {"component", {parts.components, clashes}},
-      {"group", {parts.groups, clashes}},      {"connect", {parts.connections, clashes}}};
+      {"group", {parts.groups, clashes}},      {"connect", {parts.connections, clashes}},
+      {"change", {parts.changes, clashes}}};
   Choice choice(assembly, chosen, report);
   parts.some_missing = assembly.files_missing || choice.some_unknown();
   std::vector<const Node*> sections = std::move(choice).profiles();

@@ -18,6 +18,7 @@ struct Parts {
   std::vector<Node> components;
   std::vector<Node> groups;
   std::vector<Node> connections;
+  std::vector<Node> changes;
   bool some_missing = false;  // a file or a profile is missing, and parts of any kind may be in it
 };
 

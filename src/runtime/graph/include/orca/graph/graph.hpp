@@ -121,6 +121,15 @@ struct Edge {
   friend bool operator==(const Edge& a, const Edge& b);
 };
 
+/// Another graph that a run goes over to.
+struct PlannedChange {
+  std::string file;        ///< Absolute, if a graph names it.
+  Duration at{0};          ///< [s of the run's clock] since everything was up.
+  xml::Position position;  ///< Place of its element; not compared.
+
+  friend bool operator==(const PlannedChange& a, const PlannedChange& b);
+};
+
 /// A system graph that was checked against the contracts of its plugins. Every name in it exists, every edge
 /// fits, and every parameter is in range. A plain value.
 struct Graph {
@@ -136,6 +145,7 @@ struct Graph {
   std::vector<ComponentNode> components;
   std::vector<GroupNode> groups;
   std::vector<Edge> edges;
+  std::vector<PlannedChange> changes;  ///< In the order of their times. The files are not read yet.
 
   [[nodiscard]] const HardwareNode* find_hardware(const std::string& wanted) const;
   [[nodiscard]] const ComponentNode* find_component(const std::string& wanted) const;
