@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
+#include "checking/operation/changes.hpp"
+#include "checking/operation/groups.hpp"
 #include "checking/placing/demand.hpp"
 #include "checking/placing/placement.hpp"
 #include "checking/placing/processes.hpp"
-#include "changes.hpp"
 #include "components.hpp"
 #include "configuration.hpp"
 #include "endpoints.hpp"
-#include "groups.hpp"
 #include "hardware.hpp"
 #include "influence.hpp"
 #include "model.hpp"

@@ -46,16 +46,22 @@ Fields fields_of(const ComponentNode& node) {
   return fields;
 }
 
+// Returns what the graph says of the whole system.
+Fields fields_of(const Graph& graph) {
+  Graph sorted = graph;
+  sorted.default_profile.clear();
+  std::ranges::sort(sorted.ends);
+  Fields fields = fields_of(attributes_of(sorted));
+  fields["name"] = graph.name;
+  for (const PlannedChange& change : graph.changes)
+    fields[kChangeField + attributes_of(change).front().second] = change.file;
+  return fields;
+}
+
 Parts parts_of(const Graph& graph, Change::Part part) {
   Parts parts;
   if (part == Change::Part::graph) {
-    Graph sorted = graph;
-    sorted.default_profile.clear();
-    std::ranges::sort(sorted.ends);
-    parts["graph"] = fields_of(attributes_of(sorted));
-    parts["graph"]["name"] = graph.name;
-    for (const PlannedChange& change : graph.changes)
-      parts["graph"][kChangeField + attributes_of(change).front().second] = change.file;
+    parts["graph"] = fields_of(graph);
   } else if (part == Change::Part::machine) {
     for (const MachineNode& node : graph.machines) parts[node.name] = fields_of(attributes_of(node));
   } else if (part == Change::Part::process) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "model.hpp"
+#include "checking/model.hpp"
 #include "orca/graph/graph.hpp"
 #include "reading/node.hpp"
 #include "reading/report.hpp"
