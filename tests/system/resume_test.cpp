@@ -9,10 +9,12 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 
@@ -53,7 +55,52 @@ Run drive_and_kill(const std::string& goal, int kills) {
   return finish(program, Seconds(90));
 }
 
+// Drives to two goals, kills the process of Command a second after the first arrival, and returns the whole run.
+// @param restore  what the graph says of Command.
+Run drive_and_kill_command(const std::string& restore) {
+  std::string graph = read_text(source_file("graphs/scout_goto_processes.xml"));
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    REQUIRE(graph.find(from) != std::string::npos);
+    for (std::size_t at = 0; (at = graph.find(from, at)) != std::string::npos; at += to.size())
+      graph.replace(at, from.size(), to);
+  };
+  replace("\"../sim/", "\"" + source_file("sim/"));
+  replace("restore=\"last\"", "restore=\"" + restore + "\"");
+  const TempFolder folder;
+  Subprocess program(deployer({folder.write("graph.xml", graph), "--until", "60s", "--set",
+                               "goals=near: 3 6; door: 3.6 6 > 3.6 7.2"}));
+  REQUIRE(program.wait_for_output("arrived near", Seconds(30)));
+  std::this_thread::sleep_for(Seconds(1));
+  const std::optional<pid_t> command = find_child(program.pid(), "command");
+  REQUIRE(command);
+  REQUIRE(kill(*command, SIGKILL) == 0);
+  return finish(program, Seconds(90));
+}
+
+std::vector<std::string> names_of(const std::vector<Arrival>& arrivals) {
+  std::vector<std::string> names;
+  for (const Arrival& arrival : arrivals) names.push_back(arrival.name);
+  return names;
+}
+
 }  // namespace
+
+TEST_CASE("with restore=last a Command that is killed goes on with the goal that it drove to",
+          "[system][resume]") {
+  const Run run = drive_and_kill_command("last");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names_of(run.arrivals()) == std::vector<std::string>{"near", "door"});
+  CHECK(run.says("goes on from the state orca.Command/1"));
+}
+
+TEST_CASE("without restore a Command that is killed begins its list again", "[system][resume]") {
+  const Run run = drive_and_kill_command("none");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names_of(run.arrivals()) == std::vector<std::string>{"near", "near", "door"});
+  CHECK_FALSE(run.says("goes on from the state"));
+}
 
 TEST_CASE("a robot whose behaviours are killed on the way reaches its goal all the same",
           "[system][resume]") {

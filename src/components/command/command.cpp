@@ -211,6 +211,15 @@ class Command final : public orca::Component {
     if (const orca::Status sent = send_clients({}); !sent.ok()) log_debug(sent.error().text());
   }
 
+  // Between two laps no goal is under way: one at which the robot was driven when the process was lost is driven to again.
+  void save_state(orca::StateWriter& state) const override { state.write(tried_, unreached_); }
+
+  orca::Status load_state(orca::StateReader& state) override {
+    if (orca::Status read = state.read(tried_, unreached_); !read.ok()) return read;
+    for (std::size_t i = 0; i < tried_ && !waiting_.empty(); ++i) waiting_.pop_front();
+    return orca::ok();
+  }
+
   orca::Status send_point(const Route& route, const orca::command::Place& place, bool via,
                           double time_limit) {
     orca::Loan<orca::idl::GoalPoint> point = point_at(place);

@@ -38,7 +38,8 @@ bool operator==(const HardwareNode& a, const HardwareNode& b) {
 bool operator==(const ComponentNode& a, const ComponentNode& b) {
   const auto content = [](const ComponentNode& n) {
     return std::tie(n.name, n.type, n.hardware, n.process, n.priority, n.autonomous, n.on_demand, n.stay_warm,
-                    n.idle_time, n.may_fail, n.trigger, n.start_after, n.params, n.properties, n.ports);
+                    n.idle_time, n.restore_last, n.may_fail, n.trigger, n.start_after, n.params, n.properties,
+                    n.ports);
   };
   return content(a) == content(b);
 }

@@ -110,6 +110,7 @@ class ComponentReader {
     if (const auto priority = attribute<std::int64_t>("priority"))
       checked_.value.priority = static_cast<int>(*priority);
     if (const auto autonomous = attribute<bool>("autonomous")) checked_.value.autonomous = *autonomous;
+    checked_.value.restore_last = attribute<std::string>("restore") == "last";
     checked_.value.may_fail = attribute<bool>("may_fail").value_or(false);
     checked_.value.start_after = split_names(node_.value("start_after"));
   }

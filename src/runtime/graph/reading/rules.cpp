@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, 2> kYesNo{"true", "false"};
 constexpr std::array<std::string_view, 2> kStart{"at_once", "on_demand"};
 constexpr std::array<std::string_view, 3> kFuse{"any", "all", "stamps"};
 constexpr std::array<std::string_view, 2> kStay{"cold", "warm"};
+constexpr std::array<std::string_view, 2> kRestore{"last", "none"};
 constexpr std::array<std::string_view, 3> kStrategy{"one_for_one", "rest_for_one", "one_for_all"};
 constexpr std::array<std::string_view, 2> kSupervisorLoss{"stop", "continue"};
 constexpr std::array<std::string_view, 2> kMachineLoss{"stop", "go_on"};
@@ -159,6 +160,11 @@ constexpr std::array kComponent{
     AttributeRule{"idle_time", false,
                   "Time without use after which an on_demand component is unloaded; 10 s if not given.",
                   seconds(0.0)},
+    AttributeRule{
+        "restore", false,
+        "What it begins with after its process was lost: the last state that it has saved (last), or "
+        "nothing (none); none if not given.",
+        one_of(kRestore)},
     AttributeRule{"may_fail", false,
                   "Whether a run may count as finished well although the component ends in WORK_FAILED.",
                   kBoolean}};

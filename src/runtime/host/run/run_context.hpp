@@ -9,6 +9,7 @@
 
 #include "orca/base/doorbell.hpp"
 #include "orca/base/executive.hpp"
+#include "orca/host/kept_state.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "reporter.hpp"
 #include "trace.hpp"
@@ -32,6 +33,10 @@ struct RunContext {
   std::vector<PlannedFailure> failures{};
   /// Returns the word by which other processes wake a component; empty: there are no others.
   std::function<DoorbellWord*(const std::string& component)> doorbell{};
+  /// Keeps states for the case that the process is lost; empty: nobody does. Called on the component's strand.
+  StateSink state_sink{};
+  /// With what components begin.
+  KeptStates states{};
 };
 
 }  // namespace orca::host

@@ -26,7 +26,9 @@ WatchedSystem::WatchedSystem(const graph::Graph& graph, const SystemPlace& place
                options.missions != nullptr ? *options.missions : missions_,
                options.wants_scene,
                options.failures,
-               options.doorbell},
+               options.doorbell,
+               options.state_sink,
+               options.states},
       system_(std::in_place, graph, context_, std::move(give_up)) {
   place_.catalogue.on_alarm([this](const idl::Alarm& alarm) { reporter_.raise(alarm); });
 }

@@ -44,6 +44,8 @@ struct SystemOptions {
   std::atomic<std::uint64_t>* missions = nullptr;
   /// Returns the word by which other processes wake a component; empty: there are no others.
   std::function<DoorbellWord*(const std::string& component)> doorbell{};
+  StateSink state_sink{};  ///< Keeps the states of components for the case that the process is lost.
+  KeptStates states{};     ///< With what components begin.
 };
 
 /// The instances of a graph in this process together with what watches over them: the reporter, the process's

@@ -6,8 +6,9 @@
 namespace orca::supervisor {
 // The fields of each order and each report.
 
+void fields(auto& archive, StateKept& m) { transfer(archive, m); }
 void fields(auto& archive, Setup& m) {
-  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.edges, m.doorbells);
+  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.edges, m.doorbells, m.states);
 }
 void fields(auto& /*archive*/, Build& /*m*/) {}
 void fields(auto& /*archive*/, OpenHardware& /*m*/) {}

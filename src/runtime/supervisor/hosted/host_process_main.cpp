@@ -75,6 +75,12 @@ Result<std::optional<std::uint64_t>> await_build(Channel& channel, Memory& memor
   }
 }
 
+host::KeptStates states_of(const Setup& setup) {
+  host::KeptStates states;
+  for (const StateKept& kept : setup.states) states[kept.component] = {{kept.type, kept.version}, kept.state};
+  return states;
+}
+
 // The life of a host process, step by step.
 class Life {
  public:
@@ -125,7 +131,7 @@ class Life {
     page_.emplace(std::move(page).value());
     doorbells_.emplace(*whole_, processes_, wishes->executor, std::move(setup.doorbells), *page_);
     shows_ = wishes->outputs.looks_on;
-    return make_part(setup.process, *wishes);
+    return make_part(setup, *wishes);
   }
 
   Status load(const Setup& setup) {
@@ -153,7 +159,8 @@ class Life {
     return static_cast<std::size_t>(node - processes_.begin());
   }
 
-  Status make_part(const std::string& process, const RunWishes& wishes) {
+  Status make_part(const Setup& setup, const RunWishes& wishes) {
+    const std::string& process = setup.process;
     executor_ = wishes.executor;
     const graph::ProcessNode* const node = &processes_[index_];
     if (node->lock_memory)
@@ -168,7 +175,8 @@ class Life {
                               &page_->missions(),
                               {},
                               wishes.outputs,
-                              wishes.run};
+                              wishes.run,
+                              states_of(setup)};
     if (graph::processes_of(*whole_).size() > 1)
       options.doorbell = [this](const std::string& component) { return &doorbells_->of(component); };
     part_.emplace(*whole_, process, host::PartPlace{catalogue_, *executive_, *reports_}, options);

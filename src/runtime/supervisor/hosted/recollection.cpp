@@ -13,6 +13,7 @@ bool Recollection::note_state(const Report& report) {
   if (const auto* change = std::get_if<StateChange>(&report))
     return states_[change->component] = *change, true;
   if (const auto* code = std::get_if<ExchangedCode>(&report)) return code_[code->component] = *code, true;
+  if (const auto* kept = std::get_if<StateKept>(&report)) return kept_[kept->component] = *kept, true;
   if (const auto* rest = std::get_if<RestChange>(&report)) return at_rest_ = rest->at_rest, true;
   return false;
 }
@@ -41,6 +42,7 @@ std::vector<Report> Recollection::reports() const {
   if (built_) all.emplace_back(*built_);
   for (const auto& [component, state] : states_) all.emplace_back(state);
   for (const auto& [component, code] : code_) all.emplace_back(code);
+  for (const auto& [component, kept] : kept_) all.emplace_back(kept);
   all.emplace_back(RestChange{at_rest_});
   Standing standing;
   standing.motors_held = motors_held_;

@@ -44,6 +44,7 @@ class Recollection {
   bool motors_held_ = false;
   std::map<std::string, std::map<std::string, std::string>> params_;  // by component
   std::map<std::string, ExchangedCode> code_;                         // by component
+  std::map<std::string, StateKept> kept_;                             // by component
 };
 
 }  // namespace orca::supervisor

@@ -103,6 +103,10 @@ void ReportSender::counted(const host::RunCounters& counters, const std::vector<
   send(to_tally(counters, ways));
 }
 
+void ReportSender::state_kept(const std::string& component, const host::KeptState& state) {
+  send(StateKept{component, state.tag.type, state.tag.version, state.bytes});
+}
+
 void ReportSender::output_failed(const Error& error) { send_last(OutputFailed{error}); }
 
 void ReportSender::show(const host::RunGlance& glance) {

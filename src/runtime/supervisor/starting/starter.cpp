@@ -88,8 +88,18 @@ Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
                          options_.planned_failures,
                          outputs_for(member),
                          run_.name};
-  return {member.name(),          graph::print(graph_), to_pairs(wishes),
-          run_.page.descriptor(), std::move(edges),     doorbells_};
+  return {member.name(),    graph::print(graph_), to_pairs(wishes),  run_.page.descriptor(),
+          std::move(edges), doorbells_,           states_for(member)};
+}
+
+std::vector<StateKept> Starter::states_for(const Member& member) const {
+  std::vector<StateKept> states;
+  for (const graph::ComponentNode& node : graph_.components) {
+    const auto kept = states_.find(node.name);
+    if (node.process == member.name() && node.restore_last && kept != states_.end())
+      states.push_back(kept->second);
+  }
+  return states;
 }
 
 Result<AddComponent> Starter::introduce(const graph::ComponentNode& component) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -59,12 +60,15 @@ class Starter {
   /// Makes the order that tells of a component which comes. It has its place in the run page from then on.
   /// @errors  failed_precondition if the page is full.
   Result<AddComponent> introduce(const graph::ComponentNode& component);
+  /// Keeps the state of a component for the case that its process is lost.
+  void keep(const StateKept& state) { states_[state.component] = state; }
   /// Takes over the edges of the graph, which has others now that are made already.
   void go_over() { wiring_.go_over(graph_); }
 
  private:
   [[nodiscard]] HostStart host_start(const Member& member) const;
   [[nodiscard]] Setup setup(const Member& member, std::vector<EdgeMemory> edges);
+  [[nodiscard]] std::vector<StateKept> states_for(const Member& member) const;
   [[nodiscard]] host::RunOutputs outputs_for(const Member& member);
   void renew_others(const Members& started, Wiring::Lots& lots);
 
@@ -74,7 +78,8 @@ class Starter {
   const Members& all_;
   std::vector<std::string> doorbells_;  // the components, in the order of their words in the run page
   Wiring wiring_;
-  std::set<std::string> started_;  // processes that have been started once
+  std::set<std::string> started_;            // processes that have been started once
+  std::map<std::string, StateKept> states_;  // the last ones, by component
 };
 
 }  // namespace orca::supervisor

@@ -19,8 +19,8 @@ inline Descriptor null_device() { return Descriptor(open("/dev/null", O_RDWR | O
 inline std::vector<std::byte> some_bytes() { return {std::byte{1}, std::byte{0}, std::byte{255}}; }
 
 inline supervisor::Setup setup() {
-  supervisor::Setup setup{"base",        "<graph/>", {{"seed", "7"}, {"profile", "sim"}},
-                          null_device(), {},         {"a", "b", "c"}};
+  supervisor::Setup setup{"base", "<graph/>",      {{"seed", "7"}, {"profile", "sim"}},    null_device(),
+                          {},     {"a", "b", "c"}, {{"a", "test.Teller", 1, some_bytes()}}};
   setup.edges.push_back({"a.out to b.in", null_device()});
   setup.edges.push_back({"b.out to c.in", null_device()});
   return setup;
@@ -111,7 +111,7 @@ inline std::vector<supervisor::Report> all_reports() {
       Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device(), {"base", "avoid"}},
       ExchangedCode{"avoid", "orca.VfhPlus", "/tmp/vfh_plus.so", "abc", 3},
       Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}}, Leaving{},
-      LogWished{true});
+      LogWished{true}, StateKept{"command", "orca.Command", 2, some_bytes()});
 }
 
 /// Returns one of each word that a client of the control socket hears.

@@ -72,12 +72,14 @@ class Component : public PortOwner {
   virtual Status params_changed() { return ok(); }
 
   /// Writes what an object that takes this one's place needs to go on as if nothing had happened: counts, estimates, what
-  /// it has begun. Called between two laps when the component is exchanged for another version of itself. Parameters, ports,
-  /// subscriptions and what waits in queues stay anyway.
+  /// it has begun. Called between two laps when the component is exchanged for another version of itself; then parameters, ports,
+  /// subscriptions and what waits in queues stay anyway. With restore="last" in the graph also called after laps and handlers, at
+  /// most every 0.1 s, for the object that begins if the process is lost.
   virtual void save_state(StateWriter& /*state*/) const {}
 
   /// Takes over what the predecessor has written, in the same order. Called once, after configure() and, if the component
-  /// works, after start(). All that was written must be read. An error leaves the predecessor in its place.
+  /// works, after start(). All that was written must be read. An error leaves the predecessor in its place; if there is none any more,
+  /// because the process was lost, the component fails.
   virtual Status load_state(StateReader& /*state*/) { return ok(); }
 
   /// Returns the version of what save_state() writes. Count it up whenever that changes.

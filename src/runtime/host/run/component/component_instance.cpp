@@ -10,8 +10,9 @@ ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings
     : parts_(run, std::move(settings), hardware),
       residency_(parts_, std::move(loader), std::move(unloader)),
       succession_(parts_, residency_),
-      life_(parts_, residency_, succession_),
-      loop_(parts_, residency_, life_) {}
+      keeper_(parts_, residency_),
+      life_(parts_, residency_, succession_, keeper_),
+      loop_(parts_, residency_, life_, keeper_) {}
 
 // Destroys the component first, because its destructor may still use any part.
 ComponentInstance::~ComponentInstance() { residency_.destroy(); }

@@ -12,7 +12,8 @@
 #include "lifecycle.hpp"
 #include "orca/host/component_report.hpp"
 #include "residency.hpp"
-#include "succession.hpp"
+#include "state/state_keeper.hpp"
+#include "state/succession.hpp"
 
 namespace orca::host {
 
@@ -98,6 +99,7 @@ class ComponentInstance final {
   ComponentParts parts_;
   Residency residency_;
   Succession succession_;
+  StateKeeper keeper_;
   Lifecycle life_;
   ComponentLoop loop_;
 };

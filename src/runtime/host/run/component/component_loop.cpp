@@ -5,8 +5,9 @@
 
 namespace orca::host {
 
-ComponentLoop::ComponentLoop(ComponentParts& parts, Residency& residency, Lifecycle& life)
-    : parts_(parts), residency_(residency), life_(life) {
+ComponentLoop::ComponentLoop(ComponentParts& parts, Residency& residency, Lifecycle& life,
+                             StateKeeper& keeper)
+    : parts_(parts), residency_(residency), life_(life), keeper_(keeper) {
   parts_.strand.set_leave_condition([this] { return must_leave_lap(); });
 }
 
@@ -41,11 +42,15 @@ void ComponentLoop::watch_deadlines() {
 
 void ComponentLoop::turn() {
   if (parts_.strand.is_ending()) return parts_.strand.pause_until(kForever);
-  if (parts_.orders.carry_out_next()) return parts_.run.changed();
+  if (parts_.orders.carry_out_next()) {
+    keeper_.note_change();
+    return parts_.run.changed();
+  }
   const bool silent = parts_.injector.is_silent();
-  if (!silent && handle_one_intake()) return;
+  if (!silent && handle_one_intake()) return keeper_.note_change();
   if (const auto event = look()) return life_.handle(*event);
   if (silent) return parts_.strand.pause_until(kForever);
+  if (keeping_time() <= parts_.now()) return keeper_.keep();
   if (life_.state() == ComponentState::work && parts_.laps.is_due(parts_.now())) return lap();
   parts_.strand.pause_until(next_wake_up());
 }
@@ -79,6 +84,7 @@ void ComponentLoop::lap() {
   } else if (!fault->interrupted) {
     life_.fail_with(ComponentEvent::threw, Hook::work, fault->text);
   }
+  keeper_.note_change();
 }
 
 void ComponentLoop::conclude(const Outcome& outcome) {
@@ -163,9 +169,13 @@ TimePoint ComponentLoop::unload_time() const {
   return saturating_add(std::max(life_.entered(), last_intake_), parts_.settings.idle_time);
 }
 
+TimePoint ComponentLoop::keeping_time() const {
+  return can_tell_its_state(life_.state()) ? keeper_.due() : kForever;
+}
+
 TimePoint ComponentLoop::next_wake_up() const {
-  if (life_.state() == ComponentState::work) return parts_.laps.next();
-  return life_.state() == ComponentState::idle ? unload_time() : kForever;
+  if (life_.state() == ComponentState::work) return std::min(parts_.laps.next(), keeping_time());
+  return life_.state() == ComponentState::idle ? std::min(unload_time(), keeping_time()) : keeping_time();
 }
 
 }  // namespace orca::host

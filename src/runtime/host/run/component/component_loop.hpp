@@ -18,7 +18,7 @@ namespace orca::host {
 class ComponentLoop {
  public:
   /// Makes the strand ask this object whether a wait is to be given up.
-  ComponentLoop(ComponentParts& parts, Residency& residency, Lifecycle& life);
+  ComponentLoop(ComponentParts& parts, Residency& residency, Lifecycle& life, StateKeeper& keeper);
   ComponentLoop(const ComponentLoop&) = delete;
   ComponentLoop& operator=(const ComponentLoop&) = delete;
 
@@ -49,11 +49,13 @@ class ComponentLoop {
   [[nodiscard]] bool is_open() const { return gate_open_.load(std::memory_order_acquire); }
   [[nodiscard]] bool is_to_exit() const { return exit_requested_.load(std::memory_order_acquire); }
   [[nodiscard]] TimePoint unload_time() const;
+  [[nodiscard]] TimePoint keeping_time() const;
   [[nodiscard]] TimePoint next_wake_up() const;
 
   ComponentParts& parts_;
   Residency& residency_;
   Lifecycle& life_;
+  StateKeeper& keeper_;
   bool in_lap_ = false;
   std::uint64_t activity_before_lap_ = 0;
   TimePoint last_intake_{};

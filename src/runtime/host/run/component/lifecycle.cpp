@@ -5,10 +5,11 @@
 
 namespace orca::host {
 
-Lifecycle::Lifecycle(ComponentParts& parts, Residency& residency, Succession& succession)
+Lifecycle::Lifecycle(ComponentParts& parts, Residency& residency, Succession& succession, StateKeeper& keeper)
     : parts_(parts),
       residency_(residency),
       succession_(succession),
+      keeper_(keeper),
       state_(parts.settings.on_demand ? ComponentState::unloaded : ComponentState::init) {}
 
 std::string Lifecycle::failure() const {
@@ -134,10 +135,18 @@ Lifecycle::FollowUp Lifecycle::start() {
   residency_.note_started(true);
   const auto fault = parts_.hooks.call(Hook::start, [&] { started = residency_.component()->start(); });
   if (fault && fault->interrupted) return ComponentEvent::interrupted;
-  if (!fault && started.ok()) return ComponentEvent::started;
+  if (!fault && started.ok()) return restore();
   const std::string what = fault ? fault->text : "said: " + started.error().text();
   if (succession_.take_back(state(), "start() " + what)) return start();
   return report(fault ? ComponentEvent::threw : ComponentEvent::failed, Hook::start, what);
+}
+
+// Goes on from what was kept before the process was lost, if anything was.
+Lifecycle::FollowUp Lifecycle::restore() {
+  const Status restored = keeper_.restore();
+  if (restored.ok()) return ComponentEvent::started;
+  return report(ComponentEvent::failed, Hook::start,
+                "cannot go on from the state that was kept: " + restored.error().text());
 }
 
 void Lifecycle::try_stop() {

@@ -9,7 +9,8 @@
 #include "component_parts.hpp"
 #include "component_states.hpp"
 #include "residency.hpp"
-#include "succession.hpp"
+#include "state/state_keeper.hpp"
+#include "state/succession.hpp"
 
 namespace orca::host {
 
@@ -20,7 +21,7 @@ namespace orca::host {
 /// component's strand.
 class Lifecycle {
  public:
-  Lifecycle(ComponentParts& parts, Residency& residency, Succession& succession);
+  Lifecycle(ComponentParts& parts, Residency& residency, Succession& succession, StateKeeper& keeper);
   Lifecycle(const Lifecycle&) = delete;
   Lifecycle& operator=(const Lifecycle&) = delete;
 
@@ -74,6 +75,7 @@ class Lifecycle {
   FollowUp configure();
   FollowUp refuse(ComponentEvent event, Error reason, const std::string& what);
   FollowUp start();
+  FollowUp restore();
   void try_stop();
   FollowUp call(Hook hook, void (Component::*function)(),
                 ComponentEvent if_it_throws = ComponentEvent::threw);
@@ -84,6 +86,7 @@ class Lifecycle {
   ComponentParts& parts_;
   Residency& residency_;
   Succession& succession_;
+  StateKeeper& keeper_;
   TimePoint entered_{};
   std::atomic<ComponentState> state_;
   std::atomic<bool> has_failed_{false};

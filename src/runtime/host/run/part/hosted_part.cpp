@@ -27,10 +27,17 @@ namespace {
 
 constexpr Duration kOrderLimit = 5s;
 
-SystemOptions system_options(const PartOptions& options) {
-  return {options.seed,     !options.outputs.picture.file.empty(),
-          options.failures, options.log_name,
-          options.missions, options.doorbell};
+SystemOptions system_options(const PartOptions& options, PartListener& listener) {
+  return {options.seed,
+          !options.outputs.picture.file.empty(),
+          options.failures,
+          options.log_name,
+          options.missions,
+          options.doorbell,
+          [&listener](const std::string& component, const KeptState& state) {
+            listener.state_kept(component, state);
+          },
+          options.states};
 }
 
 }  // namespace
@@ -50,7 +57,7 @@ class HostedPart::Inside {
         offers_(place.executive, options.missions),
         outer_(whole_, process, options.doorbell, options.run),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
-                 system_options(options), [] { return false; }),
+                 system_options(options, place.listener), [] { return false; }),
         swaps_(whole_, watched_.context(), place.catalogue, watched_.system()) {
     watched_.reporter().tap(taps_);
   }

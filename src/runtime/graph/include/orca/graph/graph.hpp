@@ -59,6 +59,7 @@ struct ComponentNode {
   bool on_demand = false;          ///< Loaded when first asked for, and unloaded when long unused.
   bool stay_warm = false;          ///< Stays in memory once it is loaded.
   Duration idle_time{0};           ///< Unloaded when not used for that long; on demand and not warm only.
+  bool restore_last = false;       ///< Begins with its last state after its process was lost.
   bool may_fail = false;           ///< Its WORK_FAILED at the end of a run does not make the run a failure.
   std::optional<Trigger> trigger;  ///< Starts a lap; nothing: the author's choice.
   std::vector<std::string> start_after;  ///< Components that must be up before this one.

@@ -16,6 +16,7 @@
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/component_report.hpp"
+#include "orca/host/kept_state.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/host/port_taps.hpp"
 #include "orca/host/run_listener.hpp"
@@ -83,6 +84,9 @@ class PartListener : public RunListener {
   /// everything is taken down.
   /// @thread  the part's main task.
   virtual void counted(const RunCounters& counters, const std::vector<RunResult::Way>& ways) = 0;
+  /// Takes the state of a component that is to begin with it if the process is lost.
+  /// @thread  the component's strand.
+  virtual void state_kept(const std::string& component, const KeptState& state) = 0;
   /// Reports that an output could not be written.
   /// @thread  the part's main task, or the thread that calls HostedPart::write_outputs().
   virtual void output_failed(const Error& error) = 0;
@@ -101,6 +105,7 @@ struct PartOptions {
   std::function<DoorbellWord*(const std::string& component)> doorbell{};
   RunOutputs outputs{};  ///< Of this process.
   std::string run{};     ///< The same in all processes of a run, and in no other run.
+  KeptStates states{};   ///< With what components begin.
 };
 
 /// What a part needs of its surroundings. All of it outlives the part.

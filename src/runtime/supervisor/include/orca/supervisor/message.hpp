@@ -64,6 +64,7 @@ enum class Kind : std::uint16_t {
   leaving,
   log_wish = 151,
   exchanged_code = 171,
+  state_kept,
   // Words of an operator's program and the answers: see orca/supervisor/control.hpp.
   ask = 201,
   record_answer = 301,

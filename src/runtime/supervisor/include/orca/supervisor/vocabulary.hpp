@@ -29,6 +29,15 @@ struct EdgeMemory {
   Descriptor memory;
 };
 
+/// What a component has saved of its state.
+struct StateKept {
+  static constexpr Kind kKind = Kind::state_kept;
+  std::string component;
+  std::string type;           ///< Of the object that has saved it.
+  std::uint32_t version = 0;  ///< Of the state of that type.
+  std::vector<std::byte> state;
+};
+
 // ---- Orders, from the supervisor to a host process.
 
 /// Tells a new process who it is. The first order.
@@ -40,6 +49,7 @@ struct Setup {
   Descriptor run_page;                 ///< See orca/supervisor/run_page.hpp.
   std::vector<EdgeMemory> edges;       ///< The edges to other processes that use memory.
   std::vector<std::string> doorbells;  ///< The components whose doorbells are in the run page, in this order.
+  std::vector<StateKept> states;       ///< With what components begin.
 };
 /// Asks to construct all components and hardware and to connect the ports. Built comes before the answer.
 struct Build {
@@ -357,7 +367,7 @@ struct Leaving {
 using Report =
     std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport, ContactReport,
                  AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance, Prompting, MissionStep,
-                 HeardReport, Orphaned, Standing, Leaving, LogWished, ExchangedCode>;
+                 HeardReport, Orphaned, Standing, Leaving, LogWished, ExchangedCode, StateKept>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.

@@ -9,9 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "component_parts.hpp"
-#include "component_states.hpp"
-#include "residency.hpp"
+#include "state_hooks.hpp"
 
 namespace orca::host {
 
@@ -48,7 +46,8 @@ class LateLaps {
 /// Thread contract: take_back_reason() from anywhere, the rest on the component's strand.
 class Succession {
  public:
-  Succession(ComponentParts& parts, Residency& residency) : parts_(parts), residency_(residency) {}
+  Succession(ComponentParts& parts, Residency& residency)
+      : parts_(parts), residency_(residency), hooks_(parts, residency) {}
 
   /// Puts the successor's object in the place of the present one, with its state, and starts it if the component works. The
   /// present object goes to the successor, which must live until confirm().
@@ -75,23 +74,19 @@ class Succession {
   [[nodiscard]] std::optional<std::string> take_back_reason() const;
 
  private:
-  Status enter(ComponentState state, const std::vector<std::byte>& bytes, const std::optional<StateTag>& tag,
-               TakeOver& report);
-  Status save(std::vector<std::byte>& bytes);
-  Status load(const StateTag& tag, const std::vector<std::byte>& bytes, TakeOver& report);
+  Status enter(ComponentState state, const std::optional<KeptState>& saved, TakeOver& report);
+  Status load(const KeptState& saved, TakeOver& report);
   Status start();
-  [[nodiscard]] bool accepts(const StateTag& tag) const;
   void seat(ComponentState state);
   void catch_up(ComponentState state);
   void pause_as(ComponentState state);
   Status pause();
   bool is_too_slow(TimePoint began);
   [[nodiscard]] std::string too_slow_text() const;
-  template <class Body>
-  Status call(Hook hook, const Body& body);
 
   ComponentParts& parts_;
   Residency& residency_;
+  StateHooks hooks_;
   Residency* predecessor_ = nullptr;   // holds the old object; null: there is no way back
   LateLaps late_laps_;                 // of the present object
   std::size_t allowed_late_laps_ = 0;  // of the new object on probation

@@ -14,33 +14,18 @@ bool works(ComponentState state) {
   return state == ComponentState::work || state == ComponentState::suspended_work;
 }
 
-bool can_tell_its_state(ComponentState state) {
-  return works(state) || state == ComponentState::idle || state == ComponentState::suspended_idle;
-}
-
 }  // namespace
-
-template <class Body>
-Status Succession::call(Hook hook, const Body& body) {
-  Status outcome;
-  const auto fault = parts_.hooks.call(hook, [&] { outcome = body(); });
-  const std::string name = hook_text(hook, "");
-  if (fault && fault->interrupted) return fail(Code::unavailable, name + " was interrupted");
-  if (fault) return fail(Code::internal, name + " " + fault->text);
-  if (!outcome.ok()) return fail(outcome.error().code, name + " said: " + outcome.error().text());
-  return ok();
-}
 
 Status Succession::take_over(Residency& successor, ComponentState state, TakeOver& report) {
   const TimePoint began = parts_.now();
-  std::vector<std::byte> bytes;
-  std::optional<StateTag> tag;
+  std::optional<KeptState> kept;
   if (can_tell_its_state(state)) {
-    if (Status saved = save(bytes); !saved.ok()) return saved;
-    tag = {residency_.type_name(), residency_.component()->state_version()};
+    Result<KeptState> saved = hooks_.save();
+    if (!saved) return saved.error();
+    kept = std::move(saved).value();
   }
   residency_.trade_places(successor);
-  if (Status entered = enter(state, bytes, tag, report); !entered.ok()) {
+  if (Status entered = enter(state, kept, report); !entered.ok()) {
     residency_.trade_places(successor);
     seat(state);
     return entered;
@@ -55,52 +40,25 @@ Status Succession::take_over(Residency& successor, ComponentState state, TakeOve
 }
 
 // The new object is in its place; it only has to begin.
-Status Succession::enter(ComponentState state, const std::vector<std::byte>& bytes,
-                         const std::optional<StateTag>& tag, TakeOver& report) {
+Status Succession::enter(ComponentState state, const std::optional<KeptState>& saved, TakeOver& report) {
   seat(state);
   if (works(state))
     if (Status started = start(); !started.ok()) return started;
-  if (tag)
-    if (Status loaded = load(*tag, bytes, report); !loaded.ok()) return loaded;
+  if (saved)
+    if (Status loaded = load(*saved, report); !loaded.ok()) return loaded;
   return is_suspended(state) ? pause() : ok();
 }
 
-Status Succession::save(std::vector<std::byte>& bytes) {
-  StateWriter writer;
-  Status saved = call(Hook::save_state, [&] {
-    residency_.component()->save_state(writer);
-    return ok();
-  });
-  bytes = writer.bytes();
-  return saved;
-}
-
-Status Succession::load(const StateTag& tag, const std::vector<std::byte>& bytes, TakeOver& report) {
-  if (!accepts(tag)) {
-    if (tag.type != residency_.type_name()) return ok();
-    return fail(Code::failed_precondition, "it cannot read the state " + tag.text() +
-                                               ": its own version is " +
-                                               std::to_string(residency_.component()->state_version()) +
-                                               ", and accepted_states() does not name that one");
-  }
-  report.state = tag;
-  return call(Hook::load_state, [&] {
-    StateReader reader(tag, bytes);
-    const Status loaded = residency_.component()->load_state(reader);
-    return loaded.ok() ? reader.finish() : loaded;
-  });
-}
-
-bool Succession::accepts(const StateTag& tag) const {
-  const Component& component = *residency_.component();
-  if (tag == StateTag{residency_.type_name(), component.state_version()}) return true;
-  const std::vector<StateTag> others = component.accepted_states();
-  return std::ranges::find(others, tag) != others.end();
+Status Succession::load(const KeptState& saved, TakeOver& report) {
+  const Result<bool> loaded = hooks_.load(saved);
+  if (!loaded) return loaded.error();
+  if (*loaded) report.state = saved.tag;
+  return ok();
 }
 
 Status Succession::start() {
   residency_.note_started(true);
-  return call(Hook::start, [this] { return residency_.component()->start(); });
+  return hooks_.call(Hook::start, [this] { return residency_.component()->start(); });
 }
 
 // Connects laps and intake with the object that is there now. Laps that start by the same trigger as before keep their
@@ -132,7 +90,7 @@ void Succession::catch_up(ComponentState state) {
   if (works(state) && !residency_.is_started()) (void)start();
   if (!works(state) && residency_.is_started()) {
     residency_.note_started(false);
-    (void)call(Hook::stop, [this] {
+    (void)hooks_.call(Hook::stop, [this] {
       residency_.component()->stop();
       return ok();
     });
@@ -147,7 +105,7 @@ void Succession::pause_as(ComponentState state) {
     return;
   }
   residency_.note_paused(false);
-  (void)call(Hook::resume, [this] {
+  (void)hooks_.call(Hook::resume, [this] {
     residency_.component()->resume();
     return ok();
   });
@@ -155,7 +113,7 @@ void Succession::pause_as(ComponentState state) {
 
 Status Succession::pause() {
   residency_.note_paused(true);
-  return call(Hook::suspend, [this] {
+  return hooks_.call(Hook::suspend, [this] {
     residency_.component()->suspend();
     return ok();
   });
