@@ -66,6 +66,7 @@ void QueryServerEndpoint::disconnect(const std::string& client) {
   const std::lock_guard lock(mutex_);
   counters_.withdrawn +=
       std::erase_if(waiting_, [&](const Question& one) { return one.edge->client() == client; });
+  if (handled_ != nullptr && handled_->client() == client) handled_ = nullptr;
   std::erase_if(edges_, [&](const auto& edge) { return edge->client() == client; });
 }
 
@@ -75,17 +76,14 @@ void QueryServerEndpoint::open(Handler handler) {
 }
 
 void QueryServerEndpoint::close(const std::string& reason) {
-  std::deque<Question> left;
-  {
-    const std::lock_guard lock(mutex_);
-    handler_ = nullptr;
-    closed_because_ = reason;
-    left.swap(waiting_);
-    for (const auto& edge : edges_) edge->waiting = 0;
-  }
-  for (const Question& question : left)
+  const std::lock_guard lock(mutex_);
+  handler_ = nullptr;
+  closed_because_ = reason;
+  for (const Question& question : waiting_)
     question.reply_to->reply(question.id,
                              fail(Code::unavailable, path() + " answers nothing, because " + reason));
+  waiting_.clear();
+  for (const auto& edge : edges_) edge->waiting = 0;
 }
 
 std::optional<QueryServerEndpoint::Question> QueryServerEndpoint::next(
@@ -96,6 +94,7 @@ std::optional<QueryServerEndpoint::Question> QueryServerEndpoint::next(
   Question question = std::move(waiting_.front());
   waiting_.pop_front();
   --question.edge->waiting;
+  handled_ = question.edge;
   return question;
 }
 
@@ -119,14 +118,16 @@ void QueryServerEndpoint::answer(const Question& question, Result<ObjectLoan> an
     Provenance of_question;  // not home().provenance: the handler may have taken other objects meanwhile
     of_question.begin_handling(question.request.header());
     stamp(loan, &of_question);
-    question.reply_to->reply(question.id, std::move(loan).seal());
-    return;
+    return reply(question, std::move(loan).seal());
   }
-  {
-    const std::lock_guard lock(mutex_);
-    ++counters_.failed;
-  }
-  question.reply_to->reply(question.id, answer.error());
+  reply(question, answer.error());
+}
+
+// Replies with the lock held, so that the client cannot go meanwhile.
+void QueryServerEndpoint::reply(const Question& question, Result<ObjectRef> answer) {
+  const std::lock_guard lock(mutex_);
+  if (!answer) ++counters_.failed;
+  if (std::exchange(handled_, nullptr) != nullptr) question.reply_to->reply(question.id, std::move(answer));
 }
 
 bool QueryServerEndpoint::has_waiting() const {

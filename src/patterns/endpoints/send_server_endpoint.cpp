@@ -155,8 +155,6 @@ void SendServerEndpoint::disconnect(const std::string& client) {
 
 void SendServerEndpoint::leave(const std::shared_ptr<Edge>& edge) {
   edge->leave();
-  for (Accepted& accepted : waiting_)
-    if (accepted.edge == edge) accepted.reply_to = nullptr;
   of_gone_ += edge->summed();
   of_gone_.queued = 0;  // what is left is counted no more
 }
@@ -200,11 +198,12 @@ bool SendServerEndpoint::handle_one(Status& outcome) {
   return true;
 }
 
-// Counts what has become of an object, and tells its sender if that waits for it.
+// Counts what has become of an object, and tells its sender if that still waits for it. With the lock held, so that the
+// sender cannot go meanwhile.
 void SendServerEndpoint::settle(const Accepted& accepted, const Status& outcome) {
   const std::lock_guard lock(mutex_);
   if (!outcome.ok()) ++(accepted.edge->is_gone ? of_gone_ : accepted.edge->counters).failed;
-  if (accepted.reply_to != nullptr) accepted.reply_to->reply(accepted.id, outcome);
+  if (accepted.reply_to != nullptr && !accepted.edge->is_gone) accepted.reply_to->reply(accepted.id, outcome);
 }
 
 bool SendServerEndpoint::has_waiting() const {

@@ -32,8 +32,8 @@ class QueryServerEndpoint final : public Endpoint {
   /// Adds an edge.
   /// @param client  "component.port", for disconnect().
   QueryTarget& connect(std::string client = {});
-  /// Removes the edges to a client. Its questions that still wait are dropped, and counted as withdrawn. Nobody may use the
-  /// edges any more.
+  /// Removes the edges to a client. Its questions that still wait are dropped, and counted as withdrawn; one that is in the
+  /// handler is not answered. The client may be destroyed then. Nobody may use the edges any more.
   /// @thread  any; the client does not use them at the same time.
   void disconnect(const std::string& client);
 
@@ -62,11 +62,14 @@ class QueryServerEndpoint final : public Endpoint {
 
   std::optional<Question> next(std::shared_ptr<const Handler>& handler);
   void answer(const Question& question, Result<ObjectLoan> answer);
+  void reply(const Question& question, Result<ObjectRef> answer);
 
   mutable std::mutex mutex_;
   // Below, and the edges' content: guarded by mutex_.
   std::vector<std::unique_ptr<Edge>> edges_;
   std::deque<Question> waiting_;
+  const Edge* handled_ =
+      nullptr;  // from which the question in the handler came; null: none, or its client is gone
   std::shared_ptr<const Handler> handler_;
   std::string closed_because_ = "it has not been started yet";
   IntakeCounters counters_;
