@@ -34,6 +34,13 @@ PushEdge* PushClientEndpoint::vacancy_for(const PushSource& source) const {
   return found == edges_.end() ? nullptr : found->get();
 }
 
+void PushClientEndpoint::take_places_of(const PushClientEndpoint& other) {
+  assert(contract().many && edges_.empty());
+  const std::lock_guard lock(other.mutex_);
+  for (const auto& edge : other.edges_)
+    edges_.push_back(std::make_unique<PushEdge>(*this, edge->source_path(), contract().queue));
+}
+
 void PushClientEndpoint::disconnect(const std::string& server) {
   if (PushEdge* const edge = edge_from(server)) edge->leave();
 }

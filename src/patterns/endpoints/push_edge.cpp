@@ -23,10 +23,14 @@ std::string described(const QueuePolicy& policy) {
 }  // namespace
 
 PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy)
+    : PushEdge(client, source.path(), policy) {
+  source_ = &source;
+}
+
+PushEdge::PushEdge(Endpoint& client, std::string path, const QueuePolicy& policy)
     : client_(client),
       strand_(client.home().strand),
-      source_(&source),
-      path_(source.path()),
+      path_(std::move(path)),
       mutex_(client.home().strand.executive()) {
   fit(policy);
 }

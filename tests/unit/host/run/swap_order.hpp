@@ -26,16 +26,21 @@ inline const std::string kPair = R"(<component name="teller" type="test.Teller"/
   return {"teller", std::move(image).value()};
 }
 
-/// Swaps, and waits for the outcome.
-inline Result<host::SwapReport> swap(LiveSystem& live, host::SwapOrder order) {
+/// Swaps in a system whose graph has become another one, and waits for the outcome.
+inline Result<host::SwapReport> swap(LiveSystem& live, host::SwapOrder order, const graph::Graph& graph) {
   std::optional<Result<host::SwapReport>> outcome;
-  host::Swaps swaps(live.graph(), live.context(), live.catalogue(), live.system());
+  host::Swaps swaps(graph, live.context(), live.catalogue(), live.system());
   swaps.begin(std::move(order), [&](const Result<host::SwapReport>& result) { outcome = result; });
   while (!outcome) {
     const TimePoint next = swaps.go_on();
     if (!outcome) live.changed().wait_until(next);
   }
   return *outcome;
+}
+
+/// Swaps, and waits for the outcome.
+inline Result<host::SwapReport> swap(LiveSystem& live, host::SwapOrder order) {
+  return swap(live, std::move(order), live.graph());
 }
 
 /// Returns what a refused or failed swap says.

@@ -244,8 +244,9 @@ class PushProxyArray : public PushProxyArrayHandle {
   PushProxyArray(PortOwner& owner, std::string name, const PortOptions& options = {})
       : PushProxyArrayHandle(owner, std::move(name), type_id(object_type<T>()), options) {}
 
-  /// Returns the servers that the graph connects here, subscribed to or not, in the graph's order. Those that were connected
-  /// while the system ran come last. A source whose connection was removed meanwhile brings nothing any more.
+  /// Returns the servers that the graph connects here, subscribed to or not. Their order means nothing: those of other
+  /// processes come later, and so may those that were connected while the system ran; path() tells them apart. A source whose
+  /// connection was removed meanwhile brings nothing any more.
   [[nodiscard]] std::vector<Source> sources() const {
     std::vector<Source> all;
     for (std::size_t i = 0; i < edge_count(); ++i)

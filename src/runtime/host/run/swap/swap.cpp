@@ -75,6 +75,7 @@ Status Swap::make_successor(const LoadedType& type, const Contract& contract) {
       [&catalogue = place_.catalogue](LoadedType gone) { return catalogue.release(std::move(gone)); },
       nullptr);
   if (Status loaded = successor_->load(); !loaded.ok()) return loaded;
+  Backdrop::keep_places(place_.component, *successor_);
   return backdrop_.connect(place_.graph, *successor_);
 }
 

@@ -7,6 +7,15 @@
 
 namespace orca::host {
 
+void Backdrop::keep_places(const ComponentInstance& running, const ComponentInstance& object) {
+  for (const PortContract& contract : object.parts().ports.contracts()) {
+    if (!contract.many) continue;
+    auto* const own = dynamic_cast<PushClientEndpoint*>(object.endpoint(contract.name));
+    const auto* const present = dynamic_cast<PushClientEndpoint*>(running.endpoint(contract.name));
+    if (own != nullptr && present != nullptr) own->take_places_of(*present);
+  }
+}
+
 Status Backdrop::connect(const graph::Graph& graph, ComponentInstance& object) {
   LocalLinks links;
   for (const graph::Edge& edge : graph.edges) {

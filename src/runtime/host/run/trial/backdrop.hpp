@@ -18,6 +18,11 @@ class Backdrop {
  public:
   explicit Backdrop(Executive& executive) : executive_(executive) {}
 
+  /// Gives the sources of an object's port arrays the places that they have at the component whose ports the object will take
+  /// over, because the object knows them by their places. Connections that changed while it ran have left others there than
+  /// the graph's order would. Call before connect().
+  static void keep_places(const ComponentInstance& running, const ComponentInstance& object);
+
   /// Connects an object's ports as the graph connects those of the component of that name.
   /// @errors  those of Links::connect().
   Status connect(const graph::Graph& graph, ComponentInstance& object);

@@ -28,6 +28,10 @@ class PushClientEndpoint final : public Endpoint, public MovablePort {
   /// whose server is gone takes the new one; that of a port which is no array does so also if it has a server, and keeps what
   /// waits. A new edge is subscribed if the runtime has subscribed the port.
   PushEdge& connect(PushSource& source, const QueuePolicy& policy);
+  /// Gives a port array the places of another one: an edge without a server for each of its edges, in their order.
+  /// connect() gives a server its place.
+  /// @pre  the port has no edges yet.
+  void take_places_of(const PushClientEndpoint& other);
   /// Lets the edge from a server have none any more. The edge stays for the next connect(). Nothing if there is none.
   void disconnect(const std::string& server);
   /// Returns the edge from a server; null if there is none.

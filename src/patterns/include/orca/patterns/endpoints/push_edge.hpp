@@ -24,6 +24,9 @@ namespace orca {
 class PushEdge final : public PushSink {
  public:
   PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& policy);
+  /// Makes an edge that has no server yet.
+  /// @param path  "component.port" of the server for which it is kept.
+  PushEdge(Endpoint& client, std::string path, const QueuePolicy& policy);
 
   void subscribe();
   void unsubscribe();
@@ -121,7 +124,7 @@ class PushEdge final : public PushSink {
 
   Endpoint& client_;
   Strand& strand_;  // of the client: each push and each look needs it
-  std::atomic<PushSource*> source_;
+  std::atomic<PushSource*> source_{nullptr};
   UpdateRate asked_;
   std::atomic<bool> subscribed_{false};  // or will be, as soon as there is a server
   Counts counts_;
