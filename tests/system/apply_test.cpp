@@ -24,6 +24,7 @@ struct Wish {
   int step = 1;
   std::string more{};  // elements
   bool is_reordered = false;
+  bool has_second = true;
 };
 
 // Graphs of two tellers, the first of which tells a talker its version a hundred times a second, and their plugins.
@@ -44,13 +45,15 @@ class Tellers {
     const std::string first = "<component name=\"a\" type=\"" + wish.first +
                               "\"><param name=\"step\" value=\"" + std::to_string(wish.step) +
                               "\"/></component>";
-    const std::string second = "<component name=\"b\" type=\"" + wish.second + "\" autonomous=\"true\"/>";
+    std::string second;
+    if (wish.has_second)
+      second = "<component name=\"b\" type=\"" + wish.second +
+               "\" autonomous=\"true\"/><connect from=\"talker.out\" to=\"b.in\" queue=\"1000\"/>";
     return folder_.write(
         name, "<graph name=\"applied\" version=\"1\" on_supervisor_loss=\"continue\" plugins=\"" +
                   folder_.file("plugins") + "\">" + (wish.is_reordered ? second + first : first + second) +
                   "<component name=\"talker\" type=\"test.Talker\"/>"
                   "<connect from=\"talker.out\" to=\"a.in\" queue=\"1000\"/>"
-                  "<connect from=\"talker.out\" to=\"b.in\" queue=\"1000\"/>"
                   "<connect from=\"talker.poke\" to=\"a.poke\" queue=\"1000\"/>"
                   "<connect from=\"a.out\" to=\"talker.back\" queue=\"1000\"/>" +
                   wish.more + "</graph>");
@@ -317,6 +320,18 @@ TEST_CASE("a change that the graph names and that cannot be made is refused at i
     CHECK_THAT(refusal("<change at=\"1 s\" graph=\"" + other + "\"/>", words),
                Contains("now.xml:3:1: error G074") && Contains("has to be started again for"));
   CHECK_THAT(refusal("<change at=\"1 s\" graph=\"none.xml\"/>", {"--check"}), Contains("none.xml"));
+}
+
+TEST_CASE("a component does not go while its new code is on probation", "[system][apply]") {
+  const Tellers tellers;
+  const std::string without = tellers.write("without.xml", {.has_second = false});
+  const Run run = run_deployer(Words{tellers.write("now.xml", {}), "--until", "6 s", "--change",
+                                     tellers.write("new.xml", {.second = "test.OtherTeller"}) + "@1s",
+                                     "--change", without + "@2s"} +
+                               virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK_THAT(run.err, Contains("still being exchanged"));
 }
 
 TEST_CASE("a change that fails makes the run a failure, and one that never came is reported",

@@ -303,3 +303,20 @@ TEST_CASE("in virtual time components come and go at given times, and the run re
   CHECK(run(changes).trace_hash() == once.trace_hash());
   CHECK(run({}).trace_hash() != once.trace_hash());
 }
+
+TEST_CASE("a new deployer adopts processes in which components have come and gone, and disturbs none",
+          "[system][grow]") {
+  Growing system;
+  REQUIRE(system.apply({{"x", "main", "front"}}).exit_code() == 0);
+  REQUIRE(system.apply({}).exit_code() == 0);
+  const pid_t main = system.host("main");
+  const pid_t front = system.host("front");
+  system.start(system.graphs().write("start.xml", {}));
+  const std::size_t mark = system.mark();
+  REQUIRE(system.hears("heard 1:", mark));
+  INFO(system.log());
+  CHECK(run_orcactl({"ps", "--json"}).out.find("\"pid\": " + std::to_string(main)) != std::string::npos);
+  CHECK(run_orcactl({"ps", "--json"}).out.find("\"pid\": " + std::to_string(front)) != std::string::npos);
+  CHECK(system.log().find("talks nonsense") == std::string::npos);
+  system.end();
+}

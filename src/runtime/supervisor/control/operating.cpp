@@ -265,7 +265,10 @@ void Operating::change(const std::vector<Setting>& settings, JointOrders::Done d
     steps.push_back(step_of(setting));
   }
   if (const Status ready = are_ready(components); !ready.ok()) return done(ready);
-  joint_orders_.add(std::move(steps), [done = std::move(done), settings](const Status& end) {
+  joint_orders_.add(std::move(steps), [this, done = std::move(done), settings](const Status& end) {
+    for (const Setting& setting : settings)
+      if (end.ok() && graph_.find_component(setting.component) == nullptr)
+        return done(fail(Code::not_found, "the system does not have it any more", setting.component));
     if (end.ok())
       for (const Setting& setting : settings)
         for (const auto& [param, value] : setting.values)
@@ -280,7 +283,8 @@ JointStep Operating::step_of(const Setting& setting) {
     const graph::ComponentNode* const node = graph_.find_component(setting.component);
     if (node == nullptr) return std::nullopt;  // it has gone meanwhile
     const graph::Params present = params_of(*node);
-    for (const auto& [param, value] : setting.values) before->insert_or_assign(param, present.at(param));
+    for (const auto& [param, value] : setting.values)
+      if (present.contains(param)) before->insert_or_assign(param, present.at(param));
     const std::string& name = setting.component;
     return ThereAndBack{SetParams{name, {setting.texts.begin(), setting.texts.end()}},
                         SetParams{name, pairs_of(*before)}};

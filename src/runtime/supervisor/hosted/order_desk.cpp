@@ -202,13 +202,20 @@ void OrderDesk::hear(const TellLines& told) {
     log::hear_distant({line.level, line.who, line.text, TimePoint(Duration(line.time))});
 }
 
+// Returns what the next supervisor must know once an order was carried out.
+std::function<void(Recollection&)> OrderDesk::memorable(const Order& order) {
+  if (const auto* set = std::get_if<SetParams>(&order))
+    return [set = *set](Recollection& all) { all.note_params(set.component, set.values); };
+  if (const auto* gone = std::get_if<RemoveComponent>(&order))
+    return [gone = *gone](Recollection& all) { all.forget_component(gone.component); };
+  return [](Recollection&) {};
+}
+
 // The answer goes to whoever has given the order, even if there is another supervisor by then.
 void OrderDesk::pass_on(host::PartOrder order, const Told& told) {
-  const auto* const set = std::get_if<SetParams>(&told.order);
   order.done = [this, by = told.by, request = told.request,
-                set = set == nullptr ? SetParams{} : *set](const Status& outcome) {
-    if (outcome.ok() && !set.component.empty())
-      reports_.remember([&](Recollection& all) { all.note_params(set.component, set.values); });
+                done = memorable(told.order)](const Status& outcome) {
+    if (outcome.ok()) reports_.remember(done);
     (void)by->post(encode(Report(Answer{outcome}), request));
   };
   part_.order(std::move(order));

@@ -60,6 +60,7 @@ class OrderDesk {
   void tell_log_wish();
   static void hear(const TellLines& told);
   void hear(const TellAlarm& told);
+  [[nodiscard]] static std::function<void(Recollection&)> memorable(const Order& order);
   void pass_on(host::PartOrder order, const Told& told);
   void pass_on(SwapCode& swap, const Told& told);
   [[nodiscard]] std::optional<Answer> answer_of(Order& order);

@@ -37,6 +37,13 @@ void Recollection::note_params(const std::string& component, const Pairs& values
   for (const auto& [param, value] : values) params_[component][param] = value;
 }
 
+void Recollection::forget_component(const std::string& component) {
+  states_.erase(component);
+  params_.erase(component);
+  code_.erase(component);
+  kept_.erase(component);
+}
+
 std::vector<Report> Recollection::reports() const {
   std::vector<Report> all;
   if (built_) all.emplace_back(*built_);

@@ -31,6 +31,8 @@ class Recollection {
   void forget_alarm(const ForgetAlarm& alarm);
   void note_held(bool held) { motors_held_ = held; }
   void note_params(const std::string& component, const Pairs& values);
+  /// Forgets a component that has gone: a supervisor that comes later does not know it.
+  void forget_component(const std::string& component);
 
   /// Returns the reports from which a new supervisor learns all this.
   [[nodiscard]] std::vector<Report> reports() const;

@@ -66,6 +66,8 @@ Status TimedChanges::add(const graph::GraphPlan& plan) {
 
 Status TimedChanges::remove(const std::vector<std::string>& components) {
   for (const std::string& name : components) {
+    if (swaps_.is_under_way(name))
+      return fail(Code::failed_precondition, "its code is still being exchanged; let it go later", name);
     std::erase_if(graph_.components, [&](const auto& node) { return node.name == name; });
     const auto removed = watched_.system().remove(name, executive_.now() + kLapLimit);
     if (!removed) return removed.error();
