@@ -28,6 +28,15 @@ Status check_free(const Client& client) {
   return fail(Code::already_exists, client.path() + " is connected already");
 }
 
+// Checks that the proxy of two ends that fit each other is free.
+Status check_free(const Endpoint& from, const Endpoint& to) {
+  switch (from.contract().pattern) {
+    case Pattern::push: return check_free(static_cast<const PushClientEndpoint&>(to));
+    case Pattern::query: return check_free(static_cast<const QueryClientEndpoint&>(from));
+    default: return check_free(static_cast<const SendClientEndpoint&>(from));
+  }
+}
+
 }  // namespace
 
 Status Links::check_fit(const Endpoint& from, const Endpoint& to, const QueuePolicy& policy) {
@@ -40,35 +49,37 @@ Status Links::check_fit(const Endpoint& from, const Endpoint& to, const QueuePol
 }
 
 Status Links::connect(Endpoint& from, Endpoint& to, const QueuePolicy& policy) {
-  Status possible = check_fit(from, to, policy);
-  if (!possible.ok()) return possible;
-  if (from.contract().pattern == Pattern::push) {
-    auto& client = static_cast<PushClientEndpoint&>(to);
-    possible = check_free(client);
-    if (possible.ok()) push(static_cast<PushServerEndpoint&>(from), client, policy);
-  } else if (from.contract().pattern == Pattern::send) {
-    auto& client = static_cast<SendClientEndpoint&>(from);
-    possible = check_free(client);
-    if (possible.ok()) send(client, static_cast<SendServerEndpoint&>(to), policy);
-  } else {
-    auto& client = static_cast<QueryClientEndpoint&>(from);
-    possible = check_free(client);
-    if (possible.ok()) query(client, static_cast<QueryServerEndpoint&>(to));
-  }
-  return possible;
+  if (Status fits = check_fit(from, to, policy); !fits.ok()) return fits;
+  if (Status free = check_free(from, to); !free.ok()) return free;
+  join(from, to, policy);
+  return ok();
 }
 
-void Links::leave(Endpoint& port, const std::string& peer) {
-  if (auto* const server = dynamic_cast<PushServerEndpoint*>(&port)) {
-    server->cut_link(peer);  // ends the subscription
-    return server->disconnect(peer);
+void Links::join(Endpoint& from, Endpoint& to, const QueuePolicy& policy) {
+  switch (from.contract().pattern) {
+    case Pattern::push:
+      return push(static_cast<PushServerEndpoint&>(from), static_cast<PushClientEndpoint&>(to), policy);
+    case Pattern::query:
+      return query(static_cast<QueryClientEndpoint&>(from), static_cast<QueryServerEndpoint&>(to));
+    default:
+      return send(static_cast<SendClientEndpoint&>(from), static_cast<SendServerEndpoint&>(to), policy);
   }
-  if (auto* const push = dynamic_cast<PushClientEndpoint*>(&port)) push->disconnect(peer);
-  if (auto* const asker = dynamic_cast<QueryClientEndpoint*>(&port)) asker->disconnect(peer);
-  if (auto* const sender = dynamic_cast<SendClientEndpoint*>(&port)) sender->disconnect(peer);
-  if (auto* const answerer = dynamic_cast<QueryServerEndpoint*>(&port)) answerer->disconnect(peer);
-  if (auto* const taker = dynamic_cast<SendServerEndpoint*>(&port)) taker->disconnect(peer);
-  port.cut_link(peer);
+}
+
+// The end of a link uses the server's edge, and a client uses the end of its link: what uses the other goes first.
+void Links::leave(Endpoint& port, const std::string& peer) {
+  const bool serves = port.contract().role == Role::server;
+  if (serves) port.cut_link(peer);
+  const auto disconnect = [&]<class Port>(Port* of_kind) {
+    if (of_kind != nullptr) of_kind->disconnect(peer);
+  };
+  disconnect(dynamic_cast<PushServerEndpoint*>(&port));
+  disconnect(dynamic_cast<PushClientEndpoint*>(&port));
+  disconnect(dynamic_cast<QueryServerEndpoint*>(&port));
+  disconnect(dynamic_cast<QueryClientEndpoint*>(&port));
+  disconnect(dynamic_cast<SendServerEndpoint*>(&port));
+  disconnect(dynamic_cast<SendClientEndpoint*>(&port));
+  if (!serves) port.cut_link(peer);
 }
 
 }  // namespace orca

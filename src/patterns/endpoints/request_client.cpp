@@ -33,27 +33,22 @@ void RequestClient<Answer>::connect(RequestTarget<Answer>& target) {
 
 template <class Answer>
 void RequestClient<Answer>::disconnect(const std::string& server) {
-  std::vector<RequestTarget<Answer>*> gone;
-  for (const Era& era : left_)
-    if (era.path == server && era.target != nullptr) gone.push_back(era.target);
-  if (target_ != nullptr && target_path_ == server) {
-    gone.push_back(target_);
-    move(nullptr);
+  if (target_ != nullptr && target_path_ == server) move(nullptr);
+  for (Era& era : left_) {
+    if (era.path != server || era.target == nullptr) continue;
+    answer_all_of(era);
+    era.target = nullptr;
   }
-  for (RequestTarget<Answer>* const target : gone) answer_all_of(*target);
-  for (Era& era : left_)
-    if (era.path == server) era.target = nullptr;
 }
 
+// Nothing is withdrawn from the server, because a wait for one that does not answer would block the strand. The server drops
+// what is open when its own end goes.
 template <class Answer>
-void RequestClient<Answer>::answer_all_of(RequestTarget<Answer>& target) {
-  for (const RequestId id : pending_.waiting()) {
-    if (era_of(id).target != &target) continue;
-    target.withdraw(id);
-    if (pending_.state(id) == Pending::State::waiting)
-      pending_.answer(id, fail(Code::unavailable, "the connection from " + path() + " to " + target.path() +
-                                                      " was removed before the answer came"));
-  }
+void RequestClient<Answer>::answer_all_of(const Era& era) {
+  const Error removed = fail(Code::unavailable, "the connection from " + path() + " to " + era.path +
+                                                    " was removed before the answer came");
+  for (const RequestId id : pending_.waiting())
+    if (era_of(id).target == era.target) pending_.answer(id, removed);
 }
 
 template <class Answer>

@@ -48,6 +48,8 @@ class SendServerEndpoint::Edge final : public SendTarget, public std::enable_sha
   [[nodiscard]] bool full() const { return counters.queued >= policy.depth; }
   [[nodiscard]] bool confirms_handled() const { return policy.confirm == QueuePolicy::Confirm::handled; }
   void take_in(const Offer& offer);
+  template <class Which>
+  std::size_t take_back(const Which& which);
 
   SendServerEndpoint& server_;
   const std::string client_;
@@ -92,12 +94,19 @@ void SendServerEndpoint::Edge::take_in(const Offer& offer) {
 void SendServerEndpoint::Edge::withdraw(SendId id) {
   const std::lock_guard lock(server_.mutex_);
   counters.withdrawn += std::erase_if(held_, [&](const Offer& offer) { return offer.id == id; });
-  if (!confirms_handled()) return;
-  const auto taken_back = std::erase_if(
-      server_.waiting_, [&](const Accepted& one) { return one.edge.get() == this && one.id == id; });
+  const std::size_t taken_back = take_back([&](const Accepted& one) { return one.id == id; });
+  for (std::size_t i = 0; i < taken_back; ++i) take_next();
+}
+
+// Takes those objects back whose sender still waits for its answer.
+template <class Which>
+std::size_t SendServerEndpoint::Edge::take_back(const Which& which) {
+  const std::size_t taken_back = std::erase_if(server_.waiting_, [&](const Accepted& one) {
+    return one.edge.get() == this && one.reply_to != nullptr && which(one);
+  });
   counters.accepted -= taken_back;
   counters.withdrawn += taken_back;
-  for (std::size_t i = 0; i < taken_back; ++i) take_next();
+  return taken_back;
 }
 
 void SendServerEndpoint::Edge::refuse_held(const Error& reason) {
@@ -110,6 +119,7 @@ void SendServerEndpoint::Edge::leave() {
   is_gone = true;
   counters.withdrawn += held_.size();
   held_.clear();
+  take_back([](const Accepted& /*any*/) { return true; });
 }
 
 IntakeCounters SendServerEndpoint::Edge::summed() const {

@@ -35,13 +35,7 @@ Status LocalLinks::renew(Endpoint& from, Endpoint& to, const QueuePolicy& policy
   Endpoint& server = pushes ? from : to;
   leave(client, server.path());
   leave(server, client.path());
-  if (pushes) {
-    push(static_cast<PushServerEndpoint&>(from), static_cast<PushClientEndpoint&>(to), policy);
-  } else if (from.contract().pattern == Pattern::send) {
-    send(static_cast<SendClientEndpoint&>(from), static_cast<SendServerEndpoint&>(to), policy);
-  } else {
-    query(static_cast<QueryClientEndpoint&>(from), static_cast<QueryServerEndpoint&>(to));
-  }
+  join(from, to, policy);
   return ok();
 }
 

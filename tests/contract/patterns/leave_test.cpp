@@ -114,6 +114,30 @@ TEMPLATE_LIST_TEST_CASE("what was sent and not answered gets an error, and what 
   });
 }
 
+TEMPLATE_LIST_TEST_CASE("what waits for a confirmation gets an error and is not handled any more",
+                        "[contract][leave]", LeavingKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Sender sender(kit.executive);
+    Taker taker(kit.executive);
+    kit.connect(
+        sender.endpoint("out"), taker.endpoint("in"),
+        {.depth = 1, .overflow = QueuePolicy::Overflow::block, .confirm = QueuePolicy::Confirm::handled});
+    taker.open();
+    const SendId accepted = sender.out.send_request(numbered(1)).value();
+    const SendId held = sender.out.send_request(numbered(2)).value();
+    REQUIRE(eventually(kit.executive, [&] { return taker.counters().waits == 1; }));
+    part(sender.endpoint("out"), taker.endpoint("in"));
+    for (const SendId id : {accepted, held}) {
+      const Status outcome = sender.out.send_receive_wait(id, 5s);
+      REQUIRE_FALSE(outcome.ok());
+      CHECK_THAT(outcome.error().message, Contains("was removed before the answer came"));
+    }
+    CHECK_FALSE(taker.handle_one());
+    CHECK(taker.counters().accepted == 0);
+    CHECK(taker.counters().withdrawn == 2);
+  });
+}
+
 TEMPLATE_LIST_TEST_CASE("an open question is answered with an error when its connection is removed",
                         "[contract][leave]", LeavingKits) {
   on_each_executive<TestType>([](TestType& kit) {

@@ -45,6 +45,14 @@ TEST_CASE("an answer that nobody waits for is refused", "[patterns][pending]") {
   CHECK(pending.add() == id + 1);
 }
 
+TEST_CASE("the first answer stands", "[patterns][pending]") {
+  Pending pending;
+  const auto id = pending.add();
+  CHECK(pending.answer(id, "first"));
+  CHECK_FALSE(pending.answer(id, "second"));
+  CHECK(pending.take(id) == "first");
+}
+
 TEST_CASE("whichever of three is taken or forgotten, the others keep their answers", "[patterns][pending]") {
   for (std::uint64_t gone = 1; gone <= 3; ++gone) {
     for (const bool forgotten : {false, true}) {

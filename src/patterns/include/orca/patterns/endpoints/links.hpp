@@ -14,7 +14,7 @@ namespace orca {
 
 /// A factory of edges of one kind of link. Whoever wires a system asks it for each edge.
 ///
-/// Thread contract: before the components of either end run.
+/// Thread contract: connect() before the components of either end run; the rest see there.
 class Links {
  public:
   virtual ~Links() = default;
@@ -33,8 +33,8 @@ class Links {
   Status connect(Endpoint& from, Endpoint& to) { return connect(from, to, to.contract().queue); }
 
   /// Lets a port use its connection to a peer no more, and destroys its end of the link. A request that was not answered yet
-  /// gets an error; what a server has accepted it still handles; what waits at a PushProxy is dropped. The other end has to
-  /// leave as well: the client first.
+  /// gets an error. What a server has accepted it still handles, unless the sender waits for the handler's outcome. What waits
+  /// at a PushProxy is dropped. The other end has to leave as well: the client first.
   /// @param peer  "component.port" of the other end. Nothing happens if there is no such connection.
   /// @pre  the port is not movable (MovablePort::can_move()).
   /// @thread  the strand of the port between two laps; for a server in the same process, that of the client as well.
@@ -44,6 +44,8 @@ class Links {
   /// Checks that two ends fit each other, apart from whether the proxy is taken.
   /// @errors  those of connect().
   static Status check_fit(const Endpoint& from, const Endpoint& to, const QueuePolicy& policy);
+  /// Connects two ends that fit each other, without a look at whether the proxy is taken.
+  void join(Endpoint& from, Endpoint& to, const QueuePolicy& policy);
 
  private:
   // Connect two ends that fit each other and are free.

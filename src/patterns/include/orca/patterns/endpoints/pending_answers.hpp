@@ -26,11 +26,11 @@ class PendingAnswers {
     return next_id_++;
   }
 
-  /// @return false if nobody waits for it any more.
+  /// @return false if nobody waits for it any more, or it has its answer already.
   bool answer(std::uint64_t id, Answer answer) {
     const std::lock_guard lock(mutex_);
     const auto entry = find(id);
-    if (entry == entries_.end()) return false;
+    if (entry == entries_.end() || entry->answer) return false;
     entry->answer.emplace(std::move(answer));
     return true;
   }

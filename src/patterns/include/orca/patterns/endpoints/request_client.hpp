@@ -28,8 +28,8 @@ class RequestClient : public Endpoint, public MovablePort, public ReplySink<Answ
   /// this one.
   /// @thread  before the component runs, or its strand between two laps.
   void connect(RequestTarget<Answer>& target);
-  /// Lets the port use a server no more. What that has not answered yet is withdrawn from it and answered with an error, and
-  /// nothing of it is touched afterwards. Nothing if the port has never used it.
+  /// Lets the port use a server no more. What that has not answered yet gets an error at once, and the server is not touched
+  /// any more; it drops these requests when its end of the connection goes. Nothing if the port has never used it.
   /// @pre  !can_move()
   /// @thread  as connect().
   void disconnect(const std::string& server);
@@ -98,7 +98,7 @@ class RequestClient : public Endpoint, public MovablePort, public ReplySink<Answ
   };
 
   void move(RequestTarget<Answer>* target);
-  void answer_all_of(RequestTarget<Answer>& target);
+  void answer_all_of(const Era& era);
   [[nodiscard]] Era present() const;
   [[nodiscard]] Era era_of(RequestId id) const;
   void report(const std::string& server, const std::string& failure) const;

@@ -33,8 +33,9 @@ class SendServerEndpoint final : public Endpoint {
   /// Gives the edge to a client another policy. What waits stays.
   /// @return false if there is none.
   bool change(const std::string& client, const QueuePolicy& policy);
-  /// Removes the edge to a client. What it has accepted is still handled; what waits for room is dropped, and counted as
-  /// withdrawn. Nobody may use the edge any more.
+  /// Removes the edge to a client. What it has accepted is still handled. What waits for room, or for its handler's outcome
+  /// on an edge that confirms that, is dropped, and counted as withdrawn; an object in the handler is not confirmed. The
+  /// client may be destroyed then. Nobody may use the edge any more.
   /// @thread  any; the client does not use it at the same time.
   void disconnect(const std::string& client);
 
@@ -52,7 +53,7 @@ class SendServerEndpoint final : public Endpoint {
   [[nodiscard]] bool has_waiting() const;
   /// Returns the counters of all edges together, with those that were removed.
   [[nodiscard]] IntakeCounters counters() const;
-  /// Returns the counters of one edge; edges count in the order of connect().
+  /// Returns the counters of one edge; edges count in the order of connect(), without those that were removed.
   [[nodiscard]] IntakeCounters counters(std::size_t edge) const;
 
  private:
