@@ -16,22 +16,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string talker_back() { return "<connect from=\"a.out\" to=\"talker.back\" queue=\"1000\"/>"; }
+
 // Tellers a (which says "1:N") and b ("7:N") count what a talker tells them, and one of them tells it back. It logs what it
 // hears. The tellers note each object that they miss.
 class Talk {
  public:
   // @param process  of the tellers; the talker is in "main".
-  explicit Talk(const std::string& process) : process_(process) {
+  // @param more     elements of the graph
+  explicit Talk(const std::string& process, const std::string& more = "") : process_(process) {
     const fs::path plugins = folder_.file("plugins");
     fs::create_directory(plugins);
-    copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so", plugins);
+    for (const std::string name : {"test_talker", "test_napper"})
+      copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/" + name + ".so", plugins);
     copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_teller.so", plugins);
     copy_plugin(ORCA_BINARY_DIR "/tests/next_plugins/test_teller_other.so", plugins);
-    file_ = write("talk.xml", "<connect from=\"a.out\" to=\"talker.back\" queue=\"1000\"/>");
+    file_ = write("talk.xml", talker_back(), more);
   }
 
-  // Writes a graph with more connections, and returns its file.
-  [[nodiscard]] std::string write(const std::string& name, const std::string& connections) const {
+  // Writes a graph with more connections and other elements, and returns its file.
+  [[nodiscard]] std::string write(const std::string& name, const std::string& connections,
+                                  const std::string& more = "") const {
     const std::string place = process_ == "main" ? "" : " process=\"" + process_ + "\"";
     return folder_.write(name, "<graph name=\"talk\" version=\"1\" plugins=\"" + folder_.file("plugins") +
                                    "\">" + (place.empty() ? "" : "<process name=\"" + process_ + "\"/>") +
@@ -42,7 +47,7 @@ class Talk {
                                    "<connect from=\"talker.out\" to=\"a.in\" queue=\"1000\"/>"
                                    "<connect from=\"talker.out\" to=\"b.in\" queue=\"1000\"/>"
                                    "<connect from=\"talker.poke\" to=\"a.poke\" queue=\"1000\"/>" +
-                                   connections + "</graph>");
+                                   connections + more + "</graph>");
   }
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const std::string& process() const { return process_; }
@@ -53,16 +58,27 @@ class Talk {
   std::string file_;
 };
 
+// A napper that hears another one, "sleeper", which is in the tellers' process.
+std::string nappers(const std::string& process) {
+  return "<component name=\"sleeper\" type=\"test.Napper\" process=\"" + process +
+         "\" autonomous=\"true\"/><component name=\"napper\" type=\"test.Napper\" autonomous=\"true\"/>"
+         "<connect from=\"sleeper.out\" to=\"napper.back\" queue=\"1000\"/>";
+}
+
 class Talking {
  public:
-  explicit Talking(const std::string& process)
-      : talk_(process), program_(deployer({talk_.file(), "--log", "debug"})) {
+  // @param more  elements of the graph
+  explicit Talking(const std::string& process, const std::string& more = "")
+      : talk_(process, more), program_(deployer({talk_.file(), "--log", "debug"})) {
     REQUIRE(program_.wait_for_output("heard 1:10", Seconds(20) * kSlowdown));
   }
 
   [[nodiscard]] const Talk& talk() const { return talk_; }
   Subprocess& program() { return program_; }
   [[nodiscard]] std::size_t mark() const { return program_.err().size(); }
+  [[nodiscard]] bool has(const std::string& text) const {
+    return program_.err().find(text) != std::string::npos;
+  }
   // Returns whether a text comes to be in the log behind a mark.
   bool hears(const std::string& text, std::size_t mark) {
     return comes_true([&] { return program_.err().find(text, mark) != std::string::npos; }, Seconds(20));
@@ -220,6 +236,89 @@ TEST_CASE("a graph with other connections is applied, and everything is as befor
   CHECK(system.is_silent_of("heard 1:"));
   CHECK(shown_graph() == before);
   CHECK(run_orcactl({"stop"}).exit_code() == 0);
+}
+
+TEST_CASE("a client in a long lap refuses another connection, and hears its server all the time",
+          "[system][rewire]") {
+  Talking system("front", nappers("front"));
+  REQUIRE(system.hears("napper: heard ", 0));
+  const std::string before = shown_graph();
+  const Words change = GENERATE(Words{"connect", "sleeper.out", "napper.back", "queue=500"},
+                                Words{"disconnect", "sleeper.out", "napper.back"});
+  REQUIRE(run_orcactl({"set", "napper.nap", "9 s"}).exit_code() == 0);
+  REQUIRE(system.hears("napper: naps", 0));
+  const Run refused = run_orcactl(change, Seconds(20));
+  INFO(refused.out << refused.err);
+  CHECK(refused.exit_code() == 1);
+  CHECK_THAT(refused.err, Contains("napper: it has not come to the end of a lap in time") &&
+                              Contains("all others are as before"));
+  CHECK(shown_graph() == before);
+  CHECK_FALSE(system.has("napper: wakes up"));
+  CHECK(system.hears("napper: heard ", system.mark()));
+  REQUIRE(system.hears("napper: wakes up", 0));
+  CHECK_FALSE(system.has("napper: missed"));
+  const Run changed = run_orcactl(change);
+  INFO(changed.err);
+  CHECK(changed.exit_code() == 0);
+  CHECK(system.is_silent_of("napper: heard ") == (change.front() == "disconnect"));
+  system.end();
+}
+
+TEST_CASE("a server in a long lap refuses another connection, and its client hears it afterwards",
+          "[system][rewire]") {
+  Talking system("front", nappers("front"));
+  REQUIRE(system.hears("napper: heard ", 0));
+  const std::string before = shown_graph();
+  REQUIRE(run_orcactl({"set", "sleeper.nap", "12 s"}).exit_code() == 0);
+  REQUIRE(system.hears("sleeper: naps", 0));
+  const Run refused = run_orcactl({"connect", "sleeper.out", "napper.back", "queue=500"}, Seconds(20));
+  INFO(refused.out << refused.err);
+  CHECK(refused.exit_code() == 1);
+  CHECK_THAT(refused.err, Contains("sleeper: it has not come to the end of a lap in time"));
+  CHECK(shown_graph() == before);
+  REQUIRE(system.hears("sleeper: wakes up", 0));
+  CHECK(system.hears("napper: heard ", system.mark()));
+  CHECK(run_orcactl({"connect", "sleeper.out", "napper.back", "queue=500"}).exit_code() == 0);
+  CHECK(system.hears("napper: heard ", system.mark()));
+  system.end();
+}
+
+TEST_CASE("if one of several components in a process refuses its change, none of them has changed",
+          "[system][rewire]") {
+  const auto elements = [](const std::string& nap, const std::string& client) {
+    return "<component name=\"sleeper\" type=\"test.Napper\" autonomous=\"true\"/>"
+           "<component name=\"alert\" type=\"test.Napper\" autonomous=\"true\"/>"
+           "<component name=\"napper\" type=\"test.Napper\" autonomous=\"true\"><param name=\"nap\" "
+           "value=\"" +
+           nap + "\"/></component><connect from=\"sleeper.out\" to=\"" + client + ".back\" queue=\"1000\"/>";
+  };
+  Talking system("main", elements("0 s", "napper"));
+  const std::string other = system.talk().write("other.xml", talker_back(), elements("20 s", "alert"));
+  REQUIRE(system.hears("napper: heard ", 0));
+  REQUIRE(run_orcactl({"set", "napper.nap", "20 s"}).exit_code() == 0);
+  REQUIRE(system.hears("napper: naps", 0));
+  const Run refused = run_orcactl({"apply", other}, Seconds(30));
+  INFO(refused.out << refused.err);
+  CHECK(refused.exit_code() == 1);
+  CHECK_THAT(refused.err, Contains("napper: it has not come to the end of a lap in time"));
+  CHECK_FALSE(system.has("napper: wakes up"));
+  CHECK(system.is_silent_of("alert: heard"));
+  CHECK(system.hears("napper: heard ", system.mark()));
+  system.end();
+}
+
+TEST_CASE("the run ends at once although a change waits for the end of a lap", "[system][rewire]") {
+  Talking system("front", nappers("front"));
+  REQUIRE(run_orcactl({"set", "napper.nap", "20 s"}).exit_code() == 0);
+  REQUIRE(system.hears("napper: naps", 0));
+  Subprocess change(orcactl({"disconnect", "sleeper.out", "napper.back"}));
+  std::this_thread::sleep_for(Seconds(1.5));  // the graph is read and checked meanwhile
+  system.program().send(SIGINT);
+  const Run ended = finish(system.program(), Seconds(10));
+  INFO(ended.err);
+  CHECK(ended.exit_code() == 0);
+  CHECK_THAT(ended.err, !Contains("has not ended in time"));
+  CHECK(finish(change, Seconds(5)).exit_code() != 0);
 }
 
 TEST_CASE("connections change at a time known before, and the run repeats bit for bit", "[system][rewire]") {

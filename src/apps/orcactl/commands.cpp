@@ -28,9 +28,10 @@ constexpr std::string_view kApplyDetails =
     "other; then "
     "all other parameters change between two laps. If a step fails, everything goes back. A process that is "
     "started again "
-    "begins with the new graph. Connections are made, removed and given other policies at last. What needs "
-    "more - "
-    "components, hardware, processes, machines, connections over DDS - is refused before anything changes.";
+    "begins with the new graph. New components come up before connections are made, removed and given other "
+    "policies; components that the file does not have end at last. What needs more - hardware, processes, "
+    "machines, "
+    "connections over DDS - is refused before anything changes.";
 
 constexpr std::string_view kRewireDetails =
     "The graph with that change is checked as a whole, so that the order is refused if a port that must be "

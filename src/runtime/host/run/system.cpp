@@ -163,9 +163,16 @@ void System::let_go() {
 
 Status System::on_strand(const std::string& component, Event& changed, TimePoint deadline,
                          std::function<Status()> rewire) {
+  const Result<ComponentInstance*> found = instance(component);
+  if (!found) return found.error();
   if (fresh_.contains(component)) return rewire();
-  return carry_out(component, changed, deadline,
-                   [&](ComponentInstance& c) { return c.order_rewiring(std::move(rewire)); });
+  const std::shared_ptr<Order> order = (*found)->order_rewiring(std::move(rewire));
+  const Status outcome = await(**found, *order, changed, deadline);
+  if (order->withdraw())
+    return fail(outcome.error().code, outcome.error().message + "; its connections stay as they are",
+                component);
+  wait_until_holds(run_.executive, changed, kForever, [&] { return order->done(); });  // it is under way
+  return order->result();
 }
 
 Endpoint* System::endpoint(const graph::PortRef& port) const {
@@ -174,11 +181,15 @@ Endpoint* System::endpoint(const graph::PortRef& port) const {
 }
 
 Status System::suspend(const std::string& name, Event& changed, TimePoint deadline) {
-  return carry_out(name, changed, deadline, [](ComponentInstance& c) { return c.order_suspend(); });
+  const Result<ComponentInstance*> component = instance(name);
+  if (!component) return component.error();
+  return await(**component, *(*component)->order_suspend(), changed, deadline);
 }
 
 Status System::resume(const std::string& name, Event& changed, TimePoint deadline) {
-  return carry_out(name, changed, deadline, [](ComponentInstance& c) { return c.order_resume(); });
+  const Result<ComponentInstance*> component = instance(name);
+  if (!component) return component.error();
+  return await(**component, *(*component)->order_resume(), changed, deadline);
 }
 
 Status System::set_params(const std::string& name, const std::map<std::string, std::string>& texts,
@@ -187,21 +198,19 @@ Status System::set_params(const std::string& name, const std::map<std::string, s
   if (!component) return component.error();
   Result<graph::Params> values = graph::read_settings((*component)->parts().params.contracts(), texts);
   if (!values) return values.error();
-  return carry_out(name, changed, deadline,
-                   [&](ComponentInstance& c) { return c.order_params(std::move(values).value()); });
+  return await(**component, *(*component)->order_params(std::move(values).value()), changed, deadline);
 }
 
-Status System::carry_out(const std::string& name, Event& changed, TimePoint deadline,
-                         const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make) {
-  const Result<ComponentInstance*> component = instance(name);
-  if (!component) return component.error();
-  const std::shared_ptr<Order> order = make(**component);
-  if (wait_until_holds(run_.executive, changed, deadline, [&] { return order->done(); }))
-    return order->result();
-  const std::string hook = (*component)->current_hook();
+Status System::await(const ComponentInstance& component, const Order& order, Event& changed,
+                     TimePoint deadline) {
+  const bool came =
+      wait_until_holds(run_.executive, changed, deadline, [&] { return order.done() || give_up_(); });
+  if (order.done()) return order.result();
+  if (came) return fail(Code::failed_precondition, "the system is being taken down", component.name());
+  const std::string hook = component.current_hook();
   return fail(Code::deadline_exceeded,
               "it has not come to the end of a lap in time" + (hook.empty() ? "" : "; it is in " + hook),
-              name);
+              component.name());
 }
 
 Result<ComponentInstance*> System::instance(const std::string& name) const {

@@ -24,7 +24,7 @@ namespace orca::host {
 /// Thread contract: one thread, the executive's main task once it runs.
 class System {
  public:
-  /// @param give_up  called while the system comes up; true ends the waiting.
+  /// @param give_up  called while the system comes up, or an order waits for the end of a lap; true ends the waiting.
   System(const graph::Graph& graph, RunContext& run, std::function<bool()> give_up)
       : graph_(graph), run_(run), give_up_(std::move(give_up)) {}
 
@@ -69,8 +69,8 @@ class System {
   void let_go();
 
   /// Pause a component between two laps, and resume it.
-  /// @errors  not_found; failed_precondition if it cannot be suspended now; deadline_exceeded if a lap does
-  ///          not end in time. The order is then carried out when the lap does end.
+  /// @errors  not_found; failed_precondition if it cannot be suspended now, or the system is given up meanwhile;
+  ///          deadline_exceeded if a lap does not end in time. The order is then carried out when the lap does end.
   Status suspend(const std::string& component, Event& changed, TimePoint deadline);
   Status resume(const std::string& component, Event& changed, TimePoint deadline);
 
@@ -91,8 +91,8 @@ class System {
   Result<std::unique_ptr<ComponentInstance>> remove(const std::string& component, TimePoint deadline);
 
   /// Calls a function that changes connections of a component, on its strand between two laps, or at once before it is
-  /// configured. It may be called later than the deadline.
-  /// @errors  not_found; the function's own; deadline_exceeded as above.
+  /// configured. If that is not possible by the deadline, the function is never called.
+  /// @errors  not_found; the function's own; deadline_exceeded; failed_precondition if the system is given up meanwhile.
   Status on_strand(const std::string& component, Event& changed, TimePoint deadline,
                    std::function<Status()> rewire);
 
@@ -118,8 +118,7 @@ class System {
   Status build_components(PluginCatalogue& catalogue);
   Result<std::unique_ptr<ComponentInstance>> make(const graph::ComponentNode& node,
                                                   PluginCatalogue& catalogue);
-  Status carry_out(const std::string& name, Event& changed, TimePoint deadline,
-                   const std::function<std::shared_ptr<Order>(ComponentInstance&)>& make);
+  Status await(const ComponentInstance& component, const Order& order, Event& changed, TimePoint deadline);
 
   const graph::Graph& graph_;
   RunContext& run_;

@@ -58,7 +58,7 @@ class WatchedSystem {
   /// @param text  what is wrong, with the hook.
   using Standstill = std::function<void(const std::string& component, const std::string& text)>;
 
-  /// @param give_up  called while the system comes up; true ends the waiting.
+  /// @param give_up  see System.
   WatchedSystem(const graph::Graph& graph, const SystemPlace& place, const SystemOptions& options,
                 std::function<bool()> give_up);
   ~WatchedSystem();

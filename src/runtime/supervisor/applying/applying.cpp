@@ -2,6 +2,7 @@
 #include "applying/applying.hpp"
 
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
@@ -175,8 +176,8 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
       const auto self = work.lock();
       if (!self) return;
       if (!outcome.ok() && outcome.error().code != Code::unavailable)
-        log::warning(name, "nobody is connected to it any more, but " + outcome.error().message +
-                               "; it goes when its process ends");
+        log::warning(
+            name, "it could not be removed: " + outcome.error().message + "; it goes when its process ends");
       self->let_go(names, done);
     };
     const Status sent = owner_.operating_.send(name, RemoveComponent{name}, gone);
@@ -233,12 +234,14 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     });
   }
 
-  // A process that comes back has made its ends as before with memory of its own, perhaps before the other ends went back.
+  // Gives edges of before new memory at both ends if these may not have the same: a process that comes back has made its ends
+  // as before with memory of its own, perhaps before the other ends went back; and a client may have left an edge and come
+  // back to it, while the server never left it.
   Error renewed(const Error& reason) {
-    std::set<std::string> edges;
+    std::set<std::string> edges = std::exchange(*left_, {});
     for (const graph::GraphPlan::Rewiring& one : plan_.connections)
-      if (one.before) edges.insert(one.before->name());
-    const Status renewed = lost_.empty() ? ok() : owner_.levers_.renew(edges);
+      if (one.before && !lost_.empty()) edges.insert(one.before->name());
+    const Status renewed = owner_.levers_.renew(edges);
     return renewed.ok() ? reason : with(reason, "connections", renewed.error());
   }
 
@@ -246,7 +249,7 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
               std::function<void(const Status&)> done) {
     graph::Graph both = owner_.graph_;
     both.components.insert(both.components.end(), plan_.added.begin(), plan_.added.end());
-    Result<std::vector<JointStep>> steps = edge_steps(both, connections, lost_);
+    Result<std::vector<JointStep>> steps = edge_steps(both, connections, lost_, left_);
     if (!steps) return done(steps.error());
     carry_out(std::move(steps).value(), std::move(done));
   }
@@ -295,6 +298,8 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   std::vector<Before> before_;                            // of each exchange that was begun
   std::map<std::string, graph::Params> settings_before_;  // by component
   std::set<std::string> lost_;                            // processes that have ended since the reading
+  // edges that clients have left, see edge_steps()
+  const std::shared_ptr<std::set<std::string>> left_ = std::make_shared<std::set<std::string>>();
   bool has_ended_ = false;
   std::optional<SystemReading> reading_;
 };

@@ -34,7 +34,7 @@ class Applying {
     SystemReader read;  ///< Empty: no graph can be read.
     /// Makes a graph that of the run: it is carried out.
     std::function<void(const CheckedSystem&)> accept;
-    /// Gives both ends of edges new memory, by name: a process was lost while they changed.
+    /// Gives both ends of edges new memory, by name: a change of them has failed.
     std::function<Status(const std::set<std::string>&)> renew;
     /// Makes the order that tells of a component which comes: it is reported from now on.
     std::function<Result<AddComponent>(const graph::ComponentNode&)> introduce;

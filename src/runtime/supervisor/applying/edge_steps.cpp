@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,7 +20,7 @@ namespace {
 
 using graph::Edge;
 
-// What one process does in a step, and how it goes back.
+// What one component does in a step, or how it goes back.
 struct Duty {
   std::vector<EdgeChange> makes;
   std::vector<EdgeChange> removes;
@@ -35,9 +34,10 @@ struct Duty {
 struct Duties {
   Duty go;
   Duty back;
+  std::set<std::string> left;  // edges of before to servers in other processes
 };
 
-// The steps in their order, each for several processes.
+// The steps in their order, each for several components.
 enum Stage { kServersBegin, kClients, kServersEnd };
 using Stages = std::array<std::map<std::string, Duties>, 3>;
 
@@ -45,44 +45,48 @@ class StageMaker {
  public:
   explicit StageMaker(const graph::Graph& graph) : graph_(graph) {}
 
+  // Before a client has obeyed, the server's end of what it has does not change.
   Status add(const graph::GraphPlan::Rewiring& rewiring) {
-    if (rewiring.after)
-      if (Status made = make(*rewiring.after, &Duties::go); !made.ok()) return made;
-    if (!rewiring.after) remove(*rewiring.before, &Duties::go, kServersEnd);
-    if (rewiring.before)
-      if (Status made = make(*rewiring.before, &Duties::back); !made.ok()) return made;
-    if (!rewiring.before) remove(*rewiring.after, &Duties::back, kServersBegin);
-    return ok();
+    const auto& [before, after] = rewiring;
+    const Stage of_server = before ? kServersEnd : kServersBegin;
+    if (before && goes_out(*before))
+      stages_[kClients][before->client().component].left.insert(before->name());
+    if (!after) remove(*before, &Duties::go, of_server);
+    if (!before) remove(*after, &Duties::back, of_server);
+    if (after)
+      if (Status made = make(*after, &Duties::go, of_server); !made.ok()) return made;
+    return before ? make(*before, &Duties::back, of_server) : ok();
   }
 
   [[nodiscard]] Stages& stages() { return stages_; }
 
  private:
-  [[nodiscard]] const std::string& process_of(const graph::PortRef& port) const {
-    return graph_.find_component(port.component)->process;
+  // Returns whether an edge joins two processes.
+  [[nodiscard]] bool goes_out(const Edge& edge) const {
+    const auto process_of = [this](const graph::PortRef& port) -> const std::string& {
+      return graph_.find_component(port.component)->process;
+    };
+    return process_of(edge.from) != process_of(edge.to);
   }
 
   // Has both ends of an edge made, on the way there or back. On the way back the ends of an edge get new memory even if
   // only one of them was removed.
-  Status make(const Edge& edge, Duty Duties::*way) {
-    const std::string& server = process_of(edge.server());
-    const std::string& client = process_of(edge.client());
-    if (server == client) {
-      (stages_[kClients][client].*way).makes.push_back({edge});
+  Status make(const Edge& edge, Duty Duties::*way, Stage of_server) {
+    auto& at_client = (stages_[kClients][edge.client().component].*way).makes;
+    if (!goes_out(edge)) {
+      at_client.push_back({edge});
       return ok();
     }
     const Result<MemoryFile> memory = RingSegment::create(edge.name());
     if (!memory) return memory.error();
-    (stages_[kServersBegin][server].*way).makes.push_back({edge, true, copy_of(*memory)});
-    (stages_[kClients][client].*way).makes.push_back({edge, true, copy_of(*memory)});
+    at_client.push_back({edge, true, copy_of(*memory)});
+    (stages_[of_server][edge.server().component].*way).makes.push_back({edge, true, copy_of(*memory)});
     return ok();
   }
 
-  void remove(const Edge& edge, Duty Duties::*way, Stage stage_of_server) {
-    const std::string& server = process_of(edge.server());
-    const std::string& client = process_of(edge.client());
-    (stages_[kClients][client].*way).removes.push_back({edge, false});
-    if (server != client) (stages_[stage_of_server][server].*way).removes.push_back({edge, false});
+  void remove(const Edge& edge, Duty Duties::*way, Stage of_server) {
+    (stages_[kClients][edge.client().component].*way).removes.push_back({edge, false});
+    if (goes_out(edge)) (stages_[of_server][edge.server().component].*way).removes.push_back({edge, false});
   }
 
   static Descriptor copy_of(const MemoryFile& memory) {
@@ -96,20 +100,24 @@ class StageMaker {
 };
 
 // The orders are made once, since they hold the memory.
-JointStep step_of(const graph::Graph& graph, const std::string& process, Duties duties) {
-  const auto component = std::ranges::find(graph.components, process, &graph::ComponentNode::process);
+JointStep step_of(const std::string& component, Duties duties,
+                  const std::shared_ptr<std::set<std::string>>& left) {
   const auto orders = std::make_shared<Duties>(std::move(duties));
   const auto make = [orders]() -> std::optional<ThereAndBack> {
     return ThereAndBack{orders->go.order(), orders->back.order()};
   };
-  return {component->name, make, [](bool) {}};
+  const auto obeyed = [orders, left](bool has_gone) {
+    if (has_gone) left->insert(orders->left.begin(), orders->left.end());
+  };
+  return {component, make, obeyed, false};
 }
 
 }  // namespace
 
 Result<std::vector<JointStep>> edge_steps(const graph::Graph& graph,
                                           const std::vector<graph::GraphPlan::Rewiring>& connections,
-                                          const std::set<std::string>& lost) {
+                                          const std::set<std::string>& lost,
+                                          const std::shared_ptr<std::set<std::string>>& left) {
   StageMaker maker(graph);
   const Status added = contain_exhaustion([&] {
     for (const graph::GraphPlan::Rewiring& one : connections)
@@ -119,8 +127,9 @@ Result<std::vector<JointStep>> edge_steps(const graph::Graph& graph,
   if (!added.ok()) return added.error();
   std::vector<JointStep> steps;
   for (auto& stage : maker.stages())
-    for (auto& [process, duties] : stage)
-      if (!lost.contains(process)) steps.push_back(step_of(graph, process, std::move(duties)));
+    for (auto& [component, duties] : stage)
+      if (!lost.contains(graph.find_component(component)->process))
+        steps.push_back(step_of(component, std::move(duties), left));
   return steps;
 }
 

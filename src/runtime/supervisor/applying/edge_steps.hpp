@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,15 +13,22 @@
 
 namespace orca::supervisor {
 
-/// Returns the steps that change connections between components that run, and take the change back if one fails. An edge
-/// between two processes gets fresh memory: first its server's end is made, then its client's; they go the other way round. A
-/// client makes all its connections before it removes any, so that a port that goes over to another server misses nothing.
+/// Returns the steps that change connections between components that run, and take the change back if one fails. Each step
+/// concerns one component. An edge between two processes gets fresh memory. The steps come in this order:
+///
+/// 1. The servers' ends of new edges are made.
+/// 2. Clients make all their connections, then remove others, so that a port that goes over to another server misses nothing.
+/// 3. The servers' ends of the clients' earlier edges are removed or made anew.
+///
+/// So a client that refuses has all connections that it had.
 ///
 /// @param graph  that has the components of all connections.
 /// @param lost   processes that take no part: what they run begins anew.
+/// @param left   gets the names of edges that their clients have left while their servers may have not: after a failure their
+///               ends need new memory to find each other again.
 /// @errors  unavailable if the system gives no memory.
 [[nodiscard]] Result<std::vector<JointStep>> edge_steps(
     const graph::Graph& graph, const std::vector<graph::GraphPlan::Rewiring>& connections,
-    const std::set<std::string>& lost = {});
+    const std::set<std::string>& lost, const std::shared_ptr<std::set<std::string>>& left);
 
 }  // namespace orca::supervisor

@@ -49,7 +49,7 @@ class JointOrders::Joint : public std::enable_shared_from_this<Joint> {
     Change& change = changes_.back();
     if (outcome.ok()) return steps_[change.step].obeyed(true);
     refusal_ = by_name(outcome.error(), change.step);
-    change.is_late = outcome.error().code == Code::deadline_exceeded;
+    change.is_late = steps_[change.step].may_obey_late && outcome.error().code == Code::deadline_exceeded;
     if (!change.is_late) changes_.pop_back();
   }
 

@@ -26,13 +26,15 @@ struct JointStep {
   std::function<std::optional<ThereAndBack>()> make;
   /// Takes that the component has obeyed: true after the change, false after the way back.
   std::function<void(bool has_gone)> obeyed;
+  bool may_obey_late =
+      true;  ///< An order that was not obeyed in time may be obeyed later. false: it never will.
 };
 
 /// Orders that concern several components, in whatever processes: all of them obey, or none. The components change one
 /// after the other, each between two of its laps. If one refuses, those that have changed go back, the last one first.
 /// Joint orders wait for each other, so none sees another one half done.
 ///
-/// A component that does not answer in time may obey later, so it gets the order to go back too: it obeys both in turn.
+/// A component that may obey late and has not obeyed in time gets the order to go back too: it obeys both in turn.
 ///
 /// Thread contract: the supervisor's thread.
 class JointOrders {

@@ -72,6 +72,33 @@ TEST_CASE("an order may give another one, which comes last", "[host][orders]") {
   });
 }
 
+TEST_CASE("an order that has not been begun can be withdrawn, and no other one", "[host][orders]") {
+  with_desk([](Desk& desk) {
+    const auto first = desk.add("first");
+    const auto second = desk.add("second");
+    CHECK(second->withdraw());
+    CHECK_FALSE(second->withdraw());
+    while (desk.orders.carry_out_next()) continue;
+    CHECK_FALSE(first->withdraw());
+    CHECK_FALSE(second->done());
+    CHECK(desk.carried_out == std::vector<std::string>{"first"});
+  });
+}
+
+TEST_CASE("an order cannot be withdrawn while it is carried out", "[host][orders]") {
+  with_desk([](Desk& desk) {
+    std::shared_ptr<Order> order;
+    bool withdrawn = true;
+    order = desk.orders.add([&] {
+      withdrawn = order->withdraw();
+      return ok();
+    });
+    (void)desk.orders.carry_out_next();
+    CHECK_FALSE(withdrawn);
+    CHECK(order->done());
+  });
+}
+
 TEST_CASE("at the end the orders that wait and those that come later are refused by name", "[host][orders]") {
   with_desk([](Desk& desk) {
     const auto early = desk.add("early");

@@ -39,6 +39,7 @@ class Components {
   Words ends;
   Words left_alone;
   Words unreachable;
+  bool may_obey_late = true;
 
  private:
   JointStep step(const std::string& name) {
@@ -47,7 +48,8 @@ class Components {
               if (std::ranges::find(left_alone, name) != left_alone.end()) return std::nullopt;
               return ThereAndBack{Suspend{name}, Resume{name}};
             },
-            [this, name](bool has_gone) { changes.push_back(name + (has_gone ? " changed" : " is back")); }};
+            [this, name](bool has_gone) { changes.push_back(name + (has_gone ? " changed" : " is back")); },
+            may_obey_late};
   }
 
   Status send(const std::string& name, const Order& order, JointOrders::Answered answered) {
@@ -147,6 +149,23 @@ TEST_CASE("a component that is late is ordered back too, because it may obey lat
     CHECK(all.ends == Words{"b: " + kTooLate.message +
                             "; it obeys once its lap has ended, and goes back at once"
                             "; all others are as before the order"});
+  }
+}
+
+TEST_CASE("a component that is late and never obeys then is left as it is", "[supervisor][joint]") {
+  Components all;
+  all.may_obey_late = false;
+  all.suspend({"a", "b"});
+  all.answer();
+  all.answer(kTooLate);
+  CHECK(all.asked == Words{"suspend a", "suspend b", "resume a"});
+  SECTION("and the others go back") {
+    all.answer();
+    CHECK(all.ends == Words{"b: " + kTooLate.message + "; all others are as before the order"});
+  }
+  SECTION("and another one that is late on the way back stays changed") {
+    all.answer(kTooLate);
+    CHECK(all.ends == Words{"b: " + kTooLate.message + "; not all could go back: a: " + kTooLate.message});
   }
 }
 

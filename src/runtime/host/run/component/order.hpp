@@ -11,26 +11,40 @@ namespace orca::host {
 
 /// A request to one component from outside. It is carried out on the component's strand, between laps.
 ///
-/// Thread contract: done() from anywhere, result() after it; the rest on the component's strand.
+/// Thread contract: done() and withdraw() from anywhere, result() after done(); the rest on the component's strand.
 class Order {
  public:
   explicit Order(std::function<Status()> body) : body_(std::move(body)) {}
 
-  void carry_out() { conclude(body_()); }
-  void refuse(Error reason) { conclude(std::move(reason)); }
+  /// Carries it out, unless it was withdrawn.
+  void carry_out() {
+    if (leave_waiting(State::begun)) conclude(body_());
+  }
+  void refuse(Error reason) {
+    if (leave_waiting(State::begun)) conclude(std::move(reason));
+  }
+  /// Takes it back; it is never carried out then, and never done.
+  /// @return false if it is too late: it is being carried out, or is done.
+  bool withdraw() { return leave_waiting(State::withdrawn); }
 
-  [[nodiscard]] bool done() const { return done_.load(std::memory_order_acquire); }
+  [[nodiscard]] bool done() const { return state_.load(std::memory_order_acquire) == State::done; }
   [[nodiscard]] const Status& result() const { return result_; }
 
  private:
+  enum class State { waiting, begun, withdrawn, done };
+
+  bool leave_waiting(State next) {
+    State expected = State::waiting;
+    return state_.compare_exchange_strong(expected, next, std::memory_order_acq_rel);
+  }
   void conclude(Status result) {
     result_ = std::move(result);
-    done_.store(true, std::memory_order_release);
+    state_.store(State::done, std::memory_order_release);
   }
 
   std::function<Status()> body_;
   Status result_;
-  std::atomic<bool> done_{false};
+  std::atomic<State> state_{State::waiting};
 };
 
 }  // namespace orca::host

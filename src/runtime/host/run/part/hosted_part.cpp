@@ -2,6 +2,7 @@
 #include "orca/host/hosted_part.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -57,7 +58,7 @@ class HostedPart::Inside {
         offers_(place.executive, options.missions),
         outer_(whole_, process, options.doorbell, options.run),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
-                 system_options(options, place.listener), [] { return false; }),
+                 system_options(options, place.listener), [this] { return is_to_end_.load(); }),
         swaps_(whole_, watched_.context(), place.catalogue, watched_.system()) {
     watched_.reporter().tap(taps_);
   }
@@ -127,6 +128,7 @@ class HostedPart::Inside {
   void order(PartOrder order) {
     {
       const std::lock_guard lock(mutex_);
+      if (order.kind == PartOrder::Kind::take_down) is_to_end_ = true;
       if (!closed_) {
         orders_.push_back(std::move(order));
         watched_.changed().notify();
@@ -233,7 +235,7 @@ class HostedPart::Inside {
       case PartOrder::Kind::add: return changes_.add(*order.node, order.params);
       case PartOrder::Kind::remove: return remove(order.component);
       case PartOrder::Kind::open_gate: return changes_.open_gate(order.component);
-      case PartOrder::Kind::rewire: return changes_.rewire(order.connections, limit);
+      case PartOrder::Kind::rewire: return changes_.rewire(*order.connections, limit);
       case PartOrder::Kind::swap: break;  // is no matter of one step
     }
     return fail(Code::internal, "an unknown order");
@@ -306,6 +308,8 @@ class HostedPart::Inside {
   std::map<std::string, ComponentReport> reported_;
   bool at_rest_ = true;
 
+  std::atomic<bool> is_to_end_{
+      false};  // take_down is ordered: what comes before it waits for nothing any more
   std::mutex mutex_;
   // Below: guarded by mutex_.
   std::deque<PartOrder> orders_;

@@ -114,10 +114,13 @@ Status OuterEdges::connect(System& system) {
                   "port " + here.text() + " was there when the graph was checked, and is not there now");
     const bool is_client = here == edge.client();
     if (is_client) prepare_choice(edge, *port);
-    const auto memory = memory_.find(edge.name());
-    const Status connected =
-        memory == memory_.end() ? connect_dds(edge, *port) : connect_memory(edge, memory->second, *port);
-    if (!connected.ok()) return connected;
+    if (const auto memory = memory_.find(edge.name()); memory != memory_.end()) {
+      Result<RingSegment> segment = RingSegment::map(memory->second.number());
+      if (!segment) return segment.error();
+      connect_memory(edge, std::move(segment).value(), *port);
+    } else if (Status connected = connect_dds(edge, *port); !connected.ok()) {
+      return connected;
+    }
     if (is_client) take_first_choice(edge, *port);
   }
   memory_.clear();
@@ -125,32 +128,28 @@ Status OuterEdges::connect(System& system) {
   return ok();
 }
 
-Status OuterEdges::connect_memory(const graph::Edge& edge, const Descriptor& memory, Endpoint& port) {
+void OuterEdges::connect_memory(const graph::Edge& edge, RingSegment segment, Endpoint& port) {
   const graph::PortRef& there = ends_of(edge).there;
-  Result<RingSegment> segment = RingSegment::map(memory.number());
-  if (!segment) return segment.error();
   const auto server = servers_.find(edge.name());
-  ShmEnd* const end = join(port, {std::move(segment).value(),
+  ShmEnd* const end = join(port, {std::move(segment),
                                   {there.text(), doorbell_(there.component)},
                                   policy_of(edge),
                                   server == servers_.end() ? Duration{0} : server->second.period});
   const std::lock_guard lock(mutex_);
   ends_[edge.name()] = end;
-  return ok();
 }
 
-Status OuterEdges::make(const graph::Edge& edge, const Descriptor& memory, Endpoint& port) {
-  if (Status removed = remove(edge, port); !removed.ok()) return removed;
-  return connect_memory(edge, memory, port);
+void OuterEdges::make(const graph::Edge& edge, RingSegment segment, Endpoint& port) {
+  remove(edge, port);
+  connect_memory(edge, std::move(segment), port);
 }
 
-Status OuterEdges::remove(const graph::Edge& edge, Endpoint& port) {
+void OuterEdges::remove(const graph::Edge& edge, Endpoint& port) {
   {
     const std::lock_guard lock(mutex_);
     ends_.erase(edge.name());
   }
   Links::leave(port, ends_of(edge).there.text());
-  return ok();
 }
 
 Status OuterEdges::connect_dds(const graph::Edge& edge, Endpoint& port) {

@@ -53,10 +53,9 @@ class OuterEdges {
   Status renew(const std::string& edge, const Descriptor& memory);
 
   /// Makes this process's end of an edge through shared memory, in place of the one that is there.
-  /// @errors  those of RingSegment::map().
-  Status make(const graph::Edge& edge, const Descriptor& memory, Endpoint& port);
+  void make(const graph::Edge& edge, RingSegment segment, Endpoint& port);
   /// Removes this process's end of such an edge. Nothing if there is none.
-  Status remove(const graph::Edge& edge, Endpoint& port);
+  void remove(const graph::Edge& edge, Endpoint& port);
   /// Returns the end of an edge that is in this process.
   [[nodiscard]] const graph::PortRef& end_here(const graph::Edge& edge) { return ends_of(edge).here; }
 
@@ -69,7 +68,7 @@ class OuterEdges {
 
   [[nodiscard]] Ends ends_of(const graph::Edge& edge);
   [[nodiscard]] const std::string& process_of(const graph::PortRef& port);
-  Status connect_memory(const graph::Edge& edge, const Descriptor& memory, Endpoint& port);
+  void connect_memory(const graph::Edge& edge, RingSegment segment, Endpoint& port);
   Status connect_dds(const graph::Edge& edge, Endpoint& port);
   [[nodiscard]] Result<DdsOptions> dds_options() const;
   Status learn(const graph::Edge& edge, PluginCatalogue& catalogue);

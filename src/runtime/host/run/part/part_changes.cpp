@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "part_changes.hpp"
 
+#include <memory>
 #include <utility>
 
 #include "orca/graph/plan.hpp"
 #include "orca/graph/settings.hpp"
 #include "orca/plugin/describe.hpp"
-#include "run/swap/rewiring.hpp"
 
 namespace orca::host {
-
-Error no_such(const graph::PortRef& port) {
-  return fail(Code::not_found, "there is no port " + port.text() + " in this process");
-}
 
 PartChanges::PartChanges(std::string process, Whole whole, PluginCatalogue& catalogue, WatchedSystem& watched,
                          OuterEdges& outer, OuterOffers& offers, Swaps& swaps)
@@ -61,6 +57,7 @@ Status PartChanges::remove(const std::string& name, TimePoint limit,
                            const std::function<void(const ComponentInstance&)>& last) {
   if (swaps_.is_under_way(name) || swaps_.concern_drivers())
     return fail(Code::failed_precondition, "its code, or a driver, is being exchanged", name);
+  if (Status unconnected = check_unconnected(name); !unconnected.ok()) return unconnected;
   std::unique_ptr<ComponentInstance> rest;
   if (watched_.system().component(name) != nullptr) {
     Result<std::unique_ptr<ComponentInstance>> removed = watched_.system().remove(name, limit);
@@ -76,28 +73,61 @@ Status PartChanges::remove(const std::string& name, TimePoint limit,
   return ok();
 }
 
-Status PartChanges::rewire(const std::shared_ptr<std::vector<ConnectionChange>>& changes, TimePoint limit) {
-  for (const ConnectionChange& change : *changes) {
-    if (const Status done = rewire({changes, &change}, limit); !done.ok()) return done;
-    const std::lock_guard lock(whole_.mutex);
-    graph::put(change.edge, change.makes, whole_.graph.edges);
+// A removed component's ports must not be used by a connection that a failed change has left here.
+Status PartChanges::check_unconnected(const std::string& component) const {
+  const System& system = watched_.system();
+  for (const graph::Edge& edge : whole_.graph.edges) {
+    const bool is_its = edge.from.component == component || edge.to.component == component;
+    const bool ends_here = system.endpoint(edge.from) != nullptr || system.endpoint(edge.to) != nullptr;
+    if (is_its && ends_here)
+      return fail(Code::failed_precondition, "the connection " + edge.name() + " could not be removed",
+                  component);
   }
   return ok();
 }
 
-// The change is kept for as long as a strand may still come to it.
-Status PartChanges::rewire(const std::shared_ptr<const ConnectionChange>& change, TimePoint limit) {
-  System& system = watched_.system();
-  const graph::Edge& edge = change->edge;
-  if (edge.link == graph::Link::local)
-    return host::rewire(system, edge, change->makes, watched_.changed(), limit);
-  const graph::PortRef& here = outer_.end_here(edge);
-  Endpoint* const port = system.endpoint(here);
-  if (port == nullptr) return no_such(here);
-  return system.on_strand(here.component, watched_.changed(), limit, [this, change, port] {
-    return change->makes ? outer_.make(change->edge, change->memory, *port)
-                         : outer_.remove(change->edge, *port);
+// All changes are carried out in one go on one strand, so that they are made together or not at all.
+Status PartChanges::rewire(const std::vector<ConnectionChange>& changes, TimePoint limit) {
+  std::string component;
+  std::vector<std::function<Status()>> bodies;
+  for (const ConnectionChange& change : changes) {
+    Result<Rewiring> rewiring = prepare(change);
+    if (!rewiring) return rewiring.error();
+    if (!bodies.empty() && rewiring->component != component)
+      return fail(Code::invalid_argument,
+                  "one order cannot change connections of both " + component + " and " + rewiring->component);
+    component = std::move(rewiring->component);
+    bodies.push_back(std::move(rewiring->body));
+  }
+  const Status done = watched_.system().on_strand(component, watched_.changed(), limit, [bodies] {
+    for (const auto& body : bodies)
+      if (Status changed = body(); !changed.ok()) return changed;
+    return ok();
   });
+  if (!done.ok()) return done;
+  const std::lock_guard lock(whole_.mutex);
+  for (const ConnectionChange& change : changes) graph::put(change.edge, change.makes, whole_.graph.edges);
+  return ok();
+}
+
+Result<Rewiring> PartChanges::prepare(const ConnectionChange& change) {
+  const graph::Edge& edge = change.edge;
+  if (edge.link == graph::Link::local) return rewiring_of(watched_.system(), edge, change.makes);
+  const graph::PortRef& here = outer_.end_here(edge);
+  Endpoint* const port = watched_.system().endpoint(here);
+  if (port == nullptr) return no_such(here);
+  if (!change.makes)
+    return Rewiring{here.component, [this, edge, port] {
+                      outer_.remove(edge, *port);
+                      return ok();
+                    }};
+  Result<RingSegment> segment = RingSegment::map(change.memory.number());
+  if (!segment) return segment.error();
+  return Rewiring{here.component,
+                  [this, edge, port, memory = std::make_shared<RingSegment>(std::move(segment).value())] {
+                    outer_.make(edge, std::move(*memory), *port);
+                    return ok();
+                  }};
 }
 
 }  // namespace orca::host

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -14,13 +13,11 @@
 #include "orca/host/hosted_part.hpp"
 #include "outer_edges.hpp"
 #include "outer_offers.hpp"
+#include "run/swap/rewiring.hpp"
 #include "run/swap/swaps.hpp"
 #include "run/watched_system.hpp"
 
 namespace orca::host {
-
-/// Returns the error of who asks for a port that is not there.
-[[nodiscard]] Error no_such(const graph::PortRef& port);
 
 /// What changes in the part of a system while it runs: components come and go, in this process or in others, and connections.
 ///
@@ -46,16 +43,19 @@ class PartChanges {
   Status open_gate(const std::string& name);
   /// Forgets a component, after it has ended if it was this process's.
   /// @param last  takes it before it is destroyed.
-  /// @errors  those of System::remove(); failed_precondition while its code is being exchanged.
+  /// @errors  those of System::remove(); failed_precondition while its code is being exchanged, or it is connected.
   Status remove(const std::string& name, TimePoint limit,
                 const std::function<void(const ComponentInstance&)>& last);
   /// Makes and removes connections; see PartOrder::connections.
-  Status rewire(const std::shared_ptr<std::vector<ConnectionChange>>& changes, TimePoint limit);
+  /// @errors  those of System::on_strand(), of rewiring_of() and of RingSegment::map(); invalid_argument if the changes are
+  ///          those of several components. Nothing has changed then, and nothing will.
+  Status rewire(const std::vector<ConnectionChange>& changes, TimePoint limit);
 
  private:
   Result<graph::Params> read_params(const graph::ComponentNode& node,
                                     const std::map<std::string, std::string>& texts);
-  Status rewire(const std::shared_ptr<const ConnectionChange>& change, TimePoint limit);
+  [[nodiscard]] Result<Rewiring> prepare(const ConnectionChange& change);
+  [[nodiscard]] Status check_unconnected(const std::string& component) const;
 
   const std::string process_;
   const Whole whole_;

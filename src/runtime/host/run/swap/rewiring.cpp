@@ -8,18 +8,27 @@
 
 namespace orca::host {
 
-Status rewire(System& system, const graph::Edge& edge, bool makes, Event& changed, TimePoint deadline) {
+Error no_such(const graph::PortRef& port) {
+  return fail(Code::not_found, "there is no port " + port.text() + " in this process");
+}
+
+Result<Rewiring> rewiring_of(const System& system, const graph::Edge& edge, bool makes) {
   Endpoint* const from = system.endpoint(edge.from);
   Endpoint* const to = system.endpoint(edge.to);
   for (const auto& [port, ref] : {std::pair(from, &edge.from), std::pair(to, &edge.to)})
-    if (port == nullptr) return fail(Code::not_found, "there is no port " + ref->text() + " in this process");
-  return system.on_strand(edge.client().component, changed, deadline, [=] {
-    if (makes) return LocalLinks().renew(*from, *to, policy_of(edge));
-    const bool pushes = edge.pattern == Pattern::push;
-    Links::leave(pushes ? *to : *from, edge.server().text());
-    Links::leave(pushes ? *from : *to, edge.client().text());
-    return ok();
-  });
+    if (port == nullptr) return no_such(*ref);
+  const std::string& client = edge.client().component;
+  const QueuePolicy policy = policy_of(edge);
+  if (makes) {
+    if (Status fits = LocalLinks::check_fit(*from, *to, policy); !fits.ok()) return fits.error();
+    return Rewiring{client, [=] { return LocalLinks().renew(*from, *to, policy); }};
+  }
+  const bool pushes = edge.pattern == Pattern::push;
+  return Rewiring{client, [pushes, from, to, server = edge.server().text(), path = edge.client().text()] {
+                    Links::leave(pushes ? *to : *from, server);
+                    Links::leave(pushes ? *from : *to, path);
+                    return ok();
+                  }};
 }
 
 Status move(const System& system, const graph::Edge& edge) {

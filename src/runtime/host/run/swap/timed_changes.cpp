@@ -89,7 +89,10 @@ Status TimedChanges::rewire(const std::vector<graph::GraphPlan::Rewiring>& conne
 
 Status TimedChanges::rewire(const graph::Edge& edge, bool makes) {
   graph::put(edge, makes, graph_.edges);
-  return host::rewire(watched_.system(), edge, makes, watched_.changed(), executive_.now() + kLapLimit);
+  Result<Rewiring> rewiring = rewiring_of(watched_.system(), edge, makes);
+  if (!rewiring) return rewiring.error();
+  return watched_.system().on_strand(rewiring->component, watched_.changed(), executive_.now() + kLapLimit,
+                                     std::move(rewiring->body));
 }
 
 // The type was tried out when its graph was checked.

@@ -62,8 +62,8 @@ struct PartOrder {
   /// The component to add, if that is the order. Its parameters are those in `params`.
   std::shared_ptr<graph::ComponentNode> node{};
   std::shared_ptr<SwapOrder> swap{};  ///< What is to be exchanged, if that is the order.
-  /// The connections to make and to remove, if that is the order. What is so already is made anew, or left alone. If one cannot
-  /// be changed, those after it are not.
+  /// The connections of one component to make and to remove, in this order, if that is the order: of a client, or of a server
+  /// whose client is in another process. What is so already is made anew, or left alone. All of them change, or none.
   std::shared_ptr<std::vector<ConnectionChange>> connections{};
   /// Takes the outcome of a swap instead of `done`, on the part's main task. It must not block.
   std::function<void(const Result<SwapReport>&)> swapped{};
@@ -143,7 +143,8 @@ class HostedPart {
   /// @pre  run() has returned.
   void write_outputs();
 
-  /// Gives an order. Orders are carried out one after the other. One that comes after take_down is refused.
+  /// Gives an order. Orders are carried out one after the other. One that comes after take_down is refused; those before it
+  /// wait no longer for components or hardware.
   void order(PartOrder order);
 
   /// Stops the motors and closes the hardware, while this process is about to end; waits for it, but not for long.

@@ -198,8 +198,8 @@ struct EdgeChange {
   bool makes = true;
   Descriptor memory{};  ///< Of an edge to another process that is made.
 };
-/// Asks to make and remove connections of the process, in this order. What is so already is made anew, or left alone. If one
-/// change fails, those after it are not made.
+/// Asks to make and remove connections of one component, in this order: of a client, or of a server whose client is in another
+/// process. What is so already is made anew, or left alone. All changes are made, or none.
 struct Rewire {
   static constexpr Kind kKind = Kind::rewire;
   std::vector<EdgeChange> changes;
