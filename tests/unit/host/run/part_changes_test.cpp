@@ -34,6 +34,7 @@ class NapListener final : public PartListener {
   void component_changed(const std::string& /*component*/, const ComponentReport& /*report*/) override {}
   void rest_changed(bool /*at_rest*/) override {}
   void counted(const RunCounters& /*counters*/, const std::vector<RunResult::Way>& /*ways*/) override {}
+  void state_kept(const std::string& /*component*/, const KeptState& /*state*/) override {}
   void output_failed(const Error& error) override { FAIL(error.text()); }
   [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
 

@@ -219,6 +219,7 @@ class HostedPart::Inside {
       case PartOrder::Kind::open_hardware:
         return system.open_hardware(changed, place_.executive.now() + kStartLimit);
       case PartOrder::Kind::configure:
+        watched_.set_hang_limit(Duration{0});  // configure() has a limit of its own, as at a start
         return system.configure(order.component, changed, place_.executive.now() + kStartLimit);
       case PartOrder::Kind::open_gates:
         LastWords::catch_exit();
@@ -232,7 +233,9 @@ class HostedPart::Inside {
       case PartOrder::Kind::resume: return system.resume(order.component, changed, limit);
       case PartOrder::Kind::set_params:
         return system.set_params(order.component, order.params, changed, limit);
-      case PartOrder::Kind::add: return changes_.add(*order.node, order.params);
+      case PartOrder::Kind::add:
+        watched_.set_hang_limit(Duration{0});  // so has a constructor
+        return changes_.add(*order.node, order.params);
       case PartOrder::Kind::remove: return remove(order.component);
       case PartOrder::Kind::open_gate: return changes_.open_gate(order.component);
       case PartOrder::Kind::rewire: return changes_.rewire(*order.connections, limit);

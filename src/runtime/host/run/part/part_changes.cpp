@@ -55,8 +55,9 @@ Status PartChanges::open_gate(const std::string& name) {
 
 Status PartChanges::remove(const std::string& name, TimePoint limit,
                            const std::function<void(const ComponentInstance&)>& last) {
-  if (swaps_.is_under_way(name) || swaps_.concern_drivers())
-    return fail(Code::failed_precondition, "its code, or a driver, is being exchanged", name);
+  const graph::ComponentNode* const node = whole_.graph.find_component(name);
+  if (swaps_.is_under_way(name) || (node != nullptr && swaps_.is_under_way(node->hardware)))
+    return fail(Code::failed_precondition, "its code, or its driver, is being exchanged", name);
   if (Status unconnected = check_unconnected(name); !unconnected.ok()) return unconnected;
   std::unique_ptr<ComponentInstance> rest;
   if (watched_.system().component(name) != nullptr) {
@@ -65,12 +66,16 @@ Status PartChanges::remove(const std::string& name, TimePoint limit,
     rest = std::move(removed).value();
     last(*rest);
   }
-  const std::lock_guard lock(whole_.mutex);
-  offers_.forget(name);
-  rest.reset();
-  std::erase_if(whole_.graph.components, [&](const auto& node) { return node.name == name; });
-  swaps_.forget(name);
+  forget(name);
+  rest.reset();  // a destructor may take long, and other threads must not wait for it
   return ok();
+}
+
+void PartChanges::forget(const std::string& component) {
+  const std::lock_guard lock(whole_.mutex);
+  offers_.forget(component);
+  std::erase_if(whole_.graph.components, [&](const auto& node) { return node.name == component; });
+  swaps_.forget(component);
 }
 
 // A removed component's ports must not be used by a connection that a failed change has left here.

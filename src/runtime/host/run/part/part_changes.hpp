@@ -55,6 +55,7 @@ class PartChanges {
   Result<graph::Params> read_params(const graph::ComponentNode& node,
                                     const std::map<std::string, std::string>& texts);
   [[nodiscard]] Result<Rewiring> prepare(const ConnectionChange& change);
+  void forget(const std::string& component);
   [[nodiscard]] Status check_unconnected(const std::string& component) const;
 
   const std::string process_;
