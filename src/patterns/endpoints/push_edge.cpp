@@ -58,6 +58,7 @@ void PushEdge::set_policy(const QueuePolicy& policy) {
   bool waited_for = false;
   {
     const std::lock_guard lock(mutex_);
+    note_missed();
     fit(policy);
     subscriber_stuck_ = false;
     waited_for = std::exchange(publisher_waits_, false);
@@ -96,6 +97,10 @@ void PushEdge::move_to(PushSource* next) {
     source()->detach();
     tell_of_link(false);
   }
+  if (next == nullptr) {  // nobody is late from here on
+    const std::lock_guard lock(mutex_);
+    note_missed();
+  }
   const bool had_server = has_server();
   source_.store(next, std::memory_order_release);
   if (next == nullptr) return;
@@ -129,7 +134,8 @@ void PushEdge::unsubscribe() {
   if (was_subscribed) {
     source()->detach();
     tell_of_link(false);
-    if (policy_.deadline > Duration{0}) counts_.missed_deadlines = missed_until(now());
+    const std::lock_guard lock(mutex_);
+    note_missed();
   }
   subscribed_.store(false, std::memory_order_release);
   if (was_subscribed) forget_objects();
@@ -242,14 +248,22 @@ void PushEdge::put(ObjectRef&& object, std::uint32_t count) {
   count_.store(count + 1, std::memory_order_release);
   if (count + 1 > counts_.high_water) counts_.high_water = count + 1;
   ++counts_.delivered;
-  if (policy_.deadline > Duration{0}) arrive(now());
+  if (policy_.deadline > Duration{0} && count_missed(now())) ++late_arrivals_;
 }
 
-void PushEdge::arrive(TimePoint time) {
+// Counts what was missed until a time, from which the next deadline runs. Returns whether there was anything. Called with
+// the lock held.
+bool PushEdge::count_missed(TimePoint time) {
   const std::uint64_t missed = missed_until(time);
-  if (missed > counts_.missed_deadlines) ++late_arrivals_;
+  const bool any = missed > counts_.missed_deadlines;
   last_arrival_ = time.time_since_epoch().count();
   counts_.missed_deadlines = missed;
+  return any;
+}
+
+// Counts what was missed until now, before the deadline changes or nobody waits any more. Called with the lock held.
+void PushEdge::note_missed() {
+  if (policy_.deadline > Duration{0} && subscribed()) count_missed(now());
 }
 
 void PushEdge::give_up(const ObjectRef& /*object*/) {

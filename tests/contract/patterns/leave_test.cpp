@@ -54,6 +54,27 @@ TEMPLATE_LIST_TEST_CASE("a port whose connection is removed hears nothing, and h
   });
 }
 
+TEMPLATE_LIST_TEST_CASE(
+    "deadlines that were missed stay counted when the connection is removed, and made again",
+    "[contract][leave]", LeavingKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    Source source(kit.executive);
+    Listener listener(kit.executive);
+    const QueuePolicy policy{.depth = 1, .deadline = 10ms};
+    const PushEdge& edge = listener.listen(kit, source, policy);
+    sleep(kit.executive, 55ms);
+    const std::uint64_t missed = edge.counters().missed_deadlines;
+    REQUIRE(missed >= 5);
+    part(listener.endpoint("in"), source.endpoint("out"));
+    const std::uint64_t at_the_end = edge.counters().missed_deadlines;
+    CHECK(at_the_end >= missed);
+    sleep(kit.executive, 55ms);
+    CHECK(edge.counters().missed_deadlines == at_the_end);  // nobody is late
+    kit.connect(source.endpoint("out"), listener.endpoint("in"), policy);
+    CHECK(edge.counters().missed_deadlines >= at_the_end);
+  });
+}
+
 TEMPLATE_LIST_TEST_CASE("a subscribed port that is connected anew hears its new server at once",
                         "[contract][leave]", LeavingKits) {
   on_each_executive<TestType>([](TestType& kit) {

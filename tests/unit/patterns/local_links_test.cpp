@@ -264,6 +264,29 @@ TEST_CASE("a connection that is renewed with an interval gets the new rate", "[p
   });
 }
 
+TEST_CASE("deadlines that were missed stay counted when the connection gets another one, or none",
+          "[patterns][local][renew]") {
+  run_on(virtual_executives().front(), [](Executive& executive) {
+    Ends a(executive, "a");
+    Ends b(executive, "b");
+    const auto missed = [&] { return b.push_in.counters().missed_deadlines; };
+    REQUIRE(renew(a, "push_out", b, "push_in", {.deadline = 10ms}).ok());
+    b.push_in.subscribe();
+    sleep(executive, 55ms);
+    CHECK(missed() == 5);
+    REQUIRE(renew(a, "push_out", b, "push_in", {.deadline = 20ms}).ok());
+    CHECK(missed() == 5);
+    sleep(executive, 45ms);
+    CHECK(missed() == 7);
+    REQUIRE(renew(a, "push_out", b, "push_in", {}).ok());
+    CHECK(missed() == 7);
+    sleep(executive, 1s);
+    CHECK(missed() == 7);
+    b.push_in.unsubscribe();
+    CHECK(missed() == 7);
+  });
+}
+
 TEST_CASE("a connection in place of another one keeps what waits", "[patterns][local][renew]") {
   with_ends([](Ends& a, Ends& b) {
     REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());

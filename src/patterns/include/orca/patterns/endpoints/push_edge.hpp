@@ -117,7 +117,8 @@ class PushEdge final : public PushSink {
   void report(LinkTrouble kind, const std::string& text) const;
   void put(ObjectRef&& object, std::uint32_t count);
   void expect_first();
-  void arrive(TimePoint time);
+  bool count_missed(TimePoint time);
+  void note_missed();
   [[nodiscard]] UpdateRate rate() const;
   [[nodiscard]] TimePoint now() const { return strand_.executive().now(); }
   [[nodiscard]] std::uint64_t missed_until(TimePoint time) const;
