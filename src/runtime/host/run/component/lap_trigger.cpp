@@ -52,8 +52,9 @@ std::vector<Duration> LapTrigger::announced() const {
 }
 
 Duration LapTrigger::period() const {
+  if (!trigger_.waits_for_ports()) return trigger_.period;
   const std::vector<Duration> periods = announced();
-  if (!trigger_.waits_for_ports() || periods.empty()) return trigger_.period;
+  if (periods.empty()) return trigger_.period;
   const Duration found = trigger_.needs_all_ports() ? *std::max_element(periods.begin(), periods.end())
                                                     : *std::min_element(periods.begin(), periods.end());
   return trigger_.period > Duration{0} ? std::min(found, trigger_.period) : found;

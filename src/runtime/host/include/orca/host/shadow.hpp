@@ -24,7 +24,7 @@ struct SeenObject {
 
 /// What a shadow run tries.
 struct ShadowOrder {
-  const graph::Graph& graph;                      ///< With all connections of the component.
+  graph::Graph graph;                             ///< With all connections of the component.
   std::string component;                          ///< Its name there.
   std::string type;                               ///< Type of the new object.
   std::vector<PortContract> ports;                ///< Of the component, by their names in the graph.
