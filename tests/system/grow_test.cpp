@@ -67,13 +67,14 @@ class Graphs {
       components += pair.components();
       connections += pair.connections();
     }
-    return folder_.write(name,
-                         "<graph name=\"growing\" version=\"1\" restarts=\"1000\" within=\"100 ms\" "
-                         "on_supervisor_loss=\"continue\" plugins=\"" +
-                             folder_.file("plugins") + "\"><process name=\"front\"/>" + components +
-                             connections + more + "</graph>");
+    return folder_.write(name, "<graph name=\"growing\" version=\"1\" restarts=\"1000\" within=\"" + within +
+                                   "\" on_supervisor_loss=\"continue\" plugins=\"" + folder_.file("plugins") +
+                                   "\"><process name=\"front\"/>" + components + connections + more +
+                                   "</graph>");
   }
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
+
+  std::string within = "100 ms";  // a process that is lost again within this time is started later
 
  private:
   TempFolder folder_;
@@ -81,7 +82,10 @@ class Graphs {
 
 class Growing {
  public:
-  Growing() { start(graphs_.write("start.xml", {})); }
+  explicit Growing(const std::string& within = "100 ms") {
+    graphs_.within = within;
+    start(graphs_.write("start.xml", {}));
+  }
 
   void start(const std::string& file) {
     if (program_) {
@@ -101,14 +105,13 @@ class Growing {
   bool hears(const std::string& text, std::size_t mark) {
     return comes_true([&] { return program_->err().find(text, mark) != std::string::npos; }, Seconds(20));
   }
-  [[nodiscard]] pid_t host(const std::string& process) const {
-    return children_of(program_->pid()).at(process);
-  }
+  [[nodiscard]] std::map<std::string, pid_t> hosts() const { return children_of(program_->pid()); }
+  [[nodiscard]] pid_t host(const std::string& process) const { return hosts().at(process); }
   [[nodiscard]] std::string log() const { return program_->err(); }
   std::string end() { return stop_without_gaps(*program_); }
 
  private:
-  const Graphs graphs_;
+  Graphs graphs_;
   std::unique_ptr<Subprocess> killed_;
   std::unique_ptr<Subprocess> program_;
 };
@@ -118,6 +121,29 @@ std::string homesick(const std::string& where, const std::string& how) {
   return "<component name=\"last\" type=\"test.Homesick\" process=\"" + where +
          "\"><param name=\"abroad\" value=\"" + where + "\"/><param name=\"crashes\" value=\"" +
          (how == "crashes" ? "true" : "false") + "\"/></component>";
+}
+
+// A component whose configure() takes its time in a process.
+std::string slow(const std::string& where, const std::string& time) {
+  return "<component name=\"last\" type=\"test.Homesick\" process=\"" + where +
+         "\"><param name=\"abroad\" value=\"" + where + "\"/><param name=\"nap\" value=\"" + time +
+         "\"/></component>";
+}
+
+// Kills a process again and again, so that it will be started only some time after the last end.
+void wear_out(const Growing& system, const std::string& process) {
+  pid_t last = 0;
+  for (int i = 0; i < 7; ++i) {
+    const auto is_back = [&] {
+      const auto hosts = system.hosts();
+      const auto found = hosts.find(process);
+      if (found == hosts.end() || found->second == last) return false;
+      last = found->second;
+      return true;
+    };
+    REQUIRE(comes_true(is_back, Seconds(5)));
+    kill(last, SIGKILL);
+  }
 }
 
 // What a program can see of the running system.
@@ -319,4 +345,43 @@ TEST_CASE("a new deployer adopts processes in which components have come and gon
   CHECK(run_orcactl({"ps", "--json"}).out.find("\"pid\": " + std::to_string(front)) != std::string::npos);
   CHECK(system.log().find("talks nonsense") == std::string::npos);
   system.end();
+}
+
+TEST_CASE("a deployer that is killed while a component comes leaves a system that the next one adopts whole",
+          "[system][grow]") {
+  Growing system;
+  const std::string main = "\"pid\": " + std::to_string(system.host("main"));
+  const std::string front = "\"pid\": " + std::to_string(system.host("front"));
+  const std::size_t mark = system.mark();
+  Subprocess apply(orcactl({"apply", system.graphs().write("new.xml", {}, slow("main", "2 s"))}));
+  REQUIRE(system.hears("last: naps", mark));
+  system.start(system.graphs().file("start.xml"));
+  CHECK(finish(apply, Seconds(5)).exit_code() != 0);
+  INFO(system.log());
+  CHECK_THAT(run_orcactl({"ps", "--json"}).out, Contains(main) && Contains(front) && !Contains("last"));
+  const auto comes_again = [&] { return system.apply({}, slow("main", "0.01 s")).exit_code() == 0; };
+  CHECK(comes_true(comes_again, Seconds(10)));
+  CHECK(system.log().find("talks nonsense") == std::string::npos);
+  CHECK_THAT(run_orcactl({"ps", "--json"}).out, Contains(main) && Contains(front) && Contains("last"));
+  system.end();
+}
+
+TEST_CASE("a process that is started while a component comes knows it afterwards", "[system][grow]") {
+  Growing system("60 s");
+  wear_out(system, "front");
+  const auto comes = [&] { return system.apply({{"more", "main", "main"}}, slow("main", "2.5 s")); };
+  Run applied = comes();
+  INFO(applied.err << system.log());
+  if (applied.exit_code() != 0) {
+    CHECK_THAT(applied.err, Contains("process front ended or was started meanwhile"));
+    REQUIRE(comes().exit_code() == 0);
+  }
+  const auto works = [&] { return run_orcactl({"get", "talker_teller.step"}).exit_code() == 0; };
+  REQUIRE(comes_true(works, Seconds(5)));
+  const pid_t front = system.host("front");
+  const std::size_t mark = system.mark();
+  CHECK(run_orcactl({"move", "more.back", "talker_teller.out"}).exit_code() == 0);
+  CHECK(system.hears("more: heard 1:", mark));
+  CHECK(system.host("front") == front);
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
 }

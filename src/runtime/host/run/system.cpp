@@ -58,7 +58,9 @@ Result<std::unique_ptr<ComponentInstance>> System::make(const graph::ComponentNo
 
 Status System::add(const graph::ComponentNode& node, PluginCatalogue& catalogue) {
   if (components_.find(node.name) != nullptr)
-    return fail(Code::already_exists, "it is there already", node.name);
+    return fail(Code::already_exists,
+                "an earlier one of this name has not ended; start its process again to be rid of it",
+                node.name);
   Result<std::unique_ptr<ComponentInstance>> instance = make(node, catalogue);
   if (!instance) return instance.error();
   components_.add(std::move(instance).value());

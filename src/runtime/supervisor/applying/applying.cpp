@@ -73,13 +73,14 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
     return present != nullptr ? *present : *wanted_.graph.find_component(component);
   }
 
-  // Returns whether a component's process has ended meanwhile, so that it begins as before.
+  // Returns whether a component's process has ended or was started meanwhile, so that it begins as before.
   [[nodiscard]] bool is_lost(const std::string& component) const {
     return lost_.contains(node_of(component).process);
   }
 
   [[nodiscard]] Error loss() const {
-    return fail(Code::unavailable, "process " + *lost_.begin() + " ended meanwhile, so all goes back");
+    return fail(Code::unavailable,
+                "process " + *lost_.begin() + " ended or was started meanwhile, so all goes back; try again");
   }
 
   void exchange_next() {

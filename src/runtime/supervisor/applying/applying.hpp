@@ -63,7 +63,8 @@ class Applying {
   void move(const std::vector<std::string>& words, const ReplyPtr& reply);
   /// Carries out the graph's file because it was saved, after what is under way. What comes of it goes to the log.
   void take_saved(const std::string& file) { saved_ = file; }
-  /// Notes that a process has ended. It begins anew with the graph of before, so what is under way is taken back.
+  /// Notes that a process has ended, or is about to be started. It begins with the graph of before, so what is under way is
+  /// taken back.
   void lose(const std::string& process);
   /// Tells processes that work which graph the run has, if it is not that of the start.
   void came_up(const std::vector<Member*>& members) const;

@@ -51,7 +51,7 @@ class ControlDesk {
   void recall(const Standing& standing);
   /// Notes that a component runs other code.
   void note(const ExchangedCode& code) { exchanging_.note(code); }
-  /// Notes that a process has ended.
+  /// Notes that a process has ended, or is about to be started.
   void lose(const Member& member) { applying_.lose(member.name()); }
   /// Notes that processes work.
   void came_up(const std::vector<Member*>& members);

@@ -149,6 +149,7 @@ class SupervisedRun {
       log::info(options_.log_name, "process " + member.name() + " is adopted");
       ledger_.introduce();
     });
+    forget_strangers(run_, graph_, all_, ledger_);
     for (const Member* member : all_)
       if (member->process() != nullptr) beats_.watch_working(member->index(), member->node().hang_limit);
     arrivals_.take_over();

@@ -113,14 +113,28 @@ AdoptedProcess process_of(Orphan& orphan) {
 }
 
 // The run goes on with what its processes share.
-Result<RunIdentity> identity_of(Orphaned& first, const graph::Graph& graph, const std::string& machine) {
+Result<RunIdentity> identity_of(std::vector<Orphan>& orphans, const graph::Graph& graph,
+                                const std::string& machine) {
+  std::vector<std::vector<std::string>> doorbells;
+  for (const Orphan& orphan : orphans) doorbells.push_back(orphan.said.doorbells);
+  Orphaned& first = orphans.front().said;
   const Result<RunWishes> wishes = read_wishes(first.options);
   if (!wishes) return wishes.error();
   Result<RunPage> page = RunPage::map(std::move(first.run_page), graph::processes_on(graph, machine).size(),
                                       graph.components.size());
   if (!page) return page.error();
   set_steady_epoch(wishes->epoch);
-  return RunIdentity{std::move(page).value(), wishes->start, wishes->run, std::move(first.doorbells), true};
+  return RunIdentity{std::move(page).value(), wishes->start, wishes->run, joined_doorbells(doorbells), true};
+}
+
+// Ends what a process has left of a component that the graph does not have.
+void remove(const std::string& component, Member& member) {
+  member.ask(RemoveComponent{component}, [component, process = member.name()](const Status& gone) {
+    if (gone.ok()) return;
+    log::warning(component, "the graph does not have it, but it is left in process " + process +
+                                " from before this deployer came: " + gone.error().message +
+                                "; orcactl restart " + process + " is rid of it");
+  });
 }
 
 }  // namespace
@@ -135,11 +149,21 @@ Result<Beginning> begin_or_go_on(const graph::Graph& graph, const std::string& m
     return std::ranges::find(here, orphan.said.process, &graph::ProcessNode::name) == here.end();
   });
   Result<RunIdentity> run =
-      orphans.empty() ? begin_run(graph, machine) : identity_of(orphans.front().said, graph, machine);
+      orphans.empty() ? begin_run(graph, machine) : identity_of(orphans, graph, machine);
   if (!run) return run.error();
   std::vector<AdoptedProcess> processes;
   for (Orphan& orphan : orphans) processes.push_back(process_of(orphan));
   return Beginning{std::move(run).value(), std::move(processes)};
+}
+
+std::vector<std::string> joined_doorbells(const std::vector<std::vector<std::string>>& known) {
+  std::vector<std::string> all;
+  for (const std::vector<std::string>& names : known) {
+    all.resize(std::max(all.size(), names.size()));
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (!names[i].empty()) all[i] = names[i];
+  }
+  return all;
 }
 
 Members adopt(std::vector<AdoptedProcess> processes, const Members& all,
@@ -155,6 +179,15 @@ Members adopt(std::vector<AdoptedProcess> processes, const Members& all,
     member->ask(Adopt{}, [member, adopted](const Status&) { adopted(*member); });
   }
   return missing;
+}
+
+void forget_strangers(const RunIdentity& run, const graph::Graph& graph, const Members& all, Ledger& ledger) {
+  for (const std::string& name : run.doorbells) {
+    if (name.empty() || graph.find_component(name) != nullptr) continue;
+    ledger.expect(name);
+    for (Member* const member : all)
+      if (member->process() != nullptr) remove(name, *member);
+  }
 }
 
 Error note_gone(const Member& member, Ledger& ledger, RestartPolicy& policy) {

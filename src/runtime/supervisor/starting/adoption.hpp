@@ -30,12 +30,21 @@ struct Beginning {
 /// @thread  the main thread, before any other thread reads the clock.
 [[nodiscard]] Result<Beginning> begin_or_go_on(const graph::Graph& graph, const std::string& machine);
 
+/// Returns the components of all doorbells of a run, in the order of their words, from what each of its processes knows of
+/// them: a process that was told of a newcomer only has "" for those before it.
+[[nodiscard]] std::vector<std::string> joined_doorbells(const std::vector<std::vector<std::string>>& known);
+
 /// Gives the processes to their members and orders them to obey this supervisor from now on. All that runs again.
 /// @param adopted  called for each that has told how it is.
 /// @return the members that have none.
 /// @thread  the supervisor's.
 [[nodiscard]] Members adopt(std::vector<AdoptedProcess> processes, const Members& all,
                             const std::function<void(Member&)>& adopted);
+
+/// Lets adopted processes forget components that the graph does not have: they went once, or the supervisor before was killed
+/// while they came or went. What is left of them ends, and until then the ledger takes their reports.
+/// @thread  the supervisor's, before it hears what the processes report.
+void forget_strangers(const RunIdentity& run, const graph::Graph& graph, const Members& all, Ledger& ledger);
 
 /// Notes that a process was gone before it could be adopted. If its rule is never to start it again, it counts as finished.
 /// @return what people should know.

@@ -17,6 +17,8 @@ void Arrivals::start(const Members& members) {
   for (const Member* const member : members)
     if (member->phase() == Phase::asleep)
       log::info(place_.log_name, "process " + member->name() + " is started, because it is needed");
+  for (const Member* const member : members)
+    if (!member->node().on_demand) place_.control.lose(*member);  // it gets a graph that may just change
   Starter::Begun begun = place_.starter.start(members);
   bring_up(begun, is_first);
   for (const auto& [member, error] : begun.failed) {

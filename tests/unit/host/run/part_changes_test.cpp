@@ -75,6 +75,14 @@ class Nappers {
     for (const auto& [makes, ends] : changes) order.connections->push_back({edge(ends), makes});
     return ask(std::move(order));
   }
+  // Makes a connection to a component of another process.
+  Status connect_outside(const std::string& ends) {
+    PartOrder order{Kind::rewire};
+    order.connections = std::make_shared<std::vector<ConnectionChange>>();
+    order.connections->push_back({edge(ends), true});
+    order.connections->back().edge.link = graph::Link::shm;
+    return ask(std::move(order));
+  }
   void add(const std::string& name) {
     PartOrder order{Kind::add, name, {{"nap", "0 s"}}};
     order.node = std::make_shared<graph::ComponentNode>(*graph_.find_component("client"));
@@ -212,6 +220,17 @@ TEST_CASE("the connections of a component change all together or not at all", "[
     run.sleep(1s);
     CHECK(run.hears_of("other") > before + 90);
     CHECK_FALSE(run.hears("idler connected"));
+  });
+}
+
+TEST_CASE("a connection to a component that the process has not heard of is refused", "[host][changes]") {
+  with_nappers([](Nappers& run) {
+    const Status refused = run.connect_outside("stranger > client");
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().text() ==
+          "process main does not know component \"stranger\"; orcactl restart main lets it begin with the "
+          "present "
+          "graph");
   });
 }
 

@@ -108,6 +108,12 @@ TEST_CASE("processes of another graph are no part of this one", "[supervisor][ad
              Catch::Contains("main") && Catch::Contains("orcactl --system scout stop"));
 }
 
+TEST_CASE("the doorbells of a run are those that any of its processes knows", "[supervisor][adoption]") {
+  CHECK(joined_doorbells({{"a", "b"}, {"a", "b", "", "d"}, {"a", "b", "c"}}) ==
+        std::vector<std::string>{"a", "b", "c", "d"});
+  CHECK(joined_doorbells({{"a"}, {"a", "", "c"}}) == std::vector<std::string>{"a", "", "c"});
+}
+
 TEST_CASE("what was gone is started again unless its rule is never to", "[supervisor][adoption]") {
   const graph::Graph graph = one_process();
   Deaf deaf;

@@ -7,6 +7,7 @@
 
 #include "orca/base/network_address.hpp"
 #include "orca/base/own_library.hpp"
+#include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "run/component_making.hpp"
 
@@ -137,6 +138,15 @@ void OuterEdges::connect_memory(const graph::Edge& edge, RingSegment segment, En
                                   server == servers_.end() ? Duration{0} : server->second.period});
   const std::lock_guard lock(mutex_);
   ends_[edge.name()] = end;
+}
+
+Status OuterEdges::check_known(const graph::Edge& edge) {
+  for (const graph::PortRef* const end : {&edge.from, &edge.to})
+    if (process_of(*end).empty())
+      return fail(Code::failed_precondition, "process " + process_ + " does not know component " +
+                                                 in_quotes(end->component) + "; orcactl restart " + process_ +
+                                                 " lets it begin with the present graph");
+  return ok();
 }
 
 void OuterEdges::make(const graph::Edge& edge, RingSegment segment, Endpoint& port) {

@@ -52,6 +52,9 @@ class OuterEdges {
   /// @errors  not_found; those of RingSegment::map().
   Status renew(const std::string& edge, const Descriptor& memory);
 
+  /// Checks that this process knows the components at both ends of an edge.
+  /// @errors  failed_precondition.
+  Status check_known(const graph::Edge& edge);
   /// Makes this process's end of an edge through shared memory, in place of the one that is there.
   void make(const graph::Edge& edge, RingSegment segment, Endpoint& port);
   /// Removes this process's end of such an edge. Nothing if there is none.

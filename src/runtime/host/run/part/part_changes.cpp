@@ -118,6 +118,7 @@ Status PartChanges::rewire(const std::vector<ConnectionChange>& changes, TimePoi
 Result<Rewiring> PartChanges::prepare(const ConnectionChange& change) {
   const graph::Edge& edge = change.edge;
   if (edge.link == graph::Link::local) return rewiring_of(watched_.system(), edge, change.makes);
+  if (Status known = outer_.check_known(edge); !known.ok()) return known.error();
   const graph::PortRef& here = outer_.end_here(edge);
   Endpoint* const port = watched_.system().endpoint(here);
   if (port == nullptr) return no_such(here);
