@@ -39,10 +39,11 @@ class JointOrders::Joint : public std::enable_shared_from_this<Joint> {
   using Take = void (Joint::*)(const Status&);
 
   void step_forward(std::size_t step) {
-    std::optional<ThereAndBack> orders = steps_[step].make();
-    if (!orders) return;
-    changes_.push_back({step, std::move(orders->back)});
-    send(step, std::move(orders->go), &Joint::take_change);
+    Result<std::optional<ThereAndBack>> orders = steps_[step].make();
+    if (!orders) refusal_ = by_name(orders.error(), step);
+    if (!orders || !orders->has_value()) return;
+    changes_.push_back({step, std::move((*orders)->back)});
+    send(step, std::move((*orders)->go), &Joint::take_change);
   }
 
   void take_change(const Status& outcome) {

@@ -23,7 +23,8 @@ struct ThereAndBack {
 struct JointStep {
   std::string component;
   /// Returns the orders for the component as it is at that moment; nothing if it is to be left alone.
-  std::function<std::optional<ThereAndBack>()> make;
+  /// @errors  why it cannot obey as it is: it has refused.
+  std::function<Result<std::optional<ThereAndBack>>()> make;
   /// Takes that the component has obeyed: true after the change, false after the way back.
   std::function<void(bool has_gone)> obeyed;
   bool may_obey_late =

@@ -51,6 +51,11 @@ std::vector<std::string> names_of(const Nodes& nodes) {
   return names;
 }
 
+// Returns the error of an order that has waited for another one, after which its component was not there any more.
+Error gone(const std::string& component) {
+  return fail(Code::not_found, "the system does not have it any more", component);
+}
+
 Pairs pairs_of(const graph::Params& params) {
   const std::map<std::string, std::string> texts = graph::print_values(params);
   return {texts.begin(), texts.end()};
@@ -144,7 +149,7 @@ std::string Operating::process_of(const std::string& component) const {
 Result<Member*> Operating::ready_member_of(const std::string& component) const {
   const std::string process = process_of(component);
   if (!process.empty()) return names_.ready_member(process);
-  return fail(Code::not_found, "the system does not have it any more", component);
+  return gone(component);
 }
 
 Status Operating::are_ready(const std::vector<std::string>& components) const {
@@ -265,10 +270,7 @@ void Operating::change(const std::vector<Setting>& settings, JointOrders::Done d
     steps.push_back(step_of(setting));
   }
   if (const Status ready = are_ready(components); !ready.ok()) return done(ready);
-  joint_orders_.add(std::move(steps), [this, done = std::move(done), settings](const Status& end) {
-    for (const Setting& setting : settings)
-      if (end.ok() && graph_.find_component(setting.component) == nullptr)
-        return done(fail(Code::not_found, "the system does not have it any more", setting.component));
+  joint_orders_.add(std::move(steps), [done = std::move(done), settings](const Status& end) {
     if (end.ok())
       for (const Setting& setting : settings)
         for (const auto& [param, value] : setting.values)
@@ -277,17 +279,34 @@ void Operating::change(const std::vector<Setting>& settings, JointOrders::Done d
   });
 }
 
+// Returns the present values of what is to change. Since the order was given, the component may have gone or got another
+// type.
+Result<graph::Params> Operating::present_of(const Setting& setting) const {
+  const graph::ComponentNode* const node = graph_.find_component(setting.component);
+  if (node == nullptr) return gone(setting.component);
+  const graph::Params all = params_of(*node);
+  graph::Params present;
+  for (const auto& [param, value] : setting.values) {
+    const auto known = all.find(param);
+    if (known == all.end())
+      return fail(Code::not_found,
+                  "it is of another type now, without a parameter " + in_quotes(param) + "; orcactl get " +
+                      node->name + " shows those that it has",
+                  node->name);
+    present.insert(*known);
+  }
+  return present;
+}
+
 JointStep Operating::step_of(const Setting& setting) {
   const auto before = std::make_shared<graph::Params>();
-  const auto make = [this, setting, before]() -> std::optional<ThereAndBack> {
-    const graph::ComponentNode* const node = graph_.find_component(setting.component);
-    if (node == nullptr) return std::nullopt;  // it has gone meanwhile
-    const graph::Params present = params_of(*node);
-    for (const auto& [param, value] : setting.values)
-      if (present.contains(param)) before->insert_or_assign(param, present.at(param));
+  const auto make = [this, setting, before]() -> Result<std::optional<ThereAndBack>> {
+    Result<graph::Params> present = present_of(setting);
+    if (!present) return present.error();
+    *before = std::move(present).value();
     const std::string& name = setting.component;
-    return ThereAndBack{SetParams{name, {setting.texts.begin(), setting.texts.end()}},
-                        SetParams{name, pairs_of(*before)}};
+    return std::optional(ThereAndBack{SetParams{name, {setting.texts.begin(), setting.texts.end()}},
+                                      SetParams{name, pairs_of(*before)}});
   };
   const auto obeyed = [this, setting, before](bool has_gone) {
     for (const auto& [param, value] : has_gone ? setting.values : *before)

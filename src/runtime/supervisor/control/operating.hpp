@@ -94,6 +94,7 @@ class Operating {
   void pause(const std::string& name, bool suspends, const ReplyPtr& reply);
   [[nodiscard]] Status are_ready(const std::vector<std::string>& components) const;
   void change(const std::vector<Setting>& settings, JointOrders::Done done);
+  [[nodiscard]] Result<graph::Params> present_of(const Setting& setting) const;
   [[nodiscard]] JointStep step_of(const Setting& setting);
   [[nodiscard]] Result<Member*> ready_member_of(const std::string& component) const;
 

@@ -57,7 +57,7 @@ Planned plan(const Rewirings& rewirings, const std::set<std::string>& lost = {})
   planned.steps = edge_steps(four_components(), rewirings, lost, planned.left).value();
   for (JointStep& step : planned.steps) {
     CHECK_FALSE(step.may_obey_late);
-    const std::optional<ThereAndBack> orders = step.make();
+    const std::optional<ThereAndBack> orders = *step.make();
     planned.words.push_back(step.component + ": " + text(orders->go) + " / " + text(orders->back));
   }
   return planned;

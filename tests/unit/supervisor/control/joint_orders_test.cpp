@@ -38,15 +38,18 @@ class Components {
   Words changes;  // "a changed", "a is back"
   Words ends;
   Words left_alone;
+  Words unable;
   Words unreachable;
   bool may_obey_late = true;
 
  private:
   JointStep step(const std::string& name) {
     return {name,
-            [this, name]() -> std::optional<ThereAndBack> {
-              if (std::ranges::find(left_alone, name) != left_alone.end()) return std::nullopt;
-              return ThereAndBack{Suspend{name}, Resume{name}};
+            [this, name]() -> Result<std::optional<ThereAndBack>> {
+              if (std::ranges::find(unable, name) != unable.end()) return kRefusal;
+              if (std::ranges::find(left_alone, name) != left_alone.end())
+                return std::optional<ThereAndBack>();
+              return std::optional(ThereAndBack{Suspend{name}, Resume{name}});
             },
             [this, name](bool has_gone) { changes.push_back(name + (has_gone ? " changed" : " is back")); },
             may_obey_late};
@@ -108,6 +111,16 @@ TEST_CASE("a component that is to be left alone is neither asked nor brought bac
   all.answer(kRefusal);
   all.answer();
   CHECK(all.asked == Words{"suspend b", "suspend c", "resume b"});
+}
+
+TEST_CASE("a component that cannot obey as it is then has refused", "[supervisor][joint]") {
+  Components all;
+  all.unable = {"b"};
+  all.suspend({"a", "b", "c"});
+  all.answer();
+  all.answer();
+  CHECK(all.asked == Words{"suspend a", "resume a"});
+  CHECK(all.ends == Words{"b: it is WORK_DONE; all others are as before the order"});
 }
 
 TEST_CASE("a component that cannot be reached has refused", "[supervisor][joint]") {
@@ -191,7 +204,7 @@ TEST_CASE("an answer that comes when nobody waits any more does no harm", "[supe
     });
     orders.add({{"a",
                  [] {
-                   return ThereAndBack{Suspend{"a"}, Resume{"a"}};
+                   return std::optional(ThereAndBack{Suspend{"a"}, Resume{"a"}});
                  },
                  [](bool) {}}},
                [](const Status&) { FAIL("the order has not ended"); });

@@ -77,6 +77,17 @@ class Desk {
   std::string refusal_of_set(const Words& words) {
     return refusal_of([&](Operating& desk, const ReplyPtr& reply) { desk.set(words, reply); });
   }
+  // Orders to set something while another joint order is under way, which then changes the graph.
+  std::string refusal_of_set_before(const Words& words, const std::function<void(graph::Graph&)>& change) {
+    return refusal_of([&](Operating& desk, const ReplyPtr& reply) {
+      const auto make = [&]() -> std::optional<ThereAndBack> {
+        desk.set(words, reply);
+        change(graph_);
+        return std::nullopt;
+      };
+      desk.carry_out({{"goto", make, [](bool) {}}}, [](const Status&) {});
+    });
+  }
   std::string refusal_of_suspend(const std::string& name) {
     return refusal_of([&](Operating& desk, const ReplyPtr& reply) { desk.suspend(name, reply); });
   }
@@ -90,7 +101,7 @@ class Desk {
   }
 
  private:
-  const graph::Graph graph_ = graph_of_two();
+  graph::Graph graph_ = graph_of_two();
   const SystemFacts facts_ = facts_of_two();
   Member p_{graph::ProcessNode{.name = "p"}, 0};
   Member q_{graph::ProcessNode{.name = "q"}, 1};
@@ -149,6 +160,26 @@ TEST_CASE("a process that ends before it answers has refused", "[supervisor][ope
         "avoid: process p has ended before it answered; all others are as before the order");
   CHECK(desk.refusal_of_suspend("goto") == "goto: process q has ended before it answered");
   CHECK(std::get<double>(desk.params_of(0).at("margin")) == 0.1);
+}
+
+TEST_CASE("nothing is set if a component has gone, or has another type, when its turn comes",
+          "[supervisor][operating]") {
+  Desk desk;
+  desk.bring_up();
+  std::function<void(graph::Graph&)> change;
+  std::string why;
+  SECTION("gone") {
+    change = [](graph::Graph& graph) { graph.components.erase(graph.components.begin()); };
+    why = "the system does not have it any more";
+  }
+  SECTION("another type") {
+    change = [](graph::Graph& graph) { graph.components[0].params = {{"room", 0.1}}; };
+    why =
+        "it is of another type now, without a parameter \"margin\"; orcactl get avoid shows those that it "
+        "has";
+  }
+  CHECK(desk.refusal_of_set_before({"avoid.margin", "0.2", "goto.speed", "1"}, change) ==
+        "avoid: " + why + "; all others are as before the order");
 }
 
 TEST_CASE("a name that is neither a component nor a group is answered by the nearest one",
