@@ -41,23 +41,26 @@ void LapTrigger::lap_begins(TimePoint now) {
 
 TimePoint LapTrigger::next() const { return trigger_.period > Duration{0} ? next_ : kForever; }
 
-// Returns the periods that the servers announce to which the trigger's ports are subscribed.
-std::vector<Duration> LapTrigger::announced() const {
-  std::vector<Duration> periods;
+// Returns the longest of the periods that the servers announce to which the trigger's ports are subscribed, or the shortest if
+// one of them is enough for a lap. Each lap asks for it.
+std::optional<Duration> LapTrigger::announced() const {
+  std::optional<Duration> found;
   for (const PushClientEndpoint* port : ports_)
-    for (const auto& edge : port->edges())
-      if (edge->subscribed() && edge->grant().base_period > Duration{0})
-        periods.push_back(edge->grant().interval);
-  return periods;
+    for (const auto& edge : port->edges()) {
+      if (!edge->subscribed()) continue;
+      const UpdateGrant grant = edge->grant();
+      if (grant.base_period <= Duration{0}) continue;
+      const Duration before = found.value_or(grant.interval);
+      found =
+          trigger_.needs_all_ports() ? std::max(before, grant.interval) : std::min(before, grant.interval);
+    }
+  return found;
 }
 
 Duration LapTrigger::period() const {
-  if (!trigger_.waits_for_ports()) return trigger_.period;
-  const std::vector<Duration> periods = announced();
-  if (periods.empty()) return trigger_.period;
-  const Duration found = trigger_.needs_all_ports() ? *std::max_element(periods.begin(), periods.end())
-                                                    : *std::min_element(periods.begin(), periods.end());
-  return trigger_.period > Duration{0} ? std::min(found, trigger_.period) : found;
+  const std::optional<Duration> found = trigger_.waits_for_ports() ? announced() : std::nullopt;
+  if (!found) return trigger_.period;
+  return trigger_.period > Duration{0} ? std::min(*found, trigger_.period) : *found;
 }
 
 }  // namespace orca::host

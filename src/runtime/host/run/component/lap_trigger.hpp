@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "orca/base/contract.hpp"
@@ -32,7 +33,7 @@ class LapTrigger {
 
  private:
   [[nodiscard]] bool has_objects() const;
-  [[nodiscard]] std::vector<Duration> announced() const;
+  [[nodiscard]] std::optional<Duration> announced() const;
 
   Trigger trigger_;
   std::vector<PushClientEndpoint*> ports_;  // of a trigger that waits for ports
