@@ -156,7 +156,10 @@ void HardwareSeat::take_over(HardwareContainer& driver) {
     if (SensorEndpoint* const endpoint = endpoint_of(listener.sensor, driver))
       endpoint->set_sink(listener.owner, listener.sink);
   }
-  for (Strand* const watcher : watchers_) driver.watch(*watcher);
+  for (Strand* const watcher : watchers_) {
+    driver_->watch(*watcher, false);
+    driver.watch(*watcher);
+  }
   driver_ = &driver;
 }
 

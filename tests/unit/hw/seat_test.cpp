@@ -109,6 +109,28 @@ TEST_CASE("an emergency stop outlives a pause, and its release in the pause is n
   });
 }
 
+TEST_CASE("a driver that has left the seat wakes nobody any more", "[hw][seat]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    RunningScout before(executive);
+    RunningScout after(executive);
+    REQUIRE(before.gets(HardwareState::ready));
+    REQUIRE(after.gets(HardwareState::ready));
+    hw::HardwareSeat seat(before.scout);
+    Peer watcher(executive, "watcher");
+    seat.watch(watcher.strand());
+    seat.pause("a test");
+    before.end();
+    seat.resume(after.scout, {});
+    watcher.strand().pause_until(executive.now());  // takes in what has woken it so far
+    const TimePoint begin = executive.now();
+    before.scout.run();
+    watcher.strand().pause_until(begin + 100ms);
+    CHECK(before.scout.state() == HardwareState::ready);
+    CHECK(executive.now() - begin >= 100ms);
+    seat.unwatch(watcher.strand());
+  });
+}
+
 TEST_CASE("a pause that does not end is a fault for the server", "[hw][seat]") {
   run_on_each(all_executives(), [](Executive& executive) {
     DrivenBase base(executive);
