@@ -320,6 +320,9 @@ TEST_CASE("a change that the graph names and that cannot be made is refused at i
     CHECK_THAT(refusal("<change at=\"1 s\" graph=\"" + other + "\"/>", words),
                Contains("now.xml:3:1: error G074") && Contains("has to be started again for"));
   CHECK_THAT(refusal("<change at=\"1 s\" graph=\"none.xml\"/>", {"--check"}), Contains("none.xml"));
+  const Run as_json = run_deployer({folder.file("now.xml"), "--check", "--json"});
+  CHECK(as_json.exit_code() == 2);
+  CHECK_THAT(as_json.out, Contains("\"errors\": 1") && Contains("none.xml"));
 }
 
 TEST_CASE("a component does not go while its new code is on probation", "[system][apply]") {

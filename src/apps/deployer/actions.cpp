@@ -48,6 +48,9 @@ struct Loaded {
   std::optional<graph::Graph> graph;
 };
 
+// Returns whether messages go to stdout, all together.
+bool shows_json_faults(const Options& options) { return options.json && options.action == Action::check; }
+
 void load(const std::string& file, const Options& options, Loaded& loaded) {
   const bool judges = options.action == Action::check || options.action == Action::run;
   graph::LoadOptions wanted{options.profiles, options.settings, options.strict, judges};
@@ -59,8 +62,7 @@ void load(const std::string& file, const Options& options, Loaded& loaded) {
       wanted.recorded.insert(wanted.recorded.end(), recording.ports.begin(), recording.ports.end());
   }
   loaded.graph = graph::load_file(file, wanted, loaded.catalogue, loaded.diagnostics);
-  const bool as_json = options.json && options.action == Action::check;
-  if (!as_json) std::fputs(loaded.diagnostics.text().c_str(), stderr);
+  if (!shows_json_faults(options)) std::fputs(loaded.diagnostics.text().c_str(), stderr);
 }
 
 Result<PluginDescription> description_of(const Options& options) {
@@ -117,24 +119,28 @@ ExitCode refuse_option(const char* code, const Error& error) {
   return ExitCode::bad_input;
 }
 
-// Says why a run cannot go over to another graph.
-void refuse_change(const graph::PlannedChange& change, const std::string& obstacles) {
-  if (change.position.file.empty()) {
-    (void)refuse_option(codes::kOptionValue,
-                        fail(Code::invalid_argument, "--change " + change.file + ": " + obstacles));
-    return;
-  }
-  xml::Diagnostics diagnostics;
-  diagnostics.error(codes::kChange, change.position,
-                    "<change> to " + in_quotes(change.file) + ": " + obstacles);
-  std::fputs(diagnostics.text().c_str(), stderr);
+// Returns what is wrong if a run cannot go over to another graph.
+xml::Diagnostics faults_of(const graph::PlannedChange& change, const std::string& obstacles) {
+  xml::Diagnostics faults;
+  if (change.position.file.empty())
+    faults.error(codes::kOptionValue, {"command line", 0, 0}, "--change " + change.file + ": " + obstacles);
+  else
+    faults.error(codes::kChange, change.position, "<change> to " + in_quotes(change.file) + ": " + obstacles);
+  return faults;
+}
+
+void append(const xml::Diagnostics& more, xml::Diagnostics& all) {
+  for (const xml::Diagnostic& one : more.sorted())
+    one.severity == xml::Severity::error ? all.error(one.code, one.position, one.message)
+                                         : all.warning(one.code, one.position, one.message);
 }
 
 // Reads the graphs that a run goes over to, and plans how. Those of the graph come before those of the command line if their
 // times are the same.
+// @param said  gets all messages about them, which --check --json shows together.
 // @return nothing if that is not possible, after it was said.
-std::optional<std::vector<host::TimedChange>> plan_changes(const Options& options,
-                                                           const graph::Graph& graph) {
+std::optional<std::vector<host::TimedChange>> plan_changes(const Options& options, const graph::Graph& graph,
+                                                           xml::Diagnostics& said) {
   std::vector<graph::PlannedChange> planned = graph.changes;
   planned.insert(planned.end(), options.changes.begin(), options.changes.end());
   std::ranges::stable_sort(planned, {}, &graph::PlannedChange::at);
@@ -143,11 +149,14 @@ std::optional<std::vector<host::TimedChange>> plan_changes(const Options& option
   for (const graph::PlannedChange& one : planned) {
     Loaded after(options);
     load(one.file, options, after);
+    append(after.diagnostics, said);
     if (!after.graph) return std::nullopt;
     const supervisor::SystemFacts facts = supervisor::facts_of(*after.graph, after.catalogue);
     host::TimedChange change{one.file, one.at, graph::plan_of(before, *after.graph, facts.contracts), {}};
     if (!change.plan.is_possible()) {
-      refuse_change(one, graph::obstacles_of(change.plan));
+      const xml::Diagnostics faults = faults_of(one, graph::obstacles_of(change.plan));
+      append(faults, said);
+      if (!shows_json_faults(options)) std::fputs(faults.text().c_str(), stderr);
       return std::nullopt;
     }
     for (const auto& [type, plugin] : facts.plugins) change.plugins[type] = plugin.file;
@@ -160,8 +169,9 @@ std::optional<std::vector<host::TimedChange>> plan_changes(const Options& option
 ExitCode check(const Options& options) {
   Loaded loaded(options);
   load(options.file, options, loaded);
+  const bool is_good = loaded.graph && plan_changes(options, *loaded.graph, loaded.diagnostics);
   if (options.json) show(loaded.diagnostics.json());
-  if (!loaded.graph || !plan_changes(options, *loaded.graph)) return ExitCode::bad_input;
+  if (!is_good) return ExitCode::bad_input;
   if (!options.json) {
     std::fprintf(stderr, "%s: no errors; %zu components, %zu connections\n", options.file.c_str(),
                  loaded.graph->components.size(), loaded.graph->edges.size());
@@ -179,7 +189,8 @@ ExitCode run(const Options& options) {
   load(options.file, options, loaded);
   if (!loaded.graph) return ExitCode::bad_input;
   host::RunOptions run = options.run;
-  std::optional<std::vector<host::TimedChange>> changes = plan_changes(options, *loaded.graph);
+  std::optional<std::vector<host::TimedChange>> changes =
+      plan_changes(options, *loaded.graph, loaded.diagnostics);
   if (!changes) return ExitCode::bad_input;
   run.changes = *std::move(changes);
   run.looks_on = options.progress.value_or(stderr_can_live());

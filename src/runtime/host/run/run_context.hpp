@@ -35,7 +35,7 @@ struct RunContext {
   std::function<DoorbellWord*(const std::string& component)> doorbell{};
   /// Keeps states for the case that the process is lost; empty: nobody does. Called on the component's strand.
   StateSink state_sink{};
-  /// With what components begin.
+  /// With what components that are there from the start begin.
   KeptStates states{};
 };
 

@@ -35,7 +35,10 @@ Status System::build_hardware(PluginCatalogue& catalogue) {
 
 Status System::build_components(PluginCatalogue& catalogue) {
   for (const graph::ComponentNode& node : graph_.components) {
-    Result<std::unique_ptr<ComponentInstance>> instance = make(node, catalogue);
+    ComponentSettings settings = settings_of(node, run_.failures);
+    if (const auto kept = run_.states.find(node.name); kept != run_.states.end())
+      settings.state = kept->second;
+    Result<std::unique_ptr<ComponentInstance>> instance = make(node, std::move(settings), catalogue);
     if (!instance) return instance.error();
     components_.add(std::move(instance).value());
   }
@@ -43,10 +46,11 @@ Status System::build_components(PluginCatalogue& catalogue) {
 }
 
 Result<std::unique_ptr<ComponentInstance>> System::make(const graph::ComponentNode& node,
+                                                        ComponentSettings settings,
                                                         PluginCatalogue& catalogue) {
   HardwarePlace* const place = hardware(node.hardware);
   auto instance = std::make_unique<ComponentInstance>(
-      run_, settings_of(node, run_.failures),
+      run_, std::move(settings),
       [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
       [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
       place != nullptr ? &place->seat() : nullptr);
@@ -61,7 +65,8 @@ Status System::add(const graph::ComponentNode& node, PluginCatalogue& catalogue)
     return fail(Code::already_exists,
                 "an earlier one of this name has not ended; start its process again to be rid of it",
                 node.name);
-  Result<std::unique_ptr<ComponentInstance>> instance = make(node, catalogue);
+  Result<std::unique_ptr<ComponentInstance>> instance =
+      make(node, settings_of(node, run_.failures), catalogue);
   if (!instance) return instance.error();
   components_.add(std::move(instance).value());
   fresh_.insert(node.name);

@@ -117,7 +117,7 @@ class System {
   Status build_hardware(PluginCatalogue& catalogue);
   Status build_components(PluginCatalogue& catalogue);
   Result<std::unique_ptr<ComponentInstance>> make(const graph::ComponentNode& node,
-                                                  PluginCatalogue& catalogue);
+                                                  ComponentSettings settings, PluginCatalogue& catalogue);
   Status await(const ComponentInstance& component, const Order& order, Event& changed, TimePoint deadline);
 
   const graph::Graph& graph_;

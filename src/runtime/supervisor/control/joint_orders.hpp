@@ -27,8 +27,8 @@ struct JointStep {
   std::function<Result<std::optional<ThereAndBack>>()> make;
   /// Takes that the component has obeyed: true after the change, false after the way back.
   std::function<void(bool has_gone)> obeyed;
-  bool may_obey_late =
-      true;  ///< An order that was not obeyed in time may be obeyed later. false: it never will.
+  /// Whether an order that was not obeyed in time may be obeyed later.
+  bool may_obey_late = true;
 };
 
 /// Orders that concern several components, in whatever processes: all of them obey, or none. The components change one

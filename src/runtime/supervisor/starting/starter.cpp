@@ -109,6 +109,7 @@ Result<AddComponent> Starter::introduce(const graph::ComponentNode& component) {
     return fail(Code::failed_precondition,
                 "too many components have come and gone in this run; start the system again", component.name);
   if (known == doorbells_.end()) doorbells_.push_back(component.name);
+  states_.erase(component.name);  // of one that has gone
   const std::map<std::string, std::string> values = graph::print_values(component.params);
   return AddComponent{component, {values.begin(), values.end()}, place};
 }

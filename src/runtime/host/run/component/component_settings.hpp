@@ -7,6 +7,7 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/base/time.hpp"
+#include "orca/host/kept_state.hpp"
 #include "orca/host/planned_failure.hpp"
 
 namespace orca::host {
@@ -20,7 +21,8 @@ struct ComponentSettings {
   bool on_demand = false;          ///< Loaded when first asked for.
   bool stay_warm = false;          ///< Stays in memory once it is loaded.
   Duration idle_time{0};           ///< An on-demand component that is not used for that long is unloaded.
-  bool keeps_state = false;        ///< Begins with its last state after its process was lost.
+  bool keeps_state = false;        ///< Its state is kept for the case that its process is lost.
+  std::optional<KeptState> state;  ///< That it begins with, because its process was lost.
   std::map<std::string, ParamValue> params;
   std::optional<PlannedFailure> failure;  ///< How it is made to fail.
   /// Names of ports in the graph, by the author's names.

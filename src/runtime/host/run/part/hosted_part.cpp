@@ -311,8 +311,8 @@ class HostedPart::Inside {
   std::map<std::string, ComponentReport> reported_;
   bool at_rest_ = true;
 
-  std::atomic<bool> is_to_end_{
-      false};  // take_down is ordered: what comes before it waits for nothing any more
+  // Whether take_down is ordered: what comes before it waits for nothing any more.
+  std::atomic<bool> is_to_end_{false};
   std::mutex mutex_;
   // Below: guarded by mutex_.
   std::deque<PartOrder> orders_;

@@ -68,8 +68,8 @@ class QueryServerEndpoint final : public Endpoint {
   // Below, and the edges' content: guarded by mutex_.
   std::vector<std::unique_ptr<Edge>> edges_;
   std::deque<Question> waiting_;
-  const Edge* handled_ =
-      nullptr;  // from which the question in the handler came; null: none, or its client is gone
+  // The edge from which the question in the handler came; null: there is none, or its client is gone.
+  const Edge* handled_ = nullptr;
   std::shared_ptr<const Handler> handler_;
   std::string closed_because_ = "it has not been started yet";
   IntakeCounters counters_;

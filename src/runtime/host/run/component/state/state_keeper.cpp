@@ -36,16 +36,16 @@ void StateKeeper::give_up(const std::string& why) {
 }
 
 Status StateKeeper::restore() {
-  const auto found = parts_.run.states.find(parts_.settings.name);
-  if (std::exchange(is_restored_, true) || found == parts_.run.states.end()) return ok();
-  const Result<bool> loaded = hooks_.load(found->second);
+  const std::optional<KeptState>& state = parts_.settings.state;
+  if (std::exchange(is_restored_, true) || !state) return ok();
+  const Result<bool> loaded = hooks_.load(*state);
   if (!loaded && loaded.error().code != Code::failed_precondition) return loaded.error();
   if (loaded && *loaded) {
-    parts_.write_log(log::Level::info, "goes on from the state " + found->second.tag.text() +
+    parts_.write_log(log::Level::info, "goes on from the state " + state->tag.text() +
                                            " that was kept before its process was lost");
   } else {
     parts_.write_log(log::Level::warning,
-                     "begins afresh: " + (loaded ? "the state that was kept is " + found->second.tag.text()
+                     "begins afresh: " + (loaded ? "the state that was kept is " + state->tag.text()
                                                  : loaded.error().text()));
   }
   return ok();

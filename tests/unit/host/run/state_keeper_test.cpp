@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The state of a component is kept outside its process, for the object that begins after the process was lost.
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "executives.hpp"
+#include "orca/graph/loader.hpp"
+#include "orca/host/hosted_part.hpp"
+
+using namespace orca;
+using namespace orca::host;
+using namespace orca::test;
+using Kind = PartOrder::Kind;
+
+namespace {
+
+// A state that was handed out, and when.
+struct Handed {
+  KeptState state;
+  TimePoint time;
+};
+
+class StateListener final : public PartListener {
+ public:
+  explicit StateListener(Executive& executive) : executive_(executive) {}
+
+  void logged(log::Level /*level*/, std::string_view who, std::string_view text) override {
+    lines.push_back(std::string(who) + ": " + std::string(text));
+  }
+  void component_changed(const std::string& component, const ComponentReport& report) override {
+    if (component == "talker" && !report.failure.empty()) failure = report.failure;
+  }
+  void rest_changed(bool /*at_rest*/) override {}
+  void counted(const RunCounters& /*counters*/, const std::vector<RunResult::Way>& /*ways*/) override {}
+  void state_kept(const std::string& component, const KeptState& state) override {
+    CHECK(component == "talker");
+    handed.push_back({state, executive_.now()});
+  }
+  void output_failed(const Error& error) override { FAIL(error.text()); }
+  [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
+
+  [[nodiscard]] bool says(const std::string& text) const {
+    for (const std::string& line : lines)
+      if (line.find(text) != std::string::npos) return true;
+    return false;
+  }
+
+  std::vector<std::string> lines;
+  std::vector<Handed> handed;
+  std::string failure;
+
+ private:
+  Executive& executive_;
+};
+
+// What a test.Talker saves: how often it has poked, and what it has heard last.
+KeptState poked(std::int64_t times, const StateTag& tag = {"test.Talker", 1}) {
+  StateWriter writer;
+  writer.write(times, std::string());
+  return {tag, writer.bytes()};
+}
+
+std::int64_t pokes_in(const KeptState& state) {
+  StateReader reader(state.tag, state.bytes);
+  std::int64_t pokes = 0;
+  std::string heard;
+  REQUIRE(reader.read(pokes, heard).ok());
+  return pokes;
+}
+
+// A talker in this process, which does a lap each 10 ms of virtual time.
+class Talking {
+ public:
+  Talking(const graph::Graph& graph, Executive& executive, HostedPart& part)
+      : graph_(graph), executive_(executive), part_(part) {}
+
+  Status ask(PartOrder order) {
+    const std::unique_ptr<Event> answered = executive_.make_event();
+    Status outcome = fail(Code::internal, "not answered");
+    order.done = [&](const Status& status) {
+      outcome = status;
+      answered->notify();
+    };
+    part_.order(std::move(order));
+    (void)answered->wait_until(kForever);
+    return outcome;
+  }
+  void begin() {
+    CHECK(ask({Kind::configure, "talker"}).ok());
+    CHECK(ask({Kind::open_gates}).ok());
+  }
+  void remove() { CHECK(ask({Kind::remove, "talker"}).ok()); }
+  void add_again() {
+    PartOrder order{Kind::add, "talker"};
+    order.node = std::make_shared<graph::ComponentNode>(*graph_.find_component("talker"));
+    CHECK(ask(std::move(order)).ok());
+    CHECK(ask({Kind::configure, "talker"}).ok());
+    CHECK(ask({Kind::open_gate, "talker"}).ok());
+  }
+  void run_for(Duration time) { sleep(executive_, time); }
+
+ private:
+  const graph::Graph& graph_;
+  Executive& executive_;
+  HostedPart& part_;
+};
+
+// Runs a talker that begins with some state, and returns what came of it.
+std::unique_ptr<StateListener> talk(const std::string& restore, const KeptStates& states,
+                                    const std::function<void(Talking&)>& operate) {
+  PluginCatalogue catalogue{plugin::PluginIndex({ORCA_BINARY_DIR "/tests/host_plugins"})};
+  xml::Diagnostics diagnostics;
+  const auto graph = graph::load_text(
+      "<graph name=\"talking\" version=\"1\"><component name=\"talker\" type=\"test.Talker\" restore=\"" +
+          restore + "\"/><component name=\"beside\" type=\"test.Napper\"/></graph>",
+      "talking.xml", {}, catalogue, diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(graph);
+  const auto executive = make_executive(virtual_executives().front()).value();
+  auto listener = std::make_unique<StateListener>(*executive);
+  PartOptions options;
+  options.states = states;
+  HostedPart part(*graph, "main", {catalogue, *executive, *listener}, options);
+  REQUIRE(part.build({}).ok());
+  Talking talking(*graph, *executive, part);
+  std::unique_ptr<Task> operation;
+  PartOrder begin{Kind::open_hardware};
+  begin.done = [&](const Status&) {
+    operation = executive->spawn({"operator"}, [&] {
+      talking.begin();
+      operate(talking);
+      PartOrder end{Kind::take_down};
+      end.done = [&](const Status&) { operation.reset(); };
+      part.order(std::move(end));
+    });
+  };
+  part.order(std::move(begin));
+  part.run();
+  return listener;
+}
+
+void for_a_second(Talking& run) { run.run_for(1s); }
+
+}  // namespace
+
+TEST_CASE("with restore=last a state is handed out while it changes, at most every 0.1 s", "[host][state]") {
+  const auto heard = talk("last", {}, for_a_second);
+  REQUIRE(heard->handed.size() >= 9);
+  CHECK(heard->handed.size() <= 11);
+  CHECK(heard->handed[0].state.tag.text() == "test.Talker/1");
+  for (std::size_t i = 1; i < heard->handed.size(); ++i) {
+    CHECK(heard->handed[i].time - heard->handed[i - 1].time >= 100ms);
+    CHECK(pokes_in(heard->handed[i].state) > pokes_in(heard->handed[i - 1].state));
+  }
+}
+
+TEST_CASE("without restore no state is handed out", "[host][state]") {
+  CHECK(talk("none", {}, for_a_second)->handed.empty());
+}
+
+TEST_CASE("the last change is handed out although nothing comes after it, and once", "[host][state]") {
+  const auto heard = talk("last", {}, [](Talking& run) {
+    run.run_for(150ms);
+    CHECK(run.ask({Kind::suspend, "talker"}).ok());
+    run.run_for(2s);
+  });
+  REQUIRE_FALSE(heard->handed.empty());
+  CHECK(pokes_in(heard->handed.back().state) >= 14);
+  CHECK(heard->handed.size() <= 3);
+}
+
+TEST_CASE("an object that begins with a kept state goes on from it", "[host][state]") {
+  const auto heard = talk("last", {{"talker", poked(1000)}}, for_a_second);
+  CHECK(heard->says("talker: goes on from the state test.Talker/1"));
+  REQUIRE_FALSE(heard->handed.empty());
+  CHECK(pokes_in(heard->handed[0].state) > 1000);
+  CHECK(heard->failure.empty());
+}
+
+TEST_CASE("a state of another type or version is left unread, and the log says so", "[host][state]") {
+  for (const StateTag& tag : {StateTag{"test.Stranger", 1}, StateTag{"test.Talker", 7}}) {
+    CAPTURE(tag.text());
+    const auto heard = talk("last", {{"talker", poked(1000, tag)}}, for_a_second);
+    CHECK(heard->says("talker: begins afresh: "));
+    CHECK(heard->says(tag.text()));
+    REQUIRE_FALSE(heard->handed.empty());
+    CHECK(pokes_in(heard->handed[0].state) < 1000);
+    CHECK(heard->failure.empty());
+  }
+}
+
+TEST_CASE("an object that cannot read its state fails with the reason", "[host][state]") {
+  KeptState torn = poked(1000);
+  torn.bytes.pop_back();
+  const auto heard = talk("last", {{"talker", torn}}, for_a_second);
+  INFO(heard->failure);
+  CHECK(heard->failure.find("cannot go on from the state that was kept") != std::string::npos);
+}
+
+TEST_CASE("a component that has gone and comes again begins afresh", "[host][state]") {
+  const auto heard = talk("last", {{"talker", poked(1000)}}, [](Talking& run) {
+    run.run_for(1s);
+    run.remove();
+    run.add_again();
+    run.run_for(1s);
+  });
+  REQUIRE_FALSE(heard->handed.empty());
+  CHECK(pokes_in(heard->handed[0].state) > 1000);
+  CHECK(pokes_in(heard->handed.back().state) < 1000);
+}
