@@ -147,6 +147,8 @@ TEST_CASE("a failed component refuses objects and queries, and accepts them agai
     const bool comes_up = row.to == State::idle && (row.from == State::init || is_failed(row.from));
     CHECK(has(row, Action::open_intake) == comes_up);
     CHECK(has(row, Action::end) == (row.to == State::exit));
+    // A handler may subscribe to something, also in IDLE.
+    if (row.to == State::exit && takes_intake(row.from)) CHECK(has(row, Action::unsubscribe));
   });
 }
 

@@ -14,6 +14,8 @@ constexpr Actions kLeaveWork = {Action::stop, Action::unsubscribe, Action::enter
 constexpr Actions kFailAtRest = {Action::unsubscribe, Action::close_intake, Action::enter};
 constexpr Actions kFailAtWork = {Action::try_stop, Action::unsubscribe, Action::close_intake, Action::enter};
 constexpr Actions kEnd = {Action::end, Action::enter};
+// A handler may have subscribed to something.
+constexpr Actions kEndAtRest = {Action::unsubscribe, Action::end, Action::enter};
 
 constexpr auto kRows = std::to_array<ComponentTransition>({
     // Coming up.
@@ -65,8 +67,8 @@ constexpr auto kRows = std::to_array<ComponentTransition>({
     {State::suspended_work, Event::exit, State::work, kEnter},
     {State::work, Event::exit, State::idle, kLeaveWork},
     {State::unloaded, Event::exit, State::exit, kEnd},
-    {State::idle, Event::exit, State::exit, kEnd},
-    {State::work_done, Event::exit, State::exit, kEnd},
+    {State::idle, Event::exit, State::exit, kEndAtRest},
+    {State::work_done, Event::exit, State::exit, kEndAtRest},
     {State::work_failed, Event::exit, State::exit, kEnd},
     {State::broken, Event::exit, State::exit, kEnd},
 });
