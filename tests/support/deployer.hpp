@@ -33,6 +33,9 @@ inline constexpr double kSlowCode = kSanitized ? 20.0 : 1.0;
 /// opened Fast DDS, and each is reported as PLUGIN_PINNED.
 inline constexpr bool kDdsLetsPluginsGo = !kThreadSanitizer;
 
+/// Whether new code is tried out in a copy of the process before it runs: ThreadSanitizer cannot follow the copy.
+inline constexpr bool kTriesInShadow = !kThreadSanitizer;
+
 /// The exit status of a start that a configure() refuses. Under ThreadSanitizer there is no trial before it.
 inline constexpr int kRefusedByComponent = kThreadSanitizer ? 3 : 2;
 
