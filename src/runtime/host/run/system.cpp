@@ -137,10 +137,10 @@ Status System::check_unused() const {
   return ok();
 }
 
-std::vector<std::string> System::take_down(TimePoint deadline) {
+std::vector<std::string> System::take_down(TimePoint deadline, bool keeps_states) {
   for (const auto& component : components_.all()) component->announce_exit();
   for (const auto& hardware : hardware_) hardware->shut_down();
-  for (const auto& component : components_.all()) component->request_exit();
+  for (const auto& component : components_.all()) component->request_exit(keeps_states);
   std::vector<std::string> stuck;
   for (const auto& component : components_.all()) {
     if (component->join_until(deadline)) continue;

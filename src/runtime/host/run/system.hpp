@@ -55,8 +55,9 @@ class System {
   [[nodiscard]] Status check_unused() const;
 
   /// Stops the motors and ends all strands.
+  /// @param keeps_states  whether the components' states are handed out, whatever the graph says.
   /// @return the names of those that did not end in time, with what they are doing.
-  std::vector<std::string> take_down(TimePoint deadline);
+  std::vector<std::string> take_down(TimePoint deadline, bool keeps_states = false);
 
   /// Stops the motors and closes the hardware, however the rest is doing.
   /// @param limit  [s of the steady clock] time to wait for it.

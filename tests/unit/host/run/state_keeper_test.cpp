@@ -112,7 +112,7 @@ class Talking {
 
 // Runs a talker that begins with some state, and returns what came of it.
 std::unique_ptr<StateListener> talk(const std::string& restore, const KeptStates& states,
-                                    const std::function<void(Talking&)>& operate) {
+                                    const std::function<void(Talking&)>& operate, bool keeps_last = false) {
   PluginCatalogue catalogue{plugin::PluginIndex({ORCA_BINARY_DIR "/tests/host_plugins"})};
   xml::Diagnostics diagnostics;
   const auto graph = graph::load_text(
@@ -135,6 +135,7 @@ std::unique_ptr<StateListener> talk(const std::string& restore, const KeptStates
       talking.begin();
       operate(talking);
       PartOrder end{Kind::take_down};
+      end.keeps_states = keeps_last;
       end.done = [&](const Status&) { operation.reset(); };
       part.order(std::move(end));
     });
@@ -161,6 +162,13 @@ TEST_CASE("with restore=last a state is handed out while it changes, at most eve
 
 TEST_CASE("without restore no state is handed out", "[host][state]") {
   CHECK(talk("none", {}, for_a_second)->handed.empty());
+}
+
+TEST_CASE("whoever takes a component down can ask for its last state, whatever the graph says",
+          "[host][state]") {
+  const auto heard = talk("none", {}, for_a_second, true);
+  REQUIRE(heard->handed.size() == 1);
+  CHECK(pokes_in(heard->handed[0].state) >= 99);
 }
 
 TEST_CASE("the last change is handed out although nothing comes after it, and once", "[host][state]") {

@@ -53,7 +53,8 @@ class ComponentInstance final {
   /// for all components of a system before the first of them ends.
   void announce_exit() { loop_.announce_exit(); }
   /// Ends the strand at the next wait or lap boundary.
-  void request_exit() { loop_.request_exit(); }
+  /// @param keeps_state  whether its state is handed out then, whatever the graph says.
+  void request_exit(bool keeps_state = false) { loop_.request_exit(keeps_state); }
   [[nodiscard]] bool join_until(TimePoint deadline) { return parts_.strand.join_until(deadline); }
 
   /// Return the order. Orders are carried out between two laps, one after the other. A lap that waits and has

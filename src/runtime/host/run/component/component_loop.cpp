@@ -19,7 +19,8 @@ void ComponentLoop::open_gate() {
 
 void ComponentLoop::announce_exit() { parts_.strand.end(); }
 
-void ComponentLoop::request_exit() {
+void ComponentLoop::request_exit(bool keeps_state) {
+  keeps_last_state_.store(keeps_state, std::memory_order_relaxed);
   exit_requested_.store(true, std::memory_order_release);
   parts_.strand.wake();
 }
@@ -33,6 +34,8 @@ void ComponentLoop::run() {
     life_.handle(ComponentEvent::loaded);
   }
   while (!is_to_exit()) turn();
+  if (keeps_last_state_.load(std::memory_order_relaxed) && can_tell_its_state(life_.state()))
+    keeper_.keep_last();
   while (life_.state() != ComponentState::exit) life_.handle(ComponentEvent::exit);
 }
 
@@ -47,12 +50,21 @@ void ComponentLoop::turn() {
     return parts_.run.changed();
   }
   const bool silent = parts_.injector.is_silent();
+  if (!silent && keeper_.awaits_restore() && takes_intake(life_.state()) && parts_.ports.has_intake())
+    return restore_early();
   if (!silent && handle_one_intake()) return keeper_.note_change();
   if (const auto event = look()) return life_.handle(*event);
   if (silent) return parts_.strand.pause_until(kForever);
   if (keeping_time() <= parts_.now()) return keeper_.keep();
   if (life_.state() == ComponentState::work && parts_.laps.is_due(parts_.now())) return lap();
   parts_.strand.pause_until(next_wake_up());
+}
+
+// What has been sent or asked finds the object as its predecessor was.
+void ComponentLoop::restore_early() {
+  if (const Status restored = keeper_.restore_early(); !restored.ok())
+    life_.fail_with(ComponentEvent::failed, Hook::load_state,
+                    "cannot go on from the state that was kept: " + restored.error().text());
 }
 
 // Returns a circumstance that leads out of the present state; nothing if there is none.

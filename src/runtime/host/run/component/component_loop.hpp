@@ -31,10 +31,12 @@ class ComponentLoop {
   /// Announces request_exit(). The component ends its present hook or lap and begins nothing new.
   void announce_exit();
   /// Ends the loop at the next wait or lap boundary.
-  void request_exit();
+  /// @param keeps_state  whether the state is handed out then, whatever the graph says.
+  void request_exit(bool keeps_state);
 
  private:
   void turn();
+  void restore_early();
   [[nodiscard]] std::optional<ComponentEvent> look() const;
   void lap();
   void conclude(const Outcome& outcome);
@@ -60,6 +62,7 @@ class ComponentLoop {
   std::uint64_t activity_before_lap_ = 0;
   TimePoint last_intake_{};
   std::atomic<bool> gate_open_{false};
+  std::atomic<bool> keeps_last_state_{false};
   std::atomic<bool> exit_requested_{false};
 };
 

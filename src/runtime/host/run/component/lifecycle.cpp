@@ -131,7 +131,9 @@ Lifecycle::FollowUp Lifecycle::refuse(ComponentEvent event, Error reason, const 
 }
 
 Lifecycle::FollowUp Lifecycle::start() {
-  Status started;
+  Status started = keeper_.prepare_start();
+  if (!started.ok())
+    return report(ComponentEvent::failed, Hook::start, "could not begin: " + started.error().text());
   residency_.note_started(true);
   const auto fault = parts_.hooks.call(Hook::start, [&] { started = residency_.component()->start(); });
   if (fault && fault->interrupted) return ComponentEvent::interrupted;
@@ -141,7 +143,7 @@ Lifecycle::FollowUp Lifecycle::start() {
   return report(fault ? ComponentEvent::threw : ComponentEvent::failed, Hook::start, what);
 }
 
-// Goes on from what was kept before the process was lost, if anything was.
+// Goes on from what was kept before the process ended, if anything was.
 Lifecycle::FollowUp Lifecycle::restore() {
   const Status restored = keeper_.restore();
   if (restored.ok()) return ComponentEvent::started;

@@ -227,7 +227,7 @@ class HostedPart::Inside {
         is_open_ = true;
         watch_hangs();
         return ok();
-      case PartOrder::Kind::take_down: return take_down();
+      case PartOrder::Kind::take_down: return take_down(order.keeps_states);
       case PartOrder::Kind::check_unused: return system.check_unused();
       case PartOrder::Kind::suspend: return system.suspend(order.component, changed, limit);
       case PartOrder::Kind::resume: return system.resume(order.component, changed, limit);
@@ -252,13 +252,13 @@ class HostedPart::Inside {
   }
 
   // Whatever the connections refuse from here on is no trouble.
-  Status take_down() {
+  Status take_down(bool keeps_states) {
     is_open_ = false;
     watched_.set_hang_limit(Duration{0});  // it has its own limit
     watched_.reporter().ignore_trouble();
     place_.listener.counted(collect_counters(whole_, watched_.system()), sightings_.ways());
     const std::vector<std::string> stuck =
-        watched_.system().take_down(place_.executive.now() + kTakeDownLimit);
+        watched_.system().take_down(place_.executive.now() + kTakeDownLimit, keeps_states);
     swaps_.give_up();
     taken_down_ = true;
     if (stuck.empty()) return ok();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "part_changes.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -29,7 +30,12 @@ Status PartChanges::add(graph::ComponentNode node, const std::map<std::string, s
     if (Status added = watched_.system().add(node, catalogue_); !added.ok()) return added;
   }
   const std::lock_guard lock(whole_.mutex);
-  whole_.graph.components.push_back(std::move(node));
+  std::vector<graph::ComponentNode>& all = whole_.graph.components;
+  const auto known = std::ranges::find(all, node.name, &graph::ComponentNode::name);
+  if (known != all.end())
+    *known = std::move(node);  // it is in another process now
+  else
+    all.push_back(std::move(node));
   return ok();
 }
 

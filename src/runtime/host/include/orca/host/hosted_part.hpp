@@ -59,6 +59,7 @@ struct PartOrder {
   std::string component{};                      ///< Of the orders that concern one.
   std::map<std::string, std::string> params{};  ///< Values as written in a graph, with units.
   Done done{};
+  bool keeps_states = false;  ///< Whether components hand out their states when they are taken down.
   /// The component to add, if that is the order. Its parameters are those in `params`.
   std::shared_ptr<graph::ComponentNode> node{};
   std::shared_ptr<SwapOrder> swap{};  ///< What is to be exchanged, if that is the order.

@@ -13,7 +13,8 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // of a state, ten tim
 StateKeeper::StateKeeper(ComponentParts& parts, Residency& residency)
     : parts_(parts),
       hooks_(parts, residency),
-      keeps_(parts.settings.keeps_state && parts.run.state_sink != nullptr) {}
+      keeps_(parts.settings.keeps_state && parts.run.state_sink != nullptr),
+      state_(parts.settings.state) {}
 
 TimePoint StateKeeper::due() const { return has_changed_ ? saturating_add(last_, kInterval) : kForever; }
 
@@ -22,11 +23,22 @@ void StateKeeper::keep() {
   last_ = parts_.now();
   Result<KeptState> saved = hooks_.save();
   if (!saved) return give_up(saved.error().text());
-  if (saved->bytes.size() > kMostBytes)
-    return give_up("it takes " + std::to_string(saved->bytes.size()) + " bytes, more than " +
+  hand_out(std::move(saved).value());
+}
+
+void StateKeeper::keep_last() {
+  if (parts_.run.state_sink == nullptr) return;
+  Result<KeptState> saved = hooks_.save();
+  if (!saved) return give_up(saved.error().text());
+  if (!saved->bytes.empty()) hand_out(std::move(saved).value());  // it has one
+}
+
+void StateKeeper::hand_out(KeptState saved) {
+  if (saved.bytes.size() > kMostBytes)
+    return give_up("it takes " + std::to_string(saved.bytes.size()) + " bytes, more than " +
                    std::to_string(kMostBytes));
-  if (*saved == kept_) return;
-  kept_ = std::move(saved).value();
+  if (saved == kept_) return;
+  kept_ = std::move(saved);
   parts_.run.state_sink(parts_.settings.name, kept_);
 }
 
@@ -35,17 +47,31 @@ void StateKeeper::give_up(const std::string& why) {
   parts_.write_log(log::Level::warning, "its state is not kept from now on: " + why);
 }
 
+Status StateKeeper::restore_early() {
+  is_early_ = true;
+  return restore();
+}
+
+Status StateKeeper::prepare_start() {
+  if (!std::exchange(is_early_, false)) return ok();
+  Result<KeptState> saved = hooks_.save();
+  if (!saved) return saved.error();
+  state_ = std::move(saved).value();
+  is_restored_ = false;
+  return ok();
+}
+
 Status StateKeeper::restore() {
-  const std::optional<KeptState>& state = parts_.settings.state;
-  if (std::exchange(is_restored_, true) || !state) return ok();
-  const Result<bool> loaded = hooks_.load(*state);
+  if (std::exchange(is_restored_, true) || !state_) return ok();
+  const Result<bool> loaded = hooks_.load(*state_);
   if (!loaded && loaded.error().code != Code::failed_precondition) return loaded.error();
+  if (std::exchange(is_told_, true)) return ok();
   if (loaded && *loaded) {
-    parts_.write_log(log::Level::info, "goes on from the state " + state->tag.text() +
-                                           " that was kept before its process was lost");
+    parts_.write_log(log::Level::info, "goes on from the state " + state_->tag.text() +
+                                           " that was kept before its process ended");
   } else {
     parts_.write_log(log::Level::warning,
-                     "begins afresh: " + (loaded ? "the state that was kept is " + state->tag.text()
+                     "begins afresh: " + (loaded ? "the state that was kept is " + state_->tag.text()
                                                  : loaded.error().text()));
   }
   return ok();

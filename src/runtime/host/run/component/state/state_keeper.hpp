@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "state_hooks.hpp"
 
 namespace orca::host {
@@ -22,21 +24,35 @@ class StateKeeper {
   [[nodiscard]] TimePoint due() const;
   /// Keeps the state. @pre  can_tell_its_state().
   void keep();
+  /// Keeps the state at the end of the component, whatever the graph says of it, unless it is empty. @pre  can_tell_its_state().
+  void keep_last();
 
-  /// Gives the object the state that its predecessor had in a process which was lost; later calls do nothing. A state that the
+  /// Returns whether the object has not been given yet the state that its predecessor had.
+  [[nodiscard]] bool awaits_restore() const { return !is_restored_ && state_; }
+  /// Gives the object the state that its predecessor had in a process which has ended; later calls do nothing. A state that the
   /// object cannot read is left unread, with a line in the log.
   /// @errors  what load_state() said or threw.
   Status restore();
+  /// Does the same before the object is started, because it is to handle something. Since start() may begin anew, what the
+  /// object has then is given to it once more by the first restore() after prepare_start().
+  Status restore_early();
+  /// To be called before start().
+  /// @errors  what save_state() threw.
+  Status prepare_start();
 
  private:
+  void hand_out(KeptState saved);
   void give_up(const std::string& why);
 
   ComponentParts& parts_;
   StateHooks hooks_;
   bool keeps_;
   bool has_changed_ = false;
+  std::optional<KeptState> state_;  // that the object begins with
   bool is_restored_ = false;
-  TimePoint last_{};  // time of the last keep()
+  bool is_told_ = false;   // in the log
+  bool is_early_ = false;  // restored, but not started yet
+  TimePoint last_{};       // time of the last keep()
   KeptState kept_;
 };
 
