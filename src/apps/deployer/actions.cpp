@@ -152,7 +152,7 @@ std::optional<std::vector<host::TimedChange>> plan_changes(const Options& option
     append(after.diagnostics, said);
     if (!after.graph) return std::nullopt;
     const supervisor::SystemFacts facts = supervisor::facts_of(*after.graph, after.catalogue);
-    host::TimedChange change{one.file, one.at, graph::plan_of(before, *after.graph, facts.contracts), {}};
+    host::TimedChange change{one.file, one.at, graph::plan_of(before, *after.graph, facts.contracts, {}), {}};
     if (!change.plan.is_possible()) {
       const xml::Diagnostics faults = faults_of(one, graph::obstacles_of(change.plan));
       append(faults, said);

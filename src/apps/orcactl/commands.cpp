@@ -29,9 +29,15 @@ constexpr std::string_view kApplyDetails =
     "all other parameters change between two laps. If a step fails, everything goes back. A process that is "
     "started again "
     "begins with the new graph. New components come up before connections are made, removed and given other "
-    "policies; components that the file does not have end at last. What needs more - hardware, processes, "
+    "policies; components that the file does not have end at last. What cannot change in a process that "
+    "runs - its "
+    "hardware, its executor, a component that comes from another process, a connection over DDS - is there "
+    "when the "
+    "process begins anew: it ends, and is started with the new graph, while the others run on; components go "
+    "on from "
+    "what their save_state() wrote. The last lines say which processes that concerns. What needs more - "
     "machines, "
-    "connections over DDS - is refused before anything changes.";
+    "processes on demand - is refused before anything changes.";
 
 constexpr std::string_view kRewireDetails =
     "The graph with that change is checked as a whole, so that the order is refused if a port that must be "

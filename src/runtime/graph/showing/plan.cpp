@@ -8,92 +8,163 @@
 
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
+#include "renewal.hpp"
 
 namespace orca::graph {
 namespace {
 
-constexpr std::string_view kParam = "param ";
-
-bool is_param(const FieldChange& change) { return change.field.starts_with(kParam); }
-
 // Returns whether it says what a run goes over to later; one that is under way has taken note of that already.
 bool is_planned(const FieldChange& change) { return change.field.starts_with(kChangeField); }
-
-std::string param_of(const FieldChange& change) { return change.field.substr(kParam.size()); }
-
-bool can_change(const FieldChange& change, const Contract* contract) {
-  const ParamContract* const param = contract == nullptr ? nullptr : contract->param(param_of(change));
-  return param != nullptr && !param->fixed;
-}
-
-// Returns what it takes to change the code and the parameters of a component.
-Effort effort_of(const Change& change, const ComponentNode& wanted, const Contract* contract) {
-  const bool only_sets = std::ranges::all_of(change.fields, [&](const FieldChange& field) {
-    return field.field != "type" && (!is_param(field) || can_change(field, contract));
-  });
-  if (only_sets) return Effort::set;
-  return wanted.hardware.empty() ? Effort::exchange : Effort::restart;
-}
-
-// Plans the change of a component that both graphs have.
-void add_component(const Change& change, const ComponentNode& wanted, const Contract* contract,
-                   GraphPlan& plan) {
-  const Effort effort = effort_of(change, wanted, contract);
-  Params settings;
-  bool changes_code = false;
-  for (const FieldChange& field : change.fields) {
-    const bool is_known = is_param(field) || field.field == "type";
-    const Effort other = field.field == "start_after" ? Effort::none : Effort::restart;
-    plan.lines.push_back({title(change), field, is_known ? effort : other});
-    if (is_param(field) && effort == Effort::set)
-      settings[param_of(field)] = wanted.params.at(param_of(field));
-    changes_code = changes_code || (is_known && effort == Effort::exchange);
-  }
-  if (!settings.empty()) plan.settings[wanted.name] = std::move(settings);
-  if (changes_code) plan.exchanges.push_back({wanted.name, wanted.type, wanted.params});
-}
 
 std::optional<Edge> find_edge(const Graph& graph, const std::string& name) {
   const auto edge = std::ranges::find(graph.edges, name, &Edge::name);
   return edge == graph.edges.end() ? std::nullopt : std::optional(*edge);
 }
 
-// Returns whether a connection can be made and removed while its ends run: they are in the same process before and after, or
-// come or go, that process runs all the time, and the port uses no other server in its place.
-bool can_rewire(const Edge& edge, const Graph& running, const Graph& wanted) {
-  const auto stays = [&](const PortRef& port) {
-    const ComponentNode* const before = running.find_component(port.component);
-    const ComponentNode* const after = wanted.find_component(port.component);
-    if (before == nullptr || after == nullptr) return true;
-    return before->process == after->process && !starts_on_demand(running, before->process);
-  };
-  return edge.choice == 0 && edge.link != Link::dds && stays(edge.from) && stays(edge.to);
+bool chooses(const ComponentNode& node) {
+  return std::ranges::any_of(node.ports, [](const auto& port) { return !port.second.candidates.empty(); });
 }
 
-// Returns whether a component can come or go while the others run: there are the same processes before and after, its own runs
-// all the time, and it chooses nothing.
-bool can_come_or_go(const ComponentNode& node, const Graph& running, const Graph& wanted) {
-  const std::vector<ProcessNode> before = processes_of(running);
-  const bool are_same =
-      std::ranges::equal(before, processes_of(wanted), {}, &ProcessNode::name, &ProcessNode::name);
-  const bool is_there = std::ranges::find(before, node.process, &ProcessNode::name) != before.end();
-  const bool chooses =
-      std::ranges::any_of(node.ports, [](const auto& port) { return !port.second.candidates.empty(); });
-  return are_same && is_there && running.machines.size() < 2 && !node.on_demand &&
-         !starts_on_demand(running, node.process) && !chooses;
-}
-
-Effort add_or_remove(const Change& change, const Graph& running, const Graph& wanted, GraphPlan& plan) {
-  const bool comes = change.kind == Change::Kind::added;
-  const ComponentNode& node = *(comes ? wanted : running).find_component(change.name);
-  if (!can_come_or_go(node, running, wanted)) return Effort::restart;
-  if (comes) {
-    plan.added.push_back(node);
-  } else {
-    plan.removed.push_back(node.name);
+// Makes the plan, one difference after the other.
+class PlanMaker {
+ public:
+  PlanMaker(const Way& way, const std::vector<Change>& changes) : way_(way) {
+    if (way.means.renews_processes) plan_.renewed = processes_to_renew(way, changes);
+    can_renew_ = std::ranges::none_of(plan_.renewed, [&](const std::string& process) {
+      return starts_on_demand(way.running, process) || starts_on_demand(way.wanted, process);
+    });
   }
-  return comes ? Effort::add : Effort::remove;
-}
+
+  void add(const Change& change) {
+    switch (change.part) {
+      case Change::Part::group: return add_lines(change, Effort::none);
+      case Change::Part::connection: return add_lines(change, effort_of_connection(change));
+      case Change::Part::component: return add_component(change);
+      case Change::Part::hardware: return add_lines(change, effort_of_hardware(change));
+      case Change::Part::process: return add_lines(change, effort_of_process(change));
+      case Change::Part::graph:
+      case Change::Part::machine: return add_lines(change, Effort::restart);
+    }
+  }
+
+  GraphPlan take() {
+    const bool is_possible =
+        std::ranges::none_of(plan_.lines, [](const auto& line) { return line.effort == Effort::restart; });
+    if (is_possible && !keeps_choices(way_))
+      plan_.lines.push_back({"~ ports that choose between several servers", {}, Effort::restart});
+    return std::move(plan_);
+  }
+
+ private:
+  [[nodiscard]] bool is_renewed(const std::string& process) const { return plan_.renewed.contains(process); }
+  // Returns whether a component is, or will be, in a process that begins anew.
+  [[nodiscard]] bool is_renewed(const ComponentNode* before, const ComponentNode* after) const {
+    return (before != nullptr && is_renewed(before->process)) ||
+           (after != nullptr && is_renewed(after->process));
+  }
+  [[nodiscard]] Effort renewal() const { return can_renew_ ? Effort::renew : Effort::restart; }
+
+  void add_lines(const Change& change, Effort effort) {
+    for (const FieldChange& field : change.fields)
+      plan_.lines.push_back({title(change), field, is_planned(field) ? Effort::none : effort});
+    if (change.fields.empty()) plan_.lines.push_back({title(change), {}, effort});
+  }
+
+  void add_component(const Change& change) {
+    const ComponentNode* const before = way_.running.find_component(change.name);
+    const ComponentNode* const after = way_.wanted.find_component(change.name);
+    if (is_renewed(before, after)) return add_lines(change, renewal());
+    if (change.kind != Change::Kind::changed) return add_lines(change, come_or_go(before, after));
+    change_component(change, *after);
+  }
+
+  // Plans the change of a component that both graphs have, and whose process stays.
+  void change_component(const Change& change, const ComponentNode& wanted) {
+    const auto contract = way_.contracts.find(change.name);
+    const bool sets = only_sets(change, contract == way_.contracts.end() ? nullptr : &contract->second);
+    const Effort effort = sets ? Effort::set : wanted.hardware.empty() ? Effort::exchange : Effort::restart;
+    Params settings;
+    bool changes_code = false;
+    for (const FieldChange& field : change.fields) {
+      const Effort other = field.field == "start_after" ? Effort::none : Effort::restart;
+      plan_.lines.push_back({title(change), field, concerns_code(field) ? effort : other});
+      const std::string param = param_of(field);
+      if (!param.empty() && effort == Effort::set) settings[param] = wanted.params.at(param);
+      changes_code = changes_code || (concerns_code(field) && effort == Effort::exchange);
+    }
+    if (!settings.empty()) plan_.settings[wanted.name] = std::move(settings);
+    if (changes_code) plan_.exchanges.push_back({wanted.name, wanted.type, wanted.params});
+  }
+
+  // A component can come or go while the others run if its own process runs all the time, and it chooses nothing.
+  Effort come_or_go(const ComponentNode* before, const ComponentNode* after) {
+    const ComponentNode& node = before != nullptr ? *before : *after;
+    const std::vector<ProcessNode> processes = processes_of(way_.running);
+    const bool is_there = std::ranges::find(processes, node.process, &ProcessNode::name) != processes.end();
+    if (!is_there || !stays(node.process) || way_.running.machines.size() > 1 || node.on_demand ||
+        chooses(node))
+      return Effort::restart;
+    if (after != nullptr) {
+      plan_.added.push_back(node);
+    } else {
+      plan_.removed.push_back(node.name);
+    }
+    return after != nullptr ? Effort::add : Effort::remove;
+  }
+
+  // Returns whether a process runs all the time, before and after.
+  [[nodiscard]] bool stays(const std::string& process) const {
+    if (starts_on_demand(way_.running, process)) return false;
+    const std::vector<ProcessNode> after = processes_of(way_.wanted);
+    return std::ranges::find(after, process, &ProcessNode::name) != after.end();
+  }
+
+  [[nodiscard]] Effort effort_of_hardware(const Change& change) const {
+    for (const Graph* const graph : {&way_.running, &way_.wanted})
+      if (const HardwareNode* const node = graph->find_hardware(change.name))
+        if (!is_renewed(node->process)) return Effort::restart;
+    return renewal();
+  }
+
+  [[nodiscard]] Effort effort_of_process(const Change& change) const {
+    if (is_renewed(change.name)) return renewal();
+    const std::vector<ProcessNode> running = processes_of(way_.running);
+    const bool is_used = std::ranges::find(running, change.name, &ProcessNode::name) != running.end();
+    return is_used ? Effort::restart : Effort::none;
+  }
+
+  // A connection is made and removed by those of its ends that stay; those that begin anew have it from the start.
+  Effort effort_of_connection(const Change& change) {
+    GraphPlan::Rewiring rewiring{find_edge(way_.running, change.name), find_edge(way_.wanted, change.name)};
+    bool is_renewed_at_all_ends = true;
+    for (const std::optional<Edge>& edge : {rewiring.before, rewiring.after}) {
+      if (!edge) continue;
+      if (!is_plain(*edge)) return Effort::restart;
+      for (const PortRef* const end : {&edge->from, &edge->to}) {
+        const bool begins_anew = is_renewed(way_.running.find_component(end->component),
+                                            way_.wanted.find_component(end->component));
+        is_renewed_at_all_ends = is_renewed_at_all_ends && begins_anew;
+        if (!begins_anew && !can_rewire_at(*end, *edge)) return Effort::restart;
+      }
+    }
+    if (is_renewed_at_all_ends) return renewal();
+    plan_.connections.push_back(std::move(rewiring));
+    return Effort::rewire;
+  }
+
+  // Returns whether the component stays in its process, or comes or goes there.
+  [[nodiscard]] bool can_rewire_at(const PortRef& end, const Edge& edge) const {
+    const ComponentNode* const before = way_.running.find_component(end.component);
+    const ComponentNode* const after = way_.wanted.find_component(end.component);
+    if (edge.link == Link::dds) return false;
+    if (before == nullptr || after == nullptr) return true;
+    return before->process == after->process && !starts_on_demand(way_.running, before->process);
+  }
+
+  const Way& way_;
+  bool can_renew_ = true;
+  GraphPlan plan_;
+};
 
 // Sorts what comes as it starts, and what goes the other way round.
 void sort_by_start(const Graph& running, const Graph& wanted, GraphPlan& plan) {
@@ -106,23 +177,6 @@ void sort_by_start(const Graph& running, const Graph& wanted, GraphPlan& plan) {
   std::ranges::sort(plan.removed, std::greater<>(), place(present));
 }
 
-Effort add_connection(const Change& change, const Graph& running, const Graph& wanted, GraphPlan& plan) {
-  GraphPlan::Rewiring rewiring{find_edge(running, change.name), find_edge(wanted, change.name)};
-  for (const std::optional<Edge>& edge : {rewiring.before, rewiring.after})
-    if (edge && !can_rewire(*edge, running, wanted)) return Effort::restart;
-  plan.connections.push_back(std::move(rewiring));
-  return Effort::rewire;
-}
-
-void add_other(const Change& change, const Graph& running, const Graph& wanted, GraphPlan& plan) {
-  Effort effort = change.part == Change::Part::group ? Effort::none : Effort::restart;
-  if (change.part == Change::Part::connection) effort = add_connection(change, running, wanted, plan);
-  if (change.part == Change::Part::component) effort = add_or_remove(change, running, wanted, plan);
-  for (const FieldChange& field : change.fields)
-    plan.lines.push_back({title(change), field, is_planned(field) ? Effort::none : effort});
-  if (change.fields.empty()) plan.lines.push_back({title(change), {}, effort});
-}
-
 }  // namespace
 
 const char* to_string(Effort effort) {
@@ -133,6 +187,7 @@ const char* to_string(Effort effort) {
     case Effort::add: return "comes up beside the others; nothing stops";
     case Effort::remove: return "ends when its connections are gone; nothing else stops";
     case Effort::exchange: return "tried for 1 s, then exchanged between two laps; nothing stops";
+    case Effort::renew: return "its process is started again; what runs there stops meanwhile";
     case Effort::restart: return "only when the system is started again";
   }
   return "?";
@@ -151,19 +206,13 @@ bool GraphPlan::is_possible() const {
   return std::ranges::none_of(lines, [](const Line& line) { return line.effort == Effort::restart; });
 }
 
-GraphPlan plan_of(const Graph& running, const Graph& wanted,
-                  const std::map<std::string, Contract>& contracts) {
-  GraphPlan plan;
-  for (const Change& change : diff(running, wanted)) {
-    const bool is_component = change.part == Change::Part::component && change.kind == Change::Kind::changed;
-    if (!is_component) {
-      add_other(change, running, wanted, plan);
-      continue;
-    }
-    const auto contract = contracts.find(change.name);
-    add_component(change, *wanted.find_component(change.name),
-                  contract == contracts.end() ? nullptr : &contract->second, plan);
-  }
+GraphPlan plan_of(const Graph& running, const Graph& wanted, const std::map<std::string, Contract>& contracts,
+                  const PlanMeans& means) {
+  const Way way{running, wanted, contracts, means};
+  const std::vector<Change> changes = diff(running, wanted);
+  PlanMaker maker(way, changes);
+  for (const Change& change : changes) maker.add(change);
+  GraphPlan plan = maker.take();
   sort_by_start(running, wanted, plan);
   return plan;
 }
@@ -191,13 +240,10 @@ void go_over(Graph& graph, const Graph& wanted) {
   std::vector<ComponentNode> added = wanted.components;
   std::erase_if(added, is_in(graph));
   std::erase_if(graph.components, std::not_fn(is_in(wanted)));
-  for (ComponentNode& node : graph.components) {
-    const ComponentNode& now = *wanted.find_component(node.name);
-    node.type = now.type;
-    node.params = now.params;
-    node.start_after = now.start_after;
-  }
+  for (ComponentNode& node : graph.components) node = *wanted.find_component(node.name);
   std::ranges::move(added, std::back_inserter(graph.components));
+  graph.processes = wanted.processes;
+  graph.hardware = wanted.hardware;
   graph.groups = wanted.groups;
   graph.edges = wanted.edges;
 }

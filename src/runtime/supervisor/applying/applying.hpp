@@ -11,11 +11,13 @@
 #include "control/exchanging.hpp"
 #include "control/operating.hpp"
 #include "control/reply.hpp"
+#include "orca/base/executive.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/plan.hpp"
 #include "orca/supervisor/system_facts.hpp"
 #include "run/member.hpp"
+#include "run/renewal.hpp"
 
 namespace orca::supervisor {
 
@@ -23,21 +25,30 @@ namespace orca::supervisor {
 ///
 /// A file is read and checked on a thread of its own. Then code is exchanged, one component after the other, each tried out
 /// before; then parameters change, all of them or none; then new components come up, then connections change, all of them or
-/// none; then the new components work. If a step fails, those before it are taken back. At last components that nobody is
-/// connected to any more end. A file that asks for more than that is refused before anything changes.
+/// none; then processes begin, end or begin anew; then the new components work. If a step fails, those before it are taken
+/// back. At last components that nobody is connected to any more end. A file that asks for more than that is refused before
+/// anything changes.
 ///
 /// Thread contract: the supervisor's thread.
 class Applying {
  public:
   /// What it needs of the run.
   struct Levers {
-    SystemReader read;  ///< Empty: no graph can be read.
+    SystemReader read;                ///< Empty: no graph can be read.
+    std::optional<Backend> executor;  ///< Of all processes; nothing: each has its own.
     /// Makes a graph that of the run: it is carried out.
     std::function<void(const CheckedSystem&)> accept;
     /// Gives both ends of edges new memory, by name: a change of them has failed.
     std::function<Status(const std::set<std::string>&)> renew;
     /// Makes the order that tells of a component which comes: it is reported from now on.
     std::function<Result<AddComponent>(const graph::ComponentNode&)> introduce;
+    /// Makes the orders that tell of some processes of a graph which begin, or begin anew. There is a place for them then.
+    std::function<Result<std::vector<NoteProcess>>(const graph::Graph&, const std::set<std::string>&)>
+        introduce_processes;
+    /// Lets processes end and begin as another graph says, or else again as before.
+    std::function<void(Renewal::Wish, Renewal::Done)> renew_processes;
+    /// Returns the graph of the run and what is known of its plugins.
+    std::function<CheckedSystem()> present;
     std::function<void()> wake;  ///< Lets go_on() be called soon. It is called on other threads.
   };
 
@@ -73,11 +84,17 @@ class Applying {
 
  private:
   class Work;
-  using Told = std::function<void(const Result<graph::GraphPlan>&)>;
+  // What was done, or is to be done.
+  struct Outcome {
+    graph::GraphPlan plan;
+    std::vector<Record> processes;  // what becomes of those that do not just go on
+  };
+  static void answer(const ReplyPtr& reply, const Result<Outcome>& outcome);
+  using Told = std::function<void(const Result<Outcome>&)>;
 
   void begin(GraphSource source, bool carries_out, Told told);
   void edit(Result<std::string> text, const ReplyPtr& reply);
-  void accept(const CheckedSystem& wanted);
+  void accept(const CheckedSystem& system, std::string text);
   [[nodiscard]] graph::Graph present() const;
 
   const graph::Graph& graph_;

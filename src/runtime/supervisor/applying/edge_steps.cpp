@@ -133,4 +133,20 @@ Result<std::vector<JointStep>> edge_steps(const graph::Graph& graph,
   return steps;
 }
 
+void cut_off(const std::string& component, const graph::GraphPlan& plan, const graph::Graph& wanted,
+             const Members& all) {
+  const auto process_of = [&](const graph::PortRef& end) -> const std::string& {
+    return wanted.find_component(end.component)->process;
+  };
+  for (const graph::GraphPlan::Rewiring& one : plan.connections) {
+    if (!one.after) continue;
+    const bool is_here = one.after->from.component == component;
+    const graph::PortRef& here = is_here ? one.after->from : one.after->to;
+    const std::string& there = process_of(is_here ? one.after->to : one.after->from);
+    if (here.component != component || !plan.renewed.contains(there)) continue;
+    if (const auto member = std::ranges::find(all, process_of(here), &Member::name); member != all.end())
+      (*member)->tell(CutEdge{one.after->name(), "process " + there + " is being started"});
+  }
+}
+
 }  // namespace orca::supervisor

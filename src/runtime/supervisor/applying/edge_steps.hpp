@@ -10,6 +10,7 @@
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/plan.hpp"
+#include "run/member.hpp"
 
 namespace orca::supervisor {
 
@@ -30,5 +31,11 @@ namespace orca::supervisor {
 [[nodiscard]] Result<std::vector<JointStep>> edge_steps(
     const graph::Graph& graph, const std::vector<graph::GraphPlan::Rewiring>& connections,
     const std::set<std::string>& lost, const std::shared_ptr<std::set<std::string>>& left);
+
+/// Lets nobody wait at a component for what is sent or asked on connections whose other end is in a process that begins anew:
+/// they have no other end until then.
+/// @param wanted  the graph that the run goes over to.
+void cut_off(const std::string& component, const graph::GraphPlan& plan, const graph::Graph& wanted,
+             const Members& all);
 
 }  // namespace orca::supervisor

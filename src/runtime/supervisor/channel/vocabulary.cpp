@@ -8,13 +8,14 @@ namespace orca::supervisor {
 
 void fields(auto& archive, StateKept& m) { transfer(archive, m); }
 void fields(auto& archive, Setup& m) {
-  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.edges, m.doorbells, m.states);
+  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.edges, m.doorbells, m.states,
+               m.processes);
 }
 void fields(auto& /*archive*/, Build& /*m*/) {}
 void fields(auto& /*archive*/, OpenHardware& /*m*/) {}
 void fields(auto& archive, Configure& m) { transfer(archive, m.component); }
 void fields(auto& /*archive*/, OpenGates& /*m*/) {}
-void fields(auto& /*archive*/, TakeDown& /*m*/) {}
+void fields(auto& archive, TakeDown& m) { transfer(archive, m.keeps_states); }
 void fields(auto& archive, StopMotors& m) { transfer(archive, m.reason); }
 void fields(auto& archive, Suspend& m) { transfer(archive, m.component); }
 void fields(auto& archive, Resume& m) { transfer(archive, m.component); }
@@ -35,6 +36,7 @@ void fields(auto& archive, MoveEdge& m) { transfer(archive, m.edge); }
 void fields(auto& archive, Rewire& m) { transfer(archive, m.changes); }
 void fields(auto& archive, AddComponent& m) { transfer_all(archive, m.node, m.values, m.doorbell); }
 void fields(auto& archive, RemoveComponent& m) { transfer(archive, m.component); }
+void fields(auto& archive, NoteProcess& m) { transfer_all(archive, m.process, m.place, m.is_of_fibers); }
 void fields(auto& archive, OpenGate& m) { transfer(archive, m.component); }
 
 void fields(auto& archive, Outlive& m) { transfer_all(archive, m.output, m.wait); }
@@ -67,7 +69,7 @@ void fields(auto& archive, MissionStep& m) {
 }
 
 void fields(auto& archive, Orphaned& m) {
-  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.output, m.doorbells);
+  transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.output, m.doorbells, m.processes);
 }
 void fields(auto& archive, ExchangedCode& m) {
   transfer_all(archive, m.component, m.type, m.file, m.build_id, m.swaps);

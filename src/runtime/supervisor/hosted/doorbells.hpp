@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,31 +22,39 @@ namespace orca::supervisor {
 /// Thread contract: any thread.
 class Doorbells {
  public:
+  /// Names in the order of their words in the page.
+  struct Words {
+    std::vector<std::string> components;
+    std::vector<std::string> processes;
+  };
+
   /// @param processes  of the machine.
   /// @param executor   that the command line asks for; nothing: each process has its own.
-  /// @param names      of the components, in the order of their words in the page.
   /// @param page       outlives the object.
-  Doorbells(const graph::Graph& whole, std::vector<graph::ProcessNode> processes,
-            std::optional<Backend> executor, std::vector<std::string> names, const RunPage& page);
+  Doorbells(const graph::Graph& whole, const std::vector<graph::ProcessNode>& processes,
+            std::optional<Backend> executor, Words words, const RunPage& page);
 
-  /// Learns of a component that was added to the graph.
+  /// Learns of a component that was added to the graph, or has another process now.
   /// @param place  of its word among those of the components.
   void add(const graph::ComponentNode& component, std::size_t place);
+
+  /// Learns of a process that begins, or begins anew with another executor.
+  /// @param place  of its word among those of the processes.
+  void add_process(const std::string& process, std::size_t place, bool is_of_fibers);
 
   /// Returns the word that wakes a component, in whatever process it is. Fibers have one word together.
   /// @pre  the component is known, and its process is one of the machine.
   [[nodiscard]] DoorbellWord& of(const std::string& component) const;
 
-  /// Returns the components, in the order of their words.
-  [[nodiscard]] std::vector<std::string> names() const;
+  /// Returns what has a word.
+  [[nodiscard]] Words words() const;
 
  private:
-  const std::vector<graph::ProcessNode> nodes_;
-  const std::optional<Backend> executor_;
   const RunPage& page_;
   mutable std::mutex mutex_;
   // Below: guarded by mutex_.
-  std::vector<std::string> names_;
+  Words words_;
+  std::set<std::string> of_fibers_;               // processes
   std::map<std::string, std::string> processes_;  // by component
 };
 

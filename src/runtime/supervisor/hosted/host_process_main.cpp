@@ -126,10 +126,16 @@ class Life {
     LiveLine::on_pause([this](bool begins) { reports_->send(Prompting{begins}); });
     if (Status loaded = load(setup); !loaded.ok()) return loaded;
     if (Status placed = place(setup.process); !placed.ok()) return placed;
-    Result<RunPage> page = RunPage::map(std::move(setup.run_page), processes_.size(), setup.doorbells.size());
+    Result<RunPage> page =
+        RunPage::map(std::move(setup.run_page), setup.processes.size(), setup.doorbells.size());
     if (!page) return page.error();
     page_.emplace(std::move(page).value());
-    doorbells_.emplace(*whole_, processes_, wishes->executor, std::move(setup.doorbells), *page_);
+    const auto place = std::ranges::find(setup.processes, setup.process);
+    if (place == setup.processes.end())
+      return fail(Code::data_loss, "the run page has no place for process " + setup.process);
+    place_ = static_cast<std::size_t>(place - setup.processes.begin());
+    doorbells_.emplace(*whole_, processes_, wishes->executor,
+                       Doorbells::Words{std::move(setup.doorbells), std::move(setup.processes)}, *page_);
     shows_ = wishes->outputs.looks_on;
     return make_part(setup, *wishes);
   }
@@ -148,30 +154,23 @@ class Life {
     processes_ = graph::processes_of(*whole_);
     const auto node = std::ranges::find(processes_, process, &graph::ProcessNode::name);
     if (node == processes_.end()) return fail(Code::data_loss, "nothing runs in process \"" + process + "\"");
-    processes_ = graph::processes_on(*whole_, std::string(node->machine));
-    index_ = index_of(process);
+    node_ = *node;
+    processes_ = graph::processes_on(*whole_, node_.machine);
     return ok();
-  }
-
-  // Returns the place of a process of this machine in the run page.
-  [[nodiscard]] std::size_t index_of(const std::string& process) const {
-    const auto node = std::ranges::find(processes_, process, &graph::ProcessNode::name);
-    return static_cast<std::size_t>(node - processes_.begin());
   }
 
   Status make_part(const Setup& setup, const RunWishes& wishes) {
     const std::string& process = setup.process;
     executor_ = wishes.executor;
-    const graph::ProcessNode* const node = &processes_[index_];
-    if (node->lock_memory)
+    if (node_.lock_memory)
       if (const auto refused = lock_memory()) log::warning(process, *refused);
-    Result<std::unique_ptr<Executive>> executive = make_executive(executive_options(*node));
+    Result<std::unique_ptr<Executive>> executive = make_executive(executive_options());
     if (!executive) return executive.error();
     executive_ = std::move(executive).value();
     host::PartOptions options{wishes.seed,
                               wishes.failures,
                               process,
-                              is_declared(process) ? node->hang_limit : Duration{0},
+                              is_declared(process) ? node_.hang_limit : Duration{0},
                               &page_->missions(),
                               {},
                               wishes.outputs,
@@ -183,9 +182,9 @@ class Life {
     return ok();
   }
 
-  ExecutiveOptions executive_options(const graph::ProcessNode& node) {
-    ExecutiveOptions options{ClockKind::steady, executor_of(node), node.spin};
-    if (options.backend == Backend::fiber) options.doorbell = &page_->process_doorbell(index_);
+  ExecutiveOptions executive_options() {
+    ExecutiveOptions options{ClockKind::steady, executor_.value_or(node_.executor), node_.spin};
+    if (options.backend == Backend::fiber) options.doorbell = &page_->process_doorbell(place_);
     return options;
   }
 
@@ -195,10 +194,6 @@ class Life {
            whole_->processes.end();
   }
 
-  [[nodiscard]] Backend executor_of(const graph::ProcessNode& node) const {
-    return executor_.value_or(node.executor);
-  }
-
   [[nodiscard]] Pairs robots() const {
     const auto robots = part_->robots();
     return {robots.begin(), robots.end()};
@@ -206,16 +201,26 @@ class Life {
 
   // For a supervisor that has not started this process. The output is the desk's.
   [[nodiscard]] Orphaned introduction() const {
-    return {processes_[index_].name, mark_, options_, page_->descriptor(), {}, doorbells_->names()};
+    Doorbells::Words words = doorbells_->words();
+    return {node_.name,
+            mark_,
+            options_,
+            page_->descriptor(),
+            {},
+            std::move(words.components),
+            std::move(words.processes)};
   }
 
   OrderDesk::Site site() {
     return {whole_->name,
-            processes_[index_].name,
-            page_->heartbeat(index_),
+            node_.name,
+            page_->heartbeat(place_),
             shows_,
             [this] { return introduction(); },
-            [this](const AddComponent& added) { doorbells_->add(added.node, added.doorbell); }};
+            [this](const AddComponent& added) { doorbells_->add(added.node, added.doorbell); },
+            [this](const NoteProcess& noted) {
+              doorbells_->add_process(noted.process, noted.place, noted.is_of_fibers);
+            }};
   }
 
   void work() {
@@ -243,7 +248,8 @@ class Life {
   std::optional<RunPage> page_;
   std::optional<Doorbells> doorbells_;
   std::vector<graph::ProcessNode> processes_;  // of this machine
-  std::size_t index_ = 0;                      // of this process among them
+  graph::ProcessNode node_;                    // this process
+  std::size_t place_ = 0;                      // of this process in the run page
   std::optional<Backend> executor_;            // that the command line asks for
   bool shows_ = false;
   Pairs options_;  // of the run

@@ -43,7 +43,11 @@ std::optional<host::PartOrder> part_order(const Order& order) {
   using Kind = host::PartOrder::Kind;
   if (std::holds_alternative<OpenHardware>(order)) return about(Kind::open_hardware);
   if (std::holds_alternative<OpenGates>(order)) return about(Kind::open_gates);
-  if (std::holds_alternative<TakeDown>(order)) return about(Kind::take_down);
+  if (const auto* down = std::get_if<TakeDown>(&order)) {
+    host::PartOrder taking = about(Kind::take_down);
+    taking.keeps_states = down->keeps_states;
+    return taking;
+  }
   if (std::holds_alternative<AskUse>(order)) return about(Kind::check_unused);
   if (const auto* configure = std::get_if<Configure>(&order))
     return about(Kind::configure, configure->component);
@@ -153,6 +157,7 @@ void OrderDesk::carry_out(Told told) {
     site_.learn(*added);
     return pass_on(arrival_order(*added), told);
   }
+  if (const auto* process = std::get_if<NoteProcess>(&order)) return site_.learn_process(*process);
   if (const auto* cut = std::get_if<CutEdge>(&order))
     return part_.cut_edge(cut->edge, fail(Code::unavailable, cut->reason));
   if (const auto* alarm = std::get_if<TellAlarm>(&order)) return hear(*alarm);

@@ -39,6 +39,8 @@ class OrderDesk {
     std::function<Orphaned()> introduce;
     /// Learns of a component that is new, in whatever process it is.
     std::function<void(const AddComponent&)> learn;
+    /// Learns of a process that begins, or begins anew.
+    std::function<void(const NoteProcess&)> learn_process;
   };
 
   OrderDesk(std::shared_ptr<Channel> channel, host::HostedPart& part, ReportSender& reports, Site site);

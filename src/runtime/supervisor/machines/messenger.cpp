@@ -26,7 +26,7 @@ Messenger::Messenger(HostStart start, Meet meet, Heard heard)
     : start_(std::move(start)),
       meet_(std::move(meet)),
       heard_(std::move(heard)),
-      member_(graph::ProcessNode{.name = kName}, 0) {}
+      member_(graph::ProcessNode{.name = kName}, 0, 0) {}
 
 void Messenger::turn(Moment now) {
   if (member_.process() == nullptr) {

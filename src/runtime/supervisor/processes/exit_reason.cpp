@@ -20,6 +20,7 @@ std::string ExitReason::text() const {
     case Force::hang: return "hung and was killed";
     case Force::channel: return "broke its control channel and was killed";
     case Force::memory: return "used more memory than the graph allows and was killed";
+    case Force::refused: return "could not come up and was ended";
     case Force::overdue: return "did not end when asked to and was killed";
     case Force::none: break;
   }

@@ -97,14 +97,14 @@ std::string HostProcess::take_unfinished_line() {
   return rest.empty() ? "" : rest.front();
 }
 
-void HostProcess::end(Moment now, const EndLimits& limits, std::uint64_t request) {
+void HostProcess::end(Moment now, const EndLimits& limits, std::uint64_t request, bool keeps_states) {
   const bool is_asked = kill_at_.has_value();
   const Moment term_at = now + limits.when_asked;
   if (exit_ || (is_asked && (!term_at_ || *term_at_ <= term_at))) return;
   term_at_ = term_at;
   kill_at_ = term_at + limits.when_terminated;
   // A process that takes no order gets the signal at once.
-  if (!is_asked && !channel_.post(encode(TakeDown{}, request)).ok()) term_at_ = now;
+  if (!is_asked && !channel_.post(encode(TakeDown{keeps_states}, request)).ok()) term_at_ = now;
   look(now);
 }
 

@@ -15,7 +15,8 @@ RestartPolicy::RestartPolicy(const std::vector<graph::ProcessNode>& processes,
                              const graph::Supervision& rules)
     : rules_(rules) {
   for (const graph::ProcessNode& process : processes)
-    processes_.push_back({.rule = process.restart,
+    processes_.push_back({.name = process.name,
+                          .rule = process.restart,
                           .on_demand = process.on_demand,
                           .state = process.on_demand ? State::asleep : State::running});
 }
@@ -92,6 +93,24 @@ RestartDecision RestartPolicy::give_up() {
 void RestartPolicy::put_to_sleep(std::size_t process) {
   Process& one = processes_[process];
   if (one.state == State::running) one.state = State::dozing;
+}
+
+void RestartPolicy::retire(std::size_t process) {
+  State& state = processes_[process].state;
+  const bool is_gone = state == State::waiting || state == State::asleep || state == State::finished;
+  state = is_gone ? State::finished : State::leaving;
+}
+
+void RestartPolicy::go_over(const std::vector<graph::ProcessNode>& processes) {
+  std::vector<Process> all;
+  for (const graph::ProcessNode& node : processes) {
+    const auto known = std::ranges::find(processes_, node.name, &Process::name);
+    all.push_back(known == processes_.end() ? Process{.name = node.name, .state = State::finished}
+                                            : std::move(*known));
+    all.back().rule = node.restart;
+    all.back().on_demand = node.on_demand;
+  }
+  processes_ = std::move(all);
 }
 
 bool RestartPolicy::awaits_end() const {

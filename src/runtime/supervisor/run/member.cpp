@@ -5,8 +5,6 @@
 
 #include <string_view>
 
-#include "orca/graph/placement.hpp"
-
 namespace orca::supervisor {
 namespace {
 
@@ -16,11 +14,17 @@ constexpr Duration kJustBefore = 1s;    // older words tell of something else
 
 }  // namespace
 
+void Member::go_over(graph::ProcessNode node, std::size_t index) {
+  node_ = std::move(node);
+  index_ = index;
+}
+
 Status Member::start(const HostStart& start) {
   Result<std::unique_ptr<HostProcess>> started = HostProcess::start(start);
   if (!started) return started.error();
   process_ = std::move(started).value();
   phase_ = Phase::coming_up;
+  started_at_ = Moment::clock::now();
   ++starts_;
   return ok();
 }
@@ -33,6 +37,7 @@ void Member::adopt(std::unique_ptr<HostProcess> process) {
 }
 
 void Member::enter(Phase phase) {
+  if (phase == Phase::up && phase_ == Phase::coming_up) start_time_ = Moment::clock::now() - started_at_;
   phase_ = phase;
   if (phase == Phase::up) has_come_up_ = true;
 }
@@ -52,12 +57,12 @@ void Member::tell(Order order) {
   if (process_ != nullptr) (void)process_->channel().post(encode(std::move(order)));
 }
 
-void Member::end(Moment now, const EndLimits& limits, Answered answered) {
+void Member::end(Moment now, const EndLimits& limits, Answered answered, bool keeps_states) {
   if (process_ == nullptr) return;
   phase_ = Phase::going_down;
   open_.emplace(++last_request_,
                 [answered = std::move(answered)](const Answer& answer) { answered(answer.outcome); });
-  process_->end(now, limits, last_request_);
+  process_->end(now, limits, last_request_, keeps_states);
 }
 
 void Member::take_answer(std::uint64_t request, const Answer& answer) {
@@ -115,19 +120,6 @@ void Member::forget() {
   phase_ = Phase::absent;
   has_come_up_ = false;
   is_built_ = false;
-}
-
-std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph, const std::string& machine) {
-  std::vector<std::unique_ptr<Member>> members;
-  for (graph::ProcessNode& node : graph::processes_on(graph, machine))
-    members.push_back(std::make_unique<Member>(std::move(node), members.size()));
-  return members;
-}
-
-Members pointers_to(const std::vector<std::unique_ptr<Member>>& members) {
-  Members pointers;
-  for (const auto& member : members) pointers.push_back(member.get());
-  return pointers;
 }
 
 }  // namespace orca::supervisor

@@ -38,7 +38,13 @@ class Member {
   /// Takes all of it. If the process ends before it has answered, the function is destroyed without a call.
   using AnswerTaker = std::function<void(const Answer&)>;
 
-  Member(graph::ProcessNode node, std::size_t index) : node_(std::move(node)), index_(index) {}
+  /// @param index  its place in the order of graph::processes_on().
+  /// @param place  its place in the run page.
+  Member(graph::ProcessNode node, std::size_t index, std::size_t place)
+      : node_(std::move(node)), index_(index), place_(place) {}
+
+  /// Goes on with what another graph says of the process. What runs already keeps what it was started with.
+  void go_over(graph::ProcessNode node, std::size_t index);
 
   /// Starts a host process.
   /// @errors  as HostProcess::start().
@@ -54,7 +60,8 @@ class Member {
   /// Sends an order that nobody waits for.
   void tell(Order order);
   /// Orders the process to end, and sees to it that it does.
-  void end(Moment now, const EndLimits& limits, Answered answered);
+  /// @param keeps_states  whether it tells the states of its components before.
+  void end(Moment now, const EndLimits& limits, Answered answered, bool keeps_states = false);
   /// Takes the answer to an order.
   void take_answer(std::uint64_t request, const Answer& answer);
 
@@ -83,8 +90,10 @@ class Member {
 
   [[nodiscard]] const graph::ProcessNode& node() const { return node_; }
   [[nodiscard]] const std::string& name() const { return node_.name; }
-  /// Returns its place in the order of graph::processes_of().
+  /// Returns its place in the order of graph::processes_on().
   [[nodiscard]] std::size_t index() const { return index_; }
+  /// Returns its place in the run page.
+  [[nodiscard]] std::size_t place() const { return place_; }
   [[nodiscard]] HostProcess* process() const { return process_.get(); }
   [[nodiscard]] Phase phase() const { return phase_; }
   void enter(Phase phase);
@@ -93,16 +102,21 @@ class Member {
   /// Returns whether its instances are built, so that it takes orders about them.
   [[nodiscard]] bool is_built() const { return is_built_; }
   void note_built() { is_built_ = true; }
+  /// Returns how long it took to come up when it was started last [s]; nothing: it has not come up since this supervisor came.
+  [[nodiscard]] std::optional<Duration> start_time() const { return start_time_; }
   /// Returns how often it was started again.
   [[nodiscard]] std::uint64_t restarts() const { return starts_ > 0 ? starts_ - 1 : 0; }
 
  private:
-  const graph::ProcessNode node_;
-  const std::size_t index_;
+  graph::ProcessNode node_;
+  std::size_t index_;
+  const std::size_t place_;
   Phase phase_ = Phase::absent;
   bool has_come_up_ = false;
   bool is_built_ = false;
   std::uint64_t starts_ = 0;
+  Moment started_at_{};
+  std::optional<Duration> start_time_;
   std::unique_ptr<HostProcess> process_;
   std::map<std::uint64_t, AnswerTaker> open_;
   std::uint64_t last_request_ = 0;
@@ -113,11 +127,5 @@ class Member {
 };
 
 using Members = std::vector<Member*>;
-
-/// Makes the members of a machine, in the order of graph::processes_of().
-[[nodiscard]] std::vector<std::unique_ptr<Member>> make_members(const graph::Graph& graph,
-                                                                const std::string& machine);
-
-[[nodiscard]] Members pointers_to(const std::vector<std::unique_ptr<Member>>& members);
 
 }  // namespace orca::supervisor

@@ -12,6 +12,7 @@
 #include "ledger.hpp"
 #include "listening.hpp"
 #include "log_relay.hpp"
+#include "losses.hpp"
 #include "machines/neighbours.hpp"
 #include "member.hpp"
 #include "orca/base/steady_clock.hpp"
@@ -24,6 +25,8 @@
 #include "orca/supervisor/meeting_place.hpp"
 #include "orca/supervisor/restart_policy.hpp"
 #include "poller.hpp"
+#include "renewal.hpp"
+#include "roster.hpp"
 #include "starting/adoption.hpp"
 #include "starting/arrivals.hpp"
 #include "starting/on_demand.hpp"
@@ -36,19 +39,10 @@ namespace orca::supervisor {
 namespace {
 
 using host::RunOutcome;
-using Phase = Member::Phase;
 
-constexpr Duration kStartLimit = 15s;
 constexpr Duration kRestLimit = 1s;
 constexpr Duration kLook = 50ms;  // between two looks at everything
 constexpr int kMostReads = 32;    // of what a process has printed, after its end
-
-// Returns whether the end of the run waits for a component of the process.
-bool runs_an_end(const graph::Graph& graph, const Member& member) {
-  return std::ranges::any_of(graph.ends, [&](const std::string& name) {
-    return graph.find_component(name)->process == member.name();
-  });
-}
 
 // One run, from the first process to the last.
 class SupervisedRun {
@@ -63,17 +57,16 @@ class SupervisedRun {
         listener_(listener),
         run_(std::move(beginning.run)),
         inherited_(std::move(beginning.processes)),
-        members_(make_members(graph, options.machine)),
-        all_(pointers_to(members_)),
-        starter_(graph_, options, run_, all_),
+        roster_(graph, options.machine, run_.processes),
+        starter_(graph_, options, run_, roster_),
         ledger_(here_, listener, run_.start, options.log_name),
         policy_(graph::processes_on(graph, options.machine), graph.supervision),
-        control_(here_, facts_, all_, ledger_, levers(), applying()) {
+        control_(here_, facts_, roster_.all(), ledger_, levers(), applying()) {
     ledger_.relay_to(relay_);
     if (options.watches) control_.watch(options.graph_files);
     if (graph.machines.size() < 2) return;
     neighbours_.emplace(graph, options.machine, starter_.plain_start("peers"), ledger_);
-    polled_.push_back(&neighbours_->member());
+    poll_all();
     conclusion_.on_end(
         [this](RunOutcome outcome, const std::string& why) { neighbours_->conclude(outcome, why, now()); });
   }
@@ -110,29 +103,47 @@ class SupervisedRun {
         return fail(Code::failed_precondition, "the system is just coming up or ending");
       policy_.restart(member.index(), now());
       on_demand_.want(member);
-      end_for_restart(member);
+      losses_.end(member);
       return ok();
     };
     return {stop, restart, [this] { return trading_.in_use(); }, [this] { poller_.wake(); }};
   }
 
   Applying::Levers applying() {
-    return {options_.read, [this](const CheckedSystem& wanted) { return accept(wanted); },
-            [this](const std::set<std::string>& edges) { return starter_.renew_edges(edges); },
-            [this](const graph::ComponentNode& node) {
-              ledger_.expect(node.name);
-              return starter_.introduce(node);
-            },
-            [this] { poller_.wake(); }};
+    return {
+        options_.read,
+        options_.executor,
+        [this](const CheckedSystem& wanted) { return accept(wanted); },
+        [this](const std::set<std::string>& edges) { return starter_.renew_edges(edges); },
+        [this](const graph::ComponentNode& node) {
+          if (graph_.find_component(node.name) == nullptr) ledger_.expect(node.name);
+          return starter_.introduce(node);
+        },
+        [this](const graph::Graph& graph, const std::set<std::string>& processes) {
+          return starter_.introduce_processes(graph, processes);
+        },
+        [this](Renewal::Wish wish, Renewal::Done done) { renewal_.begin(std::move(wish), std::move(done)); },
+        [this] {
+          return CheckedSystem{graph_, facts_, {}};
+        },
+        [this] { poller_.wake(); }};
   }
 
   // Goes on with a graph that is carried out already. Processes that are started from now on run it.
   void accept(const CheckedSystem& wanted) {
     graph::go_over(graph_, wanted.graph);
     graph::go_over(here_, wanted.graph);
+    roster_.go_over(graph_);
+    policy_.go_over(graph::processes_on(graph_, options_.machine));
+    poll_all();
     starter_.go_over();
     ledger_.go_over();
     facts_ = wanted.facts;
+  }
+
+  void poll_all() {
+    polled_ = roster_.all();
+    if (neighbours_) polled_.push_back(&neighbours_->member());
   }
 
   // ---- Starting
@@ -145,15 +156,15 @@ class SupervisedRun {
 
   // Goes on with the processes of a supervisor that is gone. Returns those that do not run any more.
   Members take_over() {
-    Members missing = adopt(std::move(inherited_), all_, [this](const Member& member) {
+    Members missing = adopt(std::move(inherited_), roster_.all(), [this](const Member& member) {
       log::info(options_.log_name, "process " + member.name() + " is adopted");
       ledger_.introduce();
     });
-    forget_strangers(run_, graph_, all_, ledger_);
-    for (const Member* member : all_)
-      if (member->process() != nullptr) beats_.watch_working(member->index(), member->node().hang_limit);
+    forget_strangers(run_, graph_, roster_.all(), ledger_);
+    for (const Member* member : roster_.all())
+      if (member->process() != nullptr) beats_.watch_working(member->place(), member->node().hang_limit);
     arrivals_.take_over();
-    trading_.brief(all_);  // nobody knows any more what they use
+    trading_.brief(roster_.all());  // nobody knows any more what they use
     std::erase_if(missing, [this](const Member* member) {
       const Error gone = note_gone(*member, ledger_, policy_);
       const bool stays_away = policy_.has_finished(member->index());
@@ -177,16 +188,18 @@ class SupervisedRun {
     control_.add_to(clients);
     poller_.wait(polled_, clients, until);
     control_.serve(now());
-    for (const auto& member : members_) look_after(*member);
-    log_relay_.pass_on(all_);
+    for (Member* const member : Members(roster_.all())) look_after(*member);
+    log_relay_.pass_on(roster_.all());
     if (neighbours_) neighbours_->turn(now());
-    for (const std::size_t process : beats_.look(now())) {
-      if (members_[process]->process() != nullptr)
-        members_[process]->process()->end_by_force(Force::hang, now());
+    for (const std::size_t place : beats_.look(now())) {
+      const Member* const member = roster_.at_place(place);
+      if (member != nullptr && member->process() != nullptr)
+        member->process()->end_by_force(Force::hang, now());
     }
     arrivals_.go_on();
     if (conclusion_.is_over()) return;
     if (conclusion_.has_come_up()) on_demand_.look(now());
+    renewal_.turn(now());
     start_due();
     if (conclusion_.has_come_up()) trading_.look();
   }
@@ -199,7 +212,7 @@ class SupervisedRun {
     if (!process->exit()) return;
     for (int i = 0; i < kMostReads && hear(member); ++i) continue;  // it may have said why
     const ExitReason exit = *process->exit();
-    ended(member, exit);
+    losses_.ended(member, exit);
   }
 
   // Takes what a process has said and printed. Returns whether it had printed something.
@@ -226,83 +239,19 @@ class SupervisedRun {
     return taken;
   }
 
-  // ---- Losing processes
-
-  void ended(Member& member, const ExitReason& reason) {
-    const bool unasked = member.phase() != Phase::going_down;
-    const std::string words = member.last_words(now());
-    const std::string how =
-        reason.text() + (words.empty() ? "; it ran " + listed(starter_.components_of(member)) : ": " + words);
-    lose(member, how,
-         {.is_normal = reason.is_normal(), .is_unasked = unasked, .had_come_up = member.has_come_up()});
-  }
-
-  // How a process was lost.
-  struct Loss {
-    bool is_normal;
-    bool is_unasked;
-    bool had_come_up;
-  };
-
-  void lose(Member& member, const std::string& how, const Loss& loss) {
-    beats_.forget(member.index());
-    control_.lose(member);  // before its orders are answered by its end
-    member.forget();
-    arrivals_.lose(member);
-    ledger_.lose(member.name(), "its process " + how);
-    for (const Wiring::Outer& outer : starter_.wiring().edges_at(member.name())) cut(outer, member, how);
-    const std::string text = "process " + member.name() + " " + how;
-    if (conclusion_.is_over()) return lose_late(text, loss);
-    if (loss.is_unasked) ledger_.raise(host::AlarmKind::process_ended, member.name(), text);
-    if (!conclusion_.has_come_up()) return conclusion_.fail_with(fail(Code::unavailable, text));
-    const RestartDecision decision = policy_.ended(member.index(), loss.is_normal, now());
-    if (policy_.has_finished(member.index()) && !decision.gives_up && runs_an_end(graph_, member))
-      return conclusion_.fail_with(fail(Code::unavailable, text));
-    obey(decision, text);
-    if (policy_.is_asleep(member.index())) on_demand_.fall_asleep(member);
-  }
-
-  // A process that is lost while all is taken down spoils the run, unless it was only on its way back.
-  void lose_late(const std::string& text, const Loss& loss) {
-    if (loss.is_normal || stop_.is_urgent()) return;
-    if (conclusion_.has_come_up() && !loss.had_come_up)
-      return log::warning(options_.log_name, text + "; it had not come back yet when the run ended");
-    log::error(options_.log_name, text);
-    conclusion_.fail_late(fail(Code::unavailable, text));
-  }
-
-  void cut(const Wiring::Outer& outer, const Member& lost, const std::string& how) {
-    const std::string& there = outer.from == lost.name() ? outer.to : outer.from;
-    const auto other = std::ranges::find(all_, there, &Member::name);  // it may be on another machine
-    if (other != all_.end()) (*other)->tell(CutEdge{outer.name, "process " + lost.name() + " " + how});
-  }
-
-  void obey(const RestartDecision& decision, const std::string& text) {
-    if (decision.gives_up) {
-      ledger_.raise(host::AlarmKind::gave_up, "", text + "; there were too many restarts, so the run ends");
-      return conclusion_.fail_with(fail(Code::unavailable, text));
-    }
-    for (const std::size_t index : decision.end) end_for_restart(*members_[index]);
-  }
-
-  // Ends a process that is to start anew together with another one.
-  void end_for_restart(Member& member) {
-    if (member.process() == nullptr) return;
-    beats_.forget(member.index());
-    member.end(now(), kHurry, [](const Status&) {});
-  }
+  // ---- Processes that come and go
 
   // Ends a process that nobody needs any more.
   void let_go(Member& member) {
     log::info(options_.log_name, "process " + member.name() + " ends, because nobody needs it");
     policy_.put_to_sleep(member.index());
-    end_for_restart(member);
+    losses_.end(member);
   }
 
   void start_due() {
     Members due;
-    const auto is_needed = [this](std::size_t index) { return on_demand_.is_needed(*members_[index]); };
-    for (const std::size_t index : policy_.take_due(now(), is_needed)) due.push_back(members_[index].get());
+    const auto is_needed = [this](std::size_t index) { return on_demand_.is_needed(*roster_.all()[index]); };
+    for (const std::size_t index : policy_.take_due(now(), is_needed)) due.push_back(roster_.all()[index]);
     if (!due.empty()) arrivals_.start(due);
   }
 
@@ -355,7 +304,7 @@ class SupervisedRun {
 
   void take_down() {
     end_ = steady_now();
-    TakingDown all(all_, stop_);
+    TakingDown all(roster_.all(), stop_);
     all.begin(now());
     while (!all.is_done(now())) turn(now() + kLook);
     while (neighbours_ && !neighbours_->take_leave(now())) turn(now() + kLook);
@@ -397,16 +346,15 @@ class SupervisedRun {
   const TimePoint called_at_ = steady_now();
   const RunIdentity run_;
   std::vector<AdoptedProcess> inherited_;  // until take_over()
-  const std::vector<std::unique_ptr<Member>> members_;
-  const Members all_;
-  Members polled_ = all_;
+  Roster roster_;
+  Members polled_ = roster_.all();
   Starter starter_;
-  const AlarmRelay relay_{all_};
+  const AlarmRelay relay_{roster_.all()};
   Ledger ledger_;
   LogRelay log_relay_;
   std::optional<Neighbours> neighbours_;  // if the graph has several machines
   const host::Reports reports_ = ledger_.reports();
-  Trading trading_{graph_, all_, reports_, neighbours_};
+  Trading trading_{graph_, roster_.all(), reports_, neighbours_};
   RestartPolicy policy_;
   Poller poller_;
   Heartbeats beats_{run_.page};
@@ -414,9 +362,12 @@ class SupervisedRun {
   Conclusion conclusion_{here_, reports_, options_.log_name};
   Arrivals arrivals_{{starter_, beats_, ledger_, control_, conclusion_, neighbours_, trading_,
                       graph_.supervision, options_.log_name, [this](Member& member, const Error& error) {
-                        lose(member, "could not be started: " + error.message, {false, true, false});
+                        losses_.could_not_start(member, error);
                       }}};
-  OnDemand on_demand_{all_, starter_, ledger_, [this](Member& member) { let_go(member); }};
+  OnDemand on_demand_{roster_.all(), starter_, ledger_, [this](Member& member) { let_go(member); }};
+  Renewal renewal_{{roster_, policy_, starter_, [this](Member& member) { losses_.end(member, true); }}};
+  Losses losses_{{graph_, options_.log_name, stop_, roster_, starter_, ledger_, policy_, beats_, control_,
+                  conclusion_, arrivals_, on_demand_, renewal_}};
   std::optional<TimePoint> began_at_;  // when all machines were there
   TimePoint end_ = called_at_;
 };

@@ -113,18 +113,22 @@ AdoptedProcess process_of(Orphan& orphan) {
 }
 
 // The run goes on with what its processes share.
-Result<RunIdentity> identity_of(std::vector<Orphan>& orphans, const graph::Graph& graph,
-                                const std::string& machine) {
+Result<RunIdentity> identity_of(std::vector<Orphan>& orphans, const graph::Graph& graph) {
   std::vector<std::vector<std::string>> doorbells;
-  for (const Orphan& orphan : orphans) doorbells.push_back(orphan.said.doorbells);
+  std::vector<std::vector<std::string>> places;
+  for (const Orphan& orphan : orphans) {
+    doorbells.push_back(orphan.said.doorbells);
+    places.push_back(orphan.said.processes);
+  }
+  std::vector<std::string> processes = joined_names(places);
   Orphaned& first = orphans.front().said;
   const Result<RunWishes> wishes = read_wishes(first.options);
   if (!wishes) return wishes.error();
-  Result<RunPage> page = RunPage::map(std::move(first.run_page), graph::processes_on(graph, machine).size(),
-                                      graph.components.size());
+  Result<RunPage> page = RunPage::map(std::move(first.run_page), processes.size(), graph.components.size());
   if (!page) return page.error();
   set_steady_epoch(wishes->epoch);
-  return RunIdentity{std::move(page).value(), wishes->start, wishes->run, joined_doorbells(doorbells), true};
+  return RunIdentity{std::move(page).value(), wishes->start,        wishes->run,
+                     joined_names(doorbells), std::move(processes), true};
 }
 
 // Ends what a process has left of a component that the graph does not have.
@@ -148,15 +152,14 @@ Result<Beginning> begin_or_go_on(const graph::Graph& graph, const std::string& m
   std::erase_if(orphans, [&](const Orphan& orphan) {
     return std::ranges::find(here, orphan.said.process, &graph::ProcessNode::name) == here.end();
   });
-  Result<RunIdentity> run =
-      orphans.empty() ? begin_run(graph, machine) : identity_of(orphans, graph, machine);
+  Result<RunIdentity> run = orphans.empty() ? begin_run(graph, machine) : identity_of(orphans, graph);
   if (!run) return run.error();
   std::vector<AdoptedProcess> processes;
   for (Orphan& orphan : orphans) processes.push_back(process_of(orphan));
   return Beginning{std::move(run).value(), std::move(processes)};
 }
 
-std::vector<std::string> joined_doorbells(const std::vector<std::vector<std::string>>& known) {
+std::vector<std::string> joined_names(const std::vector<std::vector<std::string>>& known) {
   std::vector<std::string> all;
   for (const std::vector<std::string>& names : known) {
     all.resize(std::max(all.size(), names.size()));

@@ -30,9 +30,9 @@ struct Beginning {
 /// @thread  the main thread, before any other thread reads the clock.
 [[nodiscard]] Result<Beginning> begin_or_go_on(const graph::Graph& graph, const std::string& machine);
 
-/// Returns the components of all doorbells of a run, in the order of their words, from what each of its processes knows of
+/// Returns who has the words of a run page, in the order of the words, from what each process of the run knows of
 /// them: a process that was told of a newcomer only has "" for those before it.
-[[nodiscard]] std::vector<std::string> joined_doorbells(const std::vector<std::vector<std::string>>& known);
+[[nodiscard]] std::vector<std::string> joined_names(const std::vector<std::vector<std::string>>& known);
 
 /// Gives the processes to their members and orders them to obey this supervisor from now on. All that runs again.
 /// @param adopted  called for each that has told how it is.

@@ -38,7 +38,7 @@ void Arrivals::bring_up(Starter::Begun& begun, bool is_first) {
   began_.push_back(std::make_unique<BringUp>(
       place_.starter.plan(members), consent(is_first),
       [this, members, is_first] { built(members, is_first); },
-      [this, members, is_first](const Status& outcome, const Member* culprit) {
+      [this, members, is_first](const Status& outcome, Member* culprit) {
         outcome.ok() ? came_up(members, is_first) : did_not_come_up(outcome.error(), *culprit);
       }));
   began_.back()->begin(std::move(begun.setups));
@@ -86,7 +86,8 @@ void Arrivals::came_up(const Members& members, bool is_first) {
     if (member->phase() != Phase::up) continue;
     if (!is_first)
       log::info(place_.log_name,
-                "process " + member->name() + (member->node().on_demand ? " is up" : " is back"));
+                "process " + member->name() +
+                    (member->node().on_demand || member->restarts() == 0 ? " is up" : " is back"));
     AlarmRelay::brief(*member, place_.ledger.alarms(), is_first);
     let_outlive(*member, place_.rules);
   }
@@ -96,11 +97,12 @@ void Arrivals::came_up(const Members& members, bool is_first) {
   if (is_first && place_.neighbours) place_.neighbours->gathering().enter(idl::MACHINE_WORKING);
 }
 
-void Arrivals::did_not_come_up(const Error& error, const Member& culprit) {
+void Arrivals::did_not_come_up(const Error& error, Member& culprit) {
   if (place_.conclusion.is_over()) return;
   if (!place_.conclusion.has_come_up()) return place_.conclusion.refuse_start(error);
   log::error(culprit.name(), "the process does not come up again: " + error.text());
-  culprit.process()->end_by_force(Force::overdue, Moment::clock::now());
+  culprit.heard_last_words(error.text(), Moment::clock::now());
+  culprit.process()->end_by_force(Force::refused, Moment::clock::now());
 }
 
 }  // namespace orca::supervisor

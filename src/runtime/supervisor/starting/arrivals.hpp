@@ -60,7 +60,7 @@ class Arrivals {
   [[nodiscard]] BringUp::Consent consent(bool is_first) const;
   void built(const Members& members, bool is_first);
   void came_up(const Members& members, bool is_first);
-  void did_not_come_up(const Error& error, const Member& culprit);
+  void did_not_come_up(const Error& error, Member& culprit);
 
   const Place place_;
   bool has_begun_ = false;

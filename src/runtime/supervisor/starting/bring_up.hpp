@@ -13,6 +13,8 @@
 
 namespace orca::supervisor {
 
+inline constexpr Duration kStartLimit = 15s;  ///< For processes that are started together to come up.
+
 /// The steps by which a set of processes comes up together: each is set up and built, opens its hardware, then their
 /// components are configured one after the other, whichever process they are in, then all gates open.
 ///
@@ -31,7 +33,7 @@ class BringUp {
     std::function<bool()> to_begin{};
   };
   /// Takes the outcome: ok(), or the error of a member.
-  using Done = std::function<void(const Status&, const Member*)>;
+  using Done = std::function<void(const Status&, Member*)>;
 
   /// @param built  called when all members are built, before any hardware is opened.
   BringUp(Plan plan, Consent consent, std::function<void()> built, Done done);

@@ -18,6 +18,7 @@ struct RunIdentity {
   TimePoint start;                     ///< Of the run, which the log counts from.
   std::string name;                    ///< Which no other run has.
   std::vector<std::string> doorbells;  ///< The components whose doorbells are in the page, in this order.
+  std::vector<std::string> processes;  ///< Those that have a place in the page, in this order; "": nobody's.
   bool is_inherited = false;           ///< Another supervisor has begun the run.
 };
 

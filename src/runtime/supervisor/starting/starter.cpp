@@ -21,8 +21,13 @@ constexpr std::uint64_t kReserved = std::uint64_t{1} << 30;  // [bytes] of stack
 }  // namespace
 
 Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunIdentity& run,
-                 const Members& all)
-    : graph_(graph), options_(options), run_(run), all_(all), doorbells_(run.doorbells), wiring_(graph) {}
+                 Roster& roster)
+    : graph_(graph),
+      options_(options),
+      run_(run),
+      roster_(roster),
+      doorbells_(run.doorbells),
+      wiring_(graph) {}
 
 Starter::Begun Starter::start(const Members& members) {
   Begun begun;
@@ -88,16 +93,16 @@ Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
                          options_.planned_failures,
                          outputs_for(member),
                          run_.name};
-  return {member.name(),    graph::print(graph_), to_pairs(wishes),  run_.page.descriptor(),
-          std::move(edges), doorbells_,           states_for(member)};
+  return {member.name(),    graph::print(graph_), to_pairs(wishes),   run_.page.descriptor(),
+          std::move(edges), doorbells_,           states_for(member), roster_.places()};
 }
 
-std::vector<StateKept> Starter::states_for(const Member& member) const {
+std::vector<StateKept> Starter::states_for(const Member& member) {
   std::vector<StateKept> states;
   for (const graph::ComponentNode& node : graph_.components) {
     const auto kept = states_.find(node.name);
-    if (node.process == member.name() && node.restore_last && kept != states_.end())
-      states.push_back(kept->second);
+    if (node.process != member.name() || kept == states_.end()) continue;
+    if (heirs_.erase(node.name) > 0 || node.restore_last) states.push_back(kept->second);
   }
   return states;
 }
@@ -109,9 +114,23 @@ Result<AddComponent> Starter::introduce(const graph::ComponentNode& component) {
     return fail(Code::failed_precondition,
                 "too many components have come and gone in this run; start the system again", component.name);
   if (known == doorbells_.end()) doorbells_.push_back(component.name);
-  states_.erase(component.name);  // of one that has gone
+  if (graph_.find_component(component.name) == nullptr)
+    states_.erase(component.name);  // of one that has gone
   const std::map<std::string, std::string> values = graph::print_values(component.params);
   return AddComponent{component, {values.begin(), values.end()}, place};
+}
+
+Result<std::vector<NoteProcess>> Starter::introduce_processes(const graph::Graph& graph,
+                                                              const std::set<std::string>& processes) {
+  if (Status room = roster_.reserve(graph); !room.ok()) return room.error();
+  const std::vector<std::string>& places = roster_.places();
+  std::vector<NoteProcess> notes;
+  for (const graph::ProcessNode& node : graph::processes_on(graph, options_.machine)) {
+    if (!processes.contains(node.name)) continue;
+    const auto place = static_cast<std::uint64_t>(std::ranges::find(places, node.name) - places.begin());
+    notes.push_back({node.name, place, options_.executor.value_or(node.executor) == Backend::fiber});
+  }
+  return notes;
 }
 
 // A process that is started again would overwrite what was written before.
@@ -129,7 +148,7 @@ host::RunOutputs Starter::outputs_for(const Member& member) {
 
 // Gives the processes that run already the other end of the new edges.
 void Starter::renew_others(const Members& started, Wiring::Lots& lots) {
-  for (Member* const member : all_) {
+  for (Member* const member : roster_.all()) {
     const auto lot = lots.by_process.find(member->name());
     const bool is_new = std::ranges::find(started, member) != started.end();
     if (is_new || lot == lots.by_process.end()) continue;

@@ -13,6 +13,7 @@
 #include "orca/graph/graph.hpp"
 #include "orca/supervisor/supervised_run.hpp"
 #include "run/member.hpp"
+#include "run/roster.hpp"
 #include "run_identity.hpp"
 #include "wiring.hpp"
 
@@ -33,7 +34,7 @@ class Starter {
 
   /// All of these outlive the object.
   Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunIdentity& run,
-          const Members& all);
+          Roster& roster);
 
   /// Starts processes that do not run, all together, and renews the edges to those that do. One that is asleep takes over
   /// the edges that wait for it. The bring-up begins when the caller calls begin() with the returned setups.
@@ -57,27 +58,36 @@ class Starter {
   /// @param edges  by name.
   /// @errors  unavailable if the system gives none.
   Status renew_edges(const std::set<std::string>& edges);
-  /// Makes the order that tells of a component which comes. It has its place in the run page from then on.
+  /// Makes the order that tells of a component which comes, or goes to another process. It has its place in the run page
+  /// from then on.
   /// @errors  failed_precondition if the page is full.
   Result<AddComponent> introduce(const graph::ComponentNode& component);
   /// Keeps the state of a component for the case that its process is lost.
   void keep(const StateKept& state) { states_[state.component] = state; }
+  /// Makes the orders that tell of processes which begin, or begin anew. All of the graph have their places in the run page
+  /// from then on.
+  /// @errors  as Roster::reserve().
+  Result<std::vector<NoteProcess>> introduce_processes(const graph::Graph& graph,
+                                                       const std::set<std::string>& processes);
+  /// Lets components begin once with the states that are kept of them, whatever the graph says.
+  void pass_on_states(std::set<std::string> components) { heirs_ = std::move(components); }
   /// Takes over the edges of the graph, which has others now that are made already.
   void go_over() { wiring_.go_over(graph_); }
 
  private:
   [[nodiscard]] HostStart host_start(const Member& member) const;
   [[nodiscard]] Setup setup(const Member& member, std::vector<EdgeMemory> edges);
-  [[nodiscard]] std::vector<StateKept> states_for(const Member& member) const;
+  [[nodiscard]] std::vector<StateKept> states_for(const Member& member);
   [[nodiscard]] host::RunOutputs outputs_for(const Member& member);
   void renew_others(const Members& started, Wiring::Lots& lots);
 
   const graph::Graph& graph_;
   const SupervisedOptions& options_;
   const RunIdentity& run_;
-  const Members& all_;
+  Roster& roster_;
   std::vector<std::string> doorbells_;  // the components, in the order of their words in the run page
   Wiring wiring_;
+  std::set<std::string> heirs_;              // see pass_on_states()
   std::set<std::string> started_;            // processes that have been started once
   std::map<std::string, StateKept> states_;  // the last ones, by component
 };

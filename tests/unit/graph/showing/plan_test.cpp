@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
+#include <set>
 
 using namespace orca;
 using Catch::Contains;
@@ -12,6 +13,7 @@ using graph::Effort;
 using graph::GraphPlan;
 using graph::obstacles_of;
 using graph::plan_of;
+using graph::PlanMeans;
 
 namespace {
 
@@ -56,11 +58,36 @@ Contracts contracts() {
 
 // Returns the way to a graph that was changed so.
 template <class Change>
-GraphPlan plan_after(const Change& change) {
+GraphPlan plan_after(const Change& change, bool may_renew = true) {
   graph::Graph wanted = running_robot();
   change(wanted);
-  return plan_of(running_robot(), wanted, contracts());
+  return plan_of(running_robot(), wanted, contracts(), PlanMeans{may_renew, {}});
 }
+
+// The same where all runs in one process, which cannot be started again.
+template <class Change>
+GraphPlan plan_in_one_process(const Change& change) {
+  return plan_after(change, false);
+}
+
+// A robot whose base has a process of its own, and whose spare component another one.
+graph::Graph robot_of_three() {
+  graph::Graph graph = running_robot();
+  graph.components[1].process = graph.hardware[0].process = "base";
+  graph.components[2].process = "third";
+  graph.edges[0].link = graph::Link::shm;
+  for (const std::string name : {"base", "third"}) graph.processes.push_back({.name = name});
+  return graph;
+}
+
+template <class Change>
+GraphPlan plan_for_three(const Change& change) {
+  graph::Graph wanted = robot_of_three();
+  change(wanted);
+  return plan_of(robot_of_three(), wanted, contracts(), PlanMeans{true, {}});
+}
+
+using ProcessNames = std::set<std::string>;
 
 bool is_for_a_new_start(const GraphPlan& plan) {
   const bool has_steps = !plan.exchanges.empty() || !plan.settings.empty();
@@ -91,7 +118,7 @@ bool change_somehow(graph::Graph& graph, std::mt19937& random) {
     case 2: graph.components[0].type = "orca.Other" + std::to_string(number(2)); return true;
     case 3: graph.components[1].params["rate"] = 20.0 + number(5); return true;
     case 4: graph.groups = {{"group" + std::to_string(number(3)), {"avoid"}, {}}}; return true;
-    case 5: graph.components[0].priority = 1 + number(9); return false;
+    case 5: graph.supervision.restarts = 4 + number(9); return false;
     case 6: graph.edges[0].queue.depth = 2 + static_cast<std::uint32_t>(number(5)); return true;
     case 7: graph.edges = {connection("avoid", "base"), connection("base", "avoid", number(1))}; return true;
     case 8:
@@ -101,7 +128,7 @@ bool change_somehow(graph::Graph& graph, std::mt19937& random) {
     case 9:
       std::erase_if(graph.components, [](const auto& node) { return node.name == "spare"; });
       return true;
-    default: graph.processes.push_back({.name = "p" + std::to_string(graph.processes.size())}); return false;
+    default: graph.machines.push_back({.name = "m" + std::to_string(graph.machines.size())}); return false;
   }
 }
 
@@ -121,7 +148,7 @@ TEST_CASE("of two hundred pairs of graphs each plan is carried out whole, or ref
     graph::Graph wanted = running_robot();
     bool is_possible = true;
     for (int i = 0; i < 3; ++i) is_possible = change_somehow(wanted, random) && is_possible;
-    const GraphPlan plan = plan_of(running, wanted, contracts());
+    const GraphPlan plan = plan_of(running, wanted, contracts(), PlanMeans{true, {}});
     CAPTURE(pair, graph::diff_text(graph::diff(running, wanted)));
     CHECK(plan.is_possible() == is_possible);
     refused += is_possible ? 0 : 1;
@@ -147,7 +174,7 @@ TEST_CASE("of two hundred pairs of graphs each plan is carried out whole, or ref
 }
 
 TEST_CASE("between equal graphs there is nothing to do", "[graph][apply]") {
-  const GraphPlan plan = plan_of(running_robot(), running_robot(), contracts());
+  const GraphPlan plan = plan_of(running_robot(), running_robot(), contracts(), PlanMeans{true, {}});
   CHECK(plan.lines.empty());
   CHECK(plan.is_possible());
   CHECK(plan.exchanges.empty());
@@ -186,15 +213,100 @@ TEST_CASE("a fixed parameter, or another type, means new code with all parameter
 
 TEST_CASE("a component that is bound to hardware keeps its code, but takes parameters", "[graph][apply]") {
   CHECK(is_for_a_new_start(
-      plan_after([](graph::Graph& g) { g.components[1].params["device"] = std::string("b"); })));
-  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.components[1].type = "orca.LaserServer"; })));
+      plan_in_one_process([](graph::Graph& g) { g.components[1].params["device"] = std::string("b"); })));
+  CHECK(is_for_a_new_start(
+      plan_in_one_process([](graph::Graph& g) { g.components[1].type = "orca.LaserServer"; })));
   CHECK(plan_after([](graph::Graph& g) { g.components[1].params["rate"] = 20.0; }).is_possible());
 }
 
-TEST_CASE("whatever else differs needs a new start", "[graph][apply]") {
-  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.components[0].priority = 5; })));
-  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.hardware[0].params["seed"] = 2.0; })));
-  CHECK(is_for_a_new_start(plan_after([](graph::Graph& g) { g.processes.push_back({.name = "other"}); })));
+TEST_CASE("whatever else differs needs a new start where there is one process for all", "[graph][apply]") {
+  CHECK(is_for_a_new_start(plan_in_one_process([](graph::Graph& g) { g.components[0].priority = 5; })));
+  CHECK(is_for_a_new_start(plan_in_one_process([](graph::Graph& g) { g.hardware[0].params["seed"] = 2.0; })));
+  CHECK(plan_in_one_process([](graph::Graph& g) { g.processes.push_back({.name = "empty"}); }).is_possible());
+}
+
+TEST_CASE("what cannot change in a process that runs is there when the process begins anew",
+          "[graph][apply]") {
+  const auto renews = [](const auto& change, const ProcessNames& processes) {
+    const GraphPlan plan = plan_for_three(change);
+    return plan.is_possible() && plan.renewed == processes && plan.exchanges.empty() &&
+           plan.settings.empty() &&
+           std::ranges::all_of(plan.lines, [](const auto& line) { return line.effort == Effort::renew; });
+  };
+  using graph::Graph;
+  CHECK(renews([](Graph& g) { g.hardware[0].params["seed"] = 2.0; }, {"base"}));
+  CHECK(renews([](Graph& g) { g.components[0].priority = 5; }, {"main"}));
+  CHECK(renews([](Graph& g) { g.components[1].type = "orca.LaserServer"; }, {"base"}));
+  CHECK(renews([](Graph& g) { g.components[1].params["device"] = std::string("b"); }, {"base"}));
+  CHECK(renews([](Graph& g) { g.processes[0].spin = 1ms; }, {"base"}));
+  CHECK(renews([](Graph& g) { g.components[2].process = "main"; }, {"main", "third"}));
+  CHECK(renews([](Graph& g) { g.components.pop_back(); }, {"third"}));
+  CHECK(renews(
+      [](Graph& g) {
+        g.components.push_back(newcomer("more"));
+        g.components.back().process = "fourth";
+        g.processes.push_back({.name = "fourth"});
+      },
+      {"fourth"}));
+}
+
+TEST_CASE("a process that was alone begins anew if there is another one, since both need memory in common",
+          "[graph][apply]") {
+  const GraphPlan plan = plan_after([](graph::Graph& g) {
+    g.components.push_back(newcomer("more"));
+    g.components.back().process = "other";
+    g.processes.push_back({.name = "other"});
+  });
+  CHECK(plan.is_possible());
+  CHECK(plan.renewed == ProcessNames{"main", "other"});
+}
+
+TEST_CASE("processes that stay change their ends of connections to one that begins anew", "[graph][apply]") {
+  const GraphPlan changed = plan_for_three([](graph::Graph& g) {
+    g.hardware[0].params["seed"] = 2.0;
+    g.edges[0].queue.depth = 9;
+    g.components[0].params["margin"] = 0.2;
+  });
+  CHECK(changed.renewed == ProcessNames{"base"});
+  REQUIRE(changed.connections.size() == 1);
+  CHECK(changed.connections[0].after->queue.depth == 9);
+  CHECK(changed.settings.contains("avoid"));
+
+  const auto moves_base = [](graph::Graph& g) { g.components[1].process = g.hardware[0].process = "third"; };
+  const GraphPlan moved = plan_for_three(moves_base);
+  CHECK(moved.renewed == ProcessNames{"base", "third"});
+  CHECK(moved.connections.empty());
+  const GraphPlan only_again = plan_for_three([](graph::Graph& g) { g.processes[0].spin = 1ms; });
+  CHECK(only_again.connections.empty());
+}
+
+TEST_CASE("processes that wake a component elsewhere than before begin anew with it", "[graph][apply]") {
+  const auto becomes_fibers = [](graph::Graph& g) { g.processes[0].executor = Backend::fiber; };
+  CHECK(plan_for_three(becomes_fibers).renewed == ProcessNames{"base", "main"});
+  const auto moves_base = [](graph::Graph& g) { g.components[1].process = g.hardware[0].process = "third"; };
+  graph::Graph wanted = robot_of_three();
+  moves_base(wanted);
+  CHECK(plan_of(robot_of_three(), wanted, contracts(), {true, Backend::fiber}).renewed ==
+        ProcessNames{"base", "main", "third"});
+  CHECK(plan_of(robot_of_three(), wanted, contracts(), {true, {}}).renewed == ProcessNames{"base", "third"});
+}
+
+TEST_CASE("both processes of a connection over DDS begin anew with it", "[graph][apply]") {
+  const GraphPlan plan = plan_for_three([](graph::Graph& g) { g.edges[0].link = graph::Link::dds; });
+  CHECK(plan.is_possible());
+  CHECK(plan.renewed == ProcessNames{"base", "main"});
+  CHECK(plan.connections.empty());
+}
+
+TEST_CASE("a process on demand does not begin anew, nor does one whose ports choose from others",
+          "[graph][apply]") {
+  CHECK_FALSE(plan_for_three([](graph::Graph& g) { g.processes[1].on_demand = true; }).is_possible());
+  const GraphPlan plan = plan_for_three([](graph::Graph& g) {
+    g.edges.push_back(connection("spare", "avoid"));
+    g.edges.back().late_bound = true;
+  });
+  CHECK_FALSE(plan.is_possible());
+  CHECK_THAT(obstacles_of(plan), Contains("ports that choose between several servers"));
 }
 
 TEST_CASE("components come and go beside the others, in the order in which they start", "[graph][apply]") {
@@ -230,9 +342,11 @@ TEST_CASE("components that need another process, or are there on demand, need a 
       change(g.components.back());
     };
   };
-  CHECK(is_for_a_new_start(plan_after(with([](graph::ComponentNode& node) { node.on_demand = true; }))));
-  CHECK(is_for_a_new_start(plan_after(with([](graph::ComponentNode& node) { node.process = "other"; }))));
-  CHECK(is_for_a_new_start(plan_after(with([](graph::ComponentNode& node) {
+  CHECK(is_for_a_new_start(
+      plan_in_one_process(with([](graph::ComponentNode& node) { node.on_demand = true; }))));
+  CHECK(
+      is_for_a_new_start(plan_in_one_process(with([](graph::ComponentNode& node) { node.process = "x"; }))));
+  CHECK(is_for_a_new_start(plan_in_one_process(with([](graph::ComponentNode& node) {
     node.ports["pose"].candidates = {{"a", "b"}};
   }))));
   const GraphPlan plan = plan_after([](graph::Graph& g) { g.components.pop_back(); });
@@ -263,7 +377,7 @@ TEST_CASE("a connection is made, removed, or gets another policy", "[graph][appl
 
 TEST_CASE("connections that cannot change while the system runs need a new start", "[graph][apply]") {
   const auto is_refused = [](const auto& change) {
-    const GraphPlan plan = plan_after(change);
+    const GraphPlan plan = plan_in_one_process(change);
     return !plan.is_possible() && plan.connections.empty();
   };
   CHECK(is_refused([](graph::Graph& g) { g.edges[0].link = graph::Link::dds; }));
@@ -275,17 +389,17 @@ TEST_CASE("connections that cannot change while the system runs need a new start
 }
 
 TEST_CASE("what needs a new start is named, and not more of it than can be read", "[graph][apply]") {
-  const GraphPlan one = plan_after([](graph::Graph& g) { g.components[0].priority = 5; });
+  const GraphPlan one = plan_in_one_process([](graph::Graph& g) { g.components[0].priority = 5; });
   CHECK(obstacles_of(one) == "the system has to be started again for ~ component avoid: priority");
-  const GraphPlan many = plan_after([](graph::Graph& g) {
-    for (const std::string name : {"a", "b", "c", "d", "e", "f"}) g.processes.push_back({.name = name});
+  const GraphPlan many = plan_in_one_process([](graph::Graph& g) {
+    for (const std::string name : {"a", "b", "c", "d", "e", "f"}) g.machines.push_back({.name = name});
   });
   CHECK_THAT(obstacles_of(many),
-             Contains("+ process d") && Contains("and 2 more changes") && !Contains("+ process e"));
+             Contains("+ machine d") && Contains("and 2 more changes") && !Contains("+ machine e"));
 }
 
 TEST_CASE("a possible change beside an impossible one does not make the plan possible", "[graph][apply]") {
-  const GraphPlan plan = plan_after([](graph::Graph& g) {
+  const GraphPlan plan = plan_in_one_process([](graph::Graph& g) {
     g.components[0].priority = 5;
     g.components[0].params["margin"] = 0.2;
   });
@@ -320,7 +434,7 @@ TEST_CASE("a graph that went over to another one that is possible equals it", "[
   wanted.components[1].params["rate"] = 20.0;
   wanted.groups.push_back({"all", {"avoid"}, {}});
   wanted.edges.push_back(connection("avoid", "base"));
-  REQUIRE(plan_of(running, wanted, contracts()).is_possible());
+  REQUIRE(plan_of(running, wanted, contracts(), PlanMeans{true, {}}).is_possible());
   go_over(running, wanted);
   CHECK(graph::diff(running, wanted).empty());
 }

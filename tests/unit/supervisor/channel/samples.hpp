@@ -19,8 +19,8 @@ inline Descriptor null_device() { return Descriptor(open("/dev/null", O_RDWR | O
 inline std::vector<std::byte> some_bytes() { return {std::byte{1}, std::byte{0}, std::byte{255}}; }
 
 inline supervisor::Setup setup() {
-  supervisor::Setup setup{"base", "<graph/>",      {{"seed", "7"}, {"profile", "sim"}},    null_device(),
-                          {},     {"a", "b", "c"}, {{"a", "test.Teller", 1, some_bytes()}}};
+  supervisor::Setup setup{"base", "<graph/>",      {{"seed", "7"}, {"profile", "sim"}},     null_device(),
+                          {},     {"a", "b", "c"}, {{"a", "test.Teller", 1, some_bytes()}}, {"base", ""}};
   setup.edges.push_back({"a.out to b.in", null_device()});
   setup.edges.push_back({"b.out to c.in", null_device()});
   return setup;
@@ -76,7 +76,7 @@ std::vector<Words> list_of(Word... word) {
 inline std::vector<supervisor::Order> all_orders() {
   using namespace supervisor;
   return list_of<Order>(
-      setup(), Build{}, OpenHardware{}, Configure{"avoid"}, OpenGates{}, TakeDown{}, StopMotors{"estop"},
+      setup(), Build{}, OpenHardware{}, Configure{"avoid"}, OpenGates{}, TakeDown{true}, StopMotors{"estop"},
       Suspend{"avoid"}, Resume{"avoid"}, SetParams{"avoid", {{"stop_distance", "0.5 m"}}},
       RenewEdge{{"a.out to b.in", null_device()}}, CutEdge{"a.out to b.in", "process \"base\" has crashed"},
       TellAlarm{"base", some_bytes()}, ForgetAlarm{"FAILED", "avoid", "behaviours"}, ReleaseMotors{}, Count{},
@@ -91,8 +91,8 @@ inline std::vector<supervisor::Order> all_orders() {
                "/tmp/vfh_plus.so",
                null_device(),
                true},
-      NoteGraph{"<graph name=\"robot\"/>"}, rewire(), newcomer(), RemoveComponent{"avoid"},
-      OpenGate{"avoid"});
+      NoteGraph{"<graph name=\"robot\"/>"}, rewire(), newcomer(), RemoveComponent{"avoid"}, OpenGate{"avoid"},
+      NoteProcess{"brain", 2, true});
 }
 
 /// Returns at least one of each report.
@@ -108,7 +108,7 @@ inline std::vector<supervisor::Report> all_reports() {
       Glance{{{"scout", "Fault"}}, {{"kitchen", {2'500}}}}, Prompting{false},
       Answer{ok(), {{{"name", "goto"}, {"restarts", 3}, {"active", true}}, {}}},
       MissionStep{7, 1'000'000, "command.goto", "GoalPoint", 2, "goto", 5},
-      Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device(), {"base", "avoid"}},
+      Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device(), {"base", "avoid"}, {"main"}},
       ExchangedCode{"avoid", "orca.VfhPlus", "/tmp/vfh_plus.so", "abc", 3},
       Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}}, Leaving{},
       LogWished{true}, StateKept{"command", "orca.Command", 2, some_bytes()});

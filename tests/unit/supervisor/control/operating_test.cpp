@@ -103,8 +103,8 @@ class Desk {
  private:
   graph::Graph graph_ = graph_of_two();
   const SystemFacts facts_ = facts_of_two();
-  Member p_{graph::ProcessNode{.name = "p"}, 0};
-  Member q_{graph::ProcessNode{.name = "q"}, 1};
+  Member p_{graph::ProcessNode{.name = "p"}, 0, 0};
+  Member q_{graph::ProcessNode{.name = "q"}, 1, 1};
   const Members members_{&p_, &q_};
   const SystemNames names_{graph_, facts_.ports, members_};
   Operating operating_{

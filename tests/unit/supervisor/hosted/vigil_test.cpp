@@ -19,7 +19,7 @@ namespace {
 struct WaitingProcess {
   RuntimeFolder folder;
   Result<ControlSocket> place = open_meeting_place("scout", "base");
-  Vigil vigil{*place, [] { return Orphaned{"base", 17, {}, null_device(), null_device(), {}}; }};
+  Vigil vigil{*place, [] { return Orphaned{"base", 17, {}, null_device(), null_device(), {}, {}}; }};
   Moment now{};
 };
 

@@ -18,6 +18,7 @@ TEST_CASE("The end of a process is told in words", "[supervisor][processes]") {
       {ExitReason{.signal = SIGKILL, .force = Force::hang}, "hung and was killed"},
       {ExitReason{.signal = SIGKILL, .force = Force::memory},
        "used more memory than the graph allows and was killed"},
+      {ExitReason{.status = 0, .force = Force::refused}, "could not come up and was ended"},
       {ExitReason{.status = 0, .force = Force::overdue}, "did not end when asked to and was killed"},
       {ExitReason{.status = 1, .is_guess = true}, "ended, and its new supervisor cannot tell how"},
       {ExitReason{.status = 1, .force = Force::hang, .is_guess = true}, "hung and was killed"},

@@ -375,3 +375,38 @@ TEST_CASE("What an operator restarts on demand still waits to be needed",
   CHECK_FALSE(policy.ended(1, true, kStart).restarts);
   CHECK(policy.is_asleep(1));
 }
+
+TEST_CASE("A process that retires is no fault, stays away, and holds up every start until it has ended",
+          "[supervisor][restart]") {
+  RestartPolicy policy(with_sleeper(), supervision(Strategy::one_for_all));
+  policy.retire(0);
+  policy.restart(2, kStart);
+  CHECK(policy.ended(2, true, kStart).end == Indices{});
+  CHECK(policy.take_due(kStart) == Indices{});
+  CHECK_FALSE(policy.ended(0, false, kStart).restarts);
+  CHECK(policy.has_finished(0));
+  CHECK(policy.take_due(kStart) == Indices{2});
+  policy.restart(0, kStart);
+  CHECK(policy.take_due(kStart) == Indices{0});
+}
+
+TEST_CASE("Processes that another graph has, too, are as they were, whatever their place in it",
+          "[supervisor][restart]") {
+  std::vector<graph::ProcessNode> before(2);
+  before[0].name = "goes";
+  before[1].name = "stays";
+  RestartPolicy policy(before, supervision(Strategy::one_for_one));
+  CHECK(policy.ended(1, false, kStart).restarts);
+  CHECK(policy.take_due(kStart) == Indices{1});
+  std::vector<graph::ProcessNode> after(2);
+  after[0].name = "stays";
+  after[0].restart = Restart::temporary;
+  after[1].name = "comes";
+  policy.go_over(after);
+  CHECK_FALSE(policy.has_finished(0));
+  CHECK(policy.has_finished(1));
+  CHECK(policy.take_due(kStart) == Indices{});
+  policy.restart(1, kStart);
+  CHECK(policy.take_due(kStart) == Indices{1});
+  CHECK_FALSE(policy.ended(0, false, kStart + 1ms).restarts);  // it is temporary now
+}

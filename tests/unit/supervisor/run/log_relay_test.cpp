@@ -17,8 +17,8 @@ class Silence {
 
 struct Heard {
   LogRelay relay;
-  Member keeper{{.name = "keeper"}, 0};
-  Member other{{.name = "other"}, 1};
+  Member keeper{{.name = "keeper"}, 0, 0};
+  Member other{{.name = "other"}, 1, 1};
   Silence silence;
 };
 

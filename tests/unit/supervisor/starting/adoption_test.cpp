@@ -61,7 +61,7 @@ class WaitingRun {
     wishes.epoch = epoch_;
     wishes.start = TimePoint{42s};
     wishes.run = run_;
-    return {"main", mark_, to_pairs(wishes), page_.descriptor(), null_device(), {}};
+    return {"main", mark_, to_pairs(wishes), page_.descriptor(), null_device(), {}, {"main"}};
   }
 
   const std::uint64_t mark_;
@@ -109,9 +109,9 @@ TEST_CASE("processes of another graph are no part of this one", "[supervisor][ad
 }
 
 TEST_CASE("the doorbells of a run are those that any of its processes knows", "[supervisor][adoption]") {
-  CHECK(joined_doorbells({{"a", "b"}, {"a", "b", "", "d"}, {"a", "b", "c"}}) ==
+  CHECK(joined_names({{"a", "b"}, {"a", "b", "", "d"}, {"a", "b", "c"}}) ==
         std::vector<std::string>{"a", "b", "c", "d"});
-  CHECK(joined_doorbells({{"a"}, {"a", "", "c"}}) == std::vector<std::string>{"a", "", "c"});
+  CHECK(joined_names({{"a"}, {"a", "", "c"}}) == std::vector<std::string>{"a", "", "c"});
 }
 
 TEST_CASE("what was gone is started again unless its rule is never to", "[supervisor][adoption]") {
@@ -122,7 +122,7 @@ TEST_CASE("what was gone is started again unless its rule is never to", "[superv
   node.name = "main";
   node.restart = GENERATE(graph::Restart::permanent, graph::Restart::transient, graph::Restart::temporary);
   RestartPolicy policy({node}, {});
-  CHECK(note_gone(Member(node, 0), ledger, policy).message ==
+  CHECK(note_gone(Member(node, 0, 0), ledger, policy).message ==
         "process main was gone when this deployer came");
   CHECK(policy.has_finished(0) == (node.restart == graph::Restart::temporary));
   REQUIRE(ledger.alarms().size() == 1);

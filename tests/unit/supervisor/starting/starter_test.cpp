@@ -35,10 +35,9 @@ TEST_CASE("a process that the system has no descriptors for has failed to start,
   const graph::Graph graph = two_processes();
   const SupervisedOptions options{};
   const RunIdentity run = std::move(begin_run(graph, "")).value();
-  Member one(graph.processes[0], 0);
-  Member two(graph.processes[1], 1);
-  const Members all{&one, &two};
-  Starter starter(graph, options, run, all);
+  Roster roster(graph, "", run.processes);
+  const Members& all = roster.all();
+  Starter starter(graph, options, run, roster);
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);
   const rlimit none{3, before.rlim_max};
@@ -47,7 +46,7 @@ TEST_CASE("a process that the system has no descriptors for has failed to start,
   setrlimit(RLIMIT_NOFILE, &before);
   CHECK(begun.members.empty());
   REQUIRE(begun.failed.size() == 2);
-  CHECK(begun.failed[0].first == &one);
+  CHECK(begun.failed[0].first == all[0]);
   CHECK(begun.failed[0].second.code == Code::unavailable);
-  CHECK(one.process() == nullptr);
+  CHECK(all[0]->process() == nullptr);
 }

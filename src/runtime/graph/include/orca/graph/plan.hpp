@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,14 @@ enum class Effort {
   add,       ///< A component comes up beside the others.
   remove,    ///< A component ends when its connections are gone.
   exchange,  ///< Code is tried, then exchanged between two laps.
+  renew,     ///< Processes begin, end or are started again.
   restart,   ///< The system has to be started again.
+};
+
+/// What can be done to a running system besides what its processes do while they run.
+struct PlanMeans {
+  bool renews_processes = false;      ///< Processes can be started again while the others run.
+  std::optional<Backend> executor{};  ///< Of all processes; nothing: each has its own.
 };
 
 /// The way from a running system to another graph.
@@ -50,6 +58,9 @@ struct GraphPlan {
   std::vector<Rewiring> connections;       ///< Sorted by name.
   std::vector<Exchange> exchanges;         ///< Sorted by component.
   std::map<std::string, Params> settings;  ///< What changes, by component. None of those that get other code.
+  /// Processes that begin, end or are started again, by name. What concerns only these is in none of the lists above; of a
+  /// connection between one of them and another process, that other one makes its end.
+  std::set<std::string> renewed;
   /// Returns the connections whose clients come, or those of all other clients.
   [[nodiscard]] std::vector<Rewiring> connections_of(bool newcomers) const;
   /// Returns whether the system can stay up.
@@ -60,7 +71,7 @@ struct GraphPlan {
 /// @param contracts  of the components of the wanted graph, by component.
 /// @thread  pure function; any thread.
 [[nodiscard]] GraphPlan plan_of(const Graph& running, const Graph& wanted,
-                                const std::map<std::string, Contract>& contracts);
+                                const std::map<std::string, Contract>& contracts, const PlanMeans& means);
 
 /// Returns the way back.
 [[nodiscard]] std::vector<GraphPlan::Rewiring> reversed(std::vector<GraphPlan::Rewiring> connections);

@@ -11,6 +11,7 @@ enum class Force {
   hang,     ///< Its heartbeat stood still, or it read no orders.
   channel,  ///< Its control channel was broken, or carried nonsense.
   memory,   ///< It used more memory than the graph allows.
+  refused,  ///< It could not come up.
   overdue,  ///< It had not ended in time after it was asked to.
 };
 

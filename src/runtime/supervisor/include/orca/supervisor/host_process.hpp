@@ -87,7 +87,7 @@ class HostProcess {
   /// Orders the process to end (TakeDown), and begins to count its time. If it is already being ended, the limits can only
   /// shorten its time.
   /// @param request  of the order.
-  void end(Moment now, const EndLimits& limits, std::uint64_t request = 0);
+  void end(Moment now, const EndLimits& limits, std::uint64_t request = 0, bool keeps_states = false);
   /// Ends the process by force: SIGTERM, so that it can stop the motors, then SIGKILL.
   /// @param grace  [s] time for the motors.
   void end_by_force(Force reason, Moment now, Duration grace = 100ms);

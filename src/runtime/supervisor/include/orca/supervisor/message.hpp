@@ -42,6 +42,7 @@ enum class Kind : std::uint16_t {
   add_component = 74,
   remove_component = 75,
   open_gate = 76,
+  note_process = 77,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,

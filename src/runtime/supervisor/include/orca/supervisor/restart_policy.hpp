@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "orca/base/time.hpp"
@@ -65,6 +66,12 @@ class RestartPolicy {
   /// fault and concerns no other process. Whoever calls this ends it, if it runs. One on demand is still to be needed.
   void restart(std::size_t process, Moment now);
 
+  /// Notes that a process is about to be ended, and stays away unless restart() is called: that is no fault. Until it has
+  /// ended, none is started.
+  void retire(std::size_t process);
+  /// Goes on with other processes: those of the same name are as they were, the others have finished.
+  void go_over(const std::vector<graph::ProcessNode>& processes);
+
   /// Returns the processes that are to be started now, in the order of the graph, once each. From here on they count as
   /// running. None is returned while one that is to be ended for a restart still runs.
   /// @param is_needed  asked of those that are asleep; empty: none is.
@@ -84,7 +91,8 @@ class RestartPolicy {
     finished,  // not to be started again
   };
   struct Process {
-    graph::Restart rule;
+    std::string name;
+    graph::Restart rule = graph::Restart::permanent;
     bool on_demand = false;
     State state = State::running;
     Moment start_at{};       // while ending, waiting or asleep

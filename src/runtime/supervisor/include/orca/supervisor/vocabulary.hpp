@@ -50,6 +50,8 @@ struct Setup {
   std::vector<EdgeMemory> edges;       ///< The edges to other processes that use memory.
   std::vector<std::string> doorbells;  ///< The components whose doorbells are in the run page, in this order.
   std::vector<StateKept> states;       ///< With what components begin.
+  std::vector<std::string>
+      processes;  ///< Those that have a place in the run page, in this order; "": nobody's.
 };
 /// Asks to construct all components and hardware and to connect the ports. Built comes before the answer.
 struct Build {
@@ -71,6 +73,7 @@ struct OpenGates {
 /// Asks to end: motors first, then everything else.
 struct TakeDown {
   static constexpr Kind kKind = Kind::take_down;
+  bool keeps_states = false;  ///< The states of all components come as StateKept before the end.
 };
 /// Asks to stop all motors of the process now, and to let nothing move until ReleaseMotors. Everything else goes on.
 struct StopMotors {
@@ -204,7 +207,7 @@ struct Rewire {
   static constexpr Kind kKind = Kind::rewire;
   std::vector<EdgeChange> changes;
 };
-/// Tells of a component that is new in the graph. The process that has it constructs it.
+/// Tells of a component that is new in the graph, or comes to another process. The process that has it constructs it.
 struct AddComponent {
   static constexpr Kind kKind = Kind::add_component;
   graph::ComponentNode node;   ///< Without parameters and properties.
@@ -215,6 +218,13 @@ struct AddComponent {
 struct RemoveComponent {
   static constexpr Kind kKind = Kind::remove_component;
   std::string component;
+};
+/// Tells of a process that begins, or begins anew.
+struct NoteProcess {
+  static constexpr Kind kKind = Kind::note_process;
+  std::string process;
+  std::uint64_t place = 0;    ///< In the run page.
+  bool is_of_fibers = false;  ///< Its strands have one doorbell together.
 };
 /// Asks to let one component work.
 struct OpenGate {
@@ -231,7 +241,7 @@ struct NoteGraph {
 using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
                            Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors,
                            Count, OpenLine, Meet, Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode,
-                           NoteGraph, Rewire, AddComponent, RemoveComponent, OpenGate>;
+                           NoteGraph, Rewire, AddComponent, RemoveComponent, OpenGate, NoteProcess>;
 
 // ---- Reports, from a host process to the supervisor.
 
@@ -341,6 +351,7 @@ struct Orphaned {
   Descriptor run_page;
   Descriptor output;                   ///< The reading end of its stdout and stderr.
   std::vector<std::string> doorbells;  ///< As in Setup, with those of components that came later.
+  std::vector<std::string> processes;  ///< As in Setup, with those that came later.
 };
 /// A component runs other code from now on than the graph names.
 struct ExchangedCode {

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "applying/announcing.hpp"
+
+#include "applying/component_steps.hpp"
+#include "applying/newcomers.hpp"
+
+namespace orca::supervisor {
+
+Result<std::vector<AddComponent>> Announcing::begin(const graph::GraphPlan& plan,
+                                                    const graph::Graph& wanted) {
+  renewed_ = plan.renewed;
+  newcomers_ = newcomers_in(renewed_, running_, wanted);
+  gone_ = newcomers_in(renewed_, wanted, running_);
+  std::erase_if(gone_, [&](const auto& node) { return wanted.find_component(node.name) != nullptr; });
+  Result<std::vector<AddComponent>> orders = orders_for(plan.added);
+  if (!orders) return orders.error();
+  if (const Status told = announce(*orders, staying(all_, renewed_)); !told.ok()) return told.error();
+  const auto elsewhere = orders_for(newcomers_);
+  if (!elsewhere) return elsewhere.error();
+  if (const Status told = tell(*elsewhere, wanted); !told.ok()) return told.error();
+  return orders;
+}
+
+void Announcing::take_back() const {
+  std::vector<graph::ComponentNode> moved;
+  for (const graph::ComponentNode& node : newcomers_) {
+    const graph::ComponentNode* const before = running_.find_component(node.name);
+    if (before != nullptr) moved.push_back(*before);
+    if (before == nullptr) announce_end(node.name, node.process, staying(all_, renewed_));
+  }
+  if (const auto orders = orders_for(moved)) (void)tell(*orders, running_);
+}
+
+std::vector<std::string> Announcing::tell_of_the_gone() const {
+  std::vector<std::string> names;
+  for (const graph::ComponentNode& node : gone_) {
+    announce_end(node.name, node.process, staying(all_, renewed_));
+    names.push_back(node.name);
+  }
+  return names;
+}
+
+Result<std::vector<AddComponent>> Announcing::orders_for(
+    const std::vector<graph::ComponentNode>& components) const {
+  std::vector<AddComponent> orders;
+  for (const graph::ComponentNode& node : components) {
+    Result<AddComponent> order = make_component_(node);
+    if (!order) return order.error();
+    orders.push_back(std::move(order).value());
+  }
+  return orders;
+}
+
+Status Announcing::tell(const std::vector<AddComponent>& components, const graph::Graph& graph) const {
+  const auto notes = make_processes_(graph, renewed_);
+  if (!notes) return notes.error();
+  const Members stayers = staying(all_, renewed_);
+  if (Status told = announce(components, stayers); !told.ok()) return told;
+  for (Member* const member : stayers)
+    for (const NoteProcess& note : *notes) member->tell(note);
+  return ok();
+}
+
+}  // namespace orca::supervisor

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
+#include "orca/graph/plan.hpp"
+#include "orca/supervisor/vocabulary.hpp"
+#include "run/member.hpp"
+
+namespace orca::supervisor {
+
+/// What the processes that stay hear of components and processes which come, go or begin anew.
+///
+/// Thread contract: the supervisor's thread.
+class Announcing {
+ public:
+  using MakeComponent = std::function<Result<AddComponent>(const graph::ComponentNode&)>;
+  using MakeProcesses =
+      std::function<Result<std::vector<NoteProcess>>(const graph::Graph&, const std::set<std::string>&)>;
+
+  /// @param running         the graph of the run. All outlive the object.
+  /// @param make_component  makes the order that tells of a component.
+  /// @param make_processes  makes the orders that tell of some processes of a graph.
+  Announcing(const graph::Graph& running, const Members& all, const MakeComponent& make_component,
+             const MakeProcesses& make_processes)
+      : running_(running), all_(all), make_component_(make_component), make_processes_(make_processes) {}
+
+  /// Tells them of all that is new to them.
+  /// @return the orders to those that construct components.
+  /// @errors  unavailable if one of them is just coming up; those of the orders.
+  Result<std::vector<AddComponent>> begin(const graph::GraphPlan& plan, const graph::Graph& wanted);
+  /// Tells them of the others as they are in the graph of the run, which it goes back to.
+  void take_back() const;
+  /// Tells them that components of processes which have begun anew are not there any more. Returns their names.
+  [[nodiscard]] std::vector<std::string> tell_of_the_gone() const;
+
+ private:
+  [[nodiscard]] Result<std::vector<AddComponent>> orders_for(
+      const std::vector<graph::ComponentNode>& components) const;
+  Status tell(const std::vector<AddComponent>& components, const graph::Graph& graph) const;
+
+  const graph::Graph& running_;
+  const Members& all_;
+  const MakeComponent& make_component_;
+  const MakeProcesses& make_processes_;
+  std::set<std::string> renewed_;                // processes that begin, end or begin anew
+  std::vector<graph::ComponentNode> newcomers_;  // in them
+  std::vector<graph::ComponentNode> gone_;       // from them
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "member.hpp"
+#include "orca/base/result.hpp"
+#include "orca/supervisor/moment.hpp"
+#include "orca/supervisor/restart_policy.hpp"
+#include "roster.hpp"
+#include "starting/starter.hpp"
+
+namespace orca::supervisor {
+
+/// Lets some processes of a run end, and begin again as another graph says, while the others run on. If one of them does not
+/// come up, all of them end and begin again as before.
+///
+/// Components go on from the states that they had at the end, also in other processes than before.
+///
+/// Thread contract: the supervisor's thread.
+class Renewal {
+ public:
+  /// What it needs of the run. All of it outlives the object.
+  struct Place {
+    Roster& roster;
+    RestartPolicy& policy;
+    Starter& starter;
+    /// Orders a process to end, and to tell the states of its components before.
+    std::function<void(Member&)> end;
+  };
+  struct Wish {
+    std::set<std::string> processes;  ///< Of either graph.
+    std::function<void()> go;         ///< Makes the new graph that of the run. None of the processes runs.
+    std::function<void()>
+        go_back;  ///< Makes the graph of before that of the run. None of the processes runs.
+  };
+  /// Takes the outcome: an error says why the processes run as before.
+  using Done = std::function<void(const Status&)>;
+
+  explicit Renewal(Place place) : place_(std::move(place)) {}
+
+  /// @pre  none is under way.
+  void begin(Wish wish, Done done);
+  /// Goes on. Call it often, before the processes are started that are due.
+  void turn(Moment now);
+  /// Notes that a process has ended.
+  /// @param how  for people: "was killed by signal 9".
+  /// @return whether it was to end, or that is the end of the attempt: then it is no fault of the run.
+  bool lose(const Member& member, const std::string& how);
+
+ private:
+  enum class Phase { none, ending, beginning, ending_again, beginning_again };
+
+  void end_all();
+  void start_all(Moment now);
+  void go_back(const Error& reason);
+  void finish(const Status& outcome);
+  [[nodiscard]] Members members() const;
+  [[nodiscard]] bool has_ended() const;
+  [[nodiscard]] bool is_up() const;
+
+  const Place place_;
+  Phase phase_ = Phase::none;
+  Wish wish_;
+  Done done_;
+  std::optional<Error> failure_;
+  Moment limit_{};  // for all to come up
+};
+
+}  // namespace orca::supervisor
