@@ -2,10 +2,12 @@
 // orcactl swap: the code of a component of a running system is exchanged, between processes as within one.
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <thread>
+#include <vector>
 
 #include "deployer.hpp"
 #include "hosted_system.hpp"
@@ -22,6 +24,24 @@ std::string next_version(const std::string& name) {
 
 std::string bad_plugin(const std::string& name) {
   return std::string(ORCA_BINARY_DIR "/tests/unit_plugins/bad/") + name + ".so";
+}
+
+// Returns how much memory a process has that nobody else has [bytes].
+double private_memory(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("RssAnon:")) return 1024 * std::stod(line.substr(8));
+  return 0;
+}
+
+// Returns how many copies of plugins are in the memory of a process, in which one is used.
+int copies_in_memory(pid_t process) {
+  std::ifstream maps("/proc/" + std::to_string(process) + "/maps");
+  int copies = 0;
+  for (std::string line; std::getline(maps, line);)
+    copies +=
+        line.find("/memfd:orca:") != std::string::npos && line.find(" r-xp ") != std::string::npos ? 1 : 0;
+  return copies;
 }
 
 // A component that counts what another one says a hundred times a second, in this process or in another one.
@@ -94,6 +114,44 @@ TEST_CASE(
     CHECK_THAT(run_orcactl({"ps", "--json"}).out, Contains("next_plugins/test_teller_again.so"));
     system.end_in_order();
   }
+}
+
+TEST_CASE(
+    "ten thousand swaps of a component whose peers are in another process: nothing is lost, and nothing left",
+    "[.][slow][swap]") {
+  const TempFolder folder;
+  std::string text = graph("talking");
+  const std::string talker = "process=\"talking\"/>";
+  text.replace(text.find(talker), talker.size(),
+               "process=\"talking\"><param name=\"period\" value=\"0.001\"/><param name=\"tells\" "
+               "value=\"false\"/></component>");
+  Subprocess program(deployer({folder.write("swap.xml", text), "--log", "debug"}));
+  REQUIRE(program.wait_for_output("start 1", Seconds(20)));
+  const pid_t host = children_of(program.pid()).at("counting");
+  std::vector<int> pauses;
+  const auto swap = [&](int i) {
+    const Run run = run_orcactl({"--json", "swap", "teller",
+                                 next_version(i % 2 == 0 ? "test_teller_2" : "test_teller_again"), "--tryout",
+                                 "0 s", "--probation", "0 s"});
+    INFO(i << run.err);
+    REQUIRE(run.exit_code() == 0);
+    REQUIRE_THAT(run.out, Contains("\"state\": \"test.Teller/1\""));
+    pauses.push_back(std::stoi(run.out.substr(run.out.find("\"pause_us\": ") + 12)));
+  };
+  for (int i = 0; i < 100; ++i) swap(i);
+  const double before = private_memory(host);
+  for (int i = 0; i < 10'000; ++i) swap(i);
+  const double growth = (private_memory(host) - before) / 10'000;
+  std::ranges::sort(pauses);
+  WARN("exchange: median " << pauses[pauses.size() / 2] << " us, longest " << pauses.back()
+                           << " us; private memory grows by " << growth << " bytes per swap");
+  CHECK(growth < 64.0);
+  CHECK(copies_in_memory(host) == 1);
+  CHECK(run_orcactl({"suspend", "talker"}).exit_code() == 0);
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+  const Run run = finish(program, Seconds(10));
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.err, !Contains("gap ") && !Contains("poke ") && !Contains("not sent"));
 }
 
 TEST_CASE("a plugin whose old code cannot be unloaded is shown as pinned", "[system][swap]") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "descriptors.hpp"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 namespace orca::host {
 namespace {
@@ -18,7 +20,7 @@ constexpr std::size_t kNamed = 8;
 OpenFile file_behind(int fd) {
   struct stat file {};
   if (fstat(fd, &file) != 0) return {};
-  return {file.st_dev, file.st_ino, {}};
+  return {file.st_dev, file.st_ino};
 }
 
 std::string name_of_file_behind(int fd) {
@@ -33,21 +35,18 @@ const char* name_of_stream(int fd) {
 
 }  // namespace
 
+// Names are not asked for: a component that is started or exchanged waits for this.
 std::optional<Descriptors> open_descriptors() {
-  std::error_code cannot_look;
-  std::vector<std::filesystem::path> entries;
-  for (std::filesystem::directory_iterator entry("/proc/self/fd", cannot_look), end;
-       !cannot_look && entry != end; entry.increment(cannot_look))
-    entries.push_back(entry->path());
-  if (cannot_look) return std::nullopt;
+  const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir("/proc/self/fd"), closedir);
+  if (folder == nullptr) return std::nullopt;
   Descriptors open;
-  for (const auto& entry : entries) {
+  while (const dirent* const entry = readdir(folder.get())) {
+    const int fd = std::atoi(entry->d_name);
     struct stat file {};
-    // By path, because other threads may close their descriptors meanwhile.
-    if (stat(entry.c_str(), &file) != 0) continue;  // such as the one that reads the folder
-    std::error_code unused;
-    open[std::atoi(entry.filename().c_str())] = {file.st_dev, file.st_ino,
-                                                 std::filesystem::read_symlink(entry, unused).native()};
+    const bool is_number = entry->d_name[0] != '.';
+    if (!is_number || fd == dirfd(folder.get()) || fstat(fd, &file) != 0)
+      continue;  // other threads may close theirs
+    open[fd] = {file.st_dev, file.st_ino};
   }
   return open;
 }
@@ -57,7 +56,7 @@ std::string names_of(const Descriptors& descriptors) {
   std::size_t named = 0;
   for (const auto& [fd, file] : descriptors) {
     if (named == kNamed) return names + " and " + std::to_string(descriptors.size() - named) + " more";
-    names += (named++ == 0 ? "" : ", ") + std::to_string(fd) + " (" + file.name + ")";
+    names += (named++ == 0 ? "" : ", ") + std::to_string(fd) + " (" + name_of_file_behind(fd) + ")";
   }
   return names;
 }

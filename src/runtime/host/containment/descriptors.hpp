@@ -18,12 +18,8 @@ constexpr int kFirstCopy = 900;
 struct OpenFile {
   dev_t device = 0;
   ino_t inode = 0;
-  std::string name;  ///< For people, in the system's words: "/dev/ttyS0", "socket:[4711]".
 
-  /// Returns whether both are the same file; it may have been renamed meanwhile.
-  friend bool operator==(const OpenFile& a, const OpenFile& b) {
-    return a.device == b.device && a.inode == b.inode;
-  }
+  friend bool operator==(const OpenFile&, const OpenFile&) = default;
 };
 
 /// Open files by descriptor number.
@@ -32,7 +28,8 @@ using Descriptors = std::map<int, OpenFile>;
 /// Returns the open descriptors of this process; nothing if no descriptor is left to read them with.
 [[nodiscard]] std::optional<Descriptors> open_descriptors();
 
-/// Returns a text for people: "7 (/dev/ttyS0), 8 (socket:[4711])"; only the first ones if there are many.
+/// Returns a text for people, in the system's words: "7 (/dev/ttyS0), 8 (socket:[4711])"; only the first ones if there are
+/// many. @pre  they are still open.
 [[nodiscard]] std::string names_of(const Descriptors& descriptors);
 
 /// The descriptors that the process itself needs, kept so that a plugin that closes or redirects them is noticed.

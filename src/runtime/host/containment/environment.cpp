@@ -194,11 +194,13 @@ void Environment::look_at_descriptors(const Guests& possible, bool may_open) {
 
 void Environment::begin_balance(Guest& guest, Hook hook) {
   guest.others_turns = turns_ - guest.turns;
+  guest.own_openings = own_openings_;
   guest.balance.begin(hook == Hook::start, is_alone(guest));
 }
 
 void Environment::end_balance(Guest& guest, Hook hook) {
-  guest.balance.end(is_alone(guest) && guest.others_turns == turns_ - guest.turns);
+  const bool only_guest = is_alone(guest) && guest.others_turns == turns_ - guest.turns;
+  guest.balance.end(only_guest && opening_ == 0 && guest.own_openings == own_openings_);
   const Descriptors left_open = guest.balance.left_open();
   if (hook == Hook::stop && !left_open.empty())
     accuse_one(guest, {AlarmKind::descriptors,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -47,6 +48,13 @@ class Environment {
   void leaving(const Activity& turn);
   /// Checks the state after a hook; called instead of leaving().
   void left(const Activity& turn);
+  /// Notes that the runtime itself opens descriptors, on a thread of its own: what is new until it has is nobody's. Any
+  /// thread.
+  void begin_own_opening() { ++opening_; }
+  void end_own_opening() {
+    ++own_openings_;
+    --opening_;
+  }
   /// Reports a fork(); called in a hook, by the process that has called it.
   void forked(const Activity& turn);
 
@@ -60,6 +68,7 @@ class Environment {
     bool had_turn = false;  // since the last full check
     DescriptorBalance balance;
     std::uint64_t others_turns = 0;  // turns that were over when the hook began
+    std::uint64_t own_openings = 0;  // at that time
   };
   using Guests = std::vector<const Guest*>;
 
@@ -91,6 +100,8 @@ class Environment {
   void accuse(const Guests& possible, const Finding& finding);
   void accuse_one(const Guest& guest, const Finding& finding);
 
+  std::atomic<int> opening_{0};  // threads of the runtime that open descriptors now
+  std::atomic<std::uint64_t> own_openings_{0};
   std::mutex mutex_;
   bool kept_ = false;
   bool strands_overlap_ = false;

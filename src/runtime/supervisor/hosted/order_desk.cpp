@@ -131,6 +131,7 @@ void OrderDesk::hear_supervisor() {
     Result<std::optional<Message>> message = channel_->receive();
     if (!message) return lose_supervisor(message.error());
     if (!message->has_value()) break;
+    if (!(*message)->descriptors.empty()) part_.open_descriptors([] {});  // they have come just now
     const std::uint64_t request = (*message)->request;
     Result<Order> order = decode_order(std::move(**message));
     if (!order) leave(order.error());
@@ -250,9 +251,10 @@ void OrderDesk::pass_on(SwapCode& swap, const Told& told) {
 // ---- Without a supervisor
 
 Status OrderDesk::prepare_to_outlive(Outlive& order) {
-  Result<ControlSocket> place = open_meeting_place(site_.system, site_.process);
-  if (!place) return place.error();
-  place_.emplace(std::move(place).value());
+  std::optional<Result<ControlSocket>> place;
+  part_.open_descriptors([&] { place.emplace(open_meeting_place(site_.system, site_.process)); });
+  if (!*place) return place->error();
+  place_.emplace(std::move(*place).value());
   will_.emplace(std::move(order));
   return ok();
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "containment/environment.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
@@ -363,6 +364,14 @@ void HostedPart::hear(const idl::Alarm& alarm, const std::string& process) {
 void HostedPart::forget_alarm(const std::string& kind, const std::string& source,
                               const std::string& process) {
   inside_->watched().reporter().alarm_news().acknowledge(kind, source, process);
+}
+
+void HostedPart::open_descriptors(const std::function<void()>& open) {
+  const struct Opening {
+    Opening() { Environment::of_process().begin_own_opening(); }
+    ~Opening() { Environment::of_process().end_own_opening(); }
+  } opening;
+  open();
 }
 
 void HostedPart::cut_edge(const std::string& edge, const Error& reason) {

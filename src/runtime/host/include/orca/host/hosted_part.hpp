@@ -182,6 +182,9 @@ class HostedPart {
   /// @param process  that it is about, this one, too; empty: not one alone.
   void forget_alarm(const std::string& kind, const std::string& source, const std::string& process);
 
+  /// Calls a function that opens descriptors in this process, which no component has opened. Any thread.
+  void open_descriptors(const std::function<void()>& open);
+
   // Edges are named as graph::Edge::name() says.
 
   /// Cuts an edge to another process, because that is gone: whoever waits for an answer gets an error that says why.
