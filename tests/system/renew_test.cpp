@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <random>
+#include <thread>
 
 #include "deployer.hpp"
 #include "hosted_system.hpp"
@@ -25,13 +26,15 @@ struct Layout {
   std::string teller = "front";  // process of the teller
   std::string more{};            // components
   std::string more_connections{};
-  std::string step = "1";  // parameter of the teller beside
+  std::string rules{};             // attributes of the graph
+  std::string processes_before{};  // before "calm"
+  std::string step = "1";          // parameter of the teller beside
 
   [[nodiscard]] std::string text(const std::string& plugins) const {
     return "<graph name=\"renewing\" version=\"1\" restarts=\"1000\" within=\"100 ms\" "
-           "on_supervisor_loss=\"continue\" plugins=\"" +
-           plugins + "\"><process name=\"calm\"/>" + processes +
-           "<component name=\"calm_teller\" type=\"test.Teller\" " +
+           "on_supervisor_loss=\"continue\"" +
+           rules + " plugins=\"" + plugins + "\">" + processes_before + "<process name=\"calm\"/>" +
+           processes + "<component name=\"calm_teller\" type=\"test.Teller\" " +
            "process=\"calm\"><param name=\"step\" value=\"" + step +
            "\"/></component><component name=\"calm_talker\" type=\"test.Talker\"/>"
            "<component name=\"teller\" type=\"test.Teller\" process=\"" +
@@ -81,6 +84,13 @@ class Renewing {
     REQUIRE(program_->wait_for_output("talker: heard 1:", Seconds(20) * kSlowdown));
   }
 
+  // Ends the system, and starts it with another graph.
+  void start_anew(const Layout& layout) {
+    end();
+    program_.reset();
+    start(write("start.xml", layout));
+  }
+
   [[nodiscard]] Run apply(const Layout& layout) const {
     return run_orcactl({"apply", write("new.xml", layout)}, Seconds(40));
   }
@@ -114,11 +124,12 @@ class Renewing {
 };
 
 // A component that cannot be configured in a process, although it can be where the graph is checked.
-std::string homesick(const std::string& where, const std::string& how) {
+std::string homesick(const std::string& where, const std::string& how, const std::string& abroad) {
   return "<component name=\"last\" type=\"test.Homesick\" process=\"" + where +
-         "\"><param name=\"abroad\" value=\"" + where + "\"/><param name=\"crashes\" value=\"" +
+         "\"><param name=\"abroad\" value=\"" + abroad + "\"/><param name=\"crashes\" value=\"" +
          (how == "crashes" ? "true" : "false") + "\"/></component>";
 }
+std::string homesick(const std::string& where, const std::string& how) { return homesick(where, how, where); }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t place = text.find(from);
@@ -228,6 +239,71 @@ TEST_CASE("if a process does not come up as wanted, all is as before", "[system]
   CHECK(system.apply(wanted).exit_code() == 0);
   CHECK(system.hears("] debug   talker: heard 1:", system.mark()));
   system.end();
+}
+
+TEST_CASE("a component whose end ends the run may fail to come up as wanted, and the run goes on",
+          "[system][renew]") {
+  Renewing system;
+  Layout ends = kStart;
+  ends.rules = " ends=\"last\"";
+  ends.more = homesick("front", "refuses", "nowhere");
+  system.start_anew(ends);
+  for (const std::string how : {"refuses", "crashes"}) {
+    Layout wanted = ends;
+    wanted.processes = kSpins.processes;
+    wanted.more = homesick("front", how, "front");
+    const Run refused = system.apply(wanted);
+    INFO(refused.err << system.log());
+    CHECK(refused.exit_code() == 1);
+    CHECK(system.runs_like(ends));
+    CHECK(system.hears("] debug   talker: heard 1:", system.mark()));
+  }
+  system.end();
+}
+
+TEST_CASE("components that have come up where another one could not go back with their states",
+          "[system][renew]") {
+  Renewing system;
+  std::this_thread::sleep_for(Seconds(0.3));
+  const std::size_t mark = system.mark();
+  Layout wanted{.processes = "<process name=\"front\" spin=\"0.1 ms\"/><process name=\"later\"/>"};
+  wanted.more = homesick("later", "refuses");
+  const Run refused = system.apply(wanted);
+  INFO(refused.err << system.log());
+  CHECK(refused.exit_code() == 1);
+  REQUIRE(system.hears("goes on from the state test.Teller/1", mark));
+  CHECK(system.hears("] debug   talker: heard 1:", system.mark()));
+  CHECK_THAT(system.log().substr(mark), !Contains(" after 0") && !Contains("poke 1 "));
+  system.end();
+}
+
+TEST_CASE("a process that has come before the others in the graph is seen when it hangs", "[system][renew]") {
+  Renewing system;
+  Layout first = kRear;
+  first.processes_before = "<process name=\"early\"/>";
+  first.more = "<component name=\"other\" type=\"test.OtherTeller\" process=\"early\"/>";
+  first.more_connections = Layout::connection("talker.out", "other.in");
+  REQUIRE(system.apply(first).exit_code() == 0);
+  const std::size_t mark = system.mark();
+  const auto hosts = system.hosts();
+  kill(hosts.at("early"), SIGSTOP);
+  CHECK(system.hears("process early hung and was killed", mark));
+  CHECK(system.hears("process early is back", mark));
+  CHECK(system.hosts().at("calm") == hosts.at("calm"));
+  system.end();
+}
+
+TEST_CASE("a component that is suspended does not begin to work because its process begins anew",
+          "[system][renew]") {
+  Renewing system;
+  REQUIRE(run_orcactl({"suspend", "teller"}).exit_code() == 0);
+  const Run refused = system.apply(kSpins);
+  CHECK(refused.exit_code() == 1);
+  CHECK_THAT(refused.err,
+             Contains("teller: it is suspended, and its process has to begin anew; resume it before"));
+  CHECK(run_orcactl({"resume", "teller"}).exit_code() == 0);
+  CHECK(system.apply(kSpins).exit_code() == 0);
+  system.end_anyhow();
 }
 
 TEST_CASE("whatever process is killed while others begin anew, the system is as before or as it was to be",

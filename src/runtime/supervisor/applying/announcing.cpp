@@ -28,7 +28,16 @@ void Announcing::take_back() const {
     if (before != nullptr) moved.push_back(*before);
     if (before == nullptr) announce_end(node.name, node.process, staying(all_, renewed_));
   }
-  if (const auto orders = orders_for(moved)) (void)tell(*orders, running_);
+  const auto orders = orders_for(moved);
+  const auto notes = make_processes_(running_, renewed_);
+  for (Member* const member : staying(all_, renewed_)) {
+    if (!member->is_built()) continue;  // it comes up with the graph of the run
+    if (notes)
+      for (const NoteProcess& note : *notes) member->tell(note);
+    if (orders)
+      for (const AddComponent& order : *orders)
+        if (order.node.process != member->name()) member->tell(order);
+  }
 }
 
 std::vector<std::string> Announcing::tell_of_the_gone() const {

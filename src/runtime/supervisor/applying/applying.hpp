@@ -45,6 +45,8 @@ class Applying {
     /// Makes the orders that tell of some processes of a graph which begin, or begin anew. There is a place for them then.
     std::function<Result<std::vector<NoteProcess>>(const graph::Graph&, const std::set<std::string>&)>
         introduce_processes;
+    /// Returns why no processes can begin anew at present, if that is so.
+    std::function<Status()> can_renew;
     /// Lets processes end and begin as another graph says, or else again as before.
     std::function<void(Renewal::Wish, Renewal::Done)> renew_processes;
     /// Returns the graph of the run and what is known of its plugins.

@@ -35,6 +35,7 @@ void Applying::Work::go_on() {
     return end(fail(Code::failed_precondition,
                     "process " + *plan_.renewed.begin() +
                         " has to be started again for that; change the graph's file and use orcactl apply"));
+  if (const Status ready = can_renew(); !ready.ok()) return end(ready.error());
   exchange_next();
 }
 
@@ -174,7 +175,19 @@ void Applying::Work::rewire() {
   });
 }
 
+// A component would not be suspended any more, and the robot perhaps move.
+Status Applying::Work::can_renew() const {
+  if (plan_.renewed.empty()) return ok();
+  for (const graph::ComponentNode& node : owner_.graph_.components)
+    if (plan_.renewed.contains(node.process) && owner_.operating_.is_suspended(node.name))
+      return fail(Code::failed_precondition,
+                  "it is suspended, and its process has to begin anew; resume it before", node.name);
+  return owner_.levers_.can_renew();
+}
+
 void Applying::Work::renew() {
+  if (const Status ready = can_renew(); !ready.ok())
+    return undo(plan_.connections_of(false), ready.error(), &Work::part);
   is_renewing_ = true;
   const auto go = [work = weak_from_this()] {
     if (const auto self = work.lock()) self->owner_.accept(self->wanted_, graph::print(self->wanted_.graph));

@@ -56,6 +56,8 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   void configure(std::size_t next);
   // Lets the others change their connections, to the new components as well.
   void rewire();
+  // Returns why the processes that begin anew cannot now, if that is so.
+  [[nodiscard]] Status can_renew() const;
   // All else is as wanted. Now processes begin, end or begin anew, with the new graph.
   void renew();
   // The processes that should begin anew run as before. The others go back, too.

@@ -60,6 +60,10 @@ class Operating {
   /// Sends an order to a component. `answered` is called exactly once, unless the order cannot be sent.
   /// @errors  not_found; unavailable if its process takes no orders at present.
   Status send(const std::string& component, Order order, JointOrders::Answered answered) const;
+  /// Returns whether an operator has paused a component.
+  [[nodiscard]] bool is_suspended(const std::string& component) const {
+    return host::is_suspended(reports_(component).state);
+  }
   /// Forgets what was changed, since the graph says the same now.
   void forget_changes() { changed_.clear(); }
   /// Returns the present values of a component's parameters.

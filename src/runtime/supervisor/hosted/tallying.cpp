@@ -76,14 +76,17 @@ void merge(const std::vector<Counts>& all, std::map<std::string, Counters>& by_n
   for (const Counts& counts : all) by_name[counts.name] = counters_from<Counters>(counts.numbers);
 }
 
-// Adds the counters of a later life to those of earlier ones. In all of them they have the same names.
+// Adds the counters of a later life to those of earlier ones.
 template <class Counters>
 void add_counts(const std::vector<Counts>& more, std::vector<Counts>& sum) {
   if (sum.empty()) return void(sum = more);
   const std::size_t wide = fields_of(Counters{}).wide.size();
   for (const Counts& counts : more) {
     const auto known = std::ranges::find(sum, counts.name, &Counts::name);
-    if (known == sum.end()) continue;
+    if (known == sum.end()) {
+      sum.push_back(counts);
+      continue;
+    }
     for (std::size_t i = 0; i < std::min(known->numbers.size(), counts.numbers.size()); ++i) {
       std::uint64_t& number = known->numbers[i];
       number = i < wide ? number + counts.numbers[i] : std::max(number, counts.numbers[i]);

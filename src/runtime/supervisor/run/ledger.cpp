@@ -55,7 +55,7 @@ void Ledger::go_over() {
 
 Status Ledger::take(const Report& report, const std::string& process) {
   if (const auto* built = std::get_if<Built>(&report)) {
-    robots_by_hardware_.insert(built->robots.begin(), built->robots.end());
+    for (const auto& [hardware, robot] : built->robots) robots_by_hardware_[hardware] = robot;
     return ok();
   }
   if (const auto* line = std::get_if<Logged>(&report)) {
@@ -205,8 +205,17 @@ bool Ledger::is_in_use(const std::string& process) const {
 }
 
 void Ledger::introduce() {
-  robots_ = host::find_robots(graph_, robots_by_hardware_);
+  host::RobotNames robots = host::find_robots(graph_, robots_by_hardware_);
+  if (std::exchange(are_introduced_, true) && robots == robots_) return;
+  robots_ = std::move(robots);
   listener_.robots(robots_);
+}
+
+void Ledger::pardon(const std::string& component) {
+  const std::lock_guard lock(mutex_);
+  host::ComponentReport& report = components_[component];
+  report.has_failed = report.ended_badly = false;
+  report.failure.clear();
 }
 
 host::Reports Ledger::reports() const {

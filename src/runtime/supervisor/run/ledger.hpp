@@ -70,7 +70,10 @@ class Ledger final : public host::RunView {
   /// @param relay  outlives the object.
   void relay_to(const AlarmRelay& relay) { relay_ = &relay; }
 
-  /// Reports which robots there are, by their hardware, once all processes are built.
+  /// Forgets that a component has failed, because it begins anew.
+  void pardon(const std::string& component);
+
+  /// Reports which robots there are, by their hardware, once all processes are built, and again if there are others.
   void introduce();
 
   [[nodiscard]] host::Reports reports() const;
@@ -103,6 +106,7 @@ class Ledger final : public host::RunView {
   std::map<std::string, std::string> robots_by_hardware_;
   std::set<std::string> restless_;  // processes
   host::RobotNames robots_;
+  bool are_introduced_ = false;
   host::AlarmStore alarms_;
   MissionBook missions_{start_};
   const AlarmRelay* relay_ = nullptr;

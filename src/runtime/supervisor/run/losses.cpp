@@ -41,7 +41,7 @@ void Losses::lose(Member& member, const std::string& how, const Loss& loss) {
   const std::string text = "process " + member.name() + " " + how;
   Conclusion& conclusion = place_.conclusion;
   if (conclusion.is_over()) return lose_late(text, loss);
-  if (place_.renewal.lose(member, how)) return;
+  if (place_.renewal.lose(member, loss.is_normal, how)) return;
   if (loss.is_unasked) place_.ledger.raise(host::AlarmKind::process_ended, member.name(), text);
   if (!conclusion.has_come_up()) return conclusion.fail_with(fail(Code::unavailable, text));
   const RestartDecision decision = place_.policy.ended(member.index(), loss.is_normal, Moment::clock::now());

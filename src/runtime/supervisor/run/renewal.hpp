@@ -28,8 +28,12 @@ class Renewal {
     Roster& roster;
     RestartPolicy& policy;
     Starter& starter;
-    /// Orders a process to end, and to tell the states of its components before.
-    std::function<void(Member&)> end;
+    /// Orders a process to end.
+    /// @param keeps_states  whether it tells the states of its components before.
+    std::function<void(Member&, bool keeps_states)> end;
+    /// Forgets that a component has failed.
+    std::function<void(const std::string& component)> pardon;
+    const std::string& log_name;
   };
   struct Wish {
     std::set<std::string> processes;  ///< Of either graph.
@@ -46,10 +50,14 @@ class Renewal {
   void begin(Wish wish, Done done);
   /// Goes on. Call it often, before the processes are started that are due.
   void turn(Moment now);
+  [[nodiscard]] bool is_under_way() const { return phase_ != Phase::none; }
+  /// Notes that a process is about to be started. One that begins with the new graph goes back with the others.
+  void note_start(const Member& member);
   /// Notes that a process has ended.
+  /// @param is_normal  it ended by itself, with exit status 0.
   /// @param how  for people: "was killed by signal 9".
   /// @return whether it was to end, or that is the end of the attempt: then it is no fault of the run.
-  bool lose(const Member& member, const std::string& how);
+  bool lose(const Member& member, bool is_normal, const std::string& how);
 
  private:
   enum class Phase { none, ending, beginning, ending_again, beginning_again };
@@ -65,6 +73,9 @@ class Renewal {
   const Place place_;
   Phase phase_ = Phase::none;
   Wish wish_;
+  std::set<std::string> others_;    // processes that have begun with the new graph on their own
+  std::set<std::string> finished_;  // those of the wish that had ended for good before
+  Starter::States states_;          // of the components when their processes ended
   Done done_;
   std::optional<Error> failure_;
   Moment limit_{};  // for all to come up

@@ -101,6 +101,8 @@ class SupervisedRun {
     const auto restart = [this](Member& member) -> Status {
       if (conclusion_.is_over() || !conclusion_.has_come_up())
         return fail(Code::failed_precondition, "the system is just coming up or ending");
+      if (renewal_.is_under_way())
+        return fail(Code::unavailable, "processes are just beginning anew; try again when they are up");
       policy_.restart(member.index(), now());
       on_demand_.want(member);
       losses_.end(member);
@@ -121,6 +123,11 @@ class SupervisedRun {
         },
         [this](const graph::Graph& graph, const std::set<std::string>& processes) {
           return starter_.introduce_processes(graph, processes);
+        },
+        [this] {
+          const bool is_ready = conclusion_.has_come_up() && !conclusion_.is_over();
+          return is_ready ? ok()
+                          : Status(fail(Code::failed_precondition, "the system is just coming up or ending"));
         },
         [this](Renewal::Wish wish, Renewal::Done done) { renewal_.begin(std::move(wish), std::move(done)); },
         [this] {
@@ -252,6 +259,7 @@ class SupervisedRun {
     Members due;
     const auto is_needed = [this](std::size_t index) { return on_demand_.is_needed(*roster_.all()[index]); };
     for (const std::size_t index : policy_.take_due(now(), is_needed)) due.push_back(roster_.all()[index]);
+    for (const Member* const member : due) renewal_.note_start(*member);
     if (!due.empty()) arrivals_.start(due);
   }
 
@@ -268,7 +276,7 @@ class SupervisedRun {
         refuse(fail(Code::deadline_exceeded, "not everything came up in time"));
     } else if (options_.until && steady_now() >= *arrivals_.up_since() + *options_.until) {
       conclusion_.run_out_of_time();
-    } else {
+    } else if (!renewal_.is_under_way()) {  // what goes back has not failed
       look_at_ends();
     }
     return conclusion_.is_over();
@@ -365,7 +373,9 @@ class SupervisedRun {
                         losses_.could_not_start(member, error);
                       }}};
   OnDemand on_demand_{roster_.all(), starter_, ledger_, [this](Member& member) { let_go(member); }};
-  Renewal renewal_{{roster_, policy_, starter_, [this](Member& member) { losses_.end(member, true); }}};
+  Renewal renewal_{{roster_, policy_, starter_,
+                    [this](Member& member, bool keeps_states) { losses_.end(member, keeps_states); },
+                    [this](const std::string& component) { ledger_.pardon(component); }, options_.log_name}};
   Losses losses_{{graph_, options_.log_name, stop_, roster_, starter_, ledger_, policy_, beats_, control_,
                   conclusion_, arrivals_, on_demand_, renewal_}};
   std::optional<TimePoint> began_at_;  // when all machines were there

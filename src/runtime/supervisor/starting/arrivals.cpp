@@ -36,8 +36,7 @@ void Arrivals::bring_up(Starter::Begun& begun, bool is_first) {
   if (members.empty()) return;
   watch(members);
   began_.push_back(std::make_unique<BringUp>(
-      place_.starter.plan(members), consent(is_first),
-      [this, members, is_first] { built(members, is_first); },
+      place_.starter.plan(members), consent(is_first), [this, members] { built(members); },
       [this, members, is_first](const Status& outcome, Member* culprit) {
         outcome.ok() ? came_up(members, is_first) : did_not_come_up(outcome.error(), *culprit);
       }));
@@ -47,7 +46,7 @@ void Arrivals::bring_up(Starter::Begun& begun, bool is_first) {
 void Arrivals::watch(const Members& members) {
   for (const Member* member : members) {
     for (const std::string& warning : member->process()->warnings()) log::warning(member->name(), warning);
-    place_.beats.watch(member->index(), member->node().hang_limit);
+    place_.beats.watch(member->place(), member->node().hang_limit);
   }
 }
 
@@ -75,10 +74,10 @@ void Arrivals::lose(Member& member) {
   for (const auto& bring_up : began_) bring_up->lose(member);
 }
 
-void Arrivals::built(const Members& members, bool is_first) {
+void Arrivals::built(const Members& members) {
   place_.control.built(members);
   place_.trading.brief(members);
-  if (is_first) place_.ledger.introduce();
+  place_.ledger.introduce();
 }
 
 void Arrivals::came_up(const Members& members, bool is_first) {

@@ -58,7 +58,7 @@ class Arrivals {
   void bring_up(Starter::Begun& begun, bool is_first);
   void watch(const Members& members);
   [[nodiscard]] BringUp::Consent consent(bool is_first) const;
-  void built(const Members& members, bool is_first);
+  void built(const Members& members);
   void came_up(const Members& members, bool is_first);
   void did_not_come_up(const Error& error, Member& culprit);
 

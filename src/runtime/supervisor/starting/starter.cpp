@@ -107,6 +107,13 @@ std::vector<StateKept> Starter::states_for(const Member& member) {
   return states;
 }
 
+void Starter::forget_old_states() {
+  std::erase_if(states_, [this](const auto& kept) {
+    const graph::ComponentNode* const node = graph_.find_component(kept.first);
+    return node == nullptr || !node->restore_last;
+  });
+}
+
 Result<AddComponent> Starter::introduce(const graph::ComponentNode& component) {
   const auto known = std::ranges::find(doorbells_, component.name);
   const auto place = static_cast<std::size_t>(known - doorbells_.begin());
@@ -133,14 +140,19 @@ Result<std::vector<NoteProcess>> Starter::introduce_processes(const graph::Graph
   return notes;
 }
 
-// A process that is started again would overwrite what was written before.
+// A process that is started again would overwrite what was written before, and so would one that has come with what another
+// one has recorded.
 host::RunOutputs Starter::outputs_for(const Member& member) {
   host::RunOutputs outputs = outputs_of(graph_, member.name(), options_.outputs);
-  if (started_.insert(member.name()).second && !run_.is_inherited) return outputs;
+  const bool is_first = started_.insert(member.name()).second && !run_.is_inherited && !has_gone_over_;
+  if (is_first) return outputs;
   const bool writes =
       !outputs.trace_file.empty() || !outputs.recordings.empty() || !outputs.picture.file.empty();
   if (writes)
-    log::warning(member.name(), "is started again; its trace, recordings or picture end where it was lost");
+    log::warning(member.name(),
+                 has_gone_over_
+                     ? "begins with another graph than the run; it writes no trace, recordings or picture"
+                     : "is started again; its trace, recordings or picture end where it was lost");
   host::RunOutputs none;
   none.looks_on = outputs.looks_on;
   return none;

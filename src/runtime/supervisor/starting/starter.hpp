@@ -69,10 +69,20 @@ class Starter {
   /// @errors  as Roster::reserve().
   Result<std::vector<NoteProcess>> introduce_processes(const graph::Graph& graph,
                                                        const std::set<std::string>& processes);
+  using States = std::map<std::string, StateKept>;  // by component
+  /// Returns the last state of each component.
+  [[nodiscard]] const States& states() const { return states_; }
+  /// Keeps these instead.
+  void set_states(States states) { states_ = std::move(states); }
+  /// Forgets the states of components that the graph does not keep for ever.
+  void forget_old_states();
   /// Lets components begin once with the states that are kept of them, whatever the graph says.
   void pass_on_states(std::set<std::string> components) { heirs_ = std::move(components); }
   /// Takes over the edges of the graph, which has others now that are made already.
-  void go_over() { wiring_.go_over(graph_); }
+  void go_over() {
+    wiring_.go_over(graph_);
+    has_gone_over_ = true;
+  }
 
  private:
   [[nodiscard]] HostStart host_start(const Member& member) const;
@@ -87,9 +97,10 @@ class Starter {
   Roster& roster_;
   std::vector<std::string> doorbells_;  // the components, in the order of their words in the run page
   Wiring wiring_;
-  std::set<std::string> heirs_;              // see pass_on_states()
-  std::set<std::string> started_;            // processes that have been started once
-  std::map<std::string, StateKept> states_;  // the last ones, by component
+  std::set<std::string> heirs_;    // see pass_on_states()
+  std::set<std::string> started_;  // processes that have been started once
+  States states_;
+  bool has_gone_over_ = false;  // to another graph than that of the start
 };
 
 }  // namespace orca::supervisor

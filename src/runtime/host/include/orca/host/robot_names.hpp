@@ -18,6 +18,7 @@ struct RobotNames {
     const auto found = by_component.find(component);
     return found == by_component.end() ? std::string() : found->second;
   }
+  friend bool operator==(const RobotNames&, const RobotNames&) = default;
 };
 
 }  // namespace orca::host

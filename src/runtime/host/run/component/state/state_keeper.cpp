@@ -21,6 +21,7 @@ TimePoint StateKeeper::due() const { return has_changed_ ? saturating_add(last_,
 void StateKeeper::keep() {
   has_changed_ = false;
   last_ = parts_.now();
+  if (awaits_restore()) return;  // the state that is kept is still the one to begin with
   Result<KeptState> saved = hooks_.save();
   if (!saved) return give_up(saved.error().text());
   hand_out(std::move(saved).value());
@@ -28,6 +29,7 @@ void StateKeeper::keep() {
 
 void StateKeeper::keep_last() {
   if (parts_.run.state_sink == nullptr) return;
+  if (awaits_restore()) return hand_out(*state_);
   Result<KeptState> saved = hooks_.save();
   if (!saved) return give_up(saved.error().text());
   if (!saved->bytes.empty()) hand_out(std::move(saved).value());  // it has one
