@@ -293,6 +293,16 @@ TEST_CASE("a change that the graph names is carried out as one of the command li
   REQUIRE(run.arrivals().size() == 3);
   CHECK(run_deployer(Words{graph} + virtual_clock(), Seconds(60)).trace_hash() == run.trace_hash());
   const TempFolder folder;
+  const std::string trace = folder.file("trace");
+  CHECK(run_deployer(Words{graph, "--trace", trace} + virtual_clock(), Seconds(60)).trace_hash() ==
+        run.trace_hash());
+  CHECK_THAT(read_text(trace), Contains("20.000000 exchange avoid orca.LaserAvoid orca.VfhPlus 0.000000"));
+  Subprocess drawing(
+      {"/usr/bin/env", "python3", source_file("docs/pictures/swap_timeline.py"), trace, "avoid"});
+  const Run drawn = finish(drawing, Seconds(20));
+  CHECK(drawn.exit_code() == 0);
+  CHECK_THAT(drawn.out, Contains("orca.LaserAvoid gives way to orca.VfhPlus") &&
+                            Contains("avoid.laser: LaserRangeReadings"));
   std::string plain = read_text(graph);
   plain.replace(plain.find("../../graphs/"), 13, source_file("graphs/"));
   plain.erase(plain.find("<change "), plain.find("/>", plain.find("<change ")) + 2 - plain.find("<change "));

@@ -79,6 +79,13 @@ void Trace::state_changed(std::string_view who, std::string_view from, std::stri
   write_line({"state", who, from, to});
 }
 
+void Trace::code_exchanged(std::string_view who, std::string_view was, std::string_view is, Duration pause) {
+  char time[32];
+  std::snprintf(time, sizeof time, "%.6f", to_seconds(pause));
+  const std::lock_guard lock(mutex_);
+  write_line({"exchange", who, was, is, time});
+}
+
 std::uint64_t Trace::hash() const {
   const std::lock_guard lock(mutex_);
   return hash_.value();

@@ -43,6 +43,8 @@ class Trace final : public LinkObserver {
   void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
   void link_changed(std::string_view client, std::string_view server, bool connected) override;
   void state_changed(std::string_view who, std::string_view from, std::string_view to);
+  /// @param pause  time [s] in which neither of the two objects could work, until now.
+  void code_exchanged(std::string_view who, std::string_view was, std::string_view is, Duration pause);
 
   [[nodiscard]] std::uint64_t hash() const;
 

@@ -7,6 +7,7 @@
 #include "orca/base/log.hpp"
 
 namespace orca::supervisor {
+
 void Renewal::begin(Wish wish, Done done) {
   wish_ = std::move(wish);
   done_ = std::move(done);

@@ -188,7 +188,9 @@ Status Lifecycle::take_over(Residency& successor, TakeOver& report) {
   if (now == ComponentState::init)
     return fail(Code::failed_precondition, "it is being loaded; try again", parts_.settings.name);
   if (now == ComponentState::unloaded) return residency_.trade_loaders(successor), ok();
+  const std::string was = residency_.type_name();
   if (Status taken = succession_.take_over(successor, now, report); !taken.ok()) return taken;
+  parts_.run.trace.code_exchanged(parts_.settings.name, was, residency_.type_name(), report.pause);
   handle(ComponentEvent::replaced);
   return ok();
 }
