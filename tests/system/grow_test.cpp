@@ -87,15 +87,7 @@ class Growing {
     start(graphs_.write("start.xml", {}));
   }
 
-  void start(const std::string& file) {
-    if (program_) {
-      program_->send(SIGKILL);
-      REQUIRE(program_->wait(Seconds(2) * kSlowdown));
-      killed_ = std::move(program_);  // with its object, what it has started would end
-    }
-    program_ = std::make_unique<Subprocess>(deployer({file, "--log", "debug"}));
-    REQUIRE(program_->wait_for_output("heard 1:", Seconds(20) * kSlowdown));
-  }
+  void start(const std::string& file) { program_.start(file, "heard 1:"); }
 
   [[nodiscard]] const Graphs& graphs() const { return graphs_; }
   [[nodiscard]] Run apply(const Pairs& others, const std::string& more = "") const {
@@ -112,8 +104,7 @@ class Growing {
 
  private:
   Graphs graphs_;
-  std::unique_ptr<Subprocess> killed_;
-  std::unique_ptr<Subprocess> program_;
+  Deployers program_;
 };
 
 // A component that cannot be configured in a process, although it can be where the graph is checked. It comes last.

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <random>
 #include <sstream>
 #include <string>
@@ -47,6 +48,29 @@ bool comes_true(const Condition& condition, Seconds limit) {
   }
   return true;
 }
+
+// The deployer of a system whose processes go on without it, and the one before.
+class Deployers {
+ public:
+  // Starts a deployer; one that runs is killed before. Waits until the log has the sign.
+  void start(const std::string& file, const std::string& sign) {
+    if (now_) {
+      now_->send(SIGKILL);
+      REQUIRE(now_->wait(Seconds(2) * kSlowdown));
+      killed_ = std::move(now_);  // with its object, what it has started would end
+    }
+    now_ = std::make_unique<Subprocess>(deployer({file, "--log", "debug"}));
+    REQUIRE(now_->wait_for_output(sign, Seconds(20) * kSlowdown));
+  }
+  // Forgets a deployer that has ended.
+  void forget() { now_.reset(); }
+  Subprocess& operator*() const { return *now_; }
+  Subprocess* operator->() const { return now_.get(); }
+
+ private:
+  std::unique_ptr<Subprocess> killed_;
+  std::unique_ptr<Subprocess> now_;
+};
 
 // Ends a system of tellers, and checks that none of them has missed an object. Returns its log.
 inline std::string stop_without_gaps(Subprocess& program) {

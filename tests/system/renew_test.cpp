@@ -74,20 +74,12 @@ class Renewing {
   [[nodiscard]] std::string write(const std::string& name, const Layout& layout) const {
     return folder_.write(name, layout.text(folder_.file("plugins")));
   }
-  void start(const std::string& file) {
-    if (program_) {
-      program_->send(SIGKILL);
-      REQUIRE(program_->wait(Seconds(2) * kSlowdown));
-      killed_ = std::move(program_);  // with its object, what it has started would end
-    }
-    program_ = std::make_unique<Subprocess>(deployer({file, "--log", "debug"}));
-    REQUIRE(program_->wait_for_output("talker: heard 1:", Seconds(20) * kSlowdown));
-  }
+  void start(const std::string& file) { program_.start(file, "talker: heard 1:"); }
 
   // Ends the system, and starts it with another graph.
   void start_anew(const Layout& layout) {
     end();
-    program_.reset();
+    program_.forget();
     start(write("start.xml", layout));
   }
 
@@ -119,8 +111,7 @@ class Renewing {
 
  private:
   TempFolder folder_;
-  std::unique_ptr<Subprocess> killed_;
-  std::unique_ptr<Subprocess> program_;
+  Deployers program_;
 };
 
 // A component that cannot be configured in a process, although it can be where the graph is checked.
