@@ -10,6 +10,13 @@
 #include "orca/graph/print.hpp"
 
 namespace orca::supervisor {
+namespace {
+
+Error with(const Error& reason, const std::string& what, const Error& obstacle) {
+  return fail(reason.code, reason.text() + "; and " + what + " could not go back: " + obstacle.text());
+}
+
+}  // namespace
 
 Applying::Work::Work(Applying& owner, GraphSource source, bool carries_out, Told told)
     : owner_(owner),
@@ -262,10 +269,6 @@ void Applying::Work::carry_out(std::vector<JointStep> steps, std::function<void(
                               [work = weak_from_this(), done = std::move(done)](const Status& outcome) {
                                 if (const auto self = work.lock()) done(outcome);
                               });
-}
-
-Error Applying::Work::with(const Error& reason, const std::string& what, const Error& obstacle) {
-  return fail(reason.code, reason.text() + "; and " + what + " could not go back: " + obstacle.text());
 }
 
 void Applying::Work::go_back(const Error& reason) {

@@ -77,7 +77,6 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   // Lets nobody wait for what is sent or asked on a new connection until the process at its other end has begun anew.
   void cut_off_after(JointStep& step);
   void carry_out(std::vector<JointStep> steps, std::function<void(const Status&)> done);
-  static Error with(const Error& reason, const std::string& what, const Error& obstacle);
   // Exchanges back what was exchanged, the last first.
   void go_back(const Error& reason);
   void end(const std::optional<Error>& error);

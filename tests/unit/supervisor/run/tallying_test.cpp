@@ -100,7 +100,8 @@ TEST_CASE("what a process has counted in several lives is added up", "[superviso
   REQUIRE(ways_of({{"base", sum}}).size() == 1);
   CHECK(ways_of({{"base", sum}})[0].length == Approx(7.5));
   Tally other;
-  other.edges.push_back({"no such edge", {1, 2, 3}});
+  other.edges.push_back({"an edge of another graph", {1, 2, 3}});
   add(other, sum);
-  CHECK(sum.edges.size() == 1);
+  CHECK(sum.edges.size() == 2);
+  CHECK(counters_of(two_edges(), {{"base", sum}}).edges.size() == 1);
 }
