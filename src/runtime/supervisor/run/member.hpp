@@ -104,6 +104,10 @@ class Member {
   void note_built() { is_built_ = true; }
   /// Returns how long it took to come up when it was started last [s]; nothing: it has not come up since this supervisor came.
   [[nodiscard]] std::optional<Duration> start_time() const { return start_time_; }
+  /// Notes that the process is none of those with which the run has begun.
+  void note_newcomer() { is_newcomer_ = true; }
+  /// Returns whether it has come to the run later, and was not started again since.
+  [[nodiscard]] bool is_newcomer() const { return is_newcomer_ && restarts() == 0; }
   /// Returns how often it was started again.
   [[nodiscard]] std::uint64_t restarts() const { return starts_ > 0 ? starts_ - 1 : 0; }
 
@@ -114,6 +118,7 @@ class Member {
   Phase phase_ = Phase::absent;
   bool has_come_up_ = false;
   bool is_built_ = false;
+  bool is_newcomer_ = false;
   std::uint64_t starts_ = 0;
   Moment started_at_{};
   std::optional<Duration> start_time_;

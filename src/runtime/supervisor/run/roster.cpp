@@ -34,6 +34,7 @@ Status Roster::reserve(const graph::Graph& graph) {
 }
 
 void Roster::go_over(const graph::Graph& graph) {
+  const bool is_first = members_.empty();
   all_.clear();
   for (graph::ProcessNode& node : graph::processes_on(graph, machine_)) {
     const auto known =
@@ -45,6 +46,7 @@ void Roster::go_over(const graph::Graph& graph) {
       const std::size_t place = place_for(node.name);
       members_.push_back(std::make_unique<Member>(std::move(node), all_.size(), place));
       all_.push_back(members_.back().get());
+      if (!is_first) all_.back()->note_newcomer();
     }
   }
 }
