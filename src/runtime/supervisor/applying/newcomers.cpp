@@ -18,7 +18,7 @@ std::string seconds_text(Duration time) {
 std::string effect_on(const Member* member, bool stays) {
   if (member == nullptr) return "begins";
   if (!stays) return "ends";
-  const auto time = member->start_time();
+  const std::optional<Duration>& time = member->starts().time;
   return "is started again" +
          (time ? ", which took " + seconds_text(*time) + " the last time" : std::string());
 }

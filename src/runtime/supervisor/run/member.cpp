@@ -24,8 +24,8 @@ Status Member::start(const HostStart& start) {
   if (!started) return started.error();
   process_ = std::move(started).value();
   phase_ = Phase::coming_up;
-  started_at_ = Moment::clock::now();
-  ++starts_;
+  starts_.last = Moment::clock::now();
+  ++starts_.count;
   return ok();
 }
 
@@ -33,11 +33,11 @@ void Member::adopt(std::unique_ptr<HostProcess> process) {
   process_ = std::move(process);
   enter(Phase::up);
   is_built_ = true;
-  ++starts_;
+  ++starts_.count;
 }
 
 void Member::enter(Phase phase) {
-  if (phase == Phase::up && phase_ == Phase::coming_up) start_time_ = Moment::clock::now() - started_at_;
+  if (phase == Phase::up && phase_ == Phase::coming_up) starts_.time = Moment::clock::now() - starts_.last;
   phase_ = phase;
   if (phase == Phase::up) has_come_up_ = true;
 }

@@ -16,6 +16,7 @@
 #include "orca/graph/process.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/host_process.hpp"
+#include "orca/supervisor/moment.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 
 namespace orca::supervisor {
@@ -40,8 +41,8 @@ class Member {
 
   /// @param index  its place in the order of graph::processes_on().
   /// @param place  its place in the run page.
-  Member(graph::ProcessNode node, std::size_t index, std::size_t place)
-      : node_(std::move(node)), index_(index), place_(place) {}
+  Member(graph::ProcessNode node, std::size_t index, std::size_t place, bool is_newcomer = false)
+      : node_(std::move(node)), index_(index), place_(place), starts_{.is_newcomer = is_newcomer} {}
 
   /// Goes on with what another graph says of the process. What runs already keeps what it was started with.
   void go_over(graph::ProcessNode node, std::size_t index);
@@ -102,14 +103,16 @@ class Member {
   /// Returns whether its instances are built, so that it takes orders about them.
   [[nodiscard]] bool is_built() const { return is_built_; }
   void note_built() { is_built_ = true; }
-  /// Returns how long it took to come up when it was started last [s]; nothing: it has not come up since this supervisor came.
-  [[nodiscard]] std::optional<Duration> start_time() const { return start_time_; }
-  /// Notes that the process is none of those with which the run has begun.
-  void note_newcomer() { is_newcomer_ = true; }
-  /// Returns whether it has come to the run later, and was not started again since.
-  [[nodiscard]] bool is_newcomer() const { return is_newcomer_ && restarts() == 0; }
+  /// Its starts by this supervisor.
+  struct Starts {
+    bool is_newcomer = false;        ///< It is none of the processes with which the run has begun.
+    std::uint64_t count = 0;         ///< An adoption counts as one.
+    Moment last{};                   ///< When it was started last.
+    std::optional<Duration> time{};  ///< That it took to come up last; nothing: it has not come up yet.
+  };
+  [[nodiscard]] const Starts& starts() const { return starts_; }
   /// Returns how often it was started again.
-  [[nodiscard]] std::uint64_t restarts() const { return starts_ > 0 ? starts_ - 1 : 0; }
+  [[nodiscard]] std::uint64_t restarts() const { return starts_.count > 0 ? starts_.count - 1 : 0; }
 
  private:
   graph::ProcessNode node_;
@@ -118,10 +121,7 @@ class Member {
   Phase phase_ = Phase::absent;
   bool has_come_up_ = false;
   bool is_built_ = false;
-  bool is_newcomer_ = false;
-  std::uint64_t starts_ = 0;
-  Moment started_at_{};
-  std::optional<Duration> start_time_;
+  Starts starts_;
   std::unique_ptr<HostProcess> process_;
   std::map<std::uint64_t, AnswerTaker> open_;
   std::uint64_t last_request_ = 0;

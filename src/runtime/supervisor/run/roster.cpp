@@ -44,9 +44,8 @@ void Roster::go_over(const graph::Graph& graph) {
       all_.push_back(known->get());
     } else {
       const std::size_t place = place_for(node.name);
-      members_.push_back(std::make_unique<Member>(std::move(node), all_.size(), place));
+      members_.push_back(std::make_unique<Member>(std::move(node), all_.size(), place, !is_first));
       all_.push_back(members_.back().get());
-      if (!is_first) all_.back()->note_newcomer();
     }
   }
 }

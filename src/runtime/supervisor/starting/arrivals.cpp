@@ -86,7 +86,9 @@ void Arrivals::came_up(const Members& members, bool is_first) {
     if (!is_first)
       log::info(place_.log_name,
                 "process " + member->name() +
-                    (member->node().on_demand || member->is_newcomer() ? " is up" : " is back"));
+                    (member->node().on_demand || (member->starts().is_newcomer && member->restarts() == 0)
+                         ? " is up"
+                         : " is back"));
     AlarmRelay::brief(*member, place_.ledger.alarms(), is_first);
     let_outlive(*member, place_.rules);
   }
