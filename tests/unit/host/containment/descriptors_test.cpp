@@ -71,9 +71,9 @@ TEST_CASE("only the first of many descriptors are named", "[host][descriptors]")
     CHECK(names_of(many) ==
           std::to_string(opened[0]) + " (/dev/null), " + std::to_string(opened[1]) + " (/dev/null)");
   }
-  const std::string names = names_of(many);
-  CHECK(std::ranges::count(names, '(') == 8);
-  CHECK_THAT(names, Catch::EndsWith(" (/dev/null) and 89 more"));
+  std::string first;
+  for (int i = 0; i < 8; ++i) first += (i == 0 ? "" : ", ") + std::to_string(opened[i]) + " (/dev/null)";
+  CHECK(names_of(many) == first + " and 89 more");
   for (const int fd : opened) close(fd);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,8 +39,10 @@ class StateListener final : public PartListener {
   void rest_changed(bool /*at_rest*/) override {}
   void counted(const RunCounters& /*counters*/, const std::vector<RunResult::Way>& /*ways*/) override {}
   void state_kept(const std::string& component, const KeptState& state) override {
-    CHECK(component == "talker");
-    handed.push_back({state, executive_.now()});
+    if (component == "talker")
+      handed.push_back({state, executive_.now()});
+    else
+      others[component] = state;
   }
   void output_failed(const Error& error) override { FAIL(error.text()); }
   [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
@@ -51,7 +54,8 @@ class StateListener final : public PartListener {
   }
 
   std::vector<std::string> lines;
-  std::vector<Handed> handed;
+  std::vector<Handed> handed;               // by the talker
+  std::map<std::string, KeptState> others;  // by component: its last one
   std::string failure;
 
  private:
@@ -112,12 +116,13 @@ class Talking {
 
 // Runs a talker that begins with some state, and returns what came of it.
 std::unique_ptr<StateListener> talk(const std::string& restore, const KeptStates& states,
-                                    const std::function<void(Talking&)>& operate, bool keeps_last = false) {
+                                    const std::function<void(Talking&)>& operate, bool keeps_last = false,
+                                    const std::string& more = "") {
   PluginCatalogue catalogue{plugin::PluginIndex({ORCA_BINARY_DIR "/tests/host_plugins"})};
   xml::Diagnostics diagnostics;
   const auto graph = graph::load_text(
       "<graph name=\"talking\" version=\"1\"><component name=\"talker\" type=\"test.Talker\" restore=\"" +
-          restore + "\"/><component name=\"beside\" type=\"test.Napper\"/></graph>",
+          restore + "\"/><component name=\"beside\" type=\"test.Napper\"/>" + more + "</graph>",
       "talking.xml", {}, catalogue, diagnostics);
   INFO(diagnostics.text());
   REQUIRE(graph);
@@ -188,6 +193,46 @@ TEST_CASE("an object that begins with a kept state goes on from it", "[host][sta
   REQUIRE_FALSE(heard->handed.empty());
   CHECK(pokes_in(heard->handed[0].state) > 1000);
   CHECK(heard->failure.empty());
+}
+
+TEST_CASE("what is sent to an object that does not work yet finds it with its kept state", "[host][state]") {
+  StateWriter writer;
+  writer.write(std::int64_t{1000}, std::uint64_t{0},
+               std::int64_t{0});  // what a test.Teller has counted, and heard last
+  const auto heard = talk(
+      "none", {{"teller", {{"test.Teller", 1}, writer.bytes()}}},
+      [](Talking& run) {
+        CHECK(run.ask({Kind::configure, "teller"}).ok());
+        run.run_for(1s);
+      },
+      true,
+      "<component name=\"teller\" type=\"test.Teller\"/><connect from=\"talker.out\" to=\"teller.in\"/>"
+      "<connect from=\"talker.poke\" to=\"teller.poke\"/>");
+  CHECK(heard->says("teller: goes on from the state test.Teller/1"));
+  REQUIRE(heard->others.contains("teller"));
+  const KeptState& last = heard->others.at("teller");
+  StateReader reader(last.tag, last.bytes);
+  std::int64_t count = 0, poke = 0;
+  std::uint64_t object = 0;
+  REQUIRE(reader.read(count, object, poke).ok());
+  CHECK(count == 1000);
+  CHECK(poke > 50);
+}
+
+TEST_CASE("an object that nobody has asked for yet hands out the state that it would begin with",
+          "[host][state]") {
+  StateWriter writer;
+  writer.write(std::int64_t{1000}, std::uint64_t{7}, std::int64_t{8});
+  const KeptState kept{{"test.Teller", 1}, writer.bytes()};
+  const auto heard = talk(
+      "none", {{"teller", kept}},
+      [](Talking& run) {
+        CHECK(run.ask({Kind::configure, "teller"}).ok());
+      },
+      true,
+      "<component name=\"teller\" type=\"test.Teller\"/><connect from=\"talker.out\" to=\"teller.in\"/>");
+  REQUIRE(heard->others.contains("teller"));
+  CHECK(heard->others.at("teller") == kept);
 }
 
 TEST_CASE("a state of another type or version is left unread, and the log says so", "[host][state]") {
