@@ -2,28 +2,16 @@
 #include "footprint.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
+
+#include "model/part_frame.hpp"
+#include "orca/sim/sections.hpp"
 
 namespace orca::sim {
 namespace {
 
 constexpr double kOnAxis = 1e-9;
 constexpr int kCorners = 24;
-
-// Returns the columns of the rotation, which are the part's axes in the base frame.
-std::array<Vec3, 3> axes_of(const Pose3& q) {
-  const double x = q.qx, y = q.qy, z = q.qz, w = q.qw;
-  return {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-          Vec3{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-          Vec3{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
-}
-
-Vec3 in_base(const Pose3& X, const std::array<Vec3, 3>& axes, Vec3 p) {
-  return {X.x + axes[0].x * p.x + axes[1].x * p.y + axes[2].x * p.z,
-          X.y + axes[0].y * p.x + axes[1].y * p.y + axes[2].y * p.z,
-          X.z + axes[0].z * p.x + axes[1].z * p.y + axes[2].z * p.z};
-}
 
 // Returns corner `i` of a regular polygon around, not inside, the circle.
 Vec2 around_circle(double radius, int i) {
@@ -53,34 +41,11 @@ void add_plan(const Part& part, std::vector<Vec2>& plan) {
   if (const auto* ball = std::get_if<Part::Ball>(&part.form))
     for (int i = 0; i < kCorners; ++i)
       plan.push_back(Vec2{part.X_BP.x, part.X_BP.y} + around_circle(ball->radius, i));
-  const auto axes = axes_of(part.X_BP);
+  const detail::PartFrame frame(part.X_BP);
   for (const Vec3& p : own_points(part)) {
-    const Vec3 b = in_base(part.X_BP, axes, p);
+    const Vec3 b = frame.in_base(p);
     plan.push_back({b.x, b.y});
   }
-}
-
-std::pair<double, double> hull_heights(const Part& part) {
-  const auto axes = axes_of(part.X_BP);
-  std::pair<double, double> range{std::numeric_limits<double>::infinity(),
-                                  -std::numeric_limits<double>::infinity()};
-  for (const Vec3& p : own_points(part)) {
-    const double z = in_base(part.X_BP, axes, p).z;
-    range = {std::min(range.first, z), std::max(range.second, z)};
-  }
-  return range;
-}
-
-std::pair<double, double> part_heights(const Part& part) {
-  if (std::holds_alternative<Part::Hull>(part.form)) return hull_heights(part);
-  const auto axes = axes_of(part.X_BP);
-  double reach = 0.0;
-  if (const auto* b = std::get_if<Part::Block>(&part.form))
-    reach = 0.5 * (std::fabs(axes[0].z) * b->x + std::fabs(axes[1].z) * b->y + std::fabs(axes[2].z) * b->z);
-  if (const auto* c = std::get_if<Part::Cylinder>(&part.form))
-    reach = 0.5 * c->length * std::fabs(axes[2].z) + c->radius * std::hypot(axes[0].z, axes[1].z);
-  if (const auto* ball = std::get_if<Part::Ball>(&part.form)) reach = ball->radius;
-  return {part.X_BP.z - reach, part.X_BP.z + reach};
 }
 
 }  // namespace
@@ -110,7 +75,7 @@ Shape footprint_of(const std::vector<Part>& parts) {
 std::pair<double, double> height_range_of(const std::vector<Part>& parts) {
   std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0.0};
   for (const Part& p : parts) {
-    const auto [low, high] = part_heights(p);
+    const auto [low, high] = height_range_of(p);
     range = {std::min(range.first, low), std::max(range.second, high)};
   }
   return range;

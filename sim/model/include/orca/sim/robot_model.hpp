@@ -147,6 +147,11 @@ struct RobotModel {
 
   /// Returns the ring of that name, or null.
   [[nodiscard]] const SonarRing* sonar(std::string_view ring) const;
+
+  /// Returns what a sensor at that height sees of the robot: the convex plans of its parts at that height, in
+  /// the base frame; empty if nothing is solid there. See sections_at().
+  /// @param height  [m] height above the floor.
+  [[nodiscard]] std::vector<Shape> section_at(double height) const;
 };
 
 /// Returns the plan of the parts. It is a circle if all are balls and upright cylinders centred on the z
