@@ -4,16 +4,6 @@
 #include <algorithm>
 
 namespace orca::sim::detail {
-namespace {
-
-// Returns a vector of the same direction, not longer than `longest`.
-Vec2 shortened(Vec2 v, double longest) {
-  const double length = norm(v);
-  return length > longest ? (longest / length) * v : v;
-}
-
-}  // namespace
-
 DriveModel::DriveModel(const Drive& drive, const ErrorLevels& errors, Duration tick)
     : drive_(drive), tick_s_(to_seconds(tick)) {
   const double lag_s = to_seconds(drive.lag) * errors.delay_scale;

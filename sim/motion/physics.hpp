@@ -26,17 +26,24 @@ struct Pair {
   friend auto operator<=>(const Pair&, const Pair&) = default;
 };
 
-// The relative pose of two things.
-struct Standing {
-  Vec2 apart;  // [m] The robot's position minus the other's, in the world's axes.
-  double robot_yaw = 0.0, other_yaw = 0.0;  // [rad]
+// What the wheels of a robot want in a step.
+struct Drift {
+  Vec2 velocity;         // [m/s] In the world's axes.
+  double turn = 0.0;     // [rad/s] Of the body.
+  double heading = 0.0;  // [rad] Direction in which the wheels roll.
+  double grip = 1.0;     // Share of the grip that they have on a dry floor.
 };
 
-// The rigid bodies of a world, simulated by Bullet and kept in the plane. Robots are driven by setting their
-// velocity before each step; collisions take part of it away. Each run needs a new object, because Bullet's
-// caches survive a reset in place.
+// The motion of the bodies of a world, in the plane. A robot that touches nothing moves as its wheels want. When
+// bodies touch, at the exact outlines that they have at each other's heights, Bullet's solver finds how
+// they go on (ContactSolver). A step is cut where the next touch begins, so nothing passes through anything, however fast.
 class Physics {
  public:
+  // The distance [m] at which a touch counts. Bodies that are pushed together stay a fraction of it apart.
+  static constexpr double kTouching = 5e-5;
+  // The distance [m] up to which near_pairs() knows of pairs.
+  static constexpr double kNear = 0.012;
+
   explicit Physics(const WorldModel& world);
   ~Physics();
   Physics(const Physics&) = delete;
@@ -49,22 +56,23 @@ class Physics {
   std::size_t add_mover(const Shape& shape, double height, const Pose2& X_WO);
   // Puts the mover at a pose at once.
   void place_mover(std::size_t mover, const Pose2& X_WO);
-  // Moves the mover to a pose in the next step, so that it pushes the robots in its way.
+  // Moves the mover to a pose in the next step, so that it pushes the robots in its way. It stops where a robot
+  // cannot give way.
   void carry_mover(std::size_t mover, const Pose2& X_WO);
   void remove_mover(std::size_t mover);
+  [[nodiscard]] Pose2 mover_pose(std::size_t mover) const;
+  // Returns the share of the last step in which the mover moved, 0 to 1.
+  [[nodiscard]] double mover_progress(std::size_t mover) const;
 
-  void set_velocity(std::size_t robot, Vec2 linear, double turn);
+  void drive(std::size_t robot, const Drift& drift);
   void step(double seconds);
   [[nodiscard]] Pose2 pose(std::size_t robot) const;
 
-  // Returns the distances of all near pairs [m], negative if they overlap. Their order does not depend on
-  // Bullet's.
-  [[nodiscard]] std::map<Pair, double> near_pairs() const;
-
-  [[nodiscard]] Standing standing(const Pair& pair) const;
+  // Returns the distances of all pairs that are nearer than kNear [m], negative if they overlap.
+  [[nodiscard]] const std::map<Pair, double>& near_pairs() const;
 
   // Returns the places where the robot touches or nearly touches something, in its base frame.
-  [[nodiscard]] std::vector<Touch> touches(std::size_t robot) const;
+  [[nodiscard]] const std::vector<Touch>& touches(std::size_t robot) const;
 
  private:
   struct Impl;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "wheel_model.hpp"
 
+#include <cmath>
+#include <numeric>
+
+#include "orca/geometry/vec2.hpp"
+
 namespace orca::sim::detail {
 namespace {
 
@@ -11,59 +16,74 @@ constexpr std::array<Vec2, 3> kTangents{Vec2{-kSin60, 0.5}, Vec2{0.0, -1.0}, Vec
 }  // namespace
 
 WheelErrors WheelErrors::drawn(DriveKind kind, const ErrorLevels& errors, RandomStream& random) {
-  WheelErrors drawn;
+  WheelErrors drawn{.slip = errors.slip, .turn_slip = errors.turn_slip};
   drawn.track = random.uniform(-errors.track_error, errors.track_error);
-  const std::size_t wheels = kind == DriveKind::differential ? 2 : 3;
-  for (std::size_t k = 0; k < wheels; ++k)
-    drawn.diameter[k] = random.uniform(-errors.wheel_mismatch, errors.wheel_mismatch);
-  drawn.slip = errors.slip;
+  const double half = 0.5 * errors.wheel_mismatch;
+  if (kind == DriveKind::differential) {
+    const double apart = random.uniform(-errors.wheel_mismatch, errors.wheel_mismatch);
+    const double mean = random.uniform(-half, half);
+    drawn.diameter = {mean - 0.5 * apart, mean + 0.5 * apart, 0.0};
+  } else {
+    for (double& diameter : drawn.diameter) diameter = random.uniform(-half, half);
+  }
   return drawn;
 }
 
-Travel2 WheelModel::measured(const Travel2& real, RandomStream& random) const {
-  switch (kind_) {
-    case DriveKind::differential: return differential(real, random);
-    case DriveKind::synchro: return synchro(real, random);
-    case DriveKind::holonomic: return holonomic(real, random);
+// Returns how far each wheel goes over the floor when the base moves like that. A wheel that cannot roll
+// sideways is dragged then, and does not turn.
+WheelModel::Ways WheelModel::ways_of(const Travel2& base, double track) const {
+  const double round = 0.5 * track * base.turn;
+  if (kind_ == DriveKind::differential) return {base.forward - round, base.forward + round, 0.0};
+  if (kind_ == DriveKind::synchro) return {base.forward, base.forward, base.forward};
+  Ways ways{};
+  for (std::size_t k = 0; k < 3; ++k) ways[k] = dot(kTangents[k], {base.forward, base.left}) + round;
+  return ways;
+}
+
+// Returns how the base moves when its wheels go that far.
+Travel2 WheelModel::base_of(const Ways& ways, double track) const {
+  if (kind_ == DriveKind::differential) return {0.5 * (ways[0] + ways[1]), 0.0, (ways[1] - ways[0]) / track};
+  if (kind_ == DriveKind::synchro) return {std::accumulate(ways.begin(), ways.end(), 0.0) / 3.0, 0.0, 0.0};
+  Travel2 sum;
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum.forward += 2.0 / 3.0 * ways[k] * kTangents[k].x;
+    sum.left += 2.0 / 3.0 * ways[k] * kTangents[k].y;
+    sum.turn += ways[k] / (1.5 * track);
   }
+  return sum;
+}
+
+void WheelModel::draw_slip(const Ways& rolled, double turn, double slipperiness, RandomStream& random) {
+  const double of_turn = errors_.turn_slip * errors_.turn_slip * std::fabs(turn);
+  for (std::size_t k = 0; k < wheels(); ++k)
+    slip_[k] = random.normal(
+        0.0, slipperiness * std::sqrt(errors_.slip * errors_.slip * std::fabs(rolled[k]) + of_turn));
+}
+
+Travel2 WheelModel::over_ground(const Travel2& rolled, double steering, double slipperiness,
+                                RandomStream& random) {
+  Ways ways = ways_of(rolled, track_);
+  draw_slip(ways, rolled.turn, slipperiness, random);
+  for (std::size_t k = 0; k < wheels(); ++k) ways[k] = ways[k] * (1.0 + errors_.diameter[k]) + slip_[k];
+  Travel2 real = base_of(ways, true_track());
+  if (kind_ != DriveKind::synchro) return real;
+  // One motor steers all wheels, so their angle on the body is exact. But wheels that go unequally far turn the
+  // body (least squares over the three), and nothing measures that.
+  real.turn = rolled.turn;
+  const Vec2 ahead = direction(steering);
+  for (std::size_t k = 0; k < 3; ++k) real.turn += ways[k] * dot(kTangents[k], ahead) / (0.75 * true_track());
   return real;
 }
 
-double WheelModel::wheel(std::size_t number, double travel, RandomStream& random) const {
-  return travel * (1.0 + errors_.diameter[number]) +
-         random.normal(0.0, errors_.slip * std::sqrt(std::fabs(travel)));
-}
-
-Travel2 WheelModel::differential(const Travel2& real, RandomStream& random) const {
-  const double left = wheel(0, real.forward - 0.5 * real.turn * track_, random);
-  const double right = wheel(1, real.forward + 0.5 * real.turn * track_, random);
-  return {0.5 * (left + right), 0.0, (right - left) / (track_ * (1.0 + errors_.track))};
-}
-
-// One motor drives all wheels and one steers them, so the steering angle on the body is exact. But wheels
-// that slip unequally turn the body (least squares over the three), and nothing measures that.
-Travel2 WheelModel::synchro(const Travel2& real, RandomStream& random) const {
-  double mean = 0.0;
-  double twist = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double travel = wheel(k, real.forward, random);
-    const double slip = travel - real.forward * (1.0 + errors_.diameter[k]);
-    mean += travel / 3.0;
-    twist += slip * kTangents[k].x / (0.75 * track_);
+Travel2 WheelModel::rolled(const Travel2& real) const {
+  Ways ways = ways_of(real, true_track());
+  if (kind_ == DriveKind::synchro) {  // All wheels turn alike, whatever each of them does on the floor.
+    double scale = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) scale += (1.0 + errors_.diameter[k]) / 3.0;
+    return {(real.forward - base_of(slip_, track_).forward) / scale, 0.0, 0.0};
   }
-  return {mean, 0.0, real.turn + twist};
-}
-
-Travel2 WheelModel::holonomic(const Travel2& real, RandomStream& random) const {
-  Travel2 sum;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec2 rolls = kTangents[k];
-    const double travel = wheel(k, dot(rolls, {real.forward, real.left}) + 0.5 * track_ * real.turn, random);
-    sum.forward += 2.0 / 3.0 * travel * rolls.x;
-    sum.left += 2.0 / 3.0 * travel * rolls.y;
-    sum.turn += travel / (1.5 * track_ * (1.0 + errors_.track));
-  }
-  return sum;
+  for (std::size_t k = 0; k < wheels(); ++k) ways[k] = (ways[k] - slip_[k]) / (1.0 + errors_.diameter[k]);
+  return base_of(ways, track_);
 }
 
 }  // namespace orca::sim::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "orca/base/random.hpp"
 #include "orca/geometry/twist2.hpp"
@@ -10,37 +11,52 @@
 
 namespace orca::sim::detail {
 
-// The differences between one robot's wheels and the dimensions that its odometry assumes.
+// How one robot's wheels differ from the dimensions that its controller assumes.
 struct WheelErrors {
-  // Relative errors of the diameters. A differential base has two, left and right; the other kinds have
-  // three.
+  // Relative errors of the true diameters. A differential base has two wheels, left and right; the other kinds
+  // have three.
   std::array<double, 3> diameter{};
-  double track = 0.0;  // Relative error: the odometry calculates with (1 + track) times the true track.
-  double slip = 0.0;   // [m] Standard deviation of a wheel's measured travel after 1 m; grows with its root.
+  double track = 0.0;  // Relative error: the true track is (1 + track) times the assumed one.
+  double slip = 0.0;   // [m] Standard deviation of a wheel's way over the floor after it has rolled 1 m.
+  double turn_slip =
+      0.0;  // [m] The same after the base has turned 1 rad, in addition. Both grow with the root.
 
-  // Draws the errors of one robot.
+  // Draws the errors of one robot. The largest ratio of two diameters lies within the bound of the level. The
+  // diameters of a differential base are drawn by their ratio and their mean, so that they are uncorrelated.
   [[nodiscard]] static WheelErrors drawn(DriveKind kind, const ErrorLevels& errors, RandomStream& random);
 };
 
-// The motion that the encoders report for a true motion. Each wheel's travel has its own diameter error and
-// slip; the robot's (wrong) dimensions combine the travels again. A sideways push turns only the wheels of a
-// holonomic base.
+// The wheels of a base, between what their encoders count and what the base does. The controller regulates the
+// wheels by their encoders, with the assumed dimensions. So the errors of the wheels act on the true motion.
 class WheelModel {
  public:
   WheelModel(const Drive& drive, const WheelErrors& errors)
       : kind_(drive.kind), errors_(errors), track_(drive.track) {}
 
-  [[nodiscard]] Travel2 measured(const Travel2& real, RandomStream& random) const;
+  // Returns the true motion of a base whose wheels roll so that their encoders report `rolled`. It draws the
+  // slip of this tick.
+  // @param steering [rad]  direction in which the wheels of a synchro base roll, relative to its body. The
+  //        turn of the result contains that of the body, which no encoder sees.
+  // @param slipperiness  factor on the slip's standard deviation: what the floor does, 1 on a dry one.
+  Travel2 over_ground(const Travel2& rolled, double steering, double slipperiness, RandomStream& random);
+
+  // Returns what the encoders report if the base moved by `real` in this tick instead, with the same slip.
+  // Sideways motion turns only the wheels of a holonomic base. The steering of a synchro base is not seen here.
+  [[nodiscard]] Travel2 rolled(const Travel2& real) const;
 
  private:
-  [[nodiscard]] double wheel(std::size_t number, double travel, RandomStream& random) const;
-  [[nodiscard]] Travel2 differential(const Travel2& real, RandomStream& random) const;
-  [[nodiscard]] Travel2 synchro(const Travel2& real, RandomStream& random) const;
-  [[nodiscard]] Travel2 holonomic(const Travel2& real, RandomStream& random) const;
+  using Ways = std::array<double, 3>;  // [m] of the wheels
+
+  void draw_slip(const Ways& rolled, double turn, double slipperiness, RandomStream& random);
+  [[nodiscard]] std::size_t wheels() const { return kind_ == DriveKind::differential ? 2 : 3; }
+  [[nodiscard]] double true_track() const { return track_ * (1.0 + errors_.track); }
+  [[nodiscard]] Ways ways_of(const Travel2& base, double track) const;
+  [[nodiscard]] Travel2 base_of(const Ways& ways, double track) const;
 
   DriveKind kind_;
   WheelErrors errors_;
   double track_;
+  Ways slip_{};  // In the present tick.
 };
 
 }  // namespace orca::sim::detail

@@ -13,6 +13,9 @@ bool in_the_way(const Robot& robot, const WalkerTrack::Place& place, double radi
   return distance(placed(robot.model.footprint, robot.body), place.position) < radius + stops;
 }
 
+constexpr double kWhole =
+    1.0 - 1e-9;  // A share of a tick is a sum, and as little less than 1 as its roundings.
+
 Pose2 standing(Vec2 position) { return {position.x, position.y, 0.0}; }
 
 }  // namespace
@@ -23,7 +26,7 @@ Movers::Movers(const WorldModel& world, std::uint64_t run_seed, Caster& caster, 
     WalkerTrack track(walker, run_seed);
     const Pose2 begin = standing(track.at({}).position);
     const std::size_t number = add(walker.name, Circle{{}, walker.radius}, walker.height, begin);
-    movers_[number].walk = Walk{std::move(track), walker.stops};
+    movers_[number].walk = Walk{std::move(track), walker.stops, walker.speed};
   }
 }
 
@@ -49,7 +52,7 @@ void Movers::remove(std::size_t number) {
   physics_.remove_mover(number);
 }
 
-void Movers::walk(Duration tick, const std::deque<Robot>& robots) {
+void Movers::set_off(Duration tick, const std::deque<Robot>& robots) {
   for (std::size_t number = 0; number < movers_.size(); ++number) {
     Mover& mover = movers_[number];
     if (!mover.walk) continue;
@@ -59,10 +62,25 @@ void Movers::walk(Duration tick, const std::deque<Robot>& robots) {
     const bool blocked = walk.stops > 0.0 && std::ranges::any_of(robots, [&](const Robot& robot) {
                            return in_the_way(robot, here, radius, walk.stops);
                          });
-    if (!blocked) walk.walked += tick;
-    mover.pose = standing(walk.track.at(walk.walked).position);
+    walk.sets_off = !blocked;
+    if (blocked) continue;
+    // One that a robot held in a corner of its track stands a little beside it, and does not run to be back on it.
+    const Vec2 way = walk.track.at(walk.walked + tick).position - mover.pose.position();
+    physics_.carry_mover(number,
+                         standing(mover.pose.position() + shortened(way, walk.speed * to_seconds(tick))));
+  }
+}
+
+// A walker that was held by a robot takes up its track where it stands.
+void Movers::arrive(Duration tick) {
+  for (std::size_t number = 0; number < movers_.size(); ++number) {
+    Mover& mover = movers_[number];
+    if (!mover.walk || !mover.walk->sets_off) continue;
+    Walk& walk = *mover.walk;
+    const double share = physics_.mover_progress(number);
+    walk.walked += share > kWhole ? tick : Duration(std::llround(share * static_cast<double>(tick.count())));
+    mover.pose = physics_.mover_pose(number);
     caster_.move_body(mover.body, mover.placed());
-    physics_.carry_mover(number, mover.pose);
   }
 }
 

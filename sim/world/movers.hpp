@@ -27,8 +27,10 @@ class Movers {
   void move(std::size_t number, const Pose2& X_WO);
   void remove(std::size_t number);
 
-  // Moves the walkers for a tick, except those that stop for one of the robots.
-  void walk(Duration tick, const std::deque<Robot>& robots);
+  // Lets the walkers go in the tick that begins now, except those that stop for one of the robots.
+  void set_off(Duration tick, const std::deque<Robot>& robots);
+  // Notes how far they came. @pre  Physics has made its step.
+  void arrive(Duration tick);
 
   // Returns true if there is an obstacle of that number; walkers are not obstacles.
   [[nodiscard]] bool is_obstacle(std::size_t number) const;
@@ -45,8 +47,10 @@ class Movers {
  private:
   struct Walk {
     WalkerTrack track;
-    double stops = 0.0;
+    double stops = 0.0;  // [m]
+    double speed = 0.0;  // [m/s]
     Duration walked{0};
+    bool sets_off = false;  // In the present tick.
   };
   struct Mover {
     std::string name;

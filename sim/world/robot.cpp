@@ -21,7 +21,8 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
       pose(birth.X_WB),
       body(birth.X_WB),
       tick_(birth.tick),
-      odometry_model_(model.drive, errors, RandomStream(birth.seed, name, "odometry")),
+      slip_(birth.seed, name, "wheels"),
+      wheels_(model.drive, WheelErrors::drawn(model.drive.kind, errors, slip_)),
       on_body_{birth.time, birth.time, birth.X_WB, birth.X_WB, birth.X_WB, birth.X_WB},
       on_turret_(on_body_),
       odometry_due_(model.odometer ? birth.time + model.odometer->period : kForever),
@@ -34,9 +35,9 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
   for (const BumperRing& s : model.bumpers) bumpers.emplace_back(s, birth.time);
 }
 
-Travel2 Robot::set_off() {
+Travel2 Robot::set_off(double slipperiness) {
   driving_ = drive.step();
-  return driving_ * to_seconds(tick_);
+  return wheels_.over_ground(driving_ * to_seconds(tick_), steer_, slipperiness, slip_);
 }
 
 void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
@@ -45,21 +46,19 @@ void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
   const Pose2 X_WR{X_WB.x, X_WB.y, steers() ? wrapped(X_WB.yaw + steer_) : X_WB.yaw};
   const Travel2 real = arc_between(pose, X_WR);
   velocity = real / seconds;
-  // An obstacle holds the body, but not the steering of the wheels.
-  const bool slides = model.drive.kind == DriveKind::holonomic;
-  if (blocked)
-    drive.held_to({.forward = velocity.forward,
-                   .left = slides ? velocity.left : 0.0,
-                   .turn_rate = steers() ? driving_.turn_rate : velocity.turn_rate});
-  reckon(real, now);
+  Travel2 rolled = driving_ * seconds;
+  if (blocked) {
+    rolled = wheels_.rolled(real);
+    if (steers()) rolled.turn = driving_.turn_rate * seconds;  // An obstacle does not hold the steering.
+    drive.held_to(rolled / seconds);
+  }
+  reckon(rolled, now);
   carry(X_WB, X_WR, now);
   sample(now);
 }
 
-void Robot::reckon(const Travel2& real, TimePoint now) {
-  Travel2 seen = real;
-  if (steers()) seen.turn = driving_.turn_rate * to_seconds(tick_);
-  odometry_model_.add(seen, to_seconds(tick_));
+void Robot::reckon(const Travel2& rolled, TimePoint now) {
+  odometry_model_.add(rolled, to_seconds(tick_));
   odometry.reset();
   if (now < odometry_due_) return;
   odometry = odometry_model_.reading(now);

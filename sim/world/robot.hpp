@@ -9,7 +9,9 @@
 #include "motion/drive_model.hpp"
 #include "motion/odometry_model.hpp"
 #include "motion/turret_model.hpp"
+#include "motion/wheel_model.hpp"
 #include "orca/base/hash.hpp"
+#include "orca/base/random.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/sim/snapshot.hpp"
@@ -33,9 +35,12 @@ class Robot {
   Robot(Birth birth, RobotModel model, const ErrorLevels& errors);
 
   // Starts the motion of a tick. @return  the motion of the robot's frame if nothing is in its way.
-  Travel2 set_off();
-  // Returns the turn rate of the body in that tick [rad/s].
-  [[nodiscard]] double body_turn_rate() const { return steers() ? 0.0 : driving_.turn_rate; }
+  // @param slipperiness  of the floor under its wheels, as in WheelModel.
+  Travel2 set_off(double slipperiness);
+  // Returns the part of that turn [rad] which turns the body.
+  [[nodiscard]] double body_turn(const Travel2& set_off) const {
+    return steers() ? set_off.turn - driving_.turn_rate * to_seconds(tick_) : set_off.turn;
+  }
   // Reports that the body has moved to `X_WB` in the tick that ended at `now`. `blocked` is true if something
   // was in its way.
   void moved(const Pose2& X_WB, TimePoint now, bool blocked);
@@ -67,14 +72,16 @@ class Robot {
 
  private:
   [[nodiscard]] bool steers() const { return model.drive.kind == DriveKind::synchro; }
-  void reckon(const Travel2& real, TimePoint now);
+  void reckon(const Travel2& rolled, TimePoint now);
   void carry(const Pose2& X_WB, const Pose2& X_WR, TimePoint now);
   [[nodiscard]] Pose2 turret_pose(const Pose2& X_WB) const;
   [[nodiscard]] const TickSpan& span(bool on_turret) const { return on_turret ? on_turret_ : on_body_; }
   void sample(TimePoint now);
 
   Duration tick_;
-  Twist2 driving_;      // Velocity of the drive in the present tick.
+  RandomStream slip_;
+  WheelModel wheels_;
+  Twist2 driving_;      // Velocity of the drive in the present tick, as its encoders see it.
   double steer_ = 0.0;  // [rad] Angle of the wheels relative to the body.
   std::optional<TurretModel> turret_;
   OdometryModel odometry_model_;

@@ -117,16 +117,19 @@ Status World::Impl::check_room(const std::string& name, const Body& body, const 
   return ok();
 }
 
-// Bullet moves a body straight for a tick; driving along the chord of the arc makes the result exact.
+// Bodies move straight in a tick; driving along the chord of the arc makes the result exact.
 void World::Impl::drive() {
   const double seconds = to_seconds(kTick);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     detail::Robot& r = robots[i];
-    const Vec2 way = chord(r.pose.yaw, r.set_off());
-    physics.set_velocity(i, (1.0 / seconds) * way, r.body_turn_rate());
+    const Travel2 way = r.set_off(1.0);
+    physics.drive(i, {.velocity = (1.0 / seconds) * chord(r.pose.yaw, way),
+                      .turn = r.body_turn(way) / seconds,
+                      .heading = r.pose.yaw + 0.5 * way.turn});
   }
-  movers.walk(kTick, robots);
+  movers.set_off(kTick, robots);
   physics.step(seconds);
+  movers.arrive(kTick);
   now += kTick;
 }
 

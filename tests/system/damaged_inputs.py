@@ -31,7 +31,7 @@ def cut(data, rng):
 
 
 def truncate(data, rng):
-    del data[rng.randrange(1, len(data)):]
+    del data[rng.randrange(len(data)):]
 
 
 def double(data, rng):

@@ -9,8 +9,9 @@ std::optional<WheelErrorGuess> wheel_guess(const xml::Attributes& e) {
   const auto diameter = e.number("wheel_diameter");
   const auto track = e.number("track");
   const auto slip = e.number("slip");
-  if (!diameter || !track || !slip) return std::nullopt;
-  return WheelErrorGuess{*diameter, *track, *slip};
+  const auto turn_slip = e.has("turn_slip") ? e.number("turn_slip") : 0.0;
+  if (!diameter || !track || !slip || !turn_slip) return std::nullopt;
+  return WheelErrorGuess{*diameter, *track, *slip, *turn_slip};
 }
 
 std::optional<RangeErrorGuess> range_guess(const xml::Attributes& e, double max_range) {

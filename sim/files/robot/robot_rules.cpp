@@ -101,7 +101,8 @@ constexpr std::array kOdometry{required("period", kPeriod), optional("vendor", k
                                optional("model", kText), optional("port", kText)};
 constexpr ValueRule kShare = not_negative("", 1.0);
 constexpr std::array kWheelErrors{optional("realism", one_of(kLevels)), required("wheel_diameter", kShare),
-                                  required("track", kShare), required("slip", kLengthOrZero)};
+                                  required("track", kShare), required("slip", kLengthOrZero),
+                                  optional("turn_slip", kLengthOrZero)};
 constexpr std::array kRangeErrors{optional("realism", one_of(kLevels)), required("fixed", kLengthOrZero),
                                   required("share", kShare)};
 

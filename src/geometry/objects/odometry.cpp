@@ -59,19 +59,17 @@ OdometryUncertainty::OdometryUncertainty(idl::DriveType type, double track, cons
 
 std::vector<OdometryUncertainty::Wheel> OdometryUncertainty::wheels_of(idl::DriveType type, double track) {
   if (type == idl::DIFFERENTIAL) {
-    const Travel2 left{0.5, 0.0, -1.0 / track};
-    const Travel2 right{0.5, 0.0, 1.0 / track};
-    return {{{1.0, 0.0}, -0.5 * track, left, left}, {{1.0, 0.0}, 0.5 * track, right, right}};
+    return {{{1.0, 0.0}, -0.5 * track, {0.5, 0.0, -1.0 / track}, {}},
+            {{1.0, 0.0}, 0.5 * track, {0.5, 0.0, 1.0 / track}, {}}};
   }
   std::vector<Wheel> wheels;
   for (const Vec2& tangent : kTangents) {
     if (type == idl::SYNCHRO) {
-      // The wheels roll abreast. Only their slip turns the body, by least squares over the three.
-      const Travel2 slip{1.0 / 3.0, 0.0, tangent.x / (0.75 * track)};
-      wheels.push_back({{1.0, 0.0}, 0.0, {1.0 / 3.0, 0.0, 0.0}, slip});
+      // The wheels roll abreast. What one goes farther turns the body, by least squares over the three.
+      wheels.push_back({{1.0, 0.0}, 0.0, {1.0 / 3.0, 0.0, 0.0}, (1.0 / (0.75 * track)) * tangent});
     } else {
-      const Travel2 metre{2.0 / 3.0 * tangent.x, 2.0 / 3.0 * tangent.y, 1.0 / (1.5 * track)};
-      wheels.push_back({tangent, 0.5 * track, metre, metre});
+      wheels.push_back(
+          {tangent, 0.5 * track, {2.0 / 3.0 * tangent.x, 2.0 / 3.0 * tangent.y, 1.0 / (1.5 * track)}, {}});
     }
   }
   return wheels;
@@ -87,9 +85,9 @@ void OdometryUncertainty::move_to(const Pose2& X_OR) {
   Eigen::Matrix<double, 3, kErrors> by_error = Eigen::Matrix<double, 3, kErrors>::Zero();
   for (std::size_t k = 0; k < wheels_.size(); ++k) {
     const double rolled = wheels_[k].travel(travel);
-    const Eigen::Vector3d moved = vector_of(wheels_[k].per_slip);
-    slip += guess_.slip * guess_.slip * std::abs(rolled) * moved * moved.transpose();
-    by_error.col(static_cast<Eigen::Index>(k)) = rolled * vector_of(wheels_[k].per_metre);
+    const Eigen::Vector3d moved = vector_of(wheels_[k].effect(X_OR_.yaw + 0.5 * travel.turn));
+    slip += slip_variance(rolled, travel.turn) * moved * moved.transpose();
+    by_error.col(static_cast<Eigen::Index>(k)) = rolled * moved;
   }
   if (track_counts_) by_error(2, kErrors - 1) = -travel.turn;
 
@@ -99,6 +97,11 @@ void OdometryUncertainty::move_to(const Pose2& X_OR) {
   auto effect = rows<kErrors>(effect_);
   effect = (by_start * effect + by_travel * by_error).eval();
   X_OR_ = X_OR;
+}
+
+// Returns the variance of a wheel's travel [m2] in a step.
+double OdometryUncertainty::slip_variance(double rolled, double turn) const {
+  return guess_.slip * guess_.slip * std::abs(rolled) + guess_.turn_slip * guess_.turn_slip * std::abs(turn);
 }
 
 std::array<double, 9> OdometryUncertainty::covariance() const {

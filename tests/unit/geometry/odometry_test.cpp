@@ -14,7 +14,7 @@ using namespace orca::test;
 namespace {
 
 constexpr double kTrack = 0.35;  // [m]
-constexpr WheelErrorGuess kGuess{.diameter = 0.003, .track = 0.006, .slip = 0.003};
+constexpr WheelErrorGuess kGuess{.diameter = 0.003, .track = 0.006, .slip = 0.003, .turn_slip = 0.001};
 
 using Way = std::vector<Travel2>;
 using Errors = Vector<4>;  // of three wheels and of the track; a differential base has two wheels
@@ -31,7 +31,9 @@ Matrix<3> rolling(double track) {
 
 // Returns the travel that a base reports whose wheels are wrong and slip, from its true travel. It is worked out by
 // solving for the travel that explains the wheels best, not by the formulas of the library.
-Travel2 reported(idl::DriveType type, const Travel2& real, const Errors& errors, const Vector<3>& slip) {
+// @param steering [rad]  direction in which the wheels of a synchro base roll, seen from its body.
+Travel2 reported(idl::DriveType type, const Travel2& real, const Errors& errors, const Vector<3>& slip,
+                 double steering) {
   const double assumed = kTrack * (1.0 + errors(3));
   if (type == idl::DIFFERENTIAL) {
     const double left = (real.forward - 0.5 * kTrack * real.turn) * (1.0 + errors(0)) + slip(0);
@@ -44,18 +46,24 @@ Travel2 reported(idl::DriveType type, const Travel2& real, const Errors& errors,
     const Vector<3> travel = rolling(assumed).inverse() * seen;
     return {travel(0), travel(1), travel(2)};
   }
-  Eigen::Matrix<double, 3, 2>
-      abreast;  // What the three wheels do per metre forward and per turn of the body.
-  abreast << Vector<3>::Ones(), rolling(kTrack).col(0) * 0.5 * kTrack;
-  const Vector<2> unequal = (abreast.transpose() * abreast).inverse() * abreast.transpose() * slip;
-  return {real.forward * (1.0 + errors.head<3>().mean()) + unequal(0), 0.0, real.turn + unequal(1)};
+  // What the three wheels do per metre ahead and per turn of the body, while they point to `steering`.
+  Eigen::Matrix<double, 3, 2> abreast;
+  const Matrix<3> wheels = rolling(kTrack);
+  abreast << Vector<3>::Ones(),
+      (wheels.col(0) * std::cos(steering) + wheels.col(1) * std::sin(steering)) * 0.5 * kTrack;
+  const Vector<3> ways = real.forward * (Vector<3>::Ones() + errors.head<3>()) + slip;
+  const Vector<2> best = (abreast.transpose() * abreast).inverse() * abreast.transpose() * ways;
+  return {best(0), 0.0, real.turn + best(1)};
 }
 
 // Returns the pose that the odometry reports at the end of the way. @param slip  of each step, in metres.
 Pose2 end_of(idl::DriveType type, const Way& way, const Errors& errors, const std::vector<Vector<3>>& slip) {
   Pose2 pose;
-  for (std::size_t i = 0; i < way.size(); ++i)
-    pose = along_arc(pose, reported(type, way[i], errors, slip[i]));
+  double steering = 0.0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    pose = along_arc(pose, reported(type, way[i], errors, slip[i], steering + 0.5 * way[i].turn));
+    steering += way[i].turn;
+  }
   return pose;
 }
 
@@ -103,7 +111,8 @@ Matrix<3> expected_covariance(idl::DriveType type, const Way& way, const WheelEr
           return numbers_of(end_of(type, way, Errors::Zero(), one));
         },
         Vector<3>::Zero().eval());
-    const Vector<3> spread = guess.slip * guess.slip * rolled(type, way[i]).cwiseAbs();
+    const Vector<3> spread = guess.slip * guess.slip * rolled(type, way[i]).cwiseAbs() +
+                             Vector<3>::Constant(guess.turn_slip * guess.turn_slip * std::abs(way[i].turn));
     sum += by_slip * spread.asDiagonal() * by_slip.transpose();
   }
   return sum;

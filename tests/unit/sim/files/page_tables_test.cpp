@@ -45,9 +45,10 @@ std::string degrees(double value) { return number(value * 180.0 / std::numbers::
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 // The page's names for the members of ErrorLevels, in their order.
-const Lines kErrors = {"wheel diameter: bound of its relative error",
+const Lines kErrors = {"wheel diameters: bound of their ratio, less 1",
                        "track: bound of its relative error",
                        "slip of a wheel after 1 m, standard deviation",
+                       "slip of a wheel after a turn of 1 rad, in addition",
                        "lag and dead time of the drive, times those of the file",
                        "sonar: standard deviation, relative to the range",
                        "sonar: readings that are arbitrary",
@@ -63,14 +64,14 @@ const Lines kErrors = {"wheel diameter: bound of its relative error",
 // The numbers of one level, as the page writes them. The names must cover ErrorLevels: with a member more or
 // less this does not compile.
 Lines column_of(Realism realism) {
-  const auto [wheel_mismatch, track_error, slip, delay_scale, sonar_noise, sonar_outliers, critical_angle,
-              sonar_crosstalk, laser_bias, laser_sigma, laser_drop_angle, mixed_pixels, infrared_noise,
-              quantised] = error_levels(realism);
-  return {percent(wheel_mismatch),      percent(track_error),       millimetres(slip),
-          number(delay_scale, ""),      percent(sonar_noise),       percent(sonar_outliers),
-          degrees(critical_angle),      yes_or_no(sonar_crosstalk), millimetres(laser_bias),
-          millimetres(laser_sigma),     degrees(laser_drop_angle),  yes_or_no(mixed_pixels),
-          number(infrared_noise, "/m"), yes_or_no(quantised)};
+  const auto [wheel_mismatch, track_error, slip, turn_slip, delay_scale, sonar_noise, sonar_outliers,
+              critical_angle, sonar_crosstalk, laser_bias, laser_sigma, laser_drop_angle, mixed_pixels,
+              infrared_noise, quantised] = error_levels(realism);
+  return {percent(wheel_mismatch), percent(track_error),         millimetres(slip),
+          millimetres(turn_slip),  number(delay_scale, ""),      percent(sonar_noise),
+          percent(sonar_outliers), degrees(critical_angle),      yes_or_no(sonar_crosstalk),
+          millimetres(laser_bias), millimetres(laser_sigma),     degrees(laser_drop_angle),
+          yes_or_no(mixed_pixels), number(infrared_noise, "/m"), yes_or_no(quantised)};
 }
 
 std::string drive_kind(DriveKind kind) {

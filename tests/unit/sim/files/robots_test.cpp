@@ -103,7 +103,7 @@ TEST_CASE("the Nomad 200 is a synchro base with its sonars on a turret", "[sim][
 }
 
 TEST_CASE("the Omni moves sideways", "[sim][robots]") {
-  Bench bench(shipped("omni"), Realism::nominal);
+  Bench bench(shipped("omni"), Realism::ideal);
   bench.drive({.left = 0.3});
   bench.run(5.0);
   CHECK(bench.pose().y > 1.2);

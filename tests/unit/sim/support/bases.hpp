@@ -12,6 +12,7 @@ namespace orca::sim::test {
 inline RobotModel base_of(DriveKind kind) {
   RobotModel model = scout();
   model.drive.kind = kind;
+  model.odometer = Odometer{World::kTick};
   return model;
 }
 
@@ -35,6 +36,8 @@ struct Bench {
   [[nodiscard]] Pose2 pose() const { return world.pose(id); }
   [[nodiscard]] Pose2 body() const { return world.body_pose(id); }
   [[nodiscard]] Twist2 velocity() const { return world.velocity(id); }
+  /// What the encoders report, which the controller regulates: the velocity without the errors of the wheels.
+  [[nodiscard]] Twist2 rolled() const { return world.odometry(id).value().velocity; }
 
   World world;
   RobotId id{};

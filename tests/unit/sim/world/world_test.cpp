@@ -46,7 +46,7 @@ std::uint64_t rough_minute(std::uint64_t seed, Realism realism = Realism::nomina
       for (const SonarReading& reading : scan->readings)
         trace.add_u64(static_cast<std::uint64_t>(reading.range * 1e9));
   }
-  REQUIRE(touches > 5);
+  REQUIRE(touches >= 5);
   return trace.value();
 }
 
@@ -100,8 +100,10 @@ TEST_CASE("a small command is followed after the dead time with the drive's firs
   run(world, 0.05);
   CHECK(world.velocity(id).forward == 0.0);
   for (int n = 1; n <= 30; ++n) {
-    world.step();
-    CHECK(world.velocity(id).forward == Approx(0.05 * (1.0 - std::exp(-n * 0.01 / 0.1))).margin(1e-12));
+    world.step();  // The odometer reports at every fifth.
+    if (world.odometry(id))
+      CHECK(world.odometry(id)->velocity.forward ==
+            Approx(0.05 * (1.0 - std::exp(-n * 0.01 / 0.1))).margin(1e-12));
   }
 }
 

@@ -9,7 +9,7 @@ namespace orca::sim {
 
 /// The level of the simulated devices' errors. Every comparison of results names the level it used.
 enum class Realism {
-  ideal,    ///< Exact sensors and odometry, a drive without lag and dead time.
+  ideal,    ///< Exact sensors, wheels and odometry, a drive without lag and dead time.
   nominal,  ///< Errors as measured on such devices.
   harsh,    ///< Errors about twice as large.
 };
@@ -20,10 +20,12 @@ enum class Realism {
 
 /// The numbers behind a level. docs/simulation.md gives the source of each.
 struct ErrorLevels {
-  double wheel_mismatch = 0.0;  ///< Bound of the relative error of each wheel's diameter.
+  double wheel_mismatch = 0.0;  ///< Bound of the ratio of two wheels' diameters, less 1.
   double track_error = 0.0;     ///< Bound of the relative error of the track.
-  /// [m] Standard deviation of a wheel's measured travel after 1 m; grows with the root of the travel.
+  /// [m] Standard deviation of a wheel's way over the floor after it has rolled 1 m; grows with the root.
   double slip = 0.0;
+  /// [m] The same after the base has turned 1 rad, in addition; grows with the root of the turn.
+  double turn_slip = 0.0;
   double delay_scale = 0.0;     ///< Factor on the drive's lag and dead time.
   double sonar_noise = 0.0;     ///< Relative standard deviation of a range.
   double sonar_outliers = 0.0;  ///< Probability that a reading is arbitrary.

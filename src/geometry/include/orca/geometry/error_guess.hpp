@@ -11,11 +11,14 @@ namespace orca {
 /// A guess of the errors of odometry that counts the turns of wheels, as standard deviations. The first two are
 /// constant during a run. The errors of different wheels are independent of each other.
 struct WheelErrorGuess {
-  double diameter = 0.0;  ///< [1] relative error of the diameter of each wheel
-  double track = 0.0;     ///< [1] relative error of the distance between the wheels
-  double slip = 0.0;      ///< [m] error of a wheel's travel after 1 m; it grows with the root of the travel
+  double diameter = 0.0;   ///< [1] relative error of the diameter of each wheel
+  double track = 0.0;      ///< [1] relative error of the distance between the wheels
+  double slip = 0.0;       ///< [m] error of a wheel's travel after 1 m; it grows with the root of the travel
+  double turn_slip = 0.0;  ///< [m] the same after the base has turned 1 rad, in addition
 
-  [[nodiscard]] bool is_known() const { return diameter > 0.0 || track > 0.0 || slip > 0.0; }
+  [[nodiscard]] bool is_known() const {
+    return diameter > 0.0 || track > 0.0 || slip > 0.0 || turn_slip > 0.0;
+  }
   friend bool operator==(const WheelErrorGuess&, const WheelErrorGuess&) = default;
 };
 

@@ -24,6 +24,12 @@ struct Vec2 {
 /// Returns the length. It overflows beyond 1e154 and vanishes below 1e-162, where std::hypot() does not.
 [[nodiscard]] inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 
+/// Returns a vector of the same direction that is not longer than `longest`.
+[[nodiscard]] inline Vec2 shortened(Vec2 a, double longest) {
+  const double length = norm(a);
+  return length > longest ? (longest / length) * a : a;
+}
+
 /// Returns the unit vector at `angle` [rad], counter-clockwise from x.
 [[nodiscard]] inline Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 

@@ -42,8 +42,12 @@ class OdometryUncertainty {
   struct Wheel {
     Vec2 rolls;         // direction in which it rolls when the base moves straight, seen from the robot
     double lever;       // [m] of its travel per turn of the base
-    Travel2 per_metre;  // added to the reported travel by a metre that a wrong diameter adds
-    Travel2 per_slip;   // added by a metre of slip
+    Travel2 per_metre;  // added to the travel by a metre that a wrong diameter or slip adds to this wheel's
+    Vec2 twist;  // [1/m] turn of a synchro base's body by the same metre, per direction in which it rolls
+    // Returns the effect of that metre while the wheels of a synchro base roll in a direction [rad] seen from its body.
+    [[nodiscard]] Travel2 effect(double steering) const {
+      return {per_metre.forward, per_metre.left, per_metre.turn + dot(twist, direction(steering))};
+    }
     [[nodiscard]] double travel(const Travel2& base) const {
       return dot(rolls, {base.forward, base.left}) + lever * base.turn;
     }
@@ -51,6 +55,7 @@ class OdometryUncertainty {
   static constexpr int kErrors = 4;  // constant errors: of up to three wheels, and of the track
   using Effect = std::array<double, 3 * kErrors>;
 
+  [[nodiscard]] double slip_variance(double rolled, double turn) const;
   [[nodiscard]] static std::vector<Wheel> wheels_of(idl::DriveType type, double track);
 
   std::vector<Wheel> wheels_;

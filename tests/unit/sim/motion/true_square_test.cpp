@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A square whose encoders report it exactly, and where a robot with unlike wheels ends it (the UMBmark of J. Borenstein
+// and L. Feng, "Measurement and correction of systematic odometry errors in mobile robots", IEEE Trans. Robotics and
+// Automation 12(6), 1996).
+#include <catch2/catch.hpp>
+
+#include <complex>
+
+#include "motion/wheel_model.hpp"
+#include "orca/geometry/arc.hpp"
+
+using namespace orca::sim;
+using orca::Pose2;
+using orca::RandomStream;
+using orca::Travel2;
+using orca::sim::detail::WheelErrors;
+using orca::sim::detail::WheelModel;
+
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double kLeg = 4.0;    // [m]
+constexpr double kTrack = 0.4;  // [m]
+constexpr double kQuarter = 0.5 * std::numbers::pi;
+
+orca::sim::Drive drive_of(DriveKind kind) { return {.kind = kind, .track = kTrack, .wheel_diameter = 0.15}; }
+
+// A base that drives by its encoders, in small steps, as a simulation does.
+class Base {
+ public:
+  Base(DriveKind kind, const WheelErrors& errors, std::uint64_t seed = 1)
+      : kind_(kind), wheels_(drive_of(kind), errors), random_(seed, "dewey", "wheels") {}
+
+  void roll(const Travel2& whole, int steps = 1000) {
+    for (int i = 0; i < steps; ++i) {
+      const Travel2 step{whole.forward / steps, whole.left / steps, whole.turn / steps};
+      const Travel2 real = wheels_.over_ground(step, steering_, 1.0, random_);
+      pose_ = orca::along_arc(pose_, real);
+      if (kind_ == DriveKind::synchro) steering_ += step.turn;
+      unseen_ = std::max(unseen_, apart(wheels_.rolled(real), step));
+    }
+  }
+  void square(double turn) {
+    for (int corner = 0; corner < 4; ++corner) {
+      roll({kLeg, 0.0, 0.0});
+      roll({0.0, 0.0, turn});
+    }
+  }
+  [[nodiscard]] const Pose2& pose() const { return pose_; }
+  // How far what the encoders report of the true motion was off what they were told to roll.
+  [[nodiscard]] double unseen() const { return unseen_; }
+
+ private:
+  double apart(const Travel2& a, const Travel2& b) const {
+    const double turn =
+        kind_ == DriveKind::synchro ? 0.0 : a.turn - b.turn;  // its steering is seen elsewhere
+    return std::fabs(a.forward - b.forward) + std::fabs(a.left - b.left) + std::fabs(turn);
+  }
+
+  DriveKind kind_;
+  WheelModel wheels_;
+  RandomStream random_;
+  Pose2 pose_;
+  double steering_ = 0.0;
+  double unseen_ = 0.0;
+};
+
+Pose2 end_of_drive(DriveKind kind, const WheelErrors& errors, double turn, std::uint64_t seed = 1) {
+  Base base(kind, errors, seed);
+  base.square(turn);
+  return base.pose();
+}
+
+// The end of an arc: the integral of a direction that turns evenly.
+Complex arc(double travel, double turn) {
+  if (turn == 0.0) return travel;
+  return travel * (std::exp(Complex(0.0, turn)) - 1.0) / Complex(0.0, turn);
+}
+
+// The same square in closed form; `left`, `right` and `track` are the relative errors of wheels and track.
+Complex end_of_square(double left, double right, double track, double turn) {
+  Complex end = 0.0;
+  Complex heading = 1.0;
+  const auto go = [&](double l, double r) {
+    const double true_turn = (r - l) / (kTrack * (1.0 + track));
+    end += heading * arc(0.5 * (l + r), true_turn);
+    heading *= std::exp(Complex(0.0, true_turn));
+  };
+  for (int corner = 0; corner < 4; ++corner) {
+    go(kLeg * (1.0 + left), kLeg * (1.0 + right));
+    go(-0.5 * turn * kTrack * (1.0 + left), 0.5 * turn * kTrack * (1.0 + right));
+  }
+  return end;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a differential base with unequal wheels and another track ends its square where the closed form says",
+    "[sim][wheels][square]") {
+  const double turn = GENERATE(kQuarter, -kQuarter);
+  for (const auto& [left, right, track] :
+       {std::array{-0.002, 0.003, 0.0}, std::array{0.0, 0.0, 0.01}, std::array{0.005, -0.004, -0.01}}) {
+    const Pose2 end =
+        end_of_drive(DriveKind::differential, {.diameter = {left, right}, .track = track}, turn);
+    const Complex expected = end_of_square(left, right, track, turn);
+    CHECK(end.x == Approx(expected.real()).margin(1e-9));
+    CHECK(end.y == Approx(expected.imag()).margin(1e-9));
+  }
+}
+
+// Type B of the UMBmark: each leg bends by b = L (right - left) / track. To first order the square ends at
+// (2 L b, -2 L b) counter-clockwise and at (-2 L b, -2 L b) clockwise.
+TEST_CASE("unequal wheels bend both squares to the same side, by the first-order formulas of the UMBmark",
+          "[sim][wheels][square]") {
+  const double mismatch = 2e-5;
+  const double bend = kLeg * mismatch / kTrack;
+  const WheelErrors errors{.diameter = {-0.5 * mismatch, 0.5 * mismatch}};
+  const Pose2 ccw = end_of_drive(DriveKind::differential, errors, kQuarter);
+  const Pose2 cw = end_of_drive(DriveKind::differential, errors, -kQuarter);
+  CHECK(ccw.x == Approx(2.0 * kLeg * bend).epsilon(0.005));
+  CHECK(ccw.y == Approx(-2.0 * kLeg * bend).epsilon(0.005));
+  CHECK(cw.x == Approx(-2.0 * kLeg * bend).epsilon(0.005));
+  CHECK(cw.y == Approx(-2.0 * kLeg * bend).epsilon(0.005));
+}
+
+// Type A: a track that is larger than assumed makes each turn too small by a = track * 90 deg.
+TEST_CASE("another track opens both squares alike, by the first-order formulas of the UMBmark",
+          "[sim][wheels][square]") {
+  const double track = 2e-4;
+  const double short_by = track * kQuarter;
+  const Pose2 ccw = end_of_drive(DriveKind::differential, {.track = track}, kQuarter);
+  const Pose2 cw = end_of_drive(DriveKind::differential, {.track = track}, -kQuarter);
+  CHECK(ccw.x == Approx(-2.0 * kLeg * short_by).epsilon(0.005));
+  CHECK(ccw.y == Approx(2.0 * kLeg * short_by).epsilon(0.005));
+  CHECK(cw.x == Approx(-2.0 * kLeg * short_by).epsilon(0.005));
+  CHECK(cw.y == Approx(-2.0 * kLeg * short_by).epsilon(0.005));
+}
+
+TEST_CASE("slip alone scatters the distance in proportion to the root of the way, and of the turn",
+          "[sim][wheels]") {
+  constexpr int kRobots = 400;
+  const auto deviation = [&](const WheelErrors& errors, const Travel2& way, auto&& off) {
+    double squares = 0.0;
+    for (int i = 0; i < kRobots; ++i) {
+      Base base(DriveKind::differential, errors, static_cast<std::uint64_t>(i + 1));
+      base.roll(way);
+      squares += std::pow(off(base.pose()), 2);
+    }
+    return std::sqrt(squares / kRobots);
+  };
+  // 400 samples give the deviation within 11 % (three sigma).
+  const double along = deviation({.slip = 0.003}, {kLeg, 0, 0}, [](const Pose2& p) { return p.x - kLeg; });
+  CHECK(along == Approx(0.003 * std::sqrt(0.5 * kLeg)).epsilon(0.12));
+  const double round =
+      deviation({.turn_slip = 0.003}, {0, 0, 2.0}, [](const Pose2& p) { return p.yaw - 2.0; });
+  CHECK(round == Approx(0.003 * std::sqrt(2.0 * 2.0) / kTrack).epsilon(0.12));
+}
+
+TEST_CASE(
+    "a synchro base steers exactly, but unequal wheels turn its body while it rolls, and nothing sees it",
+    "[sim][wheels]") {
+  const WheelErrors errors{.diameter = {0.004, 0.001, -0.002}};
+  Base base(DriveKind::synchro, errors);
+  base.roll({0.0, 0.0, kQuarter});
+  CHECK(base.pose() == Pose2{0.0, 0.0, base.pose().yaw});
+  CHECK(base.pose().yaw == Approx(kQuarter));
+  Base straight(DriveKind::synchro, errors);
+  straight.roll({kLeg, 0.0, 0.0});
+  // Seen from the middle, the wheels at 60 and 300 deg stand 0.75 of the track apart across the way.
+  const double turn = kLeg * (-0.002 - 0.004) * std::sin(std::numbers::pi / 3.0) / (0.75 * kTrack);
+  CHECK(straight.pose().yaw == Approx(turn));
+  CHECK(straight.unseen() < 1e-12);
+}
+
+// Wheels at 60, 180 and 300 degrees; one that is e too large adds e (d . v) of the way in direction d, times
+// 2/3, and turns by e (d . v) / (3 radius).
+TEST_CASE("one wrong wheel of a holonomic base drags it along its own direction", "[sim][wheels]") {
+  constexpr double kError = 1e-3;
+  WheelModel wheels(drive_of(DriveKind::holonomic), {.diameter = {0.0, kError, 0.0}});
+  RandomStream random(1, "dewey", "wheels");
+  // The second wheel, at the back, rolls to the right.
+  const Travel2 real = wheels.over_ground({0.3, -0.2, 0.0}, 0.0, 1.0, random);
+  const double rolled = 0.2 * kError;
+  CHECK(real.forward == Approx(0.3));
+  CHECK(real.left == Approx(-0.2 - 2.0 / 3.0 * rolled));
+  CHECK(real.turn == Approx(rolled / (1.5 * kTrack)));
+}
+
+TEST_CASE("the encoders report what they were told to roll, whatever the wheels are and however they slip",
+          "[sim][wheels]") {
+  const DriveKind kind = GENERATE(DriveKind::differential, DriveKind::synchro, DriveKind::holonomic);
+  Base base(kind, {{0.01, -0.02, 0.015}, 0.03, 0.02, 0.01});
+  base.roll({1.0, kind == DriveKind::holonomic ? 0.5 : 0.0, 2.0});
+  CHECK(base.unseen() < 1e-12);
+}
+
+TEST_CASE("the ratio of the diameters is drawn within the bound, evenly, and apart from the mean",
+          "[sim][wheels]") {
+  const ErrorLevels nominal = error_levels(Realism::nominal);
+  constexpr int kRobots = 4000;
+  double squares = 0.0;
+  double products = 0.0;
+  for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {
+    RandomStream random(seed, "dewey", "wheels");
+    const auto [left, right, none] = WheelErrors::drawn(DriveKind::differential, nominal, random).diameter;
+    REQUIRE(std::fabs(right - left) <= nominal.wheel_mismatch);
+    squares += std::pow(right - left, 2) / kRobots;
+    products += left * right / kRobots;
+  }
+  // An even distribution has the variance of a third of the bound's square.
+  CHECK(squares == Approx(std::pow(nominal.wheel_mismatch, 2) / 3.0).epsilon(0.06));
+  CHECK(std::fabs(products) < 3.0 * squares / 6.0 / std::sqrt(kRobots));
+}
