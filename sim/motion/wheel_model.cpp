@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "orca/geometry/vec2.hpp"
-
 namespace orca::sim::detail {
 namespace {
 
@@ -53,17 +51,26 @@ Travel2 WheelModel::base_of(const Ways& ways, double track) const {
   return sum;
 }
 
-void WheelModel::draw_slip(const Ways& rolled, double turn, double slipperiness, RandomStream& random) {
+void WheelModel::draw_slip(const Ways& rolled, double turn, const Footing& footing, RandomStream& random) {
   const double of_turn = errors_.turn_slip * errors_.turn_slip * std::fabs(turn);
-  for (std::size_t k = 0; k < wheels(); ++k)
-    slip_[k] = random.normal(
-        0.0, slipperiness * std::sqrt(errors_.slip * errors_.slip * std::fabs(rolled[k]) + of_turn));
+  for (std::size_t k = 0; k < wheels(); ++k) {
+    const double variance = errors_.slip * errors_.slip * std::fabs(rolled[k]) + of_turn;
+    slip_[k] =
+        random.normal(0.0, footing.slip * std::sqrt(variance)) - std::copysign(footing.lost[k], rolled[k]);
+  }
 }
 
-Travel2 WheelModel::over_ground(const Travel2& rolled, double steering, double slipperiness,
+std::vector<Vec2> WheelModel::places() const {
+  if (kind_ == DriveKind::differential) return {{0.0, 0.5 * track_}, {0.0, -0.5 * track_}};
+  std::vector<Vec2> places;
+  for (const Vec2& tangent : kTangents) places.push_back(0.5 * track_ * Vec2{tangent.y, -tangent.x});
+  return places;
+}
+
+Travel2 WheelModel::over_ground(const Travel2& rolled, double steering, const Footing& footing,
                                 RandomStream& random) {
   Ways ways = ways_of(rolled, track_);
-  draw_slip(ways, rolled.turn, slipperiness, random);
+  draw_slip(ways, rolled.turn, footing, random);
   for (std::size_t k = 0; k < wheels(); ++k) ways[k] = ways[k] * (1.0 + errors_.diameter[k]) + slip_[k];
   Travel2 real = base_of(ways, true_track());
   if (kind_ != DriveKind::synchro) return real;

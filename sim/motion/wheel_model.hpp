@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "orca/base/random.hpp"
 #include "orca/geometry/twist2.hpp"
+#include "orca/geometry/vec2.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
 
@@ -26,6 +28,12 @@ struct WheelErrors {
   [[nodiscard]] static WheelErrors drawn(DriveKind kind, const ErrorLevels& errors, RandomStream& random);
 };
 
+// What the floor does to the wheels in a tick.
+struct Footing {
+  double slip = 1.0;             // Factor on the standard deviation of slip.
+  std::array<double, 3> lost{};  // [m] By which each wheel falls behind what it rolls.
+};
+
 // The wheels of a base, between what their encoders count and what the base does. The controller regulates the
 // wheels by their encoders, with the assumed dimensions. So the errors of the wheels act on the true motion.
 class WheelModel {
@@ -37,17 +45,19 @@ class WheelModel {
   // slip of this tick.
   // @param steering [rad]  direction in which the wheels of a synchro base roll, relative to its body. The
   //        turn of the result contains that of the body, which no encoder sees.
-  // @param slipperiness  factor on the slip's standard deviation: what the floor does, 1 on a dry one.
-  Travel2 over_ground(const Travel2& rolled, double steering, double slipperiness, RandomStream& random);
+  Travel2 over_ground(const Travel2& rolled, double steering, const Footing& footing, RandomStream& random);
 
   // Returns what the encoders report if the base moved by `real` in this tick instead, with the same slip.
   // Sideways motion turns only the wheels of a holonomic base. The steering of a synchro base is not seen here.
   [[nodiscard]] Travel2 rolled(const Travel2& real) const;
 
+  // Returns where the wheels touch the floor, in the frame of the body.
+  [[nodiscard]] std::vector<Vec2> places() const;
+
  private:
   using Ways = std::array<double, 3>;  // [m] of the wheels
 
-  void draw_slip(const Ways& rolled, double turn, double slipperiness, RandomStream& random);
+  void draw_slip(const Ways& rolled, double turn, const Footing& footing, RandomStream& random);
   [[nodiscard]] std::size_t wheels() const { return kind_ == DriveKind::differential ? 2 : 3; }
   [[nodiscard]] double true_track() const { return track_ * (1.0 + errors_.track); }
   [[nodiscard]] Ways ways_of(const Travel2& base, double track) const;

@@ -35,9 +35,20 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
   for (const BumperRing& s : model.bumpers) bumpers.emplace_back(s, birth.time);
 }
 
-Travel2 Robot::set_off(double slipperiness) {
+Travel2 Robot::set_off(const Floor& floor) {
   driving_ = drive.step();
-  return wheels_.over_ground(driving_ * to_seconds(tick_), steer_, slipperiness, slip_);
+  return wheels_.over_ground(driving_ * to_seconds(tick_), steer_, footing(floor), slip_);
+}
+
+// A wheel that crossed a sill in the last tick pays for it in this one.
+Footing Robot::footing(const Floor& floor) const {
+  Footing footing{.slip = floor.slip_at(body.position())};
+  if (floor.sills.empty()) return footing;
+  const std::vector<Vec2> places = wheels_.places();
+  for (std::size_t k = 0; k < places.size(); ++k)
+    footing.lost[k] =
+        floor.way_lost({on_body_.X_from * places[k], on_body_.X_to * places[k]}, model.drive.wheel_diameter);
+  return footing;
 }
 
 void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {

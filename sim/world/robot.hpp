@@ -14,6 +14,7 @@
 #include "orca/base/random.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
+#include "orca/sim/floor.hpp"
 #include "orca/sim/snapshot.hpp"
 #include "sensors/bumper_model.hpp"
 #include "sensors/infrared_model.hpp"
@@ -35,8 +36,7 @@ class Robot {
   Robot(Birth birth, RobotModel model, const ErrorLevels& errors);
 
   // Starts the motion of a tick. @return  the motion of the robot's frame if nothing is in its way.
-  // @param slipperiness  of the floor under its wheels, as in WheelModel.
-  Travel2 set_off(double slipperiness);
+  Travel2 set_off(const Floor& floor);
   // Returns the part of that turn [rad] which turns the body.
   [[nodiscard]] double body_turn(const Travel2& set_off) const {
     return steers() ? set_off.turn - driving_.turn_rate * to_seconds(tick_) : set_off.turn;
@@ -72,6 +72,7 @@ class Robot {
 
  private:
   [[nodiscard]] bool steers() const { return model.drive.kind == DriveKind::synchro; }
+  [[nodiscard]] Footing footing(const Floor& floor) const;
   void reckon(const Travel2& rolled, TimePoint now);
   void carry(const Pose2& X_WB, const Pose2& X_WR, TimePoint now);
   [[nodiscard]] Pose2 turret_pose(const Pose2& X_WB) const;

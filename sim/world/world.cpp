@@ -16,6 +16,7 @@ namespace orca::sim {
 namespace {
 
 constexpr double kFarthest = 1e5;  // [m]
+constexpr double kFastest = 1e3;   // [m/s], [rad/s]
 
 std::size_t index(RobotId id) { return static_cast<std::size_t>(id); }
 
@@ -122,10 +123,11 @@ void World::Impl::drive() {
   const double seconds = to_seconds(kTick);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     detail::Robot& r = robots[i];
-    const Travel2 way = r.set_off(1.0);
+    const Travel2 way = r.set_off(model.floor);
     physics.drive(i, {.velocity = (1.0 / seconds) * chord(r.pose.yaw, way),
                       .turn = r.body_turn(way) / seconds,
-                      .heading = r.pose.yaw + 0.5 * way.turn});
+                      .heading = r.pose.yaw + 0.5 * way.turn,
+                      .grip = model.floor.grip_at(r.body.position())});
   }
   movers.set_off(kTick, robots);
   physics.step(seconds);
@@ -222,6 +224,11 @@ Status World::set_velocity_command(RobotId robot, double forward, double turn_ra
 Status World::set_velocity_command(RobotId robot, const Twist2& wanted) {
   detail::Robot& r = impl_->robot(robot);
   if (!is_finite(wanted)) return fail(Code::invalid_argument, "a velocity command must be finite", r.name);
+  if (std::max({std::fabs(wanted.forward), std::fabs(wanted.left), std::fabs(wanted.turn_rate)}) > kFastest)
+    return fail(
+        Code::invalid_argument,
+        "a velocity command beyond 1000 m/s or 1000 rad/s is no speed of a robot; what sends it is wrong",
+        r.name);
   if (wanted.left != 0.0 && r.model.drive.kind != DriveKind::holonomic)
     return fail(Code::failed_precondition, "this base cannot move sideways; only a holonomic one can",
                 r.name);

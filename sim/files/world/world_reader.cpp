@@ -70,7 +70,7 @@ constexpr double kPoint = 1e-3;  // [m] As large as a place is.
 
 }  // namespace
 
-constexpr std::array<WorldReader::Reader, 10> WorldReader::kReaders{{{&kWallRule, &WorldReader::wall},
+constexpr std::array<WorldReader::Reader, 12> WorldReader::kReaders{{{&kWallRule, &WorldReader::wall},
                                                                      {&kRoomRule, &WorldReader::room},
                                                                      {&kBoxRule, &WorldReader::box},
                                                                      {&kCylinderRule, &WorldReader::cylinder},
@@ -79,7 +79,9 @@ constexpr std::array<WorldReader::Reader, 10> WorldReader::kReaders{{{&kWallRule
                                                                      {&kMeshRule, &WorldReader::mesh},
                                                                      {&kPlaceRule, &WorldReader::place},
                                                                      {&kGenerateRule, &WorldReader::generate},
-                                                                     {&kWalkerRule, &WorldReader::walker}}};
+                                                                     {&kWalkerRule, &WorldReader::walker},
+                                                                     {&kSillRule, &WorldReader::sill},
+                                                                     {&kWetRule, &WorldReader::wet}}};
 
 WorldModel WorldReader::read(const xml::Element& root) {
   const Attributes world = attributes_of(root, kWorldRule);
@@ -304,6 +306,27 @@ void WorldReader::walker(const Attributes& element) {
   if (element.has("name") && !walker.name.empty()) claim(element, "obstacle", walker.name);
   world_.walkers.push_back(std::move(walker));
   walker_positions_.push_back(element.element().position());
+}
+
+void WorldReader::sill(const Attributes& element) {
+  const auto from = read_point(element, "from");
+  const auto to = read_point(element, "to");
+  const auto tall = element.number("height");
+  const std::string name = own_name(element);
+  if (from && to && tall) world_.floor.sills.push_back({name, {*from, *to}, *tall});
+}
+
+void WorldReader::wet(const Attributes& element) {
+  WetPatch patch;
+  patch.name = own_name(element);
+  set(patch.slip, element.number_or("slip", patch.slip));
+  set(patch.grip, element.number_or("grip", patch.grip));
+  const auto corners = read_points(element, "points");
+  if (!corners) return;
+  if (const std::string fault = polygon_fault(*corners); !fault.empty())
+    return element.error_at("points", world_codes::kBadPolygon, fault);
+  patch.area = outline_of(*corners);
+  world_.floor.patches.push_back(std::move(patch));
 }
 
 void WorldReader::check_walkers() {

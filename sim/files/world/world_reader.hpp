@@ -32,7 +32,7 @@ class WorldReader {
     const xml::ElementRule* rule;
     void (WorldReader::*read)(const Attributes&);
   };
-  static const std::array<Reader, 10> kReaders;
+  static const std::array<Reader, 12> kReaders;
 
   void header(const Attributes& world);
   bool within_limits(const Attributes& world, const Elements& elements) const;
@@ -46,6 +46,8 @@ class WorldReader {
   void place(const Attributes& element);
   void generate(const Attributes& element);
   void walker(const Attributes& element);
+  void sill(const Attributes& element);
+  void wet(const Attributes& element);
 
   void add_wall(const Attributes& element, WallPlan plan);
   void add(const Attributes& element, Shape shape, double height);

@@ -65,6 +65,13 @@ constexpr std::array kWalker{
     optional("pause", kTime),        optional("start", kTime),    optional("seed", kSeed),
     optional("stops", kLengthOrZero)};
 
+constexpr std::array kSill{optional("name", kName), required("from", kText), required("to", kText),
+                           required("height", positive("m", 0.1))};
+constexpr std::array kWet{
+    optional("name", kName), required("points", kText),
+    optional("slip", {.form = ValueRule::Form::number, .unit = "", .min = 1.0, .max = 100.0}),
+    optional("grip", positive("", 1.0))};
+
 constexpr ElementRule kDoorRule{.name = "door", .attributes = kDoor};
 constexpr ElementRule kRoomDoorRule{.name = "door", .attributes = kRoomDoor};
 constexpr std::array kInWall{&kDoorRule};
@@ -82,11 +89,14 @@ constexpr ElementRule kMeshRule{.name = "mesh", .attributes = kMesh};
 constexpr ElementRule kPlaceRule{.name = "place", .attributes = kPlace};
 constexpr ElementRule kGenerateRule{.name = "generate", .attributes = kGenerate};
 constexpr ElementRule kWalkerRule{.name = "walker", .attributes = kWalker};
+constexpr ElementRule kSillRule{.name = "sill", .attributes = kSill};
+constexpr ElementRule kWetRule{.name = "wet", .attributes = kWet};
 
 namespace {
 
-constexpr std::array kInWorld{&kWallRule,   &kRoomRule, &kBoxRule,   &kCylinderRule, &kPolygonRule,
-                              &kBitmapRule, &kMeshRule, &kPlaceRule, &kGenerateRule, &kWalkerRule};
+constexpr std::array kInWorld{&kWallRule,     &kRoomRule,   &kBoxRule,  &kCylinderRule,
+                              &kPolygonRule,  &kBitmapRule, &kMeshRule, &kPlaceRule,
+                              &kGenerateRule, &kWalkerRule, &kSillRule, &kWetRule};
 
 }  // namespace
 
@@ -94,9 +104,9 @@ constexpr ElementRule kWorldRule{.name = "world", .attributes = kWorld, .childre
 
 namespace {
 
-constexpr std::array kWorldElements{&kWorldRule, &kWallRule,     &kRoomRule,     &kDoorRule,
-                                    &kBoxRule,   &kCylinderRule, &kPolygonRule,  &kBitmapRule,
-                                    &kMeshRule,  &kPlaceRule,    &kGenerateRule, &kWalkerRule};
+constexpr std::array kWorldElements{&kWorldRule,    &kWallRule,    &kRoomRule,   &kDoorRule, &kBoxRule,
+                                    &kCylinderRule, &kPolygonRule, &kBitmapRule, &kMeshRule, &kPlaceRule,
+                                    &kGenerateRule, &kWalkerRule,  &kSillRule,   &kWetRule};
 
 }  // namespace
 

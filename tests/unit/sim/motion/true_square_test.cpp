@@ -34,7 +34,7 @@ class Base {
   void roll(const Travel2& whole, int steps = 1000) {
     for (int i = 0; i < steps; ++i) {
       const Travel2 step{whole.forward / steps, whole.left / steps, whole.turn / steps};
-      const Travel2 real = wheels_.over_ground(step, steering_, 1.0, random_);
+      const Travel2 real = wheels_.over_ground(step, steering_, {}, random_);
       pose_ = orca::along_arc(pose_, real);
       if (kind_ == DriveKind::synchro) steering_ += step.turn;
       unseen_ = std::max(unseen_, apart(wheels_.rolled(real), step));
@@ -180,7 +180,7 @@ TEST_CASE("one wrong wheel of a holonomic base drags it along its own direction"
   WheelModel wheels(drive_of(DriveKind::holonomic), {.diameter = {0.0, kError, 0.0}});
   RandomStream random(1, "dewey", "wheels");
   // The second wheel, at the back, rolls to the right.
-  const Travel2 real = wheels.over_ground({0.3, -0.2, 0.0}, 0.0, 1.0, random);
+  const Travel2 real = wheels.over_ground({0.3, -0.2, 0.0}, 0.0, {}, random);
   const double rolled = 0.2 * kError;
   CHECK(real.forward == Approx(0.3));
   CHECK(real.left == Approx(-0.2 - 2.0 / 3.0 * rolled));

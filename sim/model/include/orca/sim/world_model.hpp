@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
+#include "orca/sim/floor.hpp"
 #include "orca/sim/mesh.hpp"
 #include "orca/sim/walker.hpp"
 
@@ -45,6 +46,7 @@ struct WorldModel {
   std::vector<Obstacle> obstacles;
   std::vector<Place> places;
   std::vector<Walker> walkers{};
+  Floor floor{};
 
   /// Returns the place of that name, or null.
   [[nodiscard]] const Place* place(std::string_view name) const;

@@ -82,7 +82,7 @@ class World {
   ///
   /// @param forward [m/s]  along the robot's x axis.
   /// @param turn_rate [rad/s]  counter-clockwise.
-  /// @errors  invalid_argument if a number is not finite; the former command stays.
+  /// @errors  invalid_argument if a number is not finite or beyond 1000; the former command stays.
   Status set_velocity_command(RobotId robot, double forward, double turn_rate);
 
   /// Sets a velocity that may have a sideways part; otherwise as above.
