@@ -71,7 +71,7 @@ class Client {
  private:
   static RobotModel scaled(RobotModel model, Realism level, double factor) {
     WheelErrorGuess guess = model.odometer->errors.at(level);
-    guess = {factor * guess.diameter, factor * guess.track, factor * guess.slip};
+    guess = {factor * guess.diameter, factor * guess.track, factor * guess.slip, factor * guess.turn_slip};
     model.odometer->errors = {};
     REQUIRE(model.odometer->errors.set(std::nullopt, guess));
     return model;
