@@ -57,6 +57,10 @@ class Graphs {
     copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/test_homesick.so", plugins);
   }
 
+  void add_plugin(const std::string& name) const {
+    copy_plugin(ORCA_BINARY_DIR "/tests/host_plugins/" + name + ".so", folder_.file("plugins"));
+  }
+
   // Writes a graph, and returns its file.
   [[nodiscard]] std::string write(const std::string& name, const Pairs& others,
                                   const std::string& more = "") const {
@@ -174,6 +178,19 @@ TEST_CASE("components come and go while the system runs, and those that stay not
     CHECK_FALSE(has_in_memory(system.host(pair.counts), "test_teller_other"));
     CHECK(all_that_is_seen() == before);
   }
+  system.end();
+}
+
+TEST_CASE("a component comes whose plugin was built since the start", "[system][grow]") {
+  const std::string where = GENERATE("main", "front");
+  Growing system;
+  system.graphs().add_plugin("test_napper");
+  const Run come =
+      system.apply({}, "<component name=\"new\" type=\"test.Napper\" autonomous=\"true\" process=\"" +
+                           std::string(where) + "\"/>");
+  INFO(come.err);
+  CHECK(come.exit_code() == 0);
+  CHECK(run_orcactl({"echo", "new.out", "--count", "3"}).exit_code() == 0);
   system.end();
 }
 

@@ -19,7 +19,16 @@ constexpr std::size_t kMaxBytes = 1'000'000;  // of a list of types; real ones h
 }  // namespace
 
 void PluginIndex::add(const std::vector<std::string>& folders) {
-  for (const std::string& folder : folders) read_folder(folder);
+  for (const std::string& folder : folders) {
+    folders_.push_back(folder);
+    read_folder(folder);
+  }
+}
+
+void PluginIndex::refresh() {
+  searched_.clear();
+  place_by_type_.clear();
+  for (const std::string& folder : folders_) read_folder(folder);
 }
 
 void PluginIndex::read_folder(const std::string& folder) {

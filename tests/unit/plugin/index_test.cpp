@@ -55,6 +55,19 @@ TEST_CASE("a type that two plugins of one folder hold is refused with both, and 
   CHECK(index.file_of("my.One").value() == folder.file("one.so"));
 }
 
+TEST_CASE("an index that is refreshed knows the plugins that have come, and not those that have gone",
+          "[plugin][index]") {
+  const orca::test::TempFolder folder;
+  const std::string old = folder.write("old.types", "component my.Old\n");
+  PluginIndex index({folder.path().string()});
+  static_cast<void>(folder.write("new.types", "component my.New\n"));
+  std::filesystem::remove(old);
+  CHECK(index.file_of("my.Old").has_value());
+  index.refresh();
+  CHECK(index.file_of("my.New").value() == folder.file("new.so"));
+  CHECK_FALSE(index.file_of("my.Old").has_value());
+}
+
 TEST_CASE("the index agrees with the plugin's manifest", "[plugin][index]") {
   for (const std::string& folder : {kShipped, kForTests}) {
     const PluginIndex index({folder});

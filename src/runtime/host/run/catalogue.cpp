@@ -59,6 +59,11 @@ void PluginCatalogue::raise_pinned(const std::string& file, const std::string& w
   log_alarm(alarm, name);
 }
 
+void PluginCatalogue::refresh() {
+  const std::lock_guard lock(mutex_);
+  index_.refresh();
+}
+
 Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& type) {
   if (const TypeEntry* own = own_type(kind, type)) return LoadedType{nullptr, own};
   const std::lock_guard lock(mutex_);

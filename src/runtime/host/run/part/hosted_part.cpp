@@ -236,6 +236,7 @@ class HostedPart::Inside {
         return system.set_params(order.component, order.params, changed, limit);
       case PartOrder::Kind::add:
         watched_.set_hang_limit(Duration{0});  // so has a constructor
+        place_.catalogue.refresh();            // it may be of a plugin that was built since the start
         return changes_.add(*order.node, order.params);
       case PartOrder::Kind::remove: return remove(order.component);
       case PartOrder::Kind::open_gate: return changes_.open_gate(order.component);

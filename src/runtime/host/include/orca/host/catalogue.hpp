@@ -31,7 +31,7 @@ struct LoadedType {
 /// The types of all plugins. It answers the graph checker's questions from the plugins themselves, and loads
 /// and unloads plugins for a run.
 ///
-/// Thread contract: acquire() and release() from anywhere, the rest from one thread.
+/// Thread contract: acquire(), release() and refresh() from anywhere, the rest from one thread.
 class PluginCatalogue final : public graph::Catalogue {
  public:
   /// @param clock  clock of the run that the plugins are for.
@@ -54,6 +54,9 @@ class PluginCatalogue final : public graph::Catalogue {
   /// time.
   [[nodiscard]] std::vector<std::string> unfit(PluginKind kind, const std::string& type) override;
   [[nodiscard]] std::vector<std::string> type_names(PluginKind kind) const override;
+
+  /// Reads the folders again: since the last time a plugin may have been built.
+  void refresh();
 
   /// Returns a type, and loads its plugin unless it is loaded already.
   /// @errors  not_found with the places searched; the errors of plugin::PluginLibrary::load().

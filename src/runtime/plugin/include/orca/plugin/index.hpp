@@ -23,6 +23,9 @@ class PluginIndex {
   /// Adds folders that are searched after the present ones.
   void add(const std::vector<std::string>& folders);
 
+  /// Reads all folders again, since plugins may have come, gone or got other types.
+  void refresh();
+
   /// Returns the plugin file that holds a type.
   /// @errors  not_found, naming the places searched; already_exists if two plugins of one folder hold it.
   [[nodiscard]] Result<std::string> file_of(const std::string& type) const;
@@ -39,7 +42,8 @@ class PluginIndex {
   void read_folder(const std::string& folder);
   void add_type(const std::string& type, const Place& place);
 
-  std::vector<std::string> searched_;
+  std::vector<std::string> folders_;
+  std::vector<std::string> searched_;  // the same for error texts
   std::map<std::string, Place> place_by_type_;
 };
 
