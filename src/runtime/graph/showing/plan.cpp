@@ -234,14 +234,16 @@ void put(const Edge& edge, bool is_there, std::vector<Edge>& edges) {
 }
 
 void go_over(Graph& graph, const Graph& wanted) {
-  const auto is_in = [](const Graph& other) {
-    return [&other](const ComponentNode& node) { return other.find_component(node.name) != nullptr; };
+  const auto is_known = [&graph](const ComponentNode& node) {
+    return graph.find_component(node.name) != nullptr;
   };
-  std::vector<ComponentNode> added = wanted.components;
-  std::erase_if(added, is_in(graph));
-  std::erase_if(graph.components, std::not_fn(is_in(wanted)));
-  for (ComponentNode& node : graph.components) node = *wanted.find_component(node.name);
-  std::ranges::move(added, std::back_inserter(graph.components));
+  const bool has_same =
+      graph.components.size() == wanted.components.size() && std::ranges::all_of(wanted.components, is_known);
+  if (has_same) {
+    for (ComponentNode& node : graph.components) node = *wanted.find_component(node.name);
+  } else {
+    graph.components = wanted.components;
+  }
   graph.processes = wanted.processes;
   graph.hardware = wanted.hardware;
   graph.groups = wanted.groups;

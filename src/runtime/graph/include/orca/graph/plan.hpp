@@ -80,7 +80,7 @@ struct GraphPlan {
 void put(const Edge& edge, bool is_there, std::vector<Edge>& edges);
 
 /// Takes over from a wanted graph all that can change while the system runs. The nodes stay where they are unless components
-/// come or go.
+/// come or go; then they are in the wanted graph's order.
 /// @pre  the plan from one to the other is possible.
 void go_over(Graph& graph, const Graph& wanted);
 
