@@ -93,17 +93,18 @@ class Exchanging::Pending {
     busy_->insert(component_);
   }
   ~Pending() {
-    busy_->erase(component_);
-    if (told_)
-      told_(fail(Code::unavailable,
-                 "its process ended before the exchange was done; it begins with the code of the graph",
-                 component_));
+    end(Result<Record>(fail(
+        Code::unavailable,
+        "its process ended before the exchange was done; it begins with the code of the graph", component_)));
   }
   Pending(const Pending&) = delete;
   Pending& operator=(const Pending&) = delete;
 
+  // Whoever is told may begin another exchange of the component at once.
   void end(const Result<Record>& outcome) {
-    if (const Told told = std::exchange(told_, {})) told(outcome);
+    if (!told_) return;
+    busy_->erase(component_);
+    std::exchange(told_, {})(outcome);
   }
   /// @param answer  of the process that carries it out, with one record.
   void end(const Answer& answer) {
