@@ -8,7 +8,8 @@
 namespace {
 
 /// Works in short laps, and in a long one whenever `nap` gets a new value. Pushes the number of each short lap, and logs which
-/// numbers it hears and misses, in its sleep, too, and whether its input is connected whenever that has changed.
+/// numbers it hears and misses, in its sleep, too, and whether its input is connected whenever that has changed. While it
+/// runs, it takes no bad mood.
 class Napper final : public orca::Component {
  public:
   explicit Napper(orca::ComponentHost& host) : Component(host) {}
@@ -18,6 +19,10 @@ class Napper final : public orca::Component {
     lap_every(orca::from_seconds(0.01));
     stay_active(true);
     return orca::ok();
+  }
+
+  orca::Status params_changed() override {
+    return *mood_ == "bad" ? mood_.refuse("spoils its sleep") : orca::ok();
   }
 
   orca::Outcome work() override {
@@ -54,6 +59,7 @@ class Napper final : public orca::Component {
   orca::PushServer<orca::idl::GoalPoint> out_{*this, "out"};
   orca::PushProxy<orca::idl::GoalPoint> back_{*this, "back", {.optional = true}};
   orca::Param<double> nap_{*this, "nap", 0.0, {.unit = "s", .text = "How long the next lap takes."}};
+  orca::Param<std::string> mood_{*this, "mood", "good", {.text = "\"bad\" is refused while it runs."}};
   double napped_ = 0.0;
   std::int64_t laps_ = 0;
   std::int64_t last_heard_ = 0;

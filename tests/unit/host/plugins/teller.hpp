@@ -7,10 +7,12 @@
 //   TELLER_FAULT      0: none, else where it fails (see below)
 //   TELLER_TYPE      its type
 //   TELLER_INPUT     the name of its input
+//   TELLER_HEIR       it goes on from the state of test.Teller and test.OtherTeller, too
 #include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -51,7 +53,9 @@ enum Fault {
   kLapCrashes,
   kLapHangs,
   kLapEats,
-  kLapsSlow
+  kLapsSlow,
+  kConstructorInStill,
+  kLapInStill
 };
 
 /// What no exception handler can catch.
@@ -65,6 +69,14 @@ enum Fault {
     all.push_back(std::make_unique<std::vector<char>>(std::size_t{1} << 24, 'x'));
 }
 
+/// Returns whether this is the process "still" of a system, and not one where graphs are checked or new code is tried.
+bool is_in_still() {
+  std::ifstream name("/proc/self/comm");
+  std::string here;
+  std::getline(name, here);
+  return here == "still";
+}
+
 /// Counts what arrives, and says its version and the count each time.
 class Teller final : public orca::Component {
  public:
@@ -72,6 +84,7 @@ class Teller final : public orca::Component {
     lap_on(in_);
     if (TELLER_FAULT == kConstructorCrashes) crash();
     if (TELLER_FAULT == kConstructor) throw std::runtime_error("no teller today");
+    if (TELLER_FAULT == kConstructorInStill && is_in_still()) throw std::runtime_error("no teller in still");
   }
 
  private:
@@ -90,11 +103,7 @@ class Teller final : public orca::Component {
 
   orca::Outcome work() override {
     ++laps_;
-    if (TELLER_FAULT == kFirstLap || (TELLER_FAULT == kThirdLap && laps_ == 3))
-      throw std::runtime_error("no lap today");
-    if (TELLER_FAULT == kLapCrashes && laps_ == 3) crash();
-    if (TELLER_FAULT == kLapEats && laps_ == 3) eat();
-    for (volatile bool hangs = TELLER_FAULT == kLapHangs && laps_ == 3; hangs;) continue;
+    fail_in_lap();
     while (in_.new_data_arrived()) {
       const auto object = in_.get_update();
       if (last_ != 0 && object->seq() != last_ + 1)
@@ -105,6 +114,16 @@ class Teller final : public orca::Component {
     }
     if (TELLER_FAULT == kLapsSlow) wait_until([] { return false; }, std::chrono::milliseconds(15));
     return orca::again();
+  }
+
+  void fail_in_lap() const {
+    if (TELLER_FAULT == kFirstLap || (TELLER_FAULT == kThirdLap && laps_ == 3))
+      throw std::runtime_error("no lap today");
+    if (TELLER_FAULT == kLapInStill && laps_ == 3 && is_in_still())
+      throw std::runtime_error("no lap in still");
+    if (TELLER_FAULT == kLapCrashes && laps_ == 3) crash();
+    if (TELLER_FAULT == kLapEats && laps_ == 3) eat();
+    for (volatile bool hangs = TELLER_FAULT == kLapHangs && laps_ == 3; hangs;) continue;
   }
 
   void say() {
@@ -139,7 +158,11 @@ class Teller final : public orca::Component {
   }
   [[nodiscard]] std::uint32_t state_version() const override { return TELLER_STATE; }
   [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override {
+#ifdef TELLER_HEIR
+    return {{"test.Teller", 1}, { "test.OtherTeller", 1 }};
+#else
     return TELLER_STATE == 2 ? std::vector<orca::StateTag>{{TELLER_TYPE, 1}} : std::vector<orca::StateTag>{};
+#endif
   }
 
   orca::PushProxy<orca::idl::MotionCommand> in_{*this, TELLER_INPUT};
