@@ -51,8 +51,9 @@ std::size_t binary_pixel(std::string_view pixels, std::size_t n, bool wide) {
   return wide ? byte(2 * n) * 256 + byte(2 * n + 1) : byte(n);
 }
 
+// Rounded, as libpng does, so that a picture of 16 bits is the same map in both formats.
 std::uint8_t scaled(std::size_t value, std::size_t largest) {
-  return static_cast<std::uint8_t>(std::min(value, largest) * 255 / largest);
+  return static_cast<std::uint8_t>((std::min(value, largest) * 255 + largest / 2) / largest);
 }
 
 Status read_text_pixels(Tokens& tokens, std::size_t largest, GreyImage& image, const std::string& path) {

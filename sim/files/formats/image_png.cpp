@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <png.h>
 
+#include <array>
+#include <cmath>
+
 #include "image_file.hpp"
 
 namespace orca::sim::detail {
@@ -45,21 +48,61 @@ Status check_chunks(std::string_view bytes, const std::string& path) {
   return ok();
 }
 
+// One pixel of 8 bits a sample, on the scale of sRGB.
+struct Pixel {
+  std::uint8_t red, green, blue, alpha;
+};
+
+constexpr double kExponent = 2.2;  // of sRGB, as libpng has it, too
+
+std::array<double, 256> table_of_light() {
+  std::array<double, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = std::pow(static_cast<double>(i) / 255.0, kExponent);
+  return table;
+}
+
+// Returns the grey of a pixel that is laid on white. libpng could do this, but it mixes light in steps of 1/255, which are
+// coarse where it is dark.
+std::uint8_t grey_of(const Pixel& pixel) {
+  if (pixel.alpha == 255 && pixel.red == pixel.green && pixel.green == pixel.blue) return pixel.red;
+  static const std::array<double, 256> kLight = table_of_light();
+  const double light =
+      0.2126 * kLight[pixel.red] + 0.7152 * kLight[pixel.green] + 0.0722 * kLight[pixel.blue];
+  const double on_white = 1.0 - pixel.alpha / 255.0 * (1.0 - light);
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::pow(on_white, 1.0 / kExponent)));
+}
+
+void append_greys(const std::vector<std::uint8_t>& samples, bool coloured, bool transparent,
+                  GreyImage& result) {
+  const std::size_t colours = coloured ? 3 : 1;
+  const std::size_t step = colours + (transparent ? 1 : 0);
+  result.grey.reserve(samples.size() / step);
+  for (std::size_t i = 0; i < samples.size(); i += step) {
+    const std::uint8_t alpha = transparent ? samples[i + colours] : std::uint8_t{255};
+    result.grey.push_back(grey_of({samples[i], samples[i + colours / 2], samples[i + colours - 1], alpha}));
+  }
+}
+
 }  // namespace
 
 Result<GreyImage> decode_png(std::string_view bytes, const std::string& path) {
   if (const Status sound = check_chunks(bytes, path); !sound) return sound.error();
   PngReader reader;
-  if (png_image_begin_read_from_memory(&reader.image, bytes.data(), bytes.size()) == 0)
-    return damaged_png(reader.image.message, path);
-  if (const Status size = check_size(reader.image.width, reader.image.height, path); !size)
-    return size.error();
-  reader.image.format = PNG_FORMAT_GRAY;
-  GreyImage result{reader.image.width, reader.image.height, {}};
-  result.grey.resize(result.width * result.height);
-  const png_color white{255, 255, 255};
-  if (png_image_finish_read(&reader.image, &white, result.grey.data(), 0, nullptr) == 0)
-    return damaged_png(reader.image.message, path);
+  png_image& image = reader.image;
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
+    return damaged_png(image.message, path);
+  if (const Status size = check_size(image.width, image.height, path); !size) return size.error();
+  const bool coloured = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
+  const bool transparent = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0;
+  image.format &= PNG_FORMAT_FLAG_COLOR | PNG_FORMAT_FLAG_ALPHA;  // 8 bits a sample, no palette
+  image.flags |=
+      PNG_IMAGE_FLAG_16BIT_sRGB;  // otherwise it takes 16-bit samples without a tag for linear ones
+  std::vector<std::uint8_t> samples(PNG_IMAGE_SIZE(image));
+  if (png_image_finish_read(&image, nullptr, samples.data(), 0, nullptr) == 0)
+    return damaged_png(image.message, path);
+  GreyImage result{image.width, image.height, {}};
+  append_greys(samples, coloured, transparent, result);
   return result;
 }
 

@@ -12,7 +12,7 @@
 
 namespace orca::sim {
 
-/// A grey image; `grey` holds rows from the top of the picture down, 0 black to 255 white.
+/// A grey image; `grey` holds rows from the top of the picture down, 0 black to 255 white, on the scale of sRGB.
 struct GreyImage {
   std::size_t width = 0;   ///< [pixels]
   std::size_t height = 0;  ///< [pixels]
@@ -25,8 +25,14 @@ struct BitmapScale {
   std::optional<double> resolution;  ///< [m] Side of one pixel, > 0.
 };
 
-/// Reads a PNG or PGM (P2, P5) file, distinguished by its first bytes. Transparent pixels count as white.
+/// Reads a PNG or PGM (P2, P5) file, distinguished by its first bytes.
 ///
+/// The grey of a PNG is what a viewer shows. An `sRGB` tag is followed, else a `gAMA` tag; without either, samples of
+/// any depth are sRGB. Colours count by their luminance, and transparent parts are laid on white; both mix light, not
+/// numbers. Where a conversion is needed, sRGB stands for `gAMA` 1 / 2.2, as the standard says. Colour profiles are
+/// ignored. The values of a PGM, which has no tags, are proportional to the grey.
+///
+/// @source  W3C, Portable Network Graphics (PNG) Specification, 2nd edition, 11.3.3.2 and 11.3.3.5, 13.13 to 13.16.
 /// @errors  not_found if the file cannot be opened; data_loss if it is damaged; invalid_argument if it is
 ///          neither format or larger than 100 million pixels.
 [[nodiscard]] Result<GreyImage> read_image(const std::string& path);
