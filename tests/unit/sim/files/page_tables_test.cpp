@@ -157,6 +157,18 @@ TEST_CASE("docs/simulation.md has the numbers behind each level of realism", "[s
   CHECK(rows_below("| error | ideal | nominal | harsh |") == expected);
 }
 
+TEST_CASE("docs/simulation.md says of each error where its values come from", "[sim][docs]") {
+  Lines named;
+  for (const std::string& row : rows_below("| error | nominal | harsh |")) {
+    named.push_back(cell(row, 0));
+    for (const std::size_t level : {1U, 2U}) {
+      CAPTURE(row);
+      CHECK(cell(row, level).size() > 0);
+    }
+  }
+  CHECK(named == kErrors);
+}
+
 TEST_CASE("docs/simulation.md has every shipped robot with its drive, speeds and plan",
           "[sim][robots][docs]") {
   Lines expected;
