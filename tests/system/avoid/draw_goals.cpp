@@ -23,9 +23,9 @@ constexpr double kNearest = 4.0;     // [m] from start to goal
 constexpr double kFarthest = 15.0;
 constexpr double kIndoors = 60.0;  // [m] indoors there is a wall within this distance on every side
 
-class Floor {
+class Storey {
  public:
-  explicit Floor(WorldModel world) : world_(std::move(world)), caster_(world_), bounds_(world_.bounds()) {}
+  explicit Storey(WorldModel world) : world_(std::move(world)), caster_(world_), bounds_(world_.bounds()) {}
 
   [[nodiscard]] bool free(Vec2 p) const {
     return world_.obstacle_at(Circle{p, kClearance}, 0.0) == nullptr && indoors(p);
@@ -47,7 +47,7 @@ class Floor {
   }
 
  private:
-  // Floor plans have free space and lettering around the building, which do not count.
+  // Storey plans have free space and lettering around the building, which do not count.
   [[nodiscard]] bool indoors(Vec2 p) const {
     constexpr int kRays = 16;
     for (int i = 0; i < kRays; ++i) {
@@ -62,7 +62,7 @@ class Floor {
   Bounds bounds_;
 };
 
-void draw(const Floor& floor, int count, std::uint64_t seed) {
+void draw(const Storey& floor, int count, std::uint64_t seed) {
   orca::RandomStream random(seed, "draw_goals", "places");
   for (int drawn = 0; drawn < count;) {
     const Vec2 start = floor.free_place(random);
@@ -91,6 +91,6 @@ int main(int argc, char** argv) {
     std::fputs(diagnostics.text().c_str(), stderr);
     return 2;
   }
-  draw(Floor(std::move(*world)), std::atoi(argv[3]), std::strtoull(argv[4], nullptr, 10));
+  draw(Storey(std::move(*world)), std::atoi(argv[3]), std::strtoull(argv[4], nullptr, 10));
   return 0;
 }
