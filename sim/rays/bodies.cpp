@@ -15,7 +15,6 @@ constexpr double kMaxBodyCells = 1e5;
 constexpr std::size_t kFew = 6;  // Up to this many bodies, testing each is faster than walking the cells.
 // Up to this many bodies, a view chooses among them; with more, each ray finds its own through the cells.
 constexpr std::size_t kMany = 300;
-constexpr std::uint64_t kMostEdges = 1U << 20U;    // Element numbers reserved for each body.
 constexpr double kWide = 0.25 * std::numbers::pi;  // [rad] The half angle of a view is smaller.
 
 template <class Visit>

@@ -10,6 +10,8 @@
 
 namespace orca::sim::detail {
 
+class Panorama;
+
 // The bodies that can move, listed by the cells of their own uniform grid. Few moves change a list, so a move
 // costs little.
 class Bodies {
@@ -28,7 +30,13 @@ class Bodies {
   // direction. Returns false if the cone is too wide for the search to pay off.
   bool choose(const Ray& axis, const Cone& cone, std::vector<std::uint32_t>& found) const;
 
+  // Adds to the view of a cone all bodies that can be seen in it but for one, and perhaps some that cannot. The
+  // numbers of their elements begin at `first`.
+  void show(const Cone& cone, std::size_t without, std::uint64_t first, Panorama& view) const;
+
  private:
+  static constexpr std::uint64_t kMostEdges = 1U << 20U;  // Element numbers reserved for each body.
+
   // A body with its edges and bounds, which are computed once per move.
   struct Moving {
     explicit Moving(Body b);

@@ -6,6 +6,7 @@
 #include "bodies.hpp"
 #include "grid.hpp"
 #include "mesh_sections.hpp"
+#include "panorama.hpp"
 
 namespace orca::sim {
 namespace {
@@ -85,6 +86,15 @@ Hit Caster::cast(const Ray& ray) const {
   impl_->bodies.cast(ray, hit);
   impl_->finish(ray, hit, 0.0);
   return hit;
+}
+
+void Caster::survey(const Ray& axis, double half_angle, detail::Panorama& view) const {
+  const detail::Cone cone(axis.origin, axis.direction, half_angle, 0.0, axis.max_range);
+  view.begin(cone, axis.sensor_height);
+  impl_->bodies.show(cone, axis.ignore_body, kBodies, view);
+  impl_->grid.show(cone, kStanding, 1, view);
+  impl_->meshes.show(cone, axis.sensor_height, kMesh, view);
+  view.finish();
 }
 
 Caster::View::View(const Caster& caster, const Ray& axis, double half_angle, double slack) {

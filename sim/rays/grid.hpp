@@ -9,6 +9,8 @@
 
 namespace orca::sim::detail {
 
+class Panorama;
+
 // The heights between which a solid lies [m]. A sensor at exactly `bottom` sees it, one at exactly `top` does
 // not.
 struct Heights {
@@ -44,8 +46,13 @@ class Grid {
   // Returns a distance [m] before which no ray of the cone meets anything. The true one may be larger.
   [[nodiscard]] double empty_depth(const Cone& cone) const;
 
+  // Adds to the view of a cone all elements that can be seen in it, and perhaps some that cannot. An element's
+  // number is `first` plus `step` times its number here.
+  void show(const Cone& cone, std::uint64_t first, std::uint64_t step, Panorama& view) const;
+
  private:
   void sort_in();
+  void show_part(const Cone& cone, std::uint64_t first, std::uint64_t step, Panorama& view) const;
   template <class Visit>
   void for_cells_of(const Segment& segment, const Visit& visit) const;
   template <class Visit>

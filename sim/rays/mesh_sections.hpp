@@ -22,6 +22,11 @@ class MeshSections {
     if (!meshes_.empty()) at(ray.sensor_height)->cast(ray, hit);
   }
 
+  // Adds to the view of a cone all edges that can be seen in it. They all have the same number.
+  void show(const Cone& cone, double height, std::uint64_t number, Panorama& view) const {
+    if (!meshes_.empty()) at(height)->show(cone, number, 0, view);
+  }
+
  private:
   [[nodiscard]] std::shared_ptr<const Grid> at(double height) const;
 

@@ -12,6 +12,10 @@
 
 namespace orca::sim {
 
+namespace detail {
+class Panorama;
+}
+
 /// A ray in the horizontal plane at a certain height above the floor.
 struct Ray {
   Vec2 origin;
@@ -77,6 +81,14 @@ class Caster {
 
   /// Returns the first thing that the ray meets.
   [[nodiscard]] Hit cast(const Ray& ray) const;
+
+  /// Finds everything that is seen in a cone, exactly. The cone opens as far up and down as to both sides. Of a mesh
+  /// only the section at the sensor's height is seen.
+  ///
+  /// @param axis        middle ray of the cone: gives the origin, range, sensor height and ignored body.
+  /// @param half_angle  [rad] angle between the axis and the rims, at most a right angle.
+  /// @param view        receives the result; what it held is lost.
+  void survey(const Ray& axis, double half_angle, detail::Panorama& view) const;
 
   class View;
 
