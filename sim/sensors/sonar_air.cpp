@@ -39,7 +39,7 @@ class SonarAir::Ear {
     std::array<std::optional<Point>, 2> ends;  // The ends that are heard.
   };
 
-  Ear(const Caster& caster, const Cone& own, const Caster::View& view)
+  Ear(const Caster& caster, const Cone& own, const Panorama& view)
       : cone(own), caster_(caster), view_(view) {}
 
   [[nodiscard]] Wall wall(const Segment& edge) const {
@@ -48,32 +48,26 @@ class SonarAir::Ear {
     return {edge.a,           along,          dot(along, along),
             cross(along, to), dot(along, to), {scattering(edge.a), scattering(edge.b)}};
   }
-  // Returns true if the listener sees the point. The answer is kept, because it takes a cast.
+  // Returns true if the listener sees the point. The answer is kept, because it is needed often.
   bool sees(Point& point) const {
     if (point.sight == Point::Sight::unknown)
-      point.sight =
-          sees(view_, cone.beam, point.at, point.length) ? Point::Sight::free : Point::Sight::blocked;
+      point.sight = point.length <= cone.beam.max_range && view_.shows(point.at, kSeen)
+                        ? Point::Sight::free
+                        : Point::Sight::blocked;
     return point.sight == Point::Sight::free;
   }
   // Returns true if the transducer of another beam sees the point.
   [[nodiscard]] bool is_seen(const Beam& beam, Vec2 point, double length) const {
-    return sees(caster_, beam, point, length);
+    if (length > beam.max_range) return false;
+    const Vec2 towards = (1.0 / length) * (point - beam.sensor.position());
+    return caster_.cast(beam.ray(towards)).range >= length - kSeen;
   }
   // Returns true if nothing but the robot that carries the other transducer is on the way there.
-  [[nodiscard]] bool sees_transducer(Vec2 way, double length) const {
-    return view_.cast(cone.beam.ray((1.0 / length) * way)).range >=
-           std::fmin(length - kInBody, cone.beam.max_range);
-  }
+  [[nodiscard]] bool sees_transducer(Vec2 place) const { return view_.shows(place, kInBody); }
 
   const Cone& cone;
 
  private:
-  template <class Eye>
-  static bool sees(const Eye& eye, const Beam& beam, Vec2 point, double length) {
-    if (length > beam.max_range) return false;
-    const Vec2 towards = (1.0 / length) * (point - beam.sensor.position());
-    return eye.cast(beam.ray(towards)).range >= length - kSeen;
-  }
   [[nodiscard]] std::optional<Point> scattering(Vec2 end) const {
     const Vec2 to = end - cone.beam.sensor.position();
     if (!cone.holds(to)) return std::nullopt;
@@ -83,7 +77,7 @@ class SonarAir::Ear {
   }
 
   const Caster& caster_;
-  const Caster::View& view_;
+  const Panorama& view_;
 };
 
 // Follows the ways from one transducer to another and keeps the shortest that arrives in the window.
@@ -109,7 +103,7 @@ class SonarAir::Ways {
     const double length = norm(way);
     if (length <= kInBody || !ear_.cone.holds(way) || !from_.holds(-1.0 * way) || !in_window(length)) return;
     if (ear_.cone.loss(way) + from_.loss(-1.0 * way) > kMostLoss) return;
-    if (ear_.sees_transducer(way, length)) keep(length);
+    if (ear_.sees_transducer(sender())) keep(length);
   }
 
   // Tries the ways off a wall's flat side and off its ends.
@@ -225,7 +219,7 @@ void SonarAir::for_all_off(std::uint64_t element, const Window& window, const Vi
 
 std::optional<double> SonarAir::first_heard(const Caster& caster, std::uint64_t own, const Echo& echo,
                                             Sectors::Search& search) const {
-  const Ear ear(caster, cone(own), echo.view);
+  const Ear ear(caster, cone(own), echo.seen);
   const double now = ear.cone.sector.sent;
   std::optional<double> nearest = echo.range;
   // A way between two transducers is no longer than their two cones together.

@@ -9,15 +9,37 @@
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/sim/caster.hpp"
+#include "rays/bearing.hpp"
+#include "rays/panorama.hpp"
 
 namespace orca::sim::detail {
 
+// Losses say how much weaker sound is than on the axis, as the logarithm of the ratio [Np], so that they add
+// up.
+//
+// Returns the one-way loss in a direction off the axis; both angles in [rad]. There and back the amplitude is
+// a Gaussian over the angle. Its standard deviation is half of `half_lobe`: exp(-2) = 0.135 at the rim.
+inline double lobe_loss(double off_axis, double half_lobe) {
+  const double share = off_axis / half_lobe;
+  return share * share;
+}
+// [Np] A tenth of the sound is still heard: barely that of a smooth wall at the rim of the lobe.
+inline const double kMostLoss = std::log(10.0);
+// [Np] An edge scatters only three tenths of the sound, so it is heard only in the middle of the beam.
+inline const double kEdgeLoss = -std::log(0.3);
+
 // The opening of a transducer's cone, with the values that are often derived from it.
 struct Lobe {
-  explicit Lobe(double half) : half_angle(half), rim(direction(half)), tangent(std::tan(half)) {}
+  explicit Lobe(double half)
+      : half_angle(half),
+        rim(direction(half)),
+        tangent(std::tan(half)),
+        edge_bearing(bearing_of(direction(half * std::sqrt(0.5 * (kMostLoss - kEdgeLoss))))) {}
   double half_angle;  // [rad] At most a right angle.
   Vec2 rim;           // Direction of the left rim, of length 1, if the axis is x.
   double tangent;     // Slope of that rim.
+  // Bearing up to which edges are heard: there twice the loss of the lobe and that of an edge make the largest one.
+  double edge_bearing;
 };
 
 // The cone of one transducer at the moment it fires.
@@ -53,19 +75,6 @@ struct Beam {
   }
 };
 
-// Losses say how much weaker sound is than on the axis, as the logarithm of the ratio [Np], so that they add
-// up.
-//
-// Returns the one-way loss in a direction off the axis; both angles in [rad]. There and back the amplitude is
-// a Gaussian over the angle. Its standard deviation is half of `half_lobe`: exp(-2) = 0.135 at the rim.
-inline double lobe_loss(double off_axis, double half_lobe) {
-  const double share = off_axis / half_lobe;
-  return share * share;
-}
-// [Np] A tenth of the sound is still heard: barely that of a smooth wall at the rim of the lobe.
-inline const double kMostLoss = std::log(10.0);
-// [Np] An edge scatters only three tenths of the sound, so it is heard only in the middle of the beam.
-inline const double kEdgeLoss = -std::log(0.3);
 // [m] A point of a surface is seen if the ray to it ends this close to it.
 constexpr double kSeen = 1e-6;
 
@@ -77,18 +86,10 @@ struct Echo {
     std::uint64_t element;
   };
 
-  // A ray of the beam that a surface mirrors away.
-  struct Mirrored {
-    Ray ray;
-    Hit hit;
-    double off_axis;  // [rad]
-  };
-
-  std::optional<double> range;     // [m] Distance of the first echo that is strong enough.
-  std::vector<Met> met;            // All surfaces that the beam meets.
-  std::vector<Mirrored> mirrored;  // Those rays of the beam that are mirrored away.
-  double reach = 0.0;              // [m] The beam meets nothing farther.
-  Caster::View view;               // View of the cone, valid until something moves.
+  std::optional<double> range;  // [m] Distance of the first echo that is strong enough.
+  std::vector<Met> met;         // All surfaces that the beam meets at the sensor's height.
+  double reach = 0.0;           // [m] The beam meets nothing farther.
+  Panorama seen;                // All that is seen in the cone.
 };
 
 // Computes the beam's echo without noise; only the memory of the former `echo` is used again. A surface

@@ -48,6 +48,7 @@ SonarModel::Shot& SonarModel::next_shot() {
 }
 
 void SonarModel::send(SonarAir& air) {
+  if (!errors_.sonar_crosstalk) return;  // Then nobody in the world listens to others.
   for (Shot& shot : shots()) shot.chirp = air.send(shot.time, *shot.beam, shot.echo);
 }
 

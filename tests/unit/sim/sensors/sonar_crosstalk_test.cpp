@@ -110,13 +110,15 @@ TEST_CASE("sound is reflected by a body that has moved on since, and not by one 
   CHECK_FALSE(heard_by(caster, air, kAhead, kNow));
 }
 
-TEST_CASE("sound is reflected by bodies that rays of both beams meet, and not by one that a beam's rays miss",
+TEST_CASE("a thin post reflects sound wherever both beams hold it, and nowhere else",
           "[sim][sonar][crosstalk]") {
   const WorldModel thin{"thin", {{"post", Circle{{3.0, 0.0}, 0.02}, 2.5}}, {}};
-  const double pitch =
-      3.0 * std::tan(12.5 * kDegree / 4.0);  // [m] Between two of the nine rays, at the post.
-  CHECK(stray(thin, {0, pitch, 0}, kAhead).has_value());
-  CHECK_FALSE(stray(thin, {0, 0.5 * pitch, 0}, kAhead));
+  const double rim = 3.0 * std::tan(12.5 * kDegree);  // [m] From the axis to the rim of a lobe, at the post.
+  for (int i = 0; i <= 50; ++i) {
+    CAPTURE(i);
+    CHECK(stray(thin, {0, 0.02 * i * (rim - 0.02), 0}, kAhead).has_value());
+  }
+  CHECK_FALSE(stray(thin, {0, rim + 0.03, 0}, kAhead));
 }
 
 TEST_CASE("thousands of bodies that come and go do not change the sound reflected by those that are there",
