@@ -175,11 +175,12 @@ class LayoutDice {
   void process_goes(Layout& layout) {
     if (!layout.processes.empty()) layout.processes.erase(one_of(layout.processes).first);
   }
+  // None is "temporary": one that is killed would not come back.
   void process_changes(Layout& layout) {
     if (layout.processes.empty()) return;
     const std::string name = one_of(layout.processes).first;
     layout.processes[name] = one_of(std::vector<std::string>{
-        "", " spin=\"0.1 ms\"", " executor=\"fiber\"", " hang_limit=\"4 s\"", " restart=\"temporary\""});
+        "", " spin=\"0.1 ms\"", " executor=\"fiber\"", " hang_limit=\"4 s\"", " restart=\"transient\""});
   }
   // Who was in a process that has gone goes to another one; who has heard one that has gone hears its own teller. The order is
   // that of the names: for one that goes and comes at once nothing changes, also if a file has it at another place.
