@@ -48,6 +48,15 @@ void add_plan(const Part& part, std::vector<Vec2>& plan) {
   }
 }
 
+// Returns true if the circle of that radius around the origin holds the plan of the part.
+bool lies_within(double radius, const Part& part) {
+  const double own = detail::round_radius(part, {});
+  if (own >= 0.0) return own <= radius;
+  std::vector<Vec2> plan;
+  add_plan(part, plan);
+  return std::ranges::all_of(plan, [&](Vec2 p) { return norm(p) <= radius; });
+}
+
 }  // namespace
 
 double detail::round_radius(const Part& part, Vec2 center) {
@@ -60,13 +69,10 @@ double detail::round_radius(const Part& part, Vec2 center) {
 }
 
 Shape footprint_of(const std::vector<Part>& parts) {
-  const bool round =
-      std::ranges::all_of(parts, [](const Part& p) { return detail::round_radius(p, {}) >= 0.0; });
-  if (round) {
-    double radius = 0.0;
-    for (const Part& p : parts) radius = std::max(radius, detail::round_radius(p, {}));
+  double radius = 0.0;
+  for (const Part& p : parts) radius = std::max(radius, detail::round_radius(p, {}));
+  if (std::ranges::all_of(parts, [&](const Part& p) { return lies_within(radius, p); }))
     return Circle{{0.0, 0.0}, radius};
-  }
   std::vector<Vec2> plan;
   for (const Part& p : parts) add_plan(p, plan);
   return outline_of(hull_of(std::move(plan)));

@@ -154,8 +154,8 @@ struct RobotModel {
   [[nodiscard]] std::vector<Shape> section_at(double height) const;
 };
 
-/// Returns the plan of the parts. It is a circle if all are balls and upright cylinders centred on the z
-/// axis; else it is the convex hull, where a round part counts as the polygon with 24 corners around it.
+/// Returns the plan of the parts. It is a circle if a ball or an upright cylinder centred on the z axis holds the plan
+/// of all others; else it is the convex hull, where a round part counts as the polygon with 24 corners around it.
 [[nodiscard]] Shape footprint_of(const std::vector<Part>& parts);
 
 /// Returns the heights of the lowest (first) and highest (second) point of the parts [m].
