@@ -12,6 +12,7 @@
 #include "orca/sim/world_file.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
+#include "own_sight.hpp"
 #include "shared_world.hpp"
 #include "sim_sensors.hpp"
 #include "touch_guard.hpp"
@@ -55,6 +56,8 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     if (const std::string why = unserved(*robot_); !why.empty())
       errors.push_back({"robot", "\"" + *robot_file_ + "\": " + why});
     declare_endpoints();
+    for (const std::string& gap : gaps_at_own_sensors(*robot_))
+      errors.push_back({.param = "robot", .text = gap, .only_warns = true});
     return errors;
   }
 

@@ -220,6 +220,7 @@ std::vector<orca::HardwareFault> FakeCatalogue::validate_hardware(const graph::H
     return {{"", "broken.world:4:3: error W001: two walls cross"},
             {"", "broken.world:9:3: error W002: the floor has no size"}};
   }
+  if (path.ends_with("foggy.world")) return {{"world", "its fog hides everything", {}, false, true}};
   if (path.ends_with("flooded.world")) return {{"world", "it is under water; take another"}};
   return {};
 }

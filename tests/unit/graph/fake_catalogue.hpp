@@ -10,8 +10,8 @@
 /// A catalogue without plugins: the contracts of the shipped plugins, and some contracts with faults.
 ///
 /// A hardware whose parameter "world" ends in "broken.world" has a broken world file, one where it ends in
-/// "flooded.world" cannot work with that value. A hardware "orca.hw.Deep" has a fault at its parameter "ship" that
-/// follows from a "depth" of 0. Two "orca.hw.Sim" of one world must share a process. A component whose parameter
+/// "flooded.world" cannot work with that value, and one where it ends in "foggy.world" is doubtful. A hardware
+/// "orca.hw.Deep" has a fault at its parameter "ship" that follows from a "depth" of 0. Two "orca.hw.Sim" of one world must share a process. A component whose parameter
 /// "label" is "torn" refuses it, one where it is "lost" ends its trial. "test.Clock" is unfit for any run, for two
 /// reasons.
 class FakeCatalogue final : public orca::graph::Catalogue {

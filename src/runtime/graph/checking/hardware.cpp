@@ -14,9 +14,13 @@ namespace {
 void report_fault(const Node& node, const HardwareFault& fault, Report& report) {
   if (fault.param.empty()) {
     report.line(node.position, fault.text);
+    return;
+  }
+  const std::string text = node.title() + ": parameter " + in_quotes(fault.param) + ": " + fault.text;
+  if (fault.only_warns) {
+    report.warning(codes::kHardwareDoubts, place_of_param(node, fault.param), text);
   } else {
-    report.error(codes::kHardwareRefuses, place_of_param(node, fault.param),
-                 node.title() + ": parameter " + in_quotes(fault.param) + ": " + fault.text);
+    report.error(codes::kHardwareRefuses, place_of_param(node, fault.param), text);
   }
 }
 
@@ -44,7 +48,7 @@ CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use_of(checked));
   for (const HardwareFault& fault : faults)
     if (!follows_from(params.unread, fault)) report_fault(node, fault, report);
-  checked.sound = params.sound() && faults.empty();
+  checked.sound = params.sound() && std::ranges::all_of(faults, &HardwareFault::only_warns);
   return checked;
 }
 

@@ -60,6 +60,7 @@ inline constexpr const char* kNeverTriggered = "G053";
 inline constexpr const char* kOnlyAsks = "G054";
 inline constexpr const char* kCircle = "G055";
 inline constexpr const char* kNothingToCollect = "G056";
+inline constexpr const char* kHardwareDoubts = "G057";
 inline constexpr const char* kLoading = "G060";
 inline constexpr const char* kUnfit = "G061";
 inline constexpr const char* kComponentRefuses = "G062";

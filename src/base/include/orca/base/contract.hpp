@@ -150,7 +150,7 @@ struct Trigger {
 
 enum class PluginKind { component, hardware };
 
-/// An error in the values of a hardware container's parameters, or in the files that they name.
+/// An error, or something doubtful, in the values of a hardware container's parameters, or in the files that they name.
 struct HardwareFault {
   /// The parameter to correct; empty: `text` is a whole line about a place in another file.
   std::string param;
@@ -160,6 +160,8 @@ struct HardwareFault {
   std::vector<std::string> follows_from{};
   /// Of two containers that are compared: it is a fault only if they are in different processes.
   bool if_apart = false;
+  /// It can be used as it is, but most likely something else was meant: the checker warns, and nothing stops.
+  bool only_warns = false;
   friend bool operator==(const HardwareFault&, const HardwareFault&) = default;
 };
 

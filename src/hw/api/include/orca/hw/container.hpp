@@ -54,7 +54,7 @@ class HardwareContainer {
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 
   /// Reads what the parameters name, and declares the endpoints.
-  /// @return the faults that were found; empty: none.
+  /// @return the faults that were found, and what the checker should warn about (HardwareFault::only_warns).
   virtual std::vector<HardwareFault> prepare() = 0;
 
   /// Compares this hardware with one of the same type that the graph names earlier, so that a graph can be

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "own_sight.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "shipped.hpp"
+
+using namespace orca::sim;
+using namespace orca::sim::test;
+using Catch::Contains;
+
+TEST_CASE("each shipped robot is solid at the height of each sensor of its own", "[sim][robots]") {
+  const std::string name =
+      GENERATE("barn_base", "nomad_200", "nomad_scout", "omni", "peoplebot", "pioneer_2dx");
+  INFO(name);
+  CHECK(gaps_at_own_sensors(shipped(name)).empty());
+}
+
+TEST_CASE("a gap names the sensor, its height and the robot", "[sim][robots]") {
+  RobotModel robot = shipped("pioneer_2dx");
+  robot.lasers.at(0).height = 0.5;
+  const auto gaps = gaps_at_own_sensors(robot);
+  REQUIRE(gaps.size() == 1);
+  CHECK_THAT(gaps[0], Contains("the laser \"laser\" is 0.5 m above the floor"));
+  CHECK_THAT(gaps[0], Contains("\"pioneer_2dx\" has nothing solid"));
+}
+
+TEST_CASE("a ring with transducers at two heights is judged at both", "[sim][robots]") {
+  RobotModel robot = shipped("peoplebot");
+  for (Part& part : robot.parts) part.X_BP.z += 0.2;  // All parts begin above the lower transducers.
+  robot.lasers.clear();
+  const auto gaps = gaps_at_own_sensors(robot);
+  REQUIRE(gaps.size() == 1);
+  CHECK_THAT(gaps[0], Contains("sonar ring \"sonar\" is 0.17 m"));
+  for (Part& part : robot.parts) part.X_BP.z += 5.0;
+  CHECK(gaps_at_own_sensors(robot).size() == 2);
+}
+
+TEST_CASE("infrared rings are judged too", "[sim][robots]") {
+  RobotModel robot = shipped("nomad_200");
+  REQUIRE_FALSE(robot.infrareds.empty());
+  robot.infrareds[0].height = 3.0;
+  REQUIRE(gaps_at_own_sensors(robot).size() == 1);
+  CHECK_THAT(gaps_at_own_sensors(robot)[0], Contains("infrared ring"));
+}
