@@ -28,7 +28,7 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
       if (const auto value = params.find(param.contract.name); value != params.end())
         param.set(value->second);
     errors = container_->prepare();
-    std::erase_if(errors, [](const HardwareFault& fault) { return fault.only_warns; });
+    std::erase_if(errors, [](const HardwareFault& found) { return found.only_warns; });
     if (hw::Drawable* const drawable = container_->drawable(); drawable != nullptr && run_.wants_scene)
       drawable->keep_moments();
     if (!errors.empty()) return;
