@@ -39,9 +39,9 @@ class ConeOfRays {
     for (std::size_t i = 0; i < faces_.size(); ++i)
       for (std::size_t k = i + 1; k < faces_.size(); ++k)
         for_crossings(faces_[i], faces_[k], [this](Vec2 point) { probe_edge_at(point); });
-    for (const double angle : edges_) {
-      look_for_edge(angle, nullptr);
-      for (const UprightFace* level : levels_) look_for_edge(angle, level);
+    for (const Vec2 point : edges_) {
+      look_for_edge(point, nullptr);
+      for (const Level level : levels_) look_for_edge(point, level);
     }
     return best_;
   }
@@ -51,6 +51,7 @@ class ConeOfRays {
 
  private:
   static constexpr double kBeside = 1e-9;  // [rad]
+  static constexpr double kSame = 1e-9;    // [m] Points that are no farther apart are the same.
   struct Met {
     double range = UprightFace::kNever;
     const UprightFace* face = nullptr;
@@ -129,7 +130,7 @@ class ConeOfRays {
   void probe_at(Vec2 point) { probe_beside(std::atan2(point.y, point.x)); }
   void probe_edge_at(Vec2 point) {
     probe_at(point);
-    edges_.push_back(std::atan2(point.y, point.x));
+    edges_.push_back(point);
   }
 
   // Sends rays to where a face may be nearest, or begin to be seen.
@@ -154,30 +155,25 @@ class ConeOfRays {
   }
 
   // An edge: two walls that meet at more than 1 deg, or the end of a wall that no other goes on from.
-  void look_for_edge(double angle, Level level) {
+  void look_for_edge(Vec2 point, Level level) {
     // Edges return 0.3, a tenth is heard, and the lobe takes exp(-2) at its rim.
     const double heard = std::sqrt(0.5 * std::log(0.3 / 0.1));
+    const double angle = std::atan2(point.y, point.x);
     if (std::fabs(angle) > heard * half_) return;
     const Met right = first_met(direction(angle - kBeside), level);
     const Met left = first_met(direction(angle + kBeside), level);
     const Met& near = right.range < left.range ? right : left;
     const Met& far = right.range < left.range ? left : right;
-    if (near.face == nullptr || near.face == far.face || near.face->is_round()) return;
-    const bool joined = is_joined(near, far);
+    if (!is_straight(near) || near.face == far.face || near.face->away_from(point) > kSame) return;
+    // Where faces are met at a grazing angle, the ranges beside the point say little.
+    const bool joined =
+        is_straight(far) && (far.range - near.range <= 1e-3 || far.face->away_from(point) <= kSame);
     if (!is_of(*near.face, level) && !(joined && is_of(*far.face, level))) return;
-    const bool is_edge =
-        joined ? !near.face->in_line(*far.face) : is_free_end(*near.face, near.range * direction(angle));
-    if (is_edge) offer(near.range, level);
+    if (joined ? !near.face->in_line(*far.face) : is_free_end(*near.face, point)) offer(norm(point), level);
   }
-  static bool is_joined(const Met& near, const Met& far) {
-    return far.face != nullptr && !far.face->is_round() && far.range - near.range <= 1e-3;
-  }
+  static bool is_straight(const Met& met) { return met.face != nullptr && !met.face->is_round(); }
   [[nodiscard]] bool is_free_end(const UprightFace& face, Vec2 point) const {
-    const double angle = std::atan2(point.y, point.x);
-    return (is_at(face.a, angle) || is_at(face.b, angle)) && !goes_on(face, point);
-  }
-  static bool is_at(Vec2 end, double angle) {
-    return std::fabs(std::atan2(end.y, end.x) - angle) <= 2.0 * kBeside;
+    return std::min(norm(face.a - point), norm(face.b - point)) <= kSame && !goes_on(face, point);
   }
   [[nodiscard]] bool goes_on(const UprightFace& face, Vec2 point) const {
     return std::ranges::any_of(seen_, [&](const UprightFace* other) {
@@ -192,7 +188,7 @@ class ConeOfRays {
   std::vector<UprightFace> faces_;
   double half_, opening_, max_range_, critical_;
   std::vector<Level> levels_;
-  std::vector<double> edges_;             // [rad] Where there may be edges.
+  std::vector<Vec2> edges_;               // Where there may be edges.
   std::vector<const UprightFace*> seen_;  // The faces that rays met at the sensor's height.
   std::optional<double> best_;
   double nearest_seen_ = UprightFace::kNever;
