@@ -98,6 +98,8 @@ class Renewing {
   [[nodiscard]] std::string log() const { return program_->err(); }
   // Ends the system, and checks that the pair beside has missed nothing.
   void end() {
+    CHECK(run_orcactl({"suspend", "calm_talker"}).exit_code() ==
+          0);  // processes do not end at the same moment
     CHECK(run_orcactl({"stop"}).exit_code() == 0);
     const Run run = finish(*program_, Seconds(10));
     INFO(run.err);
