@@ -389,6 +389,7 @@ void Physics::drive(std::size_t robot, const Drift& drift) { impl_->robots[robot
 
 void Physics::step(double seconds) {
   impl_->set_off(seconds);
+  // What is left after so many parts is lost for all bodies: less than a tick, where many press each other.
   double left = seconds;
   for (int parts = 0; left > 0.0 && parts < 2 * kMostParts; ++parts)
     left -= impl_->part(left, parts >= kMostParts);
