@@ -112,3 +112,35 @@ TEST_CASE("a command that is no speed of any robot is refused by name", "[sim][d
     CHECK_THAT(refused.error().text(), Catch::Contains("dewey"));
   }
 }
+
+TEST_CASE(
+    "the shipped court leads a robot that trusts its wheels farther off than a court with a dry, even floor",
+    "[sim][floor]") {
+  orca::xml::Diagnostics errors;
+  auto court = read_world(ORCA_SOURCE_DIR "/sim/worlds/court.xml", {}, errors);
+  INFO(errors.text());
+  REQUIRE(court);
+  const auto off_after_north_side = [](const WorldModel& model) {
+    double squares = 0.0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      World world(model, {.seed = seed, .realism = Realism::nominal});
+      const Pose2 start{6.5, 2.5, 0.5 * std::numbers::pi};  // over the sill, then west along the north side
+      const RobotId id = *world.add_robot("dewey", base_of(DriveKind::differential), start);
+      for (int tick = 0; tick < 2000; ++tick) {
+        const double turn = tick >= 500 && tick < 814 ? 0.5 : 0.0;
+        REQUIRE(world.set_velocity_command(id, {.forward = turn > 0.0 ? 0.0 : 0.4, .turn_rate = turn}));
+        world.step();
+      }
+      const Pose2 believed = start * world.odometry(id).value().pose;
+      squares += dot(believed.position() - world.pose(id).position(),
+                     believed.position() - world.pose(id).position()) /
+                 100.0;
+    }
+    return std::sqrt(squares);
+  };
+  const double with_floor = off_after_north_side(*court);
+  court->floor = {};
+  const double without = off_after_north_side(*court);
+  INFO("off by " << with_floor << " m, and " << without << " m on a dry, even floor");
+  CHECK(with_floor > 1.1 * without);
+}
