@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "attributes.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "renewal.hpp"
