@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::sim {
 
 double Floor::slip_at(Vec2 point) const {
@@ -29,8 +31,8 @@ double Floor::way_lost(const Segment& way, double wheel_diameter) const {
 
 double way_lost_on_edge(double diameter, double height) {
   const double radius = 0.5 * diameter;
-  const double angle = std::acos(1.0 - std::min(height / radius, 0.5));
-  return 2.0 * radius * (angle - std::sin(angle));
+  const double angle = portable::acos(1.0 - std::min(height / radius, 0.5));
+  return 2.0 * radius * (angle - portable::sin(angle));
 }
 
 }  // namespace orca::sim

@@ -5,6 +5,7 @@
 #include <bit>
 #include <optional>
 
+#include "orca/base/portable_math.hpp"
 #include "part_frame.hpp"
 
 namespace orca::sim {
@@ -25,7 +26,7 @@ struct Slab {
 
 constexpr Slab kEverything{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
-bool is_steep(const Vec3& axis) { return std::hypot(axis.x, axis.y) < kLevel; }
+bool is_steep(const Vec3& axis) { return portable::hypot(axis.x, axis.y) < kLevel; }
 bool is_level(const Vec3& axis) { return std::fabs(axis.z) < kLevel; }
 
 std::vector<Vec3> corners_of_block(const Part::Block& b) {
@@ -39,7 +40,7 @@ std::vector<Vec3> corners_of_block(const Part::Block& b) {
 // Returns the corners of the prism around the cylinder; number 2 k lies at the lower end of side k, number
 // 2 k + 1 at its upper end.
 std::vector<Vec3> corners_of_prism(const Part::Cylinder& c) {
-  const double outer = c.radius / std::cos(std::numbers::pi / kSides);
+  const double outer = c.radius / portable::cos(std::numbers::pi / kSides);
   std::vector<Vec3> corners;
   for (unsigned k = 0; k < kSides; ++k) {
     const Vec2 p = outer * direction(2.0 * std::numbers::pi * k / kSides);
@@ -189,7 +190,7 @@ std::pair<double, double> height_range_of(const Part& part) {
   if (const auto* b = std::get_if<Part::Block>(&part.form))
     reach = 0.5 * (rise(0) * b->x + rise(1) * b->y + rise(2) * b->z);
   if (const auto* c = std::get_if<Part::Cylinder>(&part.form))
-    reach = 0.5 * c->length * rise(2) + c->radius * std::hypot(frame.axis(0).z, frame.axis(1).z);
+    reach = 0.5 * c->length * rise(2) + c->radius * portable::hypot(frame.axis(0).z, frame.axis(1).z);
   if (const auto* ball = std::get_if<Part::Ball>(&part.form)) reach = ball->radius;
   return {part.X_BP.z - reach, part.X_BP.z + reach};
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::sim::detail {
@@ -11,7 +12,7 @@ namespace {
 Obstacle piece(const WallPlan& plan, double begin, double end) {
   const Vec2 along = plan.to - plan.from;
   const Vec2 middle = plan.from + 0.5 * (begin + end) / norm(along) * along;
-  const Box box{{middle.x, middle.y, std::atan2(along.y, along.x)},
+  const Box box{{middle.x, middle.y, portable::atan2(along.y, along.x)},
                 {0.5 * (end - begin), 0.5 * plan.thickness}};
   return {plan.name, box, plan.height};
 }

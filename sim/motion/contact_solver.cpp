@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "contact_solver.hpp"
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::sim::detail {
 namespace {
 
@@ -13,7 +15,8 @@ constexpr double kUnchanged = 1e-24;  // Square of an impulse [N2 s2].
 btVector3 flat_vector(Vec2 v) { return {v.x, v.y, 0.0}; }
 
 btTransform upright_transform(const Pose2& pose) {
-  return btTransform(btQuaternion(btVector3(0, 0, 1), pose.yaw), btVector3(pose.x, pose.y, 0));
+  const auto [cosine, sine] = portable::cos_sin(pose.yaw);
+  return btTransform(btMatrix3x3(cosine, -sine, 0, sine, cosine, 0, 0, 0, 1), btVector3(pose.x, pose.y, 0));
 }
 
 btContactSolverInfo settings(double seconds) {

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::sim::detail {
 DriveModel::DriveModel(const Drive& drive, const ErrorLevels& errors, Duration tick)
     : drive_(drive), tick_s_(to_seconds(tick)) {
   const double lag_s = to_seconds(drive.lag) * errors.delay_scale;
-  share_ = lag_s > 0.0 ? 1.0 - std::exp(-tick_s_ / lag_s) : 1.0;
+  share_ = lag_s > 0.0 ? 1.0 - portable::exp(-tick_s_ / lag_s) : 1.0;
   const auto ticks = std::lround(to_seconds(drive.dead_time) * errors.delay_scale / tick_s_);
   pending_.resize(static_cast<std::size_t>(ticks) + 1);
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::sim {
 namespace {
 
@@ -51,8 +53,8 @@ std::vector<hw::Obstruction::Pressed> TouchGuard::pressed(std::size_t ring,
 }
 
 bool TouchGuard::is_stalled(const OdometryReading& reading) const {
-  const double wanted = std::hypot(driven_.forward, driven_.left);
-  const double driving = std::hypot(reading.velocity.forward, reading.velocity.left);
+  const double wanted = portable::hypot(driven_.forward, driven_.left);
+  const double driving = portable::hypot(reading.velocity.forward, reading.velocity.left);
   if (wanted > 0.0) return driving < kStallShare * wanted;
   return driven_.turn_rate != 0.0 &&
          std::abs(reading.velocity.turn_rate) < kStallShare * std::abs(driven_.turn_rate);

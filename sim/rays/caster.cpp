@@ -6,6 +6,7 @@
 #include "bodies.hpp"
 #include "grid.hpp"
 #include "mesh_sections.hpp"
+#include "orca/base/portable_math.hpp"
 #include "panorama.hpp"
 
 namespace orca::sim {
@@ -72,7 +73,8 @@ Vec2 Hit::along() const {
 
 double Hit::incidence() const {
   const Vec2 surface_along = along();
-  return std::atan2(std::fabs(dot(direction, surface_along)), std::fabs(cross(direction, surface_along)));
+  return portable::atan2(std::fabs(dot(direction, surface_along)),
+                         std::fabs(cross(direction, surface_along)));
 }
 
 bool Hit::steeper_than(double tangent) const {

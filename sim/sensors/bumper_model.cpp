@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::sim::detail {
 namespace {
 
@@ -19,7 +21,7 @@ BumperModel::BumperModel(BumperRing ring, TimePoint start)
 
 bool BumperModel::reaches(std::size_t segment, const Touch& touch) const {
   const double middle = ring_.segment(segment).yaw;
-  const double off = wrapped(std::atan2(touch.point.y, touch.point.x) - middle);
+  const double off = wrapped(portable::atan2(touch.point.y, touch.point.x) - middle);
   return std::fabs(off) <= 0.5 * std::fabs(ring_.pitch) &&
          touch.distance <= (pressed_[segment] ? kReleased : kTouching);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::sim::detail {
 namespace {
 
@@ -25,7 +27,7 @@ LaserModel::LaserModel(LaserScanner scanner, const ErrorLevels& errors, RandomSt
     : scanner_(std::move(scanner)),
       errors_(errors),
       random_(random),
-      drop_tangent_(std::tan(errors.laser_drop_angle)),
+      drop_tangent_(portable::tan(errors.laser_drop_angle)),
       bias_(random_.uniform(-errors.laser_bias, errors.laser_bias)),
       scan_end_(start + scanner_.period) {}
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/sim/caster.hpp"
@@ -24,16 +25,16 @@ inline double lobe_loss(double off_axis, double half_lobe) {
   return share * share;
 }
 // [Np] A tenth of the sound is still heard: barely that of a smooth wall at the rim of the lobe.
-inline const double kMostLoss = std::log(10.0);
+inline const double kMostLoss = portable::log(10.0);
 // [Np] An edge scatters only three tenths of the sound, so it is heard only in the middle of the beam.
-inline const double kEdgeLoss = -std::log(0.3);
+inline const double kEdgeLoss = -portable::log(0.3);
 
 // The opening of a transducer's cone, with the values that are often derived from it.
 struct Lobe {
   explicit Lobe(double half)
       : half_angle(half),
         rim(direction(half)),
-        tangent(std::tan(half)),
+        tangent(portable::tan(half)),
         edge_bearing(bearing_of(direction(half * std::sqrt(0.5 * (kMostLoss - kEdgeLoss))))) {}
   double half_angle;  // [rad] At most a right angle.
   Vec2 rim;           // Direction of the left rim, of length 1, if the axis is x.
@@ -68,7 +69,7 @@ struct Beam {
   }
   // Returns the angle [rad] from the axis to a direction, positive to the left.
   [[nodiscard]] double off_axis(Vec2 towards) const {
-    return std::atan2(cross(axis, towards), dot(axis, towards));
+    return portable::atan2(cross(axis, towards), dot(axis, towards));
   }
   [[nodiscard]] Ray ray(Vec2 towards) const {
     return {sensor.position(), towards, max_range, height, own_body};

@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::sim::detail {
 
 SonarModel::SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start)
     : ring_(std::move(ring)),
       lobe_(ring_.half_lobe),
       errors_(errors),
-      critical_tangent_(std::tan(errors.critical_angle)),
+      critical_tangent_(portable::tan(errors.critical_angle)),
       random_(random),
       round_start_(start) {
   for (std::size_t k = 0; k < ring_.count; ++k) transducers_.push_back(ring_.transducer(k));

@@ -11,6 +11,7 @@
 #include "motion/turret_model.hpp"
 #include "motion/wheel_model.hpp"
 #include "orca/base/hash.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/base/random.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
@@ -53,7 +54,7 @@ class Robot {
   // Lets the bumpers feel what touches the robot now.
   void feel(std::span<const Touch> touches);
 
-  [[nodiscard]] double speed() const { return std::hypot(driving_.forward, driving_.left); }  // [m/s]
+  [[nodiscard]] double speed() const { return portable::hypot(driving_.forward, driving_.left); }  // [m/s]
   [[nodiscard]] std::optional<TurretReading> turret() const;
   [[nodiscard]] RobotSnapshot drawn() const;
   void add_to(Fnv1a& hash) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "orca/base/hash.hpp"
+#include "orca/base/portable_math.hpp"
 
 namespace orca {
 namespace {
@@ -57,7 +58,7 @@ double RandomStream::normal(double mean, double sigma) {
     v = uniform(-1.0, 1.0);
     s = u * u + v * v;
   } while (s >= 1.0 || s == 0.0);
-  const double scale = std::sqrt(-2.0 * std::log(s) / s);
+  const double scale = std::sqrt(-2.0 * portable::log(s) / s);
   spare_ = v * scale;
   has_spare_ = true;
   return mean + sigma * u * scale;

@@ -42,7 +42,7 @@ LAYERS = (
     Layer("idl", ("idl",), ("orca/idl/",), ("base",), ("fastcdr",), ("fastcdr",)),
     Layer("xml", ("src/xml",), ("orca/xml/",), ("base",), ("tinyxml2", "fmt")),
     Layer("text", ("src/text",), ("orca/text/",), ("idl", "xml", "base")),
-    Layer("geometry", ("src/geometry",), ("orca/geometry/",)),
+    Layer("geometry", ("src/geometry",), ("orca/geometry/",), ("base",)),
     Layer("geometry_objects", ("src/geometry/objects",), ("orca/geometry/objects/",), ("geometry", "idl", "base"),
           ("eigen",)),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ENDPOINTS, ("fmt",)),  # its handles need them inside only

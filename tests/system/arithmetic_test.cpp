@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One trace hash on every x86-64 processor: docs/adr/0032-one-arithmetic.md.
+// One trace hash on every x86-64 processor: docs/adr/0032-one-arithmetic.md and 0047-own-functions.md.
 #include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <map>
 
 #include "deployer.hpp"
+#include "shipped_graph.hpp"
+#include "temp_folder.hpp"
 
 #if defined(__x86_64__)
 
@@ -34,6 +38,27 @@ std::string hash_with(const std::string& tunables) {
   REQUIRE(run.exit_code() == 0);
   REQUIRE(run.trace_hash());
   return *run.trace_hash();
+}
+
+// The trace hashes of the first seconds of all shipped graphs that run in virtual time, by graph.
+using Hashes = std::map<std::string, std::string>;
+
+// @param before  words in front of the deployer's command, such as env and its assignments.
+Hashes hashes_of_shipped_graphs(const Words& before) {
+  const TempFolder folder;
+  Hashes hashes;
+  for (const std::string& graph : shipped_graphs()) {
+    if (graph == "scout_teleop") continue;  // a person drives it
+    CAPTURE(graph);
+    const Words words{source_file("graphs/" + graph + ".xml"), "--until", "5 s"};
+    Subprocess program(before + deployer(words + virtual_clock() + needed_arguments(graph, folder)));
+    const Run run = finish(program, Seconds(60));
+    INFO(run.err);
+    REQUIRE(run.exit_code() == 0);
+    REQUIRE(run.trace_hash());
+    hashes[graph] = *run.trace_hash();
+  }
+  return hashes;
 }
 
 std::string of_process(const std::string& file) {
@@ -75,6 +100,32 @@ TEST_CASE("the trace hash is that of a processor without fused multiply-add", "[
     CAPTURE(fewer);
     CHECK(hash_with(std::string("glibc.cpu.hwcaps=") + fewer) == usual);
   }
+}
+
+// The mark tells the deployer that it has been started anew already, so the C library keeps its choice: only Orca's own
+// functions can make these equal.
+TEST_CASE("shipped graphs have one trace hash even if the C library fuses", "[system][arithmetic][tool]") {
+  if (!fuses()) {
+    std::cout << "SKIPPED: this processor cannot fuse, so there is nothing to compare\n";
+    return;
+  }
+  const Words as_it_is{"/usr/bin/env", "ORCA_PORTABLE_ARITHMETIC=1"};
+  const Hashes fusing = hashes_of_shipped_graphs(as_it_is);
+  CHECK(hashes_of_shipped_graphs(as_it_is + Words{"GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4"}) == fusing);
+  CHECK(hashes_of_shipped_graphs(
+            as_it_is + Words{"GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-AVX,-FMA,-FMA4,-SSE4_2,-SSE4_1"}) ==
+        fusing);
+}
+
+TEST_CASE("shipped graphs have the same trace hash on an old processor", "[system][arithmetic][tool]") {
+  if (kSanitized || std::system("qemu-x86_64 --version >/dev/null 2>&1") != 0) {
+    std::cout << "SKIPPED: qemu-x86_64, of Debian's package qemu-user, is not installed, or cannot run this "
+                 "build\n";
+    return;
+  }
+  const Hashes here = hashes_of_shipped_graphs({});
+  CHECK(hashes_of_shipped_graphs({"/usr/bin/env", "qemu-x86_64", "-cpu", "core2duo"}) == here);
+  CHECK(hashes_of_shipped_graphs({"/usr/bin/env", "qemu-x86_64", "-cpu", "Nehalem"}) == here);
 }
 
 TEST_CASE("a run in virtual time is the same by any path of the program", "[system][arithmetic]") {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "image_file.hpp"
+#include "orca/base/portable_math.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -55,10 +56,13 @@ struct Pixel {
 
 constexpr double kExponent = 2.2;  // of sRGB, as libpng has it, too
 
+double power(double base, double exponent) {
+  return base > 0.0 ? portable::exp(exponent * portable::log(base)) : 0.0;
+}
+
 std::array<double, 256> table_of_light() {
   std::array<double, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i)
-    table[i] = std::pow(static_cast<double>(i) / 255.0, kExponent);
+  for (std::size_t i = 0; i < table.size(); ++i) table[i] = power(static_cast<double>(i) / 255.0, kExponent);
   return table;
 }
 
@@ -70,7 +74,7 @@ std::uint8_t grey_of(const Pixel& pixel) {
   const double light =
       0.2126 * kLight[pixel.red] + 0.7152 * kLight[pixel.green] + 0.0722 * kLight[pixel.blue];
   const double on_white = 1.0 - pixel.alpha / 255.0 * (1.0 - light);
-  return static_cast<std::uint8_t>(std::lround(255.0 * std::pow(on_white, 1.0 / kExponent)));
+  return static_cast<std::uint8_t>(std::lround(255.0 * power(on_white, 1.0 / kExponent)));
 }
 
 void append_greys(const std::vector<std::uint8_t>& samples, bool coloured, bool transparent,

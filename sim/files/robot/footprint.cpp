@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/part_frame.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/sim/sections.hpp"
 
 namespace orca::sim {
@@ -15,7 +16,7 @@ constexpr int kCorners = 24;
 
 // Returns corner `i` of a regular polygon around, not inside, the circle.
 Vec2 around_circle(double radius, int i) {
-  const double outer = radius / std::cos(std::numbers::pi / kCorners);
+  const double outer = radius / portable::cos(std::numbers::pi / kCorners);
   return outer * direction(2.0 * std::numbers::pi * i / kCorners);
 }
 
@@ -61,10 +62,10 @@ bool lies_within(double radius, const Part& part) {
 
 double detail::round_radius(const Part& part, Vec2 center) {
   const Pose3& X = part.X_BP;
-  if (std::hypot(X.x - center.x, X.y - center.y) > kOnAxis) return -1.0;
+  if (portable::hypot(X.x - center.x, X.y - center.y) > kOnAxis) return -1.0;
   if (const auto* ball = std::get_if<Part::Ball>(&part.form)) return ball->radius;
   const auto* cylinder = std::get_if<Part::Cylinder>(&part.form);
-  const bool upright = std::hypot(X.qx, X.qy) < kOnAxis || std::hypot(X.qz, X.qw) < kOnAxis;
+  const bool upright = portable::hypot(X.qx, X.qy) < kOnAxis || portable::hypot(X.qz, X.qw) < kOnAxis;
   return cylinder != nullptr && upright ? cylinder->radius : -1.0;
 }
 

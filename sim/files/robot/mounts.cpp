@@ -6,6 +6,7 @@
 
 #include "codes.hpp"
 #include "footprint.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/names.hpp"
@@ -68,7 +69,8 @@ void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* 
     const auto link = body.links.find(sensor.link);
     if (link == body.links.end()) continue;
     const Pose3& X = link->second;
-    const double yaw = std::atan2(2.0 * (X.qw * X.qz + X.qx * X.qy), 1.0 - 2.0 * (X.qy * X.qy + X.qz * X.qz));
+    const double yaw =
+        portable::atan2(2.0 * (X.qw * X.qz + X.qx * X.qy), 1.0 - 2.0 * (X.qy * X.qy + X.qz * X.qz));
     sensor.center = {X.x, X.y, yaw};
     sensor.height = X.z;
     sensor.on_turret =

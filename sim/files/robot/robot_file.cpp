@@ -44,7 +44,7 @@ void check_body(const RobotModel& model, const xml::Attributes& robot, const xml
 void read_body(const xml::Element& root, const xml::Element& orca, const detail::MeshHulls& hulls,
                RobotModel& model, xml::Reporter& reporter) {
   const xml::Attributes robot(root, detail::kRobotFile, reporter);
-  Result<detail::UrdfBody> body = detail::read_urdf_body(model.urdf, hulls);
+  Result<detail::UrdfBody> body = detail::read_urdf_body(root, model.urdf, hulls);
   if (!body) return robot.error(robot_codes::kUrdfdom, body.error().message);
   model.name = body->name;
   model.mass = body->mass;

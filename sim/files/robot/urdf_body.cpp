@@ -6,6 +6,8 @@
 
 #include <exception>
 
+#include "urdf_rotations.hpp"
+
 namespace orca::sim::detail {
 namespace {
 
@@ -92,11 +94,12 @@ urdf::ModelInterfaceSharedPtr parsed(const std::string& text) {
 
 }  // namespace
 
-Result<UrdfBody> read_urdf_body(const std::string& text, const MeshHulls& hulls) {
+Result<UrdfBody> read_urdf_body(const xml::Element& robot, const std::string& text, const MeshHulls& hulls) {
   const urdf::ModelInterfaceSharedPtr model = parsed(text);
   if (!model || !model->getRoot())
     return fail(Code::invalid_argument,
                 "urdfdom does not read this robot; the program check_urdf may say more");
+  compute_rotations(robot, *model);
   UrdfBody body;
   body.name = model->getName();
   add_link(*model->getRoot(), btTransform::getIdentity(), hulls, body);

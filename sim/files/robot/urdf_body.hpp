@@ -30,9 +30,10 @@ struct UrdfBody {
   std::map<std::string, UrdfJoint> joints;
 };
 
-// Reads a body from the text of a URDF.
-// @pre  check_urdf() found no error in the text and gave `hulls`.
+// Reads a body from the text of a URDF and from its elements.
+// @pre  check_urdf() found no error in `robot`, which was read from the text, and gave `hulls`.
 // @errors  invalid_argument if urdfdom rejects the text; it does not say where.
-[[nodiscard]] Result<UrdfBody> read_urdf_body(const std::string& text, const MeshHulls& hulls);
+[[nodiscard]] Result<UrdfBody> read_urdf_body(const xml::Element& robot, const std::string& text,
+                                              const MeshHulls& hulls);
 
 }  // namespace orca::sim::detail

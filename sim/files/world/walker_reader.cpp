@@ -5,6 +5,7 @@
 
 #include "codes.hpp"
 #include "files/formats/values.hpp"
+#include "orca/base/portable_math.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -46,7 +47,7 @@ void check_limits(const xml::Attributes& element, const Walker& walker) {
 Box swept(Vec2 from, Vec2 to, double radius) {
   const Vec2 middle = 0.5 * (from + to);
   const Vec2 way = to - from;
-  return {{middle.x, middle.y, std::atan2(way.y, way.x)}, {0.5 * norm(way), radius}};
+  return {{middle.x, middle.y, portable::atan2(way.y, way.x)}, {0.5 * norm(way), radius}};
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::avoid {
 namespace {
 
@@ -19,15 +21,17 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double way_to_point(Vec2 echo, double direction, const Limits& limits) {
   const double reach = limits.robot_radius + limits.margin;
-  const double along = std::cos(direction) * echo.x + std::sin(direction) * echo.y;
-  const double aside = std::abs(-std::sin(direction) * echo.x + std::cos(direction) * echo.y);
+  const auto [cosine, sine] = portable::cos_sin(direction);
+  const double along = cosine * echo.x + sine * echo.y;
+  const double aside = std::abs(cosine * echo.y - sine * echo.x);
   return along <= 0.0 || aside >= reach ? kNever : along - std::sqrt(reach * reach - aside * aside);
 }
 
 double way_to_wall(Vec2 echo, double direction, const Limits& limits) {
-  const double gap = std::hypot(echo.x, echo.y) - limits.robot_radius;
-  const double closing = std::cos(direction - std::atan2(echo.y, echo.x));
-  return gap >= limits.side_distance || closing < 0.05 ? kNever : (gap - limits.margin) / closing;
+  const double gap = portable::hypot(echo.x, echo.y) - limits.robot_radius;
+  if (gap >= limits.side_distance) return kNever;
+  const double closing = portable::cos(direction - portable::atan2(echo.y, echo.x));
+  return closing < 0.05 ? kNever : (gap - limits.margin) / closing;
 }
 
 // Returns the cost of a direction: for missing the goal, turning far, changing sides, and a short way.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/arc.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
@@ -205,7 +206,7 @@ Situation Avoider::situation() const {
   situation.heading = pose_.yaw;
   situation.speed = twist_.forward;
   if (const auto goal = goal_place()) {
-    situation.goal = std::atan2(goal->y, goal->x);
+    situation.goal = portable::atan2(goal->y, goal->x);
     situation.goal_distance = norm(*goal);
   }
   return situation;

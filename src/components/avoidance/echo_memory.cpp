@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::avoid {
 namespace {
 
 constexpr std::size_t kMostEchoes = 256;
 constexpr double kNoNews = 0.04;  // [m] An echo this near to a known one moves it instead of adding another.
 
-double distance(Vec2 one, Vec2 other) { return std::hypot(one.x - other.x, one.y - other.y); }
+double distance(Vec2 one, Vec2 other) { return portable::hypot(one.x - other.x, one.y - other.y); }
 
 }  // namespace
 
@@ -39,7 +41,7 @@ void EchoMemory::hear(Vec2 echo, const Limits& limits) {
     if (nearest == echoes_.size() || distance(echo, echoes_[i]) < distance(echo, echoes_[nearest]))
       nearest = i;
   const double off = nearest < echoes_.size() ? distance(echo, echoes_[nearest]) : limits.same_place;
-  const bool near = std::hypot(echo.x, echo.y) < limits.range;
+  const bool near = portable::hypot(echo.x, echo.y) < limits.range;
   const Trace trace{0.0, near && off < limits.same_place};
   if (trace.confirmed) traces_[nearest].confirmed = true;
   if (off < kNoNews) {

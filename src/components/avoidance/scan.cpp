@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::avoid {
 namespace {
 
@@ -14,13 +16,13 @@ std::optional<Vec2> place_of(const Scan& scan, std::size_t i) {
   return echo_of(scan.ranges[i], scan.min_range, scan.max_range, {scan.X_RS.x, scan.X_RS.y, yaw});
 }
 
-double distance(Vec2 echo) { return std::hypot(echo.x, echo.y); }
+double distance(Vec2 echo) { return portable::hypot(echo.x, echo.y); }
 
 bool in_view(const Scan& scan, Vec2 echo) {
   const Vec2 seen = seen_from(scan.X_RS, echo);
   const double width = scan.angle_increment * static_cast<double>(scan.ranges.size() - 1);
   const double middle = scan.angle_start + 0.5 * width;
-  const double off = wrapped(std::atan2(seen.y, seen.x) - middle);
+  const double off = wrapped(portable::atan2(seen.y, seen.x) - middle);
   return distance(seen) < scan.max_range && std::abs(off) <= 0.5 * std::abs(width);
 }
 

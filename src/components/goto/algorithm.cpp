@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::go {
 namespace {
 
@@ -13,23 +15,23 @@ constexpr double kQuarterTurn = std::numbers::pi / 2;
 constexpr double kDrift = 1.5;  // reach radii from the target, beyond which a robot at rest approaches anew
 
 double distance_in_space(const Target& target, const Pose2& pose) {
-  return std::hypot(target.place.x - pose.x, target.place.y - pose.y, target.rise);
+  return portable::hypot(target.place.x - pose.x, target.place.y - pose.y, target.rise);
 }
 
 double bearing(const Target& target, const Pose2& pose) {
-  return wrapped(std::atan2(target.place.y - pose.y, target.place.x - pose.x) - pose.yaw);
+  return wrapped(portable::atan2(target.place.y - pose.y, target.place.x - pose.x) - pose.yaw);
 }
 
 Step drive(double direction, double speed, const Limits& limits) {
   if (std::abs(direction) > limits.turn_in_place) return {Step::Kind::turn, direction, 0.0};
-  const double aligned = std::max(0.0, std::cos(direction * kQuarterTurn / limits.turn_in_place));
+  const double aligned = std::max(0.0, portable::cos(direction * kQuarterTurn / limits.turn_in_place));
   return {Step::Kind::drive, direction, std::min(limits.max_speed, speed) * aligned};
 }
 
 // Steers towards the circle from afar, along it (place on the left) when on it, and outwards from within it.
 Step circle(const Target& target, const Pose2& pose, const Limits& limits) {
   const double inwards =
-      std::atan2(distance(target, pose) - limits.circle_radius, 0.5 * limits.circle_radius);
+      portable::atan2(distance(target, pose) - limits.circle_radius, 0.5 * limits.circle_radius);
   return drive(wrapped(bearing(target, pose) - kQuarterTurn + inwards), limits.max_speed, limits);
 }
 
@@ -49,7 +51,7 @@ bool stays_near(const Target& target, const Pose2& pose, const Before& before) {
 }  // namespace
 
 double distance(const Target& target, const Pose2& pose) {
-  return std::hypot(target.place.x - pose.x, target.place.y - pose.y);
+  return portable::hypot(target.place.x - pose.x, target.place.y - pose.y);
 }
 
 bool within_reach(const Target& target, const Pose2& pose) {

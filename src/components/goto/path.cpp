@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/objects/plane.hpp"
 
 namespace orca::go {
@@ -14,7 +15,7 @@ idl::Pose3D pose_at(const idl::GoalPoint& point, const idl::Point& before) {
   if (point.use_orientation() && !point.via()) {
     pose.rotation(point.orientation().orientation());
   } else {
-    pose.rotation().yaw(std::atan2(pose.position().y() - before.y(), pose.position().x() - before.x()));
+    pose.rotation().yaw(portable::atan2(pose.position().y() - before.y(), pose.position().x() - before.x()));
   }
   return pose;
 }

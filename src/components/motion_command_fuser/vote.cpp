@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::fuse {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr int kRates = 2 * kSide + 1;
 constexpr int kSpeeds = 21;
 constexpr double kEqual = 1e-9;  // share of all votes; less than this is rounding
 
-double bell(double off, double spread) { return std::exp(-0.5 * (off / spread) * (off / spread)); }
+double bell(double off, double spread) { return portable::exp(-0.5 * (off / spread) * (off / spread)); }
 
 double rate_of(const Wish& wish, const Ballot& ballot) {
   const double rate = wish.kind == Wish::Kind::direction ? ballot.steer_gain * wish.value : wish.value;
@@ -55,9 +57,9 @@ int winner(const Votes& votes, const Ballot& ballot, double last_rate) {
 // Returns where the peak lies between the candidates: exact for a single bell.
 double peak(const Votes& votes, int best, const Ballot& ballot) {
   if (best == 0 || best == kRates - 1) return candidate(best, ballot);
-  const double before = std::log(at(votes, best - 1));
-  const double after = std::log(at(votes, best + 1));
-  const double curvature = before - 2.0 * std::log(at(votes, best)) + after;
+  const double before = portable::log(at(votes, best - 1));
+  const double after = portable::log(at(votes, best + 1));
+  const double curvature = before - 2.0 * portable::log(at(votes, best)) + after;
   if (!(curvature < 0.0)) return candidate(best, ballot);
   const double aside = std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
   return candidate(best, ballot) + aside * ballot.max_turn_rate / kSide;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::fuse {
 namespace {
 
@@ -36,8 +38,9 @@ Sums sums_of(std::span<const Wish> wishes, double steer_gain) {
     sums.weight += wish.weight;
     sums.speed += wish.weight * wish.speed;
     sums.rate += wish.weight * as_rate(wish, steer_gain);
-    sums.forward += wish.weight * std::cos(direction);
-    sums.left += wish.weight * std::sin(direction);
+    const auto [cosine, sine] = portable::cos_sin(direction);
+    sums.forward += wish.weight * cosine;
+    sums.left += wish.weight * sine;
   }
   return sums;
 }
@@ -50,9 +53,9 @@ std::vector<double> shares_of(std::span<const Wish> wishes, double weight) {
 
 // Returns a wish in the direction of the sum, at this speed; standing if the vectors cancel out.
 Wish along(const Sums& sums, double speed) {
-  if (std::hypot(sums.forward, sums.left) < kCancelled * sums.weight)
+  if (portable::hypot(sums.forward, sums.left) < kCancelled * sums.weight)
     return {Wish::Kind::direction, 0.0, 0.0, sums.weight};
-  return {Wish::Kind::direction, std::atan2(sums.left, sums.forward), speed, sums.weight};
+  return {Wish::Kind::direction, portable::atan2(sums.left, sums.forward), speed, sums.weight};
 }
 
 }  // namespace
@@ -69,7 +72,7 @@ Fused fuse_weighted(std::span<const Wish> wishes, double steer_gain) {
 
 Fused sum_vectors(std::span<const Wish> wishes, double steer_gain) {
   const Sums sums = sums_of(wishes, steer_gain);
-  const double agreement = std::min(1.0, std::hypot(sums.forward, sums.left) / sums.weight);
+  const double agreement = std::min(1.0, portable::hypot(sums.forward, sums.left) / sums.weight);
   return {along(sums, agreement * sums.speed / sums.weight), shares_of(wishes, sums.weight)};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/angle.hpp"
 
 namespace orca::vfh {
@@ -11,8 +12,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double distance(const Cell& cell) { return std::hypot(cell.place.x, cell.place.y); }
-double bearing(const Cell& cell) { return std::atan2(cell.place.y, cell.place.x); }
+double distance(const Cell& cell) { return portable::hypot(cell.place.x, cell.place.y); }
+double bearing(const Cell& cell) { return portable::atan2(cell.place.y, cell.place.x); }
 
 std::size_t sector(long k) {
   const long n = static_cast<long>(kSectors);
@@ -56,7 +57,7 @@ double magnitude(const Cell& cell, const Surroundings& around) {
 }
 
 double enlargement(double distance, double radius) {
-  return distance <= radius ? 0.5 * kPi : std::asin(radius / distance);
+  return distance <= radius ? 0.5 * kPi : portable::asin(radius / distance);
 }
 
 Densities primary_histogram(std::span<const Cell> cells, const Surroundings& around) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "matrix.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 
@@ -24,8 +25,7 @@ idl::Pose2D without_covariance(const Pose2& pose, std::int64_t stamp_ns) {
 }  // namespace
 
 idl::Pose2D compose(const idl::Pose2D& X_AB, const idl::Pose2D& X_BC) {
-  const double c = std::cos(X_AB.orientation());
-  const double s = std::sin(X_AB.orientation());
+  const auto [c, s] = portable::cos_sin(X_AB.orientation());
   const Vec2 d = rotated(plane_pose(X_BC).position(), Vec2{c, s});  // From B to C, in A.
   Matrix3 for_AB;
   for_AB << 1, 0, -d.y, 0, 1, d.x, 0, 0, 1;
@@ -41,8 +41,7 @@ idl::Pose2D compose(const idl::Pose2D& X_AB, const idl::Pose2D& X_BC) {
 }
 
 idl::Pose2D inverse(const idl::Pose2D& X_AB) {
-  const double c = std::cos(X_AB.orientation());
-  const double s = std::sin(X_AB.orientation());
+  const auto [c, s] = portable::cos_sin(X_AB.orientation());
   idl::Pose2D X_BA = without_covariance(inverse(plane_pose(X_AB)), X_AB.stamp().ns());
   Matrix3 for_AB;
   for_AB << -c, -s, X_BA.y(), s, -c, -X_BA.x(), 0, 0, -1;
@@ -53,7 +52,8 @@ idl::Pose2D inverse(const idl::Pose2D& X_AB) {
 // The root of the larger eigenvalue of the covariance of x and y.
 double position_deviation(const std::array<double, 9>& covariance) {
   const double mean = 0.5 * (covariance[0] + covariance[4]);
-  return std::sqrt(std::max(0.0, mean + std::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1])));
+  return std::sqrt(
+      std::max(0.0, mean + portable::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1])));
 }
 
 }  // namespace orca

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "matrix.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/angle.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 
@@ -22,33 +23,35 @@ constexpr double kLeastCosOfPitch = 1e-6;
 Vector3d vector_of(const idl::Point& point) { return {point.x(), point.y(), point.z()}; }
 
 Matrix3d matrix_of(const idl::Rotation3D& r) {
-  using Eigen::AngleAxisd;
-  return (AngleAxisd(r.yaw(), Vector3d::UnitZ()) * AngleAxisd(r.pitch(), Vector3d::UnitY()) *
-          AngleAxisd(r.roll(), Vector3d::UnitX()))
-      .toRotationMatrix();
+  const auto [cr, sr] = portable::cos_sin(r.roll());
+  const auto [cp, sp] = portable::cos_sin(r.pitch());
+  const auto [cy, sy] = portable::cos_sin(r.yaw());
+  Matrix3d about_x, about_y, about_z;
+  about_x << 1, 0, 0, 0, cr, -sr, 0, sr, cr;
+  about_y << cp, 0, sp, 0, 1, 0, -sp, 0, cp;
+  about_z << cy, -sy, 0, sy, cy, 0, 0, 0, 1;
+  return about_z * about_y * about_x;
 }
 
 // Computes roll, pitch and yaw of a rotation. Straight up or down, roll and yaw are both expressed as roll,
 // and the rotation is still correct.
 idl::Rotation3D angles_of(const Matrix3d& R) {
-  const double yaw = std::atan2(R(1, 0), R(0, 0));
-  const double c = std::cos(yaw);
-  const double s = std::sin(yaw);
+  const double yaw = portable::atan2(R(1, 0), R(0, 0));
+  const auto [c, s] = portable::cos_sin(yaw);
   idl::Rotation3D rotation;
   rotation.yaw(wrapped(yaw));
-  rotation.pitch(std::atan2(-R(2, 0), c * R(0, 0) + s * R(1, 0)));
-  rotation.roll(wrapped(std::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1))));
+  rotation.pitch(portable::atan2(-R(2, 0), c * R(0, 0) + s * R(1, 0)));
+  rotation.roll(wrapped(portable::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1))));
   return rotation;
 }
 
 // Returns the matrix that maps small changes of roll, pitch and yaw to the small turn about the axes of the
 // outer frame. Its columns are the axes that the three turn about.
 Matrix3d turn_of_angles(const idl::Rotation3D& r) {
-  const double cp = std::cos(r.pitch());
-  const double cy = std::cos(r.yaw());
-  const double sy = std::sin(r.yaw());
+  const auto [cp, sp] = portable::cos_sin(r.pitch());
+  const auto [cy, sy] = portable::cos_sin(r.yaw());
   Matrix3d E;
-  E << cy * cp, -sy, 0, sy * cp, cy, 0, -std::sin(r.pitch()), 0, 1;
+  E << cy * cp, -sy, 0, sy * cp, cy, 0, -sp, 0, 1;
   return E;
 }
 
@@ -71,7 +74,7 @@ Result<idl::Pose3D> pose_of(const Vector3d& position, const Matrix3d& R, const M
   pose.position(make_point(position.x(), position.y(), position.z()));
   pose.rotation(angles_of(R));
   if (covariance.isZero(0.0)) return pose;
-  if (std::cos(pose.rotation().pitch()) < kLeastCosOfPitch) {
+  if (portable::cos(pose.rotation().pitch()) < kLeastCosOfPitch) {
     return fail(
         Code::failed_precondition,
         "the pose points straight up or down, where the covariance of roll and yaw does not exist; give "

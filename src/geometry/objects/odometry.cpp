@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "matrix.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/arc.hpp"
 
 namespace orca {
@@ -20,7 +21,7 @@ constexpr std::array<Vec2, 3> kTangents{Vec2{-kSin60, 0.5}, Vec2{0.0, -1.0}, Vec
 double chord_ratio_slope(double h) {
   const double q = h * h;
   if (std::abs(h) < kSmall) return -h / 3.0 * (1.0 - q / 10.0 * (1.0 - q / 28.0 * (1.0 - q / 54.0)));
-  return (std::cos(h) - std::sin(h) / h) / h;
+  return (portable::cos(h) - portable::sin(h) / h) / h;
 }
 
 Eigen::Vector3d vector_of(const Travel2& travel) { return {travel.forward, travel.left, travel.turn}; }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::hw {
 
 void SensorEndpoint::set_sink(const void* owner, Sink sink) {
@@ -99,7 +101,7 @@ double MotionHW::within_limits(double turn_rate) const {
 }
 
 Twist2 MotionHW::within_limits(const idl::HolonomicVelocity& velocity) const {
-  const double speed = std::hypot(velocity.forward(), velocity.left());
+  const double speed = portable::hypot(velocity.forward(), velocity.left());
   const double share = speed > limits_.max_speed ? limits_.max_speed / speed : 1.0;
   return {share * velocity.forward(), share * velocity.left(), within_limits(velocity.turn_rate())};
 }

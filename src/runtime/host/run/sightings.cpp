@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/idl/sensing.hpp"
 
 namespace orca::host {
@@ -38,7 +39,7 @@ void Sightings::note_pose(std::string_view component, const Posed& object, ByNam
     entry(poses_, component) = {place, odometry};
   Track& track = entry(tracks, object.origin());
   if (object.seq() <= track.last_seq) return;  // another component has received it before
-  if (track.last_seq > 0) track.way += std::hypot(place.x - track.last.x, place.y - track.last.y);
+  if (track.last_seq > 0) track.way += portable::hypot(place.x - track.last.x, place.y - track.last.y);
   track.last_seq = object.seq();
   track.last = place;
 }
@@ -56,8 +57,8 @@ std::vector<RunGlance::Goal> Sightings::goals() const {
   std::vector<RunGlance::Goal> goals;
   for (const auto& [component, goal] : goals_)
     if (const auto pose = poses_.find(component); pose != poses_.end())
-      goals.push_back(
-          {goal.name, std::hypot(goal.place.x - pose->second.place.x, goal.place.y - pose->second.place.y)});
+      goals.push_back({goal.name, portable::hypot(goal.place.x - pose->second.place.x,
+                                                  goal.place.y - pose->second.place.y)});
   return goals;
 }
 

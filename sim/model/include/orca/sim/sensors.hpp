@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/sim/guesses.hpp"
@@ -63,7 +64,8 @@ struct InfraredRing {
   /// Returns the pose of sensor `k` in the base frame; it looks along its x axis.
   [[nodiscard]] Pose2 sensor(std::size_t k) const {
     const double angle = first_angle + static_cast<double>(k) * pitch;
-    return center * Pose2{radius * std::cos(angle), radius * std::sin(angle), wrapped(angle)};
+    const auto [cosine, sine] = portable::cos_sin(angle);
+    return center * Pose2{radius * cosine, radius * sine, wrapped(angle)};
   }
 };
 
@@ -84,7 +86,8 @@ struct BumperRing {
   /// Returns the pose of the middle of segment `k`, x axis outwards, in the base frame.
   [[nodiscard]] Pose2 segment(std::size_t k) const {
     const double angle = angles.empty() ? first_angle + static_cast<double>(k) * pitch : angles[k];
-    return {radius * std::cos(angle), radius * std::sin(angle), wrapped(angle)};
+    const auto [cosine, sine] = portable::cos_sin(angle);
+    return {radius * cosine, radius * sine, wrapped(angle)};
   }
 };
 

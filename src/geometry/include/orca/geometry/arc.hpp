@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
 
@@ -17,7 +18,7 @@ namespace orca {
 [[nodiscard]] inline double chord_ratio(double turn) {
   const double half = 0.5 * turn;
   // Below 1e-4 the next term of the series is under 1e-17.
-  return std::fabs(half) < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
+  return std::fabs(half) < 1e-4 ? 1.0 - half * half / 6.0 : portable::sin(half) / half;
 }
 
 /// Returns the straight line from the start of the arc to its end.
@@ -40,7 +41,8 @@ namespace orca {
   const Travel2 travel = twist * seconds;
   const double half = 0.5 * travel.turn;
   Vec2 way{travel.forward, travel.left};
-  if (std::fabs(travel.turn) >= 1e-6) way = {way.x * std::sin(half) / half, way.y * std::sin(half) / half};
+  if (std::fabs(travel.turn) >= 1e-6)
+    way = {way.x * portable::sin(half) / half, way.y * portable::sin(half) / half};
   const Vec2 end = rotated(way, half);
   return {end.x, end.y, wrapped(travel.turn)};
 }

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca {
 
 /// A guess of the errors of odometry that counts the turns of wheels, as standard deviations. The first two are
@@ -29,7 +31,7 @@ struct RangeErrorGuess {
 
   [[nodiscard]] bool is_known() const { return fixed > 0.0 || share > 0.0; }
   /// Returns the standard deviation of a reading of `range` [m].
-  [[nodiscard]] double deviation(double range) const { return std::hypot(fixed, share * range); }
+  [[nodiscard]] double deviation(double range) const { return portable::hypot(fixed, share * range); }
   friend bool operator==(const RangeErrorGuess&, const RangeErrorGuess&) = default;
 };
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca {
 
 /// A point or a vector in the plane, in the frame that its user names: x forward (on a plan: to the right), y to the
@@ -21,7 +23,7 @@ struct Vec2 {
 [[nodiscard]] constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 /// Returns the z component of the cross product: positive if `b` lies to the left of `a`.
 [[nodiscard]] constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-/// Returns the length. It overflows beyond 1e154 and vanishes below 1e-162, where std::hypot() does not.
+/// Returns the length. It overflows beyond 1e154 and vanishes below 1e-162, where portable::hypot() does not.
 [[nodiscard]] inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 
 /// Returns a vector of the same direction that is not longer than `longest`.
@@ -31,7 +33,10 @@ struct Vec2 {
 }
 
 /// Returns the unit vector at `angle` [rad], counter-clockwise from x.
-[[nodiscard]] inline Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+[[nodiscard]] inline Vec2 direction(double angle) {
+  const auto [cosine, sine] = portable::cos_sin(angle);
+  return {cosine, sine};
+}
 
 /// Turns `a` by the angle that turns the x axis into the unit vector `x_axis`.
 [[nodiscard]] constexpr Vec2 rotated(Vec2 a, Vec2 x_axis) {
