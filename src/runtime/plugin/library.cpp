@@ -197,7 +197,9 @@ bool is_mapped(const std::string& path) {
   const std::string real = fs::weakly_canonical(path).string();
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
-    const auto start = line.find('/');
+    // Whoever looks up names of functions, as a sanitizer does for its reports, maps files to read them.
+    const bool is_code = line.find(" r-xp ") != std::string::npos;
+    const auto start = is_code ? line.find('/') : std::string::npos;
     if (start == std::string::npos) continue;
     const std::string file = line.substr(start);
     if (file == real || file == real + " (deleted)") return true;

@@ -2,7 +2,10 @@
 // Plugins are loaded, described, unloaded, and proved gone: a plugin that stays in memory would run stale
 // code after a swap.
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <spdlog/spdlog.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <map>
 
@@ -84,6 +87,19 @@ TEST_CASE("the same plugin built without the recipe would stay in memory, and is
   REQUIRE(handle != nullptr);
   dlclose(handle);
   CHECK(is_mapped(path));
+}
+
+TEST_CASE("a plugin whose file is mapped to be read, as sanitizers do, is gone all the same",
+          "[plugin][unload]") {
+  const std::string path = test_plugin("test_statics");
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  constexpr std::size_t kPage = 4096;
+  void* const view = mmap(nullptr, kPage, PROT_READ, MAP_PRIVATE, file, 0);
+  REQUIRE(view != MAP_FAILED);
+  describe_all(path);
+  CHECK_FALSE(is_mapped(path));
+  munmap(view, kPage);
+  close(file);
 }
 
 TEST_CASE("a plugin whose thread still runs stays in memory instead of crashing it", "[plugin][unload]") {

@@ -76,7 +76,7 @@ class PluginLibrary {
   bool may_start_threads_ = false;
 };
 
-/// Returns whether any part of the file is still mapped into this process, even if the file itself has been
+/// Returns whether code of the file is still mapped into this process, even if the file itself has been
 /// removed or exchanged meanwhile. This is the proof after unloading.
 /// @param path  of a file, or PluginImage::mapped_name().
 [[nodiscard]] bool is_mapped(const std::string& path);
