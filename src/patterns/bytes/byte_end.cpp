@@ -41,7 +41,7 @@ void ByteEnd::stop() {
   cut_ = true;
 }
 
-Sent ByteEnd::send(const Frame& frame, Loss loss) {
+Sent ByteEnd::send(const Frame& frame, Loss loss, Caller /*caller*/) {
   if (is_cut()) return Sent::cut;
   const std::lock_guard lock(mutex_);
   if (loss == Loss::allowed && !unsent_.empty()) return Sent::no_room;

@@ -36,7 +36,8 @@ class ByteEnd final : public frames::FrameEnd {
 
   void start(frames::FrameHandlers handlers) override;
   void stop() override;
-  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never) override;
+  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never,
+                    frames::Caller caller = frames::Caller::goes_on) override;
 
   [[nodiscard]] bool is_cut() const override { return cut_.load(std::memory_order_acquire); }
   [[nodiscard]] const std::string& name() const override { return connection_.name; }

@@ -21,6 +21,9 @@ enum class Sent {
 /// Whether a frame may be dropped because the link has no room for it at present.
 enum class Loss { never, allowed };
 
+/// Whether the caller waits for what comes of the frame anyway, so that the link may spend the caller's time on it.
+enum class Caller { goes_on, waits };
+
 /// The functions that an end calls. None may block; no two run at the same time.
 struct FrameHandlers {
   /// Handles a frame; an error cuts the peer off.
@@ -48,7 +51,7 @@ class FrameEnd {
   virtual void stop() = 0;
 
   /// Sends a frame, at once or as soon as the link has room.
-  virtual Sent send(const Frame& frame, Loss loss = Loss::never) = 0;
+  virtual Sent send(const Frame& frame, Loss loss = Loss::never, Caller caller = Caller::goes_on) = 0;
 
   [[nodiscard]] virtual bool is_cut() const = 0;
   /// Returns a name for people: "a.out to b.in".

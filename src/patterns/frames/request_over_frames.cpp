@@ -70,7 +70,7 @@ std::optional<Answer> TargetOverFrames<Answer>::offer(const ObjectRef& object, R
   Frame frame(FrameKind::offer, id);
   frame.add(std::uint64_t{may_wait});
   frame.add(object);
-  const Sent outcome = end_->send(frame, Loss::allowed);
+  const Sent outcome = end_->send(frame, Loss::allowed, may_wait ? Caller::waits : Caller::goes_on);
   if (outcome == Sent::no_room || outcome == Sent::too_large) return refusal(outcome);
   open_.push_back({id, &reply_to});  // if the link has just been cut, close() answers it
   return std::nullopt;

@@ -51,7 +51,7 @@ void RingEnd::stop() {
 
 // --- Writing ----------------------------------------------------------------------------------------------
 
-Sent RingEnd::send(const Frame& frame, Loss loss) {
+Sent RingEnd::send(const Frame& frame, Loss loss, Caller /*caller*/) {
   Sent outcome = Sent::cut;
   {
     const std::lock_guard lock(mutex_);

@@ -33,7 +33,8 @@ class RingEnd final : public frames::FrameEnd, public Intake, public ShmEnd {
 
   void start(frames::FrameHandlers handlers) override;
   void stop() override;
-  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never) override;
+  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never,
+                    frames::Caller caller = frames::Caller::goes_on) override;
   [[nodiscard]] bool is_cut() const override { return cut_.load(std::memory_order_acquire); }
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] frames::Traffic& traffic() const override { return traffic_; }

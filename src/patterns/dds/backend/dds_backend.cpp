@@ -60,6 +60,14 @@ class FastBackend final : public DdsBackend {
   FastBackend(const DdsOptions& options, std::unique_ptr<Participant> participant)
       : options_(options), participant_(std::move(participant)), outbox_([this] { tick(); }) {}
 
+  ~FastBackend() override {
+    std::map<std::uint64_t, std::unique_ptr<Line>> lines;
+    const std::lock_guard lock(mutex_);
+    lines.swap(lines_);  // a late callback of DDS finds none
+  }
+  FastBackend(const FastBackend&) = delete;
+  FastBackend& operator=(const FastBackend&) = delete;
+
   Status open() {
     auto inbox = participant_->make_reader(inbox_of(options_.process, kReaderDepth),
                                            [this](const Sample& sample) { receive(sample); });
@@ -72,7 +80,7 @@ class FastBackend final : public DdsBackend {
                  Duration base_period) override {
     const Result<Line*> line = line_to(peer.process);
     if (!line) return line.error();
-    const EndPlace place{**line, edge_number(port, peer), port.home().strand,
+    const EndPlace place{**line, outbox_, edge_number(port, peer), port.home().strand,
                          port.path() + " to " + peer.path};
     if (auto* server = dynamic_cast<PushServerEndpoint*>(&port)) return serve(*server, place, policy);
     if (auto* client = dynamic_cast<PushClientEndpoint*>(&port))
@@ -99,8 +107,9 @@ class FastBackend final : public DdsBackend {
     std::int32_t depth = 0;
   };
 
-  [[nodiscard]] TopicOptions inbox_of(const std::string& process, std::int32_t depth) const {
-    return {"orca-lines/" + options_.graph + "/" + options_.run + "/" + process, "orca::dds::Message", depth};
+  [[nodiscard]] TopicOptions inbox_of(const std::string& process, std::int32_t depth) {
+    return {"orca-lines/" + options_.graph + "/" + options_.run + "/" + process, "orca::dds::Message", depth,
+            [this] { greet(); }};
   }
 
   // Returns the topic of a Push port.
@@ -118,8 +127,8 @@ class FastBackend final : public DdsBackend {
     if (!writer) return writer.error();
     auto line =
         std::make_unique<Line>(process, Line::Settings{hash_of(options_.process), options_.liveliness},
-                               [this, to = std::move(writer).value()](std::vector<std::byte> message) {
-                                 outbox_.post({to, {}, {}, std::move(message)});
+                               [this, to = std::move(writer).value()](std::vector<std::byte> message, By by) {
+                                 outbox_.post({to, {}, {}, std::move(message)}, by);
                                });
     const std::lock_guard lock(mutex_);
     return lines_.emplace(hash_of(process), std::move(line)).first->second.get();
@@ -147,6 +156,12 @@ class FastBackend final : public DdsBackend {
   void tick() {
     const std::lock_guard lock(mutex_);
     for (const auto& [process, line] : lines_) line->tick();
+  }
+
+  // A peer was found, whichever it is.
+  void greet() {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [process, line] : lines_) line->greet_if_alone();
   }
 
   Status serve(PushServerEndpoint& server, const EndPlace& place, const QueuePolicy& policy) {

@@ -39,12 +39,14 @@ void DdsEnd::stop() {
   cut_ = true;
 }
 
-Sent DdsEnd::send(const Frame& frame, Loss loss) {
+Sent DdsEnd::send(const Frame& frame, Loss loss, Caller caller) {
   if (is_cut()) return Sent::cut;
   std::vector<std::byte> parcel = begin_parcel(place_.edge, Parcel::frame);
   frame.append_to(parcel);
   const std::size_t size = parcel.size();
-  const Sent outcome = place_.line.send(std::move(parcel), session(), loss);
+  const By by = caller == Caller::waits ? By::caller : By::outbox;
+  const Sent outcome = place_.line.send(std::move(parcel), session(), loss, by);
+  if (by == By::caller) place_.outbox.write_here();
   if (outcome == Sent::too_large && !warned_.exchange(true))
     log::warning(name(), "an object takes " + std::to_string(size) +
                              " bytes, more than this link can carry; it and others like it are dropped");
@@ -94,20 +96,20 @@ void DdsEnd::add(News news) {
 
 // --- On the strand ----------------------------------------------------------------------------------------
 
-std::deque<DdsEnd::News> DdsEnd::take_news() {
-  std::deque<News> news;
+void DdsEnd::take_news() {
   const std::lock_guard lock(mutex_);
-  news.swap(news_);
+  taken_.swap(news_);
   waiting_bytes_ = 0;
   has_news_.store(false, std::memory_order_relaxed);
-  return news;
 }
 
 bool DdsEnd::take_in() {
   if (!has_news_.load(std::memory_order_acquire)) return false;
   const std::unique_lock reading(reading_, std::try_to_lock);
   if (!reading || !handlers_.receive) return false;
-  for (const News& news : take_news()) handle(news);
+  take_news();
+  for (const News& news : taken_) handle(news);
+  taken_.clear();
   return true;
 }
 

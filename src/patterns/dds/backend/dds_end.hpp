@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <mutex>
 #include <span>
 #include <string>
@@ -13,12 +12,14 @@
 #include "frames/frame_end.hpp"
 #include "line.hpp"
 #include "orca/base/strand.hpp"
+#include "outbox.hpp"
 
 namespace orca::dds {
 
 /// The place of an end: its edge, the line to the process at the other end, and its port.
 struct EndPlace {
   Line& line;
+  Outbox& outbox;      ///< Of the line.
   std::uint64_t edge;  ///< The same number at both ends.
   Strand& strand;      ///< Of the port; outlives the end.
   std::string name;    ///< For people: "a.out to b.in".
@@ -35,7 +36,8 @@ class DdsEnd : public frames::FrameEnd, public Intake, public Passenger {
 
   void start(frames::FrameHandlers handlers) override;
   void stop() override;
-  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never) override;
+  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never,
+                    frames::Caller caller = frames::Caller::goes_on) override;
   [[nodiscard]] bool is_cut() const override { return cut_.load(std::memory_order_acquire); }
   [[nodiscard]] const std::string& name() const override { return place_.name; }
   [[nodiscard]] frames::Traffic& traffic() const override { return traffic_; }
@@ -66,7 +68,7 @@ class DdsEnd : public frames::FrameEnd, public Intake, public Passenger {
   };
 
   void add(News news);
-  std::deque<News> take_news();
+  void take_news();
   void handle(const News& news);
   Status handle_frame(std::span<const std::byte> bytes);
   void begin_session(std::uint64_t session);
@@ -80,11 +82,12 @@ class DdsEnd : public frames::FrameEnd, public Intake, public Passenger {
   std::atomic<bool> warned_{false};  // of a frame that is too large
   std::atomic<std::uint64_t> session_{0};
   std::atomic<std::uint64_t> line_session_{0};
-  std::mutex reading_;  // held by whoever takes in
+  std::mutex reading_;       // held by whoever takes in
+  std::vector<News> taken_;  // guarded by reading_
 
   mutable std::mutex mutex_;
   // Below: guarded by mutex_. The flag may be read at any time.
-  std::deque<News> news_;
+  std::vector<News> news_;
   std::size_t waiting_bytes_ = 0;
   std::atomic<bool> has_news_{false};
 };

@@ -67,9 +67,9 @@ bool Line::is_joined() const {
 
 // --- Sending ----------------------------------------------------------------------------------------------
 
-Sent Line::send(std::vector<std::byte> parcel, std::uint64_t session, Loss loss) {
+Sent Line::send(std::vector<std::byte> parcel, std::uint64_t session, Loss loss, By by) {
   const std::lock_guard lock(mutex_);
-  return session == session_ ? send_locked(std::move(parcel), loss) : Sent::cut;
+  return session == session_ ? send_locked(std::move(parcel), loss, by) : Sent::cut;
 }
 
 void Line::send_now(std::vector<std::byte> parcel) {
@@ -77,19 +77,19 @@ void Line::send_now(std::vector<std::byte> parcel) {
   (void)send_locked(std::move(parcel), Loss::never);
 }
 
-Sent Line::send_locked(std::vector<std::byte> parcel, Loss loss) {
+Sent Line::send_locked(std::vector<std::byte> parcel, Loss loss, By by) {
   if (parcel.size() > kLargest) return Sent::too_large;
   if (loss == Loss::allowed && unacknowledged_bytes_ > kWindow) return Sent::no_room;
   unacknowledged_bytes_ += parcel.size();
   unacknowledged_.push_back({++sent_, std::move(parcel)});
-  if (peer_ != 0) write(sent_, unacknowledged_.back().parcel, peer_);
+  if (peer_ != 0) write(sent_, unacknowledged_.back().parcel, peer_, by);
   return Sent::yes;
 }
 
-void Line::write(std::uint64_t sequence, std::span<const std::byte> parcel, std::uint64_t to) {
+void Line::write(std::uint64_t sequence, std::span<const std::byte> parcel, std::uint64_t to, By by) {
   quiet_ = 0;
   owes_receipt_ = false;
-  write_(encode({settings_.own_id, own_, to, sequence, received_, parcel}));
+  write_(encode({settings_.own_id, own_, to, sequence, received_, parcel}), by);
 }
 
 // Writes again what was not acknowledged, the oldest first.
@@ -198,6 +198,11 @@ void Line::tick() {
   }
   lose(fail(Code::unavailable, "process " + peer_name_ + " has given no sign of life for " +
                                    std::to_string(settings_.liveliness / 1ms) + " ms"));
+}
+
+void Line::greet_if_alone() {
+  const std::lock_guard lock(mutex_);
+  if (peer_ == 0) greet(0);
 }
 
 void Line::tick_alone() {

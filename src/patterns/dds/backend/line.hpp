@@ -23,6 +23,9 @@ namespace orca::dds {
 /// The participant that a message came from: the prefix of its DDS identity.
 using Origin = std::array<std::byte, 12>;
 
+/// Who writes a message: the thread that does so for all, or the one that has it, as soon as it holds no lock.
+enum class By : std::uint8_t { outbox, caller };
+
 /// Whoever is reached by a line: the end of an edge.
 ///
 /// Thread contract: called by any thread, with the line's lock held: must not block, nor call the line.
@@ -49,7 +52,7 @@ class Passenger {
 class Line {
  public:
   /// Sends a message to the peer's process; may lose it. Called with the lock held: must not block.
-  using Write = std::function<void(std::vector<std::byte> message)>;
+  using Write = std::function<void(std::vector<std::byte> message, By by)>;
 
   struct Settings {
     std::uint64_t own_id = 0;    ///< Hash of this process's name.
@@ -71,7 +74,7 @@ class Line {
   /// Sends a parcel.
   /// @param session  for which it is meant: in another one it is not sent, but cut.
   frames::Sent send(std::vector<std::byte> parcel, std::uint64_t session,
-                    frames::Loss loss = frames::Loss::never);
+                    frames::Loss loss = frames::Loss::never, By by = By::outbox);
   /// Sends a parcel in the present session, whichever it is.
   void send_now(std::vector<std::byte> parcel);
 
@@ -80,6 +83,8 @@ class Line {
   /// Repeats what is due, and loses a peer that gives no sign of life. Called every kTick; time is counted in these calls,
   /// so that a process that was stopped for a while does not take its peers for lost.
   void tick();
+  /// Greets the peer if it has not been met. Called when DDS has found it; tick() does the same, later.
+  void greet_if_alone();
   /// Loses the peer, because the caller knows that it is gone. Without a peer it does nothing.
   void lose(const Error& reason);
 
@@ -94,7 +99,7 @@ class Line {
   };
 
   // All: called with the lock held.
-  frames::Sent send_locked(std::vector<std::byte> parcel, frames::Loss loss);
+  frames::Sent send_locked(std::vector<std::byte> parcel, frames::Loss loss, By by = By::outbox);
   void meet(const Message& message, const Origin& origin);
   void take_receipt(std::uint64_t received);
   void take_parcel(const Message& message);
@@ -103,7 +108,7 @@ class Line {
   void end_session(const Error& reason);
   void tick_joined();
   void tick_alone();
-  void write(std::uint64_t sequence, std::span<const std::byte> parcel, std::uint64_t to);
+  void write(std::uint64_t sequence, std::span<const std::byte> parcel, std::uint64_t to, By by = By::outbox);
   void greet(std::uint64_t to) { write(0, {}, to); }
   void repeat();
   void watch_receipts();

@@ -15,6 +15,7 @@ using Clock = std::chrono::steady_clock;
 using Letters = std::span<Letter>;
 
 constexpr std::size_t kMostTogether = 60'000;  // [bytes] what one packet of UDP carries
+constexpr std::size_t kFew = 4'000;  // [bytes] that a component may write itself: 0.3 ms at 100 Mbit/s
 
 // Takes the message off the first letter, and those that follow it to the same reader: a sample takes far longer than its bytes.
 std::vector<std::byte> take_messages(Letters& letters) {
@@ -60,29 +61,56 @@ Outbox::~Outbox() {
   thread_.join();
 }
 
-void Outbox::post(Letter letter) {
+void Outbox::post(Letter letter, By by) {
   if (letter.object) letter.to->queued.fetch_add(letter.size, std::memory_order_relaxed);
   {
     const std::lock_guard lock(mutex_);
     letters_.push_back(std::move(letter));
   }
-  changed_.notify_one();
+  if (by == By::outbox) changed_.notify_one();
 }
 
-// Waits for letters, and takes them. Returns false if there will be none any more.
-bool Outbox::wait(std::vector<Letter>& letters, Clock::time_point until) {
+void Outbox::write_here() {
+  const std::unique_lock writing(writing_, std::try_to_lock);
+  if (!writing || !take_few()) return changed_.notify_one();
+  write_taken();
+}
+
+// Takes what waits, if a component may write that much.
+bool Outbox::take_few() {
+  const std::lock_guard lock(mutex_);
+  std::size_t bytes = 0;
+  for (const Letter& letter : letters_) bytes += letter.size + letter.message.size();
+  if (bytes > kFew) return false;
+  taken_.swap(letters_);
+  return true;
+}
+
+void Outbox::write_taken() {
+  for (Letters left = taken_; !left.empty();) write_some(left);
+  taken_.clear();
+}
+
+void Outbox::write_all() {
+  const std::lock_guard writing(writing_);
+  {
+    const std::lock_guard lock(mutex_);
+    taken_.swap(letters_);
+  }
+  write_taken();
+}
+
+// Waits for letters. Returns false if there will be none any more.
+bool Outbox::wait(Clock::time_point until) {
   std::unique_lock lock(mutex_);
   changed_.wait_until(lock, until, [this] { return ending_ || !letters_.empty(); });
-  letters.swap(letters_);
-  return !ending_ || !letters.empty();
+  return !ending_ || !letters_.empty();
 }
 
 void Outbox::work() {
-  std::vector<Letter> letters;
   Clock::time_point next_tick = Clock::now();
-  while (wait(letters, next_tick)) {
-    for (Letters left = letters; !left.empty();) write_some(left);
-    letters.clear();
+  while (wait(next_tick)) {
+    write_all();
     if (const Clock::time_point now = Clock::now(); now >= next_tick) {
       tick_();
       next_tick = now + Line::kTick;

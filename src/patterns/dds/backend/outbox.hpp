@@ -25,7 +25,10 @@ struct Letter {
 /// The thread that writes to DDS, since a write may wait for a lock or for the network and a component must not. How much
 /// may wait here is limited by whoever posts.
 ///
-/// Thread contract: post() from any thread; it does not block.
+/// A thread that waits for the answer to a few bytes anyway may write them itself, which saves it the hand-over.
+///
+/// Thread contract: post() from any thread; it does not block. write_here() from a thread that holds no lock which a
+/// callback of DDS may want.
 class Outbox {
  public:
   /// @param tick  is called every Line::kTick on the thread.
@@ -35,13 +38,21 @@ class Outbox {
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
 
-  void post(Letter letter);
+  /// @param by  caller: a call of write_here() follows, until which the letter waits.
+  void post(Letter letter, By by = By::outbox);
+  /// Writes what waits on this thread, if that is little and nobody else is writing; otherwise leaves it to the thread.
+  void write_here();
 
  private:
   void work();
-  bool wait(std::vector<Letter>& letters, std::chrono::steady_clock::time_point until);
+  bool wait(std::chrono::steady_clock::time_point until);
+  void write_all();
+  bool take_few();
+  void write_taken();
 
   const std::function<void()> tick_;
+  std::mutex writing_;         // held by whoever writes; before mutex_
+  std::vector<Letter> taken_;  // guarded by writing_
   std::mutex mutex_;
   std::condition_variable changed_;
   // Below: guarded by mutex_.

@@ -4,6 +4,7 @@
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
@@ -70,14 +71,18 @@ class SharedTopic {
 };
 using TopicPtr = std::shared_ptr<SharedTopic>;
 
-class Writer final : public TopicWriter {
+class Writer final : public TopicWriter, private fd::DataWriterListener {
  public:
-  Writer(fd::Publisher& publisher, TopicPtr topic, std::int32_t depth)
+  Writer(fd::Publisher& publisher, TopicPtr topic, const TopicOptions& options)
       : publisher_(publisher),
         topic_(std::move(topic)),
-        writer_(publisher.create_datawriter(topic_->get(), writer_qos(depth))) {}
+        found_(options.found),
+        writer_(publisher.create_datawriter(topic_->get(), writer_qos(options.depth), this,
+                                            fd::StatusMask::publication_matched())) {}
   ~Writer() override {
-    if (writer_ != nullptr) publisher_.delete_datawriter(writer_);
+    if (writer_ == nullptr) return;
+    writer_->set_listener(nullptr);
+    publisher_.delete_datawriter(writer_);
   }
   [[nodiscard]] bool is_there() const { return writer_ != nullptr; }
 
@@ -93,19 +98,28 @@ class Writer final : public TopicWriter {
   }
 
  private:
+  void on_publication_matched(fd::DataWriter* /*writer*/,
+                              const fd::PublicationMatchedStatus& status) override {
+    if (found_ && status.current_count_change > 0) found_();
+  }
+
   fd::Publisher& publisher_;
   const TopicPtr topic_;
+  const std::function<void()> found_;
   fd::DataWriter* const writer_;
 };
 
 class Reader final : public TopicReader, private fd::DataReaderListener {
  public:
-  Reader(fd::Subscriber& subscriber, TopicPtr topic, std::int32_t depth, Participant::Received received)
+  Reader(fd::Subscriber& subscriber, TopicPtr topic, const TopicOptions& options,
+         Participant::Received received)
       : subscriber_(subscriber),
         topic_(std::move(topic)),
+        found_(options.found),
         received_(std::move(received)),
-        reader_(subscriber.create_datareader(topic_->get(), reader_qos(depth), this,
-                                             fd::StatusMask::data_available())) {}
+        reader_(subscriber.create_datareader(topic_->get(), reader_qos(options.depth), this,
+                                             fd::StatusMask::data_available()
+                                                 << fd::StatusMask::subscription_matched())) {}
   ~Reader() override {
     if (reader_ == nullptr) return;
     reader_->set_listener(nullptr);
@@ -121,6 +135,11 @@ class Reader final : public TopicReader, private fd::DataReaderListener {
       if (info.valid_data) pass_on(std::move(bytes), info);
   }
 
+  void on_subscription_matched(fd::DataReader* /*reader*/,
+                               const fd::SubscriptionMatchedStatus& status) override {
+    if (found_ && status.current_count_change > 0) found_();
+  }
+
   void pass_on(std::vector<std::byte> bytes, const fd::SampleInfo& info) {
     Sample sample{std::move(bytes), to_label(info.related_sample_identity), {}, 0};
     const rtps::GUID_t& writer = info.sample_identity.writer_guid();
@@ -131,6 +150,7 @@ class Reader final : public TopicReader, private fd::DataReaderListener {
 
   fd::Subscriber& subscriber_;
   const TopicPtr topic_;
+  const std::function<void()> found_;
   const Participant::Received received_;
   fd::DataReader* const reader_;
 };
@@ -153,7 +173,7 @@ class FastParticipant final : public Participant {
   Result<std::shared_ptr<TopicWriter>> make_writer(const TopicOptions& options) override {
     const TopicPtr topic = this->topic(options);
     if (topic == nullptr) return refused("topic " + options.name);
-    auto writer = std::make_shared<Writer>(*publisher_, topic, options.depth);
+    auto writer = std::make_shared<Writer>(*publisher_, topic, options);
     if (!writer->is_there()) return refused("writer for " + options.name);
     return std::shared_ptr<TopicWriter>(std::move(writer));
   }
@@ -161,7 +181,7 @@ class FastParticipant final : public Participant {
   Result<std::unique_ptr<TopicReader>> make_reader(const TopicOptions& options, Received received) override {
     const TopicPtr topic = this->topic(options);
     if (topic == nullptr) return refused("topic " + options.name);
-    auto reader = std::make_unique<Reader>(*subscriber_, topic, options.depth, std::move(received));
+    auto reader = std::make_unique<Reader>(*subscriber_, topic, options, std::move(received));
     if (!reader->is_there()) return refused("reader for " + options.name);
     return std::unique_ptr<TopicReader>(std::move(reader));
   }

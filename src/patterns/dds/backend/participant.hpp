@@ -56,11 +56,14 @@ class TopicReader {
   virtual ~TopicReader() = default;
 };
 
-/// A topic, and the number of samples that its writer or reader keeps.
+/// A topic, and what its writer or reader does.
 struct TopicOptions {
   std::string name;
-  std::string type;  ///< IDL name with its modules.
-  std::int32_t depth = 1;
+  std::string type;        ///< IDL name with its modules.
+  std::int32_t depth = 1;  ///< The number of samples that are kept.
+  /// Is called when a reader or writer at the other side was found. It must not block.
+  /// @thread  one of DDS.
+  std::function<void()> found{};
 };
 
 /// This process's part in DDS.

@@ -91,7 +91,7 @@ fd::DataReaderQos reader_qos(std::int32_t depth) {
   keep_last(qos, depth);
   auto& times = qos.reliable_reader_qos().times;
   times.initialAcknackDelay = seconds(0.005);
-  times.heartbeatResponseDelay = seconds(0.001);
+  times.heartbeatResponseDelay = seconds(0.005);
   return qos;
 }
 

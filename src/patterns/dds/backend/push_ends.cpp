@@ -33,9 +33,9 @@ PublishingEnd::~PublishingEnd() {
   publication_->release(bit_);
 }
 
-Sent PublishingEnd::send(const Frame& frame, Loss loss) {
+Sent PublishingEnd::send(const Frame& frame, Loss loss, Caller caller) {
   const bool nobody_waits = frame.kind() == FrameKind::object && frame.first_number() == 0;
-  return nobody_waits ? publish(frame, loss) : DdsEnd::send(frame, loss);
+  return nobody_waits ? publish(frame, loss) : DdsEnd::send(frame, loss, caller);
 }
 
 Sent PublishingEnd::publish(const Frame& frame, Loss loss) {
@@ -79,9 +79,9 @@ void SubscribingEnd::stop() {
   DdsEnd::stop();
 }
 
-Sent SubscribingEnd::send(const Frame& frame, Loss loss) {
+Sent SubscribingEnd::send(const Frame& frame, Loss loss, Caller caller) {
   if (frame.kind() == FrameKind::attach || frame.kind() == FrameKind::detach) forget_direct();
-  return DdsEnd::send(frame, loss);
+  return DdsEnd::send(frame, loss, caller);
 }
 
 void SubscribingEnd::forget_direct() {

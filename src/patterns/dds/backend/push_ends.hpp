@@ -25,7 +25,8 @@ class PublishingEnd final : public DdsEnd {
       : DdsEnd(std::move(place)), publication_(std::move(publication)), bit_(bit) {}
   ~PublishingEnd() override;
 
-  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never) override;
+  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never,
+                    frames::Caller caller = frames::Caller::goes_on) override;
   void arrived(Parcel kind, std::span<const std::byte> contents) override;
 
  private:
@@ -57,7 +58,8 @@ class SubscribingEnd final : public DdsEnd, public SampleSink {
 
   void start(frames::FrameHandlers handlers) override;
   void stop() override;
-  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never) override;
+  frames::Sent send(const frames::Frame& frame, frames::Loss loss = frames::Loss::never,
+                    frames::Caller caller = frames::Caller::goes_on) override;
   void arrived(Parcel kind, std::span<const std::byte> contents) override;
   void line_joined(std::uint64_t session) override;
 

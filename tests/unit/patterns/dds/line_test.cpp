@@ -50,8 +50,9 @@ class Pair {
   // Replaces the far process by a new one.
   void restart() {
     far_listener = Listener();
-    far = std::make_unique<Line>("near", Line::Settings{kFarId, liveliness_},
-                                 [this](std::vector<std::byte> bytes) { put(to_near_, std::move(bytes)); });
+    far =
+        std::make_unique<Line>("near", Line::Settings{kFarId, liveliness_},
+                               [this](std::vector<std::byte> bytes, By) { put(to_near_, std::move(bytes)); });
     far_listener.session = far->add(kEdge, far_listener);
   }
 
@@ -83,6 +84,7 @@ class Pair {
   }
 
   std::deque<std::vector<std::byte>>& to_near() { return to_near_; }
+  std::deque<std::vector<std::byte>>& to_far() { return to_far_; }
 
   double loss = 0.0, doubled = 0.0, disorder = 0.0;
   Listener near_listener, far_listener;
@@ -104,7 +106,7 @@ class Pair {
 
  public:
   Line near{"far", Line::Settings{1, liveliness_},
-            [this](std::vector<std::byte> bytes) { put(to_far_, std::move(bytes)); }};
+            [this](std::vector<std::byte> bytes, By) { put(to_far_, std::move(bytes)); }};
   std::unique_ptr<Line> far;
 };
 
@@ -125,6 +127,38 @@ TEST_CASE("a parcel that was sent before the peer was there arrives", "[patterns
   CHECK(pair.near.is_joined());
   CHECK(pair.far_listener.numbers == up_to(1));
   CHECK(pair.near_listener.log.empty());  // the first time that it joins is no news
+}
+
+TEST_CASE("two lines meet without a tick once DDS has found one of them", "[patterns][dds]") {
+  Pair pair;
+  pair.near.greet_if_alone();
+  pair.carry();
+  CHECK(pair.near.is_joined());
+  CHECK(pair.far->is_joined());
+  pair.near.greet_if_alone();
+  CHECK(pair.to_far().empty());  // a peer that is known needs no greeting
+}
+
+TEST_CASE("a parcel is written by its sender if the sender asks for it, all else by the outbox",
+          "[patterns][dds]") {
+  std::vector<By> written;
+  std::uint64_t own = 0;
+  Line line("far", Line::Settings{1, 300ms}, [&](const std::vector<std::byte>& bytes, By by) {
+    std::span<const std::byte> rest = bytes;
+    own = take_message(rest)->own;
+    written.push_back(by);
+  });
+  Listener listener;
+  const std::uint64_t session = line.add(kEdge, listener);
+  line.greet_if_alone();
+  const std::vector<std::byte> reply = encode({kFarId, 5, own, 0, 0, {}});
+  std::span<const std::byte> bytes = reply;
+  line.receive(*take_message(bytes), Origin{std::byte{2}});
+  REQUIRE(line.is_joined());
+  CHECK(written == std::vector{By::outbox, By::outbox});
+  CHECK(line.send(numbered(1), session, Loss::never, By::caller) == Sent::yes);
+  CHECK(line.send(numbered(2), session) == Sent::yes);
+  CHECK(written == std::vector{By::outbox, By::outbox, By::caller, By::outbox});
 }
 
 TEST_CASE("each parcel arrives once and in order, whatever the network does", "[patterns][dds]") {

@@ -23,6 +23,9 @@ class QueryClientEndpoint final : public RequestClient<Result<ObjectRef>> {
   /// question is withdrawn.
   /// @errors  as request() and receive_until().
   Result<ObjectRef> ask(ObjectLoan loan, const Provenance* provenance, Duration timeout);
+
+ private:
+  Result<QueryId> request(ObjectLoan loan, const Provenance* provenance, bool may_wait);
 };
 
 }  // namespace orca

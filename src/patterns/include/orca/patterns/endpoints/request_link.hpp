@@ -35,8 +35,8 @@ class RequestTarget {
   virtual ~RequestTarget() = default;
 
   /// Accepts or refuses the object; never blocks.
-  /// @param may_wait  whether a full Send server keeps the offer until it has room. Where the edge's policy
-  /// is `block`, it keeps every offer.
+  /// @param may_wait  whether the client waits for the answer: a full Send server then keeps the offer until it has room,
+  /// and a link may use the client's thread. Where the edge's policy is `block`, a server keeps every offer.
   /// @return the answer if it is there at once, as every refusal is within a process; otherwise it comes
   /// through `reply_to`.
   virtual std::optional<Answer> offer(const ObjectRef& object, ReplySink<Answer>& reply_to, RequestId id,

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Who writes what to DDS: the thread that does so for all, or the one that has a few urgent bytes.
+#include "dds/backend/outbox.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <future>
+#include <thread>
+
+using namespace orca;
+using namespace orca::dds;
+
+namespace {
+
+// Notes what is written and by whom. A write of a message that begins with `kHeld` waits until it is let go.
+class Notes final : public TopicWriter {
+ public:
+  static constexpr std::byte kHeld{255};
+
+  bool write(const ObjectRef& /*object*/, std::size_t /*size*/, const Label& /*label*/) override {
+    return true;
+  }
+  bool write(std::vector<std::byte> messages) override {
+    if (messages.front() == kHeld) {
+      holding.set_value();
+      let_go.get_future().wait();
+    }
+    const std::lock_guard lock(mutex_);
+    for (const std::byte message : messages) written_.push_back(std::to_integer<int>(message));
+    by_ = std::this_thread::get_id();
+    return true;
+  }
+
+  [[nodiscard]] std::vector<int> written() const {
+    const std::lock_guard lock(mutex_);
+    return written_;
+  }
+  [[nodiscard]] bool is_by_this_thread() const {
+    const std::lock_guard lock(mutex_);
+    return by_ == std::this_thread::get_id();
+  }
+
+  std::promise<void> holding, let_go;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<int> written_;
+  std::thread::id by_;
+};
+
+Letter letter(const std::shared_ptr<Notes>& to, std::byte message, std::size_t size = 1) {
+  return {to, {}, {}, std::vector<std::byte>(size, message)};
+}
+
+}  // namespace
+
+TEST_CASE("a few bytes are written by the thread that has them", "[patterns][dds]") {
+  const auto notes = std::make_shared<Notes>();
+  Outbox outbox([] {});
+  outbox.post(letter(notes, std::byte{1}), By::caller);
+  outbox.write_here();
+  CHECK(notes->written() == std::vector{1});
+  CHECK(notes->is_by_this_thread());
+}
+
+TEST_CASE("much is left to the outbox's thread", "[patterns][dds]") {
+  const auto notes = std::make_shared<Notes>();
+  constexpr std::size_t kMuch = 100'000;
+  {
+    Outbox outbox([] {});
+    outbox.post(letter(notes, std::byte{1}, kMuch), By::caller);
+    outbox.write_here();
+  }  // writes what waits
+  CHECK(notes->written().size() == kMuch);
+  CHECK_FALSE(notes->is_by_this_thread());
+}
+
+TEST_CASE("who would have to wait for another writer leaves its bytes to the outbox's thread",
+          "[patterns][dds]") {
+  const auto notes = std::make_shared<Notes>();
+  {
+    Outbox outbox([] {});
+    outbox.post(letter(notes, Notes::kHeld));
+    notes->holding.get_future().wait();
+    outbox.post(letter(notes, std::byte{1}), By::caller);
+    outbox.write_here();  // returns, although the other write does not
+    CHECK(notes->written().empty());
+    notes->let_go.set_value();
+  }
+  CHECK(notes->written() == std::vector{255, 1});
+  CHECK_FALSE(notes->is_by_this_thread());
+}
+
+TEST_CASE("what one thread posts is written in its order, whoever writes it", "[patterns][dds]") {
+  constexpr int kMessages = 2'000;
+  constexpr int kThreads = 3;
+  const auto notes = std::make_shared<Notes>();
+  {
+    Outbox outbox([] {});
+    std::vector<std::thread> threads;
+    for (int thread = 0; thread < kThreads; ++thread)
+      threads.emplace_back([&, thread] {
+        for (int i = 0; i < kMessages; ++i) {
+          const By by = i % 3 == 0 ? By::outbox : By::caller;
+          outbox.post(letter(notes, std::byte(64 * thread + i % 60)), by);
+          if (by == By::caller) outbox.write_here();
+        }
+      });
+    for (std::thread& thread : threads) thread.join();
+  }
+  std::vector<int> next(kThreads, 0);
+  for (const int message : notes->written()) {
+    const auto thread = static_cast<std::size_t>(message / 64);
+    REQUIRE(message % 64 == next[thread] % 60);
+    ++next[thread];
+  }
+  CHECK(next == std::vector<int>(kThreads, kMessages));
+}
