@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdio>
@@ -225,18 +226,49 @@ TEST_CASE("a second SIGTERM ends everything within half a second", "[system][pro
   CHECK(comes_true([&] { return system.left().empty(); }, Seconds(0.5)));
 }
 
+namespace {
+
+// A way to end a process, and what is said of it.
+struct Deed {
+  const char* deed;
+  const char* end;    // how the process ends
+  const char* words;  // of the plugin's last ones, behind the component's name
+};
+
+constexpr std::array kDeeds{Deed{"segfault", "was ended by SIGSEGV", ": work() ended the process"},
+                            Deed{"abort", "was ended by SIGABRT", ": work() ended the process"},
+                            Deed{"exit", "exited with status 1", ": work() called exit(0)"},
+                            Deed{"overflow", "was ended by SIGSEGV", "its stack has overflowed"},
+                            Deed{"hang", "", ": work() has computed or slept"},
+                            Deed{"hoard", "used more memory than the graph allows", ""}};
+
+struct Laps {
+  double count = 0.0;
+  double longest = 0.0;  // [s]
+};
+
+// Reads what the source of a flow says of its laps at its end.
+Laps laps_of_source(const std::string& log) {
+  const std::size_t at = log.find("laps ");
+  REQUIRE(at != std::string::npos);
+  Laps laps;
+  REQUIRE(std::sscanf(log.c_str() + at, "laps %lf longest %lf", &laps.count, &laps.longest) == 2);
+  return laps;
+}
+
+// Returns the alarms that tell of the end of a process.
+std::vector<std::string> ends_of(const std::string& process, const std::string& log) {
+  std::vector<std::string> lines = split_lines(log);
+  std::erase_if(lines, [&](const std::string& line) {
+    return line.find("alarm PROCESS_ENDED: process " + process + " ") == std::string::npos;
+  });
+  return lines;
+}
+
+}  // namespace
+
 TEST_CASE("a plugin that ends its process in any way harms no other process", "[system][processes]") {
-  struct Deed {
-    const char* deed;
-    const char* end;    // how the process ends
-    const char* words;  // of the plugin's last ones
-  };
-  const Deed deed = GENERATE(Deed{"segfault", "was ended by SIGSEGV", "hooligan: work() ended the process"},
-                             Deed{"abort", "was ended by SIGABRT", "hooligan: work() ended the process"},
-                             Deed{"exit", "exited with status 1", "hooligan: work() called exit(0)"},
-                             Deed{"overflow", "was ended by SIGSEGV", "its stack has overflowed"},
-                             Deed{"hang", "", "hooligan: work() has computed or slept"},
-                             Deed{"hoard", "used more memory than the graph allows", "hooligan"});
+  const Deed deed = GENERATE(from_range(kDeeds));
   const std::vector<std::string> before = kept_by_system();
   System system(hooligan({"where=later", std::string("deed=") + deed.deed}));
   CAPTURE(deed.deed);
@@ -251,18 +283,42 @@ TEST_CASE("a plugin that ends its process in any way harms no other process", "[
   const Run run = stop(system);
   const Seconds worked = since_boot() - began;
   INFO(run.err);
-  const std::vector<std::string> lines = split_lines(run.err);
-  const auto alarm = std::ranges::find_if(
-      lines, [](const std::string& line) { return line.find("PROCESS_ENDED") != std::string::npos; });
-  REQUIRE(alarm != lines.end());
-  CHECK_THAT(*alarm, Contains(deed.words));
-  const std::size_t laps = run.err.find("laps ");
-  REQUIRE(laps != std::string::npos);
-  double count = 0.0, longest = 0.0;
-  REQUIRE(std::sscanf(run.err.c_str() + laps, "laps %lf longest %lf", &count, &longest) == 2);
-  CHECK(longest < 0.1 * kSlowdown);
-  CHECK(count > 0.8 * worked.count() / 0.01 / kSlowdown);
+  const std::vector<std::string> ends = ends_of("bad", run.err);
+  REQUIRE(!ends.empty());
+  CHECK_THAT(ends.front(), Contains("hooligan") && Contains(deed.words));
+  const Laps laps = laps_of_source(run.err);
+  CHECK(laps.longest < 0.1 * kSlowdown);
+  CHECK(laps.count > 0.8 * worked.count() / 0.01 / kSlowdown);
   CHECK(kept_by_system() == before);
+}
+
+TEST_CASE("while six plugins end their processes once a minute, no lap of another process is missed",
+          "[.][slow][faults][processes]") {
+  constexpr int kMinutes = 4;
+  constexpr Seconds kPeriod{0.01};
+  System system(Words{system_graph("hooligans_by_minute.xml")} + with_test_plugins());
+  const Seconds began = system.when("flow ", 0, Seconds(20));
+  const pid_t source = system.process("source");
+  const pid_t sink = system.process("sink");
+  std::this_thread::sleep_for(Seconds(60 * kMinutes + 30));
+  CHECK(system.process("source") == source);
+  CHECK(system.process("sink") == sink);
+  for (const Deed& deed : kDeeds) (void)system.process(deed.deed);  // each is there again
+  const Run run = stop(system);
+  const Seconds worked = since_boot() - began;
+  INFO(run.err);
+  for (const Deed& deed : kDeeds) {
+    CAPTURE(deed.deed);
+    const std::vector<std::string> ends = ends_of(deed.deed, run.err);
+    CHECK(ends.size() >= kMinutes - 1);
+    for (const std::string& end : ends)
+      CHECK_THAT(end, Contains(deed.end) && Contains(deed.words) && Contains(std::string(deed.deed)));
+  }
+  const Laps laps = laps_of_source(run.err);
+  std::printf("%.0f laps of 10 ms in %.0f s, the longest took %.1f ms\n", laps.count, worked.count(),
+              1e3 * laps.longest);
+  CHECK(laps.longest < 2 * kPeriod.count());
+  CHECK(laps.count > 0.99 * worked / kPeriod);
 }
 
 TEST_CASE("a process that crashes at once each time is given up", "[system][processes]") {

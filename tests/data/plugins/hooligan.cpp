@@ -160,7 +160,7 @@ class Hooligan final : public orca::Component {
       act("after_wait");
     }
     if (*where_ == "later") {
-      Component::sleep(std::chrono::seconds(1));
+      Component::sleep(std::chrono::duration_cast<orca::Duration>(std::chrono::duration<double>(*later_)));
       act("later");
     }
     return orca::again();
@@ -172,6 +172,7 @@ class Hooligan final : public orca::Component {
 
   orca::Param<std::string> where_{*this, "where", "work"};
   orca::Param<std::string> deed_{*this, "deed", "none"};
+  orca::Param<double> later_{*this, "later", 1.0, {.unit = "s", .text = "How much later where=later is."}};
   orca::Param<std::string> then_{*this, "then", "", {.text = "A second deed, in each lap; empty: none."}};
 };
 
