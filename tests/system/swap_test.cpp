@@ -6,15 +6,22 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <thread>
 #include <vector>
 
+#include "client.hpp"
 #include "deployer.hpp"
 #include "hosted_system.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
+using namespace std::chrono_literals;
 using Catch::Contains;
+using orca::orcactl::Client;
+using orca::supervisor::ControlAnswer;
+using orca::supervisor::RecordAnswer;
 
 namespace {
 
@@ -125,15 +132,21 @@ class Gauged {
     REQUIRE(program_.wait_for_output("start 1", Seconds(20) * kSlowdown));
   }
 
-  // Exchanges the teller, and returns for how long neither object could work [us].
+  // Exchanges the teller, and returns for how long neither object could work [us]. What orcactl does, without a program that
+  // is started for each swap: that takes as much of the processors as the swap itself.
   int swap(int number) {
-    const Run run = run_orcactl({"--json", "swap", "teller",
-                                 next_version(number % 2 == 0 ? "test_teller_2" : "test_teller_again"),
-                                 "--tryout", "0 s", "--probation", "0 s"});
-    INFO(number << run.err);
-    REQUIRE(run.exit_code() == 0);
-    REQUIRE_THAT(run.out, Contains("\"state\": \"test.Teller/1\""));
-    return std::stoi(run.out.substr(run.out.find("\"pause_us\": ") + 12));
+    const std::string plugin = next_version(number % 2 == 0 ? "test_teller_2" : "test_teller_again");
+    std::map<std::string, std::string> told;
+    const auto take = [&](ControlAnswer& answer) {
+      if (const auto* const record = std::get_if<RecordAnswer>(&answer))
+        for (const auto& cell : record->record) told[cell.name] = cell.value;
+    };
+    const orca::Status outcome =
+        client().ask({"swap", {"teller", plugin, "--tryout", "0 s", "--probation", "0 s"}, true}, take, 60s);
+    INFO(number << (outcome.ok() ? "" : outcome.error().text()));
+    REQUIRE(outcome.ok());
+    REQUIRE(told["state"] == "test.Teller/1");
+    return std::stoi(told["pause_us"]);
   }
 
   // Counts the gaps between the gauge's laps anew, as those of a phase.
@@ -173,15 +186,19 @@ class Gauged {
     return text;
   }
 
+  Client& client() {
+    if (!client_) {
+      auto connected = Client::connect("");
+      REQUIRE(std::holds_alternative<Client>(connected));
+      client_.emplace(std::move(std::get<Client>(connected)));
+    }
+    return *client_;
+  }
+
   TempFolder folder_;
   Subprocess program_;
+  std::optional<Client> client_;
 };
-
-// Does something again and again for some time.
-template <class Deed>
-void repeat(Seconds time, const Deed& deed) {
-  for (const Seconds end = since_boot() + time; since_boot() < end;) deed();
-}
 
 }  // namespace
 
@@ -208,8 +225,6 @@ TEST_CASE(
   for (int i = 0; i < 10'000; ++i) pauses.push_back(system.swap(i));
   const Seconds time = since_boot() - began;
   const double growth = (private_memory(system.host()) - before) / 10'000;
-  system.begin("questions");  // as many programs come and go
-  repeat(time, [] { REQUIRE(run_orcactl({"get", "teller.step"}).exit_code() == 0); });
   system.begin("rest");
   std::this_thread::sleep_for(time);
   system.begin("end");
@@ -218,10 +233,8 @@ TEST_CASE(
   const double at_rest = system.gap_of("rest");
   WARN("exchange: median " << pauses[pauses.size() / 2] << " us, longest " << pauses.back()
                            << " us; private memory grows by " << growth << " bytes per swap");
-  WARN("99.9 % of the gaps between laps are below "
-       << with_swaps << " ms with swaps, below " << system.gap_of("questions")
-       << " ms with orcactl get in their place, and below " << at_rest << " ms without either, in "
-       << time.count() << " s each");
+  WARN("99.9 % of the gaps between laps are below " << with_swaps << " ms with swaps, and below " << at_rest
+                                                    << " ms without, in " << time.count() << " s each");
   // A machine that is late by itself says nothing of swaps.
   constexpr double kQuiet = 1.5;  // [ms] of gaps of 1 ms
   if (at_rest < kQuiet) CHECK(with_swaps < at_rest + 1.0);
