@@ -4,10 +4,9 @@
 // Automation 12(6), 1996).
 #include <catch2/catch.hpp>
 
-#include <complex>
-
 #include "motion/wheel_model.hpp"
 #include "orca/geometry/arc.hpp"
+#include "square.hpp"
 
 using namespace orca::sim;
 using orca::Pose2;
@@ -15,10 +14,10 @@ using orca::RandomStream;
 using orca::Travel2;
 using orca::sim::detail::WheelErrors;
 using orca::sim::detail::WheelModel;
+using orca::sim::test::end_of_square;
 
 namespace {
 
-using Complex = std::complex<double>;
 constexpr double kLeg = 4.0;    // [m]
 constexpr double kTrack = 0.4;  // [m]
 constexpr double kQuarter = 0.5 * std::numbers::pi;
@@ -40,10 +39,10 @@ class Base {
       unseen_ = std::max(unseen_, apart(wheels_.rolled(real), step));
     }
   }
-  void square(double turn) {
+  void square(double turn, int steps) {
     for (int corner = 0; corner < 4; ++corner) {
-      roll({kLeg, 0.0, 0.0});
-      roll({0.0, 0.0, turn});
+      roll({kLeg, 0.0, 0.0}, steps);
+      roll({0.0, 0.0, turn}, steps);
     }
   }
   [[nodiscard]] const Pose2& pose() const { return pose_; }
@@ -65,32 +64,68 @@ class Base {
   double unseen_ = 0.0;
 };
 
-Pose2 end_of_drive(DriveKind kind, const WheelErrors& errors, double turn, std::uint64_t seed = 1) {
+Pose2 end_of_drive(DriveKind kind, const WheelErrors& errors, double turn, std::uint64_t seed = 1,
+                   int steps = 1000) {
   Base base(kind, errors, seed);
-  base.square(turn);
+  base.square(turn, steps);
   return base.pose();
 }
 
-// The end of an arc: the integral of a direction that turns evenly.
-Complex arc(double travel, double turn) {
-  if (turn == 0.0) return travel;
-  return travel * (std::exp(Complex(0.0, turn)) - 1.0) / Complex(0.0, turn);
+// What the UMBmark finds: E_d, the ratio of right diameter to left, and E_b, the ratio of true track to assumed.
+struct Calibration {
+  double ratio = 1.0;
+  double track = 1.0;
+  double scatter = 0.0;  // [m2] variance of the ends of single squares along x
+};
+
+constexpr int kRuns = 5;
+constexpr int kStepsOfRoll = 100;  // of each leg and turn
+
+// The experiment and its evaluation: five squares each way, whose ends are averaged.
+Calibration umbmark(const WheelErrors& errors, std::uint64_t seed) {
+  std::array<double, 2> mean{};
+  double squares = 0.0;
+  for (const std::size_t way : {0U, 1U}) {
+    std::array<double, kRuns> ends{};
+    for (std::uint64_t run = 0; run < kRuns; ++run) {
+      const double turn = way == 0 ? kQuarter : -kQuarter;
+      ends[run] = end_of_drive(DriveKind::differential, errors, turn, 1000 * seed + 2 * run + way, kStepsOfRoll).x;
+      mean[way] += ends[run] / kRuns;
+    }
+    for (const double end : ends) squares += std::pow(end - mean[way], 2);
+  }
+  const auto [ccw, cw] = mean;
+  const double alpha = (cw + ccw) / (-4.0 * kLeg);
+  const double beta = (cw - ccw) / (-4.0 * kLeg);
+  const double radius = 0.5 * kLeg / std::sin(0.5 * beta);
+  return {(radius + 0.5 * kTrack) / (radius - 0.5 * kTrack), kQuarter / (kQuarter - alpha),
+          squares / (2 * (kRuns - 1))};
 }
 
-// The same square in closed form; `left`, `right` and `track` are the relative errors of wheels and track.
-Complex end_of_square(double left, double right, double track, double turn) {
-  Complex end = 0.0;
-  Complex heading = 1.0;
-  const auto go = [&](double l, double r) {
-    const double true_turn = (r - l) / (kTrack * (1.0 + track));
-    end += heading * arc(0.5 * (l + r), true_turn);
-    heading *= std::exp(Complex(0.0, true_turn));
-  };
-  for (int corner = 0; corner < 4; ++corner) {
-    go(kLeg * (1.0 + left), kLeg * (1.0 + right));
-    go(-0.5 * turn * kTrack * (1.0 + left), 0.5 * turn * kTrack * (1.0 + right));
-  }
-  return end;
+// The errors that are left once the controller assumes what was found, without slip.
+WheelErrors left_after(const WheelErrors& errors, const Calibration& found) {
+  const double left = 2.0 / (found.ratio + 1.0);
+  const double right = 2.0 / (1.0 / found.ratio + 1.0);
+  return {.diameter = {(1.0 + errors.diameter[0]) / left - 1.0, (1.0 + errors.diameter[1]) / right - 1.0},
+          .track = (1.0 + errors.track) / found.track - 1.0};
+}
+
+constexpr int kDrawnRobots = 200;
+
+WheelErrors drawn(Realism level, std::uint64_t seed) {
+  RandomStream random(seed, "dewey", "wheels");
+  return WheelErrors::drawn(DriveKind::differential, error_levels(level), random);
+}
+
+WheelErrors without_slip(WheelErrors errors) {
+  errors.slip = errors.turn_slip = 0.0;
+  return errors;
+}
+
+// The measure of systematic errors: how far off the worse of the two squares ends.
+double worst_end(const WheelErrors& errors) {
+  const auto off = [&](double turn) { return norm(end_of_square({kLeg, turn, kTrack}, errors).position()); };
+  return std::max(off(kQuarter), off(-kQuarter));
 }
 
 }  // namespace
@@ -103,9 +138,9 @@ TEST_CASE(
        {std::array{-0.002, 0.003, 0.0}, std::array{0.0, 0.0, 0.01}, std::array{0.005, -0.004, -0.01}}) {
     const Pose2 end =
         end_of_drive(DriveKind::differential, {.diameter = {left, right}, .track = track}, turn);
-    const Complex expected = end_of_square(left, right, track, turn);
-    CHECK(end.x == Approx(expected.real()).margin(1e-9));
-    CHECK(end.y == Approx(expected.imag()).margin(1e-9));
+    const Pose2 expected = end_of_square({kLeg, turn, kTrack}, {.diameter = {left, right}, .track = track});
+    CHECK(end.x == Approx(expected.x).margin(1e-9));
+    CHECK(end.y == Approx(expected.y).margin(1e-9));
   }
 }
 
@@ -139,15 +174,15 @@ TEST_CASE("another track opens both squares alike, by the first-order formulas o
 
 TEST_CASE("slip alone scatters the distance in proportion to the root of the way, and of the turn",
           "[sim][wheels]") {
-  constexpr int kRobots = 400;
+  constexpr int kSlipping = 400;
   const auto deviation = [&](const WheelErrors& errors, const Travel2& way, auto&& off) {
     double squares = 0.0;
-    for (int i = 0; i < kRobots; ++i) {
+    for (int i = 0; i < kSlipping; ++i) {
       Base base(DriveKind::differential, errors, static_cast<std::uint64_t>(i + 1));
       base.roll(way);
       squares += std::pow(off(base.pose()), 2);
     }
-    return std::sqrt(squares / kRobots);
+    return std::sqrt(squares / kSlipping);
   };
   // 400 samples give the deviation within 11 % (three sigma).
   const double along = deviation({.slip = 0.003}, {kLeg, 0, 0}, [](const Pose2& p) { return p.x - kLeg; });
@@ -198,17 +233,59 @@ TEST_CASE("the encoders report what they were told to roll, whatever the wheels 
 TEST_CASE("the ratio of the diameters is drawn within the bound, evenly, and apart from the mean",
           "[sim][wheels]") {
   const ErrorLevels nominal = error_levels(Realism::nominal);
-  constexpr int kRobots = 4000;
+  constexpr int kDrawn = 4000;
   double squares = 0.0;
   double products = 0.0;
-  for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kDrawn; ++seed) {
     RandomStream random(seed, "dewey", "wheels");
     const auto [left, right, none] = WheelErrors::drawn(DriveKind::differential, nominal, random).diameter;
     REQUIRE(std::fabs(right - left) <= nominal.wheel_mismatch);
-    squares += std::pow(right - left, 2) / kRobots;
-    products += left * right / kRobots;
+    squares += std::pow(right - left, 2) / kDrawn;
+    products += left * right / kDrawn;
   }
   // An even distribution has the variance of a third of the bound's square.
   CHECK(squares == Approx(std::pow(nominal.wheel_mismatch, 2) / 3.0).epsilon(0.06));
-  CHECK(std::fabs(products) < 3.0 * squares / 6.0 / std::sqrt(kRobots));
+  CHECK(std::fabs(products) < 3.0 * squares / 6.0 / std::sqrt(kDrawn));
+}
+
+// The paper's claim is that of its summary: the systematic errors become smaller by at least one order of magnitude. Its formulas
+// are of first order, so what is left grows with the square of the error. A robot that is off by more than 0.6 m needs a
+// second round.
+TEST_CASE("the UMBmark makes the errors of robots that do not slip ten times smaller",
+          "[sim][wheels][square]") {
+  const Realism level = GENERATE(Realism::nominal, Realism::harsh);
+  for (std::uint64_t seed = 1; seed <= kDrawnRobots; ++seed) {
+    CAPTURE(seed, to_string(level));
+    const WheelErrors errors = without_slip(drawn(level, seed));
+    const double before = worst_end(errors);
+    WheelErrors left = left_after(errors, umbmark(errors, seed));
+    if (before > 0.6) left = left_after(left, umbmark(left, seed));
+    CHECK(worst_end(left) < 0.1 * before);
+  }
+}
+
+// Five squares each way say no more than their scatter allows. The ends' mean has a fifth of the variance of one, alpha and
+// beta have a weight of 1 / (4 L) for each of two means, E_b is 1 + 2 alpha / pi to first order, and E_d 1 + track beta / L.
+TEST_CASE(
+    "with slip the UMBmark finds what it finds without, as exactly as the scatter of its squares allows",
+    "[sim][wheels][square]") {
+  const Realism level = GENERATE(Realism::nominal, Realism::harsh);
+  double ratio = 0.0, track = 0.0, scatter = 0.0;
+  for (std::uint64_t seed = 1; seed <= kDrawnRobots; ++seed) {
+    const WheelErrors errors = drawn(level, seed);
+    const Calibration found = umbmark(errors, seed);
+    const Calibration expected = umbmark(without_slip(errors), seed);
+    ratio += std::pow(found.ratio - expected.ratio, 2) / kDrawnRobots;
+    track += std::pow(found.track - expected.track, 2) / kDrawnRobots;
+    scatter += found.scatter / kDrawnRobots;
+  }
+  const double angle = 2.0 * scatter / kRuns / std::pow(4.0 * kLeg, 2);
+  // 95 % of chi-square with 200 degrees of freedom, over 200.
+  constexpr double kLow = 0.8136;
+  constexpr double kHigh = 1.2053;
+  INFO(to_string(level) << ": E_d is off by " << std::sqrt(ratio) << ", E_b by " << std::sqrt(track));
+  CHECK(ratio / (std::pow(kTrack / kLeg, 2) * angle) > kLow);
+  CHECK(ratio / (std::pow(kTrack / kLeg, 2) * angle) < kHigh);
+  CHECK(track / (std::pow(2.0 / std::numbers::pi, 2) * angle) > kLow);
+  CHECK(track / (std::pow(2.0 / std::numbers::pi, 2) * angle) < kHigh);
 }

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where a simulated robot truly ends a square of 4 m that its encoders report exactly: what its wheels do to it in closed
+// form, and the scatter of their slip by a Monte Carlo that shares no code with the simulator.
+#include "square.hpp"
+
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+
+#include <random>
+#include <vector>
+
+#include "orca/sim/world.hpp"
+#include "scout.hpp"
+
+using namespace orca;
+using namespace orca::sim;
+using namespace orca::sim::test;
+using orca::sim::detail::WheelErrors;
+
+namespace {
+
+constexpr int kSeeds = 200;
+constexpr int kLegTicks = 1000;
+constexpr int kTurnTicks = 320;
+constexpr int kRestTicks = 300;  // until the base stands
+
+RobotModel bare_scout() {
+  RobotModel model = scout();
+  model.sonars.clear();
+  model.odometer = Odometer{World::kTick};
+  return model;
+}
+
+const Square kSquare{.track = bare_scout().drive.track};
+
+// Drives the square by commands.
+class SquareDrive {
+ public:
+  SquareDrive(Realism level, std::uint64_t seed) : world_({}, {.seed = seed, .realism = level}) {
+    robot_ = world_.add_robot("dewey", bare_scout(), {}).value();
+    const double tick = to_seconds(World::kTick);
+    for (int corner = 0; corner < 4; ++corner) {
+      roll({kSquare.leg / (kLegTicks * tick), 0.0, 0.0}, kLegTicks);
+      roll({0.0, 0.0, kSquare.turn / (kTurnTicks * tick)}, kTurnTicks);
+    }
+  }
+
+  [[nodiscard]] Pose2 pose() const { return world_.pose(robot_); }
+  [[nodiscard]] Pose2 reported() const { return world_.odometry(robot_).value().pose; }
+
+ private:
+  void roll(const Twist2& velocity, int ticks) {
+    REQUIRE(world_.set_velocity_command(robot_, velocity));
+    for (int i = 0; i < ticks; ++i) world_.step();
+    REQUIRE(world_.set_velocity_command(robot_, {}));
+    for (int i = 0; i < kRestTicks; ++i) world_.step();
+  }
+
+  World world_;
+  RobotId robot_{};
+};
+
+Eigen::Vector3d apart(const Pose2& a, const Pose2& b) {
+  return {a.x - b.x, a.y - b.y, wrapped(a.yaw - b.yaw)};
+}
+
+// Squares of perfect wheels that slip.
+class Slipping {
+ public:
+  explicit Slipping(const ErrorLevels& errors) : errors_(errors) {}
+
+  // Returns the covariance of where they end.
+  Eigen::Matrix3d covariance() {
+    constexpr int kSquares = 4000;
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (int i = 0; i < kSquares; ++i) {
+      end_ = Eigen::Vector3d::Zero();
+      for (int corner = 0; corner < 4; ++corner) {
+        roll(kSquare.leg, 0.0, 100);
+        roll(0.0, kSquare.turn, 20);
+      }
+      end_[2] -= 4.0 * kSquare.turn;
+      sum += end_ * end_.transpose() / kSquares;
+    }
+    return sum;
+  }
+
+ private:
+  void roll(double forward, double turn, int steps) {
+    const double round = 0.5 * kSquare.track * turn;
+    for (int i = 0; i < steps; ++i) {
+      const double left = slipped((forward - round) / steps, turn / steps);
+      const double right = slipped((forward + round) / steps, turn / steps);
+      const double turned = (right - left) / kSquare.track;
+      const double middle = end_[2] + 0.5 * turned;
+      end_ += Eigen::Vector3d(0.5 * (left + right) * std::cos(middle),
+                              0.5 * (left + right) * std::sin(middle), turned);
+    }
+  }
+  double slipped(double way, double turn) {
+    const double variance = errors_.slip * errors_.slip * std::fabs(way) +
+                            errors_.turn_slip * errors_.turn_slip * std::fabs(turn);
+    return way + std::sqrt(variance) * normal_(random_);
+  }
+
+  ErrorLevels errors_;
+  std::mt19937 random_{1};
+  std::normal_distribution<double> normal_;
+  Eigen::Vector3d end_;
+};
+
+// Returns where the base of a seed ends, less what its wheels explain.
+Eigen::Vector3d unexplained(Realism level, std::uint64_t seed) {
+  const SquareDrive drive(level, seed);
+  // The controller drives the square by its encoders, whatever the wheels are.
+  CHECK(norm(drive.reported().position()) < 0.002);
+  CHECK(std::fabs(wrapped(drive.reported().yaw)) < 0.002);
+  RandomStream random(seed, "dewey", "wheels");
+  const WheelErrors errors = WheelErrors::drawn(DriveKind::differential, error_levels(level), random);
+  return apart(drive.pose(), end_of_square(kSquare, errors));
+}
+
+}  // namespace
+
+TEST_CASE("a square of 4 m truly ends where drawn wheels and slip say, over 200 seeds", "[sim][square]") {
+  const Realism level = GENERATE(Realism::nominal, Realism::harsh);
+  const Eigen::Matrix3d covariance = Slipping(error_levels(level)).covariance();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double nees = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Eigen::Vector3d rest = unexplained(level, seed);
+    mean += rest / kSeeds;
+    nees += rest.dot(covariance.inverse() * rest) / kSeeds;
+  }
+  CAPTURE(to_string(level));
+  // 95 % of the mean of 200 values of chi-square with three degrees of freedom.
+  CHECK(nees > 534.02 / kSeeds);
+  CHECK(nees < 669.77 / kSeeds);
+  for (int k = 0; k < 3; ++k) CHECK(std::fabs(mean[k]) < 3.0 * std::sqrt(covariance(k, k) / kSeeds));
+}
+
+TEST_CASE("at ideal every seed ends its square in the same place, where it began", "[sim][square]") {
+  const Pose2 first = SquareDrive(Realism::ideal, 1).pose();
+  CHECK(norm(first.position()) < 1e-6);
+  CHECK(std::fabs(wrapped(first.yaw)) < 1e-6);
+  for (std::uint64_t seed = 2; seed <= 20; ++seed) CHECK(SquareDrive(Realism::ideal, seed).pose() == first);
+}
