@@ -9,6 +9,7 @@
 #include "orca/base/text.hpp"
 #include "orca/hardware.hpp"
 #include "orca/sim/robot_file.hpp"
+#include "orca/sim/scaled_errors.hpp"
 #include "orca/sim/world_file.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
@@ -49,6 +50,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     world_ = read_world_file(errors);
     robot_ = read_robot_file(errors);
     find_start(errors);
+    if (const auto levels = this->levels(); !levels) errors.push_back({"errors", levels.error().message});
     if (!is_word(*name_))
       errors.push_back(
           {"name", orca::in_quotes(*name_) + " is no name of a robot: one word that results can show"});
@@ -174,6 +176,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   // Returns the first parameter of the shared world that differs.
   [[nodiscard]] const char* setting_unlike(const SimHardware& other) const {
     if (*realism_ != *other.realism_) return "realism";
+    if (*errors_ != *other.errors_) return "errors";
     if (*map_width_ != *other.map_width_) return "map_width";
     return *map_resolution_ != *other.map_resolution_ ? "map_resolution" : "threads";
   }
@@ -195,9 +198,9 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     const std::string key =
         std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
     auto joined = SharedWorld::join(key, settings(), host().now(), [this] {
-      return World(
-          *world_,
-          {.seed = host().run_seed(), .realism = realism(), .threads = static_cast<unsigned>(*threads_)});
+      return World(*world_, {.seed = host().run_seed(),
+                             .errors = levels().value(),
+                             .threads = static_cast<unsigned>(*threads_)});
     });
     if (!joined) return joined.error();
     shared_ = std::move(*joined);
@@ -215,8 +218,11 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
 
   [[nodiscard]] Realism realism() const { return realism_from(*realism_).value_or(Realism::nominal); }
 
+  [[nodiscard]] orca::Result<ErrorLevels> levels() const { return scaled(error_levels(realism()), *errors_); }
+
   [[nodiscard]] std::string settings() const {
     std::string text = "realism " + *realism_;
+    if (!errors_->empty()) text += ", errors " + orca::in_quotes(*errors_);
     if (*map_width_ > 0.0) text += ", map_width " + orca::xml::number_text(*map_width_) + " m";
     if (*map_resolution_ > 0.0) text += ", map_resolution " + orca::xml::number_text(*map_resolution_) + " m";
     if (*threads_ != 1) text += ", threads " + std::to_string(*threads_);
@@ -299,6 +305,12 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
                                     "nominal",
                                     {.choices = {"ideal", "nominal", "harsh"},
                                      .text = "Level of the errors of sensors, motors and odometry."}};
+  orca::Param<std::string> errors_{
+      *this,
+      "errors",
+      "",
+      {.text =
+           "Factors on single errors of that level, to see what depends on them: slip=2; sonar_noise=0.5."}};
   orca::Param<bool> stop_on_touch_{
       *this,
       "stop_on_touch",

@@ -54,7 +54,7 @@ struct World::Impl {
   Impl(WorldModel m, Options o)
       : model(std::move(m)),
         options(o),
-        errors(error_levels(o.realism)),
+        errors(o.errors.value_or(error_levels(o.realism))),
         caster(model),
         physics(model),
         movers(model, o.seed, caster, physics),

@@ -38,6 +38,7 @@ class World {
   struct Options {
     std::uint64_t seed = 1;
     Realism realism = Realism::nominal;
+    std::optional<ErrorLevels> errors{};  ///< If given, they count instead of those of `realism`.
     /// Number of threads that compute sensor readings; 0: one per processor. Results do not depend on it.
     unsigned threads = 1;
   };
