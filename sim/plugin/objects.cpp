@@ -61,6 +61,17 @@ hw::DriveLimits limits_of(const RobotModel& robot) {
           .turret = robot.turret.has_value()};
 }
 
+namespace {
+
+// Returns the size of the rectangle around the origin that holds a plan; 0 for a circle.
+Vec2 size_of(const Shape& footprint) {
+  if (std::holds_alternative<Circle>(footprint)) return {};
+  const auto [low, high] = bounds_of(footprint);
+  return {2.0 * std::max(-low.x, high.x), 2.0 * std::max(-low.y, high.y)};
+}
+
+}  // namespace
+
 idl::Robot describe(const RobotModel& model, const std::string& name) {
   idl::Robot robot;
   robot.name(name);
@@ -69,6 +80,9 @@ idl::Robot describe(const RobotModel& model, const std::string& name) {
   robot.library(kLibrary);
   robot.radius(model.radius);
   robot.bumper_radius(model.bumper_radius);
+  const Vec2 size = size_of(model.footprint);
+  robot.length(size.x);
+  robot.width(size.y);
   robot.drives({describe(model.drive)});
   if (model.turret) robot.actuators({describe(*model.turret)});
   describe_sensors(model, robot);

@@ -17,14 +17,26 @@ constexpr double kOtherSidePenalty = 0.8;        // [rad] for changing the side 
 constexpr double kGoalShare = 0.8;               // of the angle off the goal; the rest: off the robot's axis
 constexpr double kBlockedPenalty = 4.0;          // [rad] for no free way at all: more than any turn costs
 
+constexpr double kTurnMargin = 0.03;   // [m] kept free of the corners of a body that turns
+constexpr double kTurnUrgency = 0.95;  // of not turning where a corner would touch something
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+// A body that is longer than wide has a round nose that much farther ahead: a rectangle would fit between two posts only if
+// it points exactly that way.
 double way_to_point(Vec2 echo, double direction, const Limits& limits) {
-  const double reach = limits.robot_radius + limits.margin;
+  const double reach = (limits.body ? limits.body->half_width : limits.robot_radius) + limits.margin;
+  const double nose = limits.body ? limits.body->half_length - limits.body->half_width : 0.0;
   const auto [cosine, sine] = portable::cos_sin(direction);
   const double along = cosine * echo.x + sine * echo.y;
   const double aside = std::abs(cosine * echo.y - sine * echo.x);
-  return along <= 0.0 || aside >= reach ? kNever : along - std::sqrt(reach * reach - aside * aside);
+  return along <= 0.0 || aside >= reach ? kNever : along - nose - std::sqrt(reach * reach - aside * aside);
+}
+
+// Returns the angle in [0, 2 pi).
+double angle_up(double angle) {
+  const double within = wrapped(angle);
+  return within < 0.0 ? within + 2.0 * std::numbers::pi : within;
 }
 
 double way_to_wall(Vec2 echo, double direction, const Limits& limits) {
@@ -44,11 +56,13 @@ double cost(double direction, double way, const Situation& situation, const Limi
          (changes_side ? kOtherSidePenalty : 0.0) + kBlockedPenalty * missing;
 }
 
-double best_direction(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
+double best_direction(std::span<const Vec2> echoes, const TurnRoom& turns, const Situation& situation,
+                      const Limits& limits) {
   double best = 0.0;
   double lowest = cost(0.0, free_way(echoes, 0.0, limits), situation, limits);
   for (int i = 1; i <= kSteps; ++i) {
     for (const double direction : {kStep * i, -kStep * i}) {
+      if (!turns.allows(direction)) continue;
       const double c = cost(direction, free_way(echoes, direction, limits), situation, limits);
       if (c < lowest) {
         lowest = c;
@@ -59,7 +73,48 @@ double best_direction(std::span<const Vec2> echoes, const Situation& situation, 
   return best;
 }
 
+// How far an echo lets the rectangle turn. Seen from the body the echo goes round on a circle, which lies within the rectangle
+// near its corners: of a corner at the front from `low` to `high`. Of an echo that is within already, only turning the corner
+// away from it is left.
+TurnRoom room_beside(Vec2 echo, double distance, const Rectangle& body) {
+  const double low = distance > body.half_length ? portable::acos(body.half_length / distance) : 0.0;
+  const double high =
+      distance > body.half_width ? portable::asin(body.half_width / distance) : 0.5 * std::numbers::pi;
+  const double bearing = portable::atan2(echo.y, echo.x);
+  constexpr double kHalf = std::numbers::pi;
+  TurnRoom room;
+  for (const double end : {high, -low, kHalf - low, high - kHalf})
+    room.left = std::min(room.left, angle_up(bearing - end));
+  for (const double end : {low, -high, kHalf - high, low - kHalf})
+    room.right = std::min(room.right, angle_up(end - bearing));
+  if (std::abs(echo.x) >= body.half_length || std::abs(echo.y) >= body.half_width) return room;
+  const double corner =
+      portable::atan2(std::copysign(body.half_width, echo.y), std::copysign(body.half_length, echo.x));
+  (wrapped(bearing - corner) > 0.0 ? room.left : room.right) = 0.0;
+  return room;
+}
+
 }  // namespace
+
+std::optional<Rectangle> rectangle(double length, double width) {
+  if (length <= 0.0 || width <= 0.0) return std::nullopt;
+  return Rectangle{0.5 * length, 0.5 * width};
+}
+
+TurnRoom turn_room(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
+  TurnRoom room;
+  if (!limits.body) return room;
+  const Rectangle wide{limits.body->half_length + kTurnMargin, limits.body->half_width + kTurnMargin};
+  const double reach = portable::hypot(wide.half_length, wide.half_width);
+  for (const Vec2 echo : echoes) {
+    const double distance = portable::hypot(echo.x, echo.y);
+    if (distance >= reach) continue;
+    const TurnRoom beside = room_beside(echo, distance, wide);
+    room = {std::min(room.left, beside.left), std::min(room.right, beside.right)};
+  }
+  return {std::max(0.0, room.left - std::max(0.0, situation.turning)),
+          std::max(0.0, room.right - std::max(0.0, -situation.turning))};
+}
 
 double free_way(std::span<const Vec2> echoes, double direction, const Limits& limits) {
   double way = limits.safe_distance;
@@ -72,16 +127,30 @@ double way_ahead(std::span<const Vec2> echoes, const Situation& situation, const
   return std::min(free_way(echoes, 0.0, limits), free_way(echoes, situation.turning, limits));
 }
 
+double way_to_goal(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
+  if (!situation.goal) return limits.safe_distance;
+  const double way = free_way(echoes, *situation.goal, limits);
+  return way < situation.goal_distance ? way : limits.safe_distance;
+}
+
 double room(double way, const Limits& limits) {
   const double span = limits.safe_distance - limits.stop_distance;
   return std::clamp((way - limits.stop_distance) / span, 0.0, 1.0);
 }
 
+double urgency(double way, bool may_turn, const Limits& limits) {
+  return std::max(1.0 - room(way, limits), may_turn ? 0.0 : kTurnUrgency);
+}
+
 Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
   const double ahead = way_ahead(echoes, situation, limits);
-  if (ahead >= limits.safe_distance) return {};
-  const double left = room(ahead, limits);
-  return {true, best_direction(echoes, situation, limits), limits.max_speed * left, 1.0 - left};
+  const TurnRoom turns = turn_room(echoes, situation, limits);
+  const bool may_turn = turns.allows(situation.goal.value_or(0.0));
+  const double shortest =
+      limits.watches_goal ? std::min(ahead, way_to_goal(echoes, situation, limits)) : ahead;
+  if (shortest >= limits.safe_distance && may_turn) return {};
+  return {true, best_direction(echoes, turns, situation, limits), limits.max_speed * room(ahead, limits),
+          urgency(shortest, may_turn, limits)};
 }
 
 }  // namespace orca::avoid

@@ -113,7 +113,7 @@ Status Avoider::learn_robot() {
   if (!*answer)
     return fail(answer->error().code, "the base does not describe the robot: " + answer->error().message);
   const idl::Robot& robot = ***answer;
-  body_ = {std::max(robot.radius(), robot.bumper_radius()), 0.0};
+  body_ = {std::max(robot.radius(), robot.bumper_radius()), 0.0, robot.length(), robot.width()};
   const auto note = [this](const idl::Sensor& sensor) {
     body_->sensor_interval = std::max(body_->sensor_interval, sensor.update_interval());
   };
@@ -137,7 +137,9 @@ Status Avoider::load_state(StateReader& state) {
 }
 
 std::vector<StateTag> Avoider::accepted_states() const {
-  return {{"orca.LaserAvoid", 1}, {"orca.SonarAvoid", 1}, {"orca.VfhPlus", 1}};
+  return {{"orca.LaserAvoid", kStateVersion},
+          {"orca.SonarAvoid", kStateVersion},
+          {"orca.VfhPlus", kStateVersion}};
 }
 
 Outcome Avoider::work() {
@@ -225,7 +227,9 @@ double Avoider::deaf_after() const {
 double Avoider::farthest() const { return radius() + *margin_ + *safe_distance_ + 0.5; }
 
 Limits Avoider::limits() const {
-  return {radius(), *margin_, 0.0, *safe_distance_, *stop_distance_, *max_speed_};
+  Limits limits{radius(), *margin_, 0.0, *safe_distance_, *stop_distance_, *max_speed_};
+  if (body_) limits.body = rectangle(body_->length, body_->width);
+  return limits;
 }
 
 }  // namespace orca::avoid

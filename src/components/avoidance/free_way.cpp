@@ -12,6 +12,7 @@ FreeWay::FreeWay(Component& owner)
 
 Advice FreeWay::advice(const EchoMemory& memory, const Situation& situation, Limits limits) const {
   limits.side_distance = *side_distance_;
+  limits.body.reset();  // an echo comes from somewhere in a cone, so there is no telling it from a corner
   return avoid(memory.echoes(), situation, limits);
 }
 

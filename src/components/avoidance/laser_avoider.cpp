@@ -15,7 +15,20 @@ constexpr double kSector = std::numbers::pi / 36;
 
 }  // namespace
 
-LaserAvoider::LaserAvoider(ComponentHost& host) : Avoider(host, kEchoTime) {}
+LaserAvoider::LaserAvoider(ComponentHost& host)
+    : Avoider(host, kEchoTime),
+      robot_length_(
+          *this, "robot_length", 0.0,
+          {.unit = "m",
+           .min = 0.0,
+           .text =
+               "Length of a robot that is longer than wide, unless the base says it; 0: the circle is all."}),
+      robot_width_(*this, "robot_width", 0.0, {.unit = "m", .min = 0.0, .text = "Its width."}) {}
+
+Limits LaserAvoider::with_body(Limits limits) const {
+  if (!limits.body) limits.body = rectangle(*robot_length_, *robot_width_);
+  return limits;
+}
 
 const ObjectType& LaserAvoider::sensed() const { return object_type<idl::LaserRangeReadings>(); }
 

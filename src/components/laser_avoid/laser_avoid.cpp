@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/avoidance/free_way.hpp"
 #include "orca/avoidance/laser_avoider.hpp"
 
 namespace {
@@ -13,10 +12,10 @@ class LaserAvoid final : public orca::avoid::LaserAvoider {
  private:
   orca::avoid::Advice advice(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,
                              const orca::avoid::Limits& limits) override {
-    return free_way_.advice(memory, situation, limits);
+    orca::avoid::Limits mine = with_body(limits);
+    mine.watches_goal = true;
+    return avoid(memory.echoes(), situation, mine);
   }
-
-  orca::avoid::FreeWay free_way_{*this};
 };
 
 }  // namespace

@@ -30,19 +30,21 @@ class VfhPlus final : public orca::avoid::LaserAvoider {
   // VFH+ chooses a direction in every lap, so that it remembers what it chose. It says it while the way ahead or the
   // way to the goal is not free: where only the latter is blocked, the robot would otherwise turn back into it.
   orca::avoid::Advice advice(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,
-                             const orca::avoid::Limits& limits) override {
+                             const orca::avoid::Limits& given) override {
+    const orca::avoid::Limits limits = with_body(given);
     look_at(memory, situation, limits);
     const orca::vfh::Motion motion{situation.heading, std::max(0.0, situation.speed) / *turn_rate_};
     const double goal = situation.goal.value_or(0.0);
     const auto choice = orca::vfh::steer(cells_, motion, situation.heading + goal, settings(limits), state_);
     const double ahead = way_ahead(memory.echoes(), situation, limits);
-    const double to_goal = free_way(memory.echoes(), goal, limits);
-    const double way = to_goal < situation.goal_distance ? std::min(ahead, to_goal) : ahead;
-    if (way >= limits.safe_distance) return {};
+    const double way = std::min(ahead, way_to_goal(memory.echoes(), situation, limits));
+    const orca::avoid::TurnRoom turns = turn_room(memory.echoes(), situation, limits);
+    const bool may_turn = turns.allows(goal);
+    if (way >= limits.safe_distance && may_turn) return {};
     if (!choice) return {.needed = true, .urgency = 1.0};
-    const double direction = orca::wrapped(choice->direction - situation.heading);
+    const double direction = turns.allowed(orca::wrapped(choice->direction - situation.heading));
     if (choice->at_rest) return {.needed = true, .direction = direction, .urgency = 1.0};
-    return {true, direction, limits.max_speed * room(ahead, limits), 1.0 - room(way, limits)};
+    return {true, direction, limits.max_speed * room(ahead, limits), urgency(way, may_turn, limits)};
   }
 
   // Takes the echoes over in axes that do not turn with the robot, as the sectors. What the robot cannot touch before
@@ -59,7 +61,7 @@ class VfhPlus final : public orca::avoid::LaserAvoider {
   }
 
   [[nodiscard]] orca::vfh::Settings settings(const orca::avoid::Limits& limits) const {
-    const double radius = limits.robot_radius + limits.margin;
+    const double radius = (limits.body ? limits.body->half_width : limits.robot_radius) + limits.margin;
     return {.around = {radius, radius + limits.safe_distance, *near_weight_},
             .thresholds = {*threshold_low_, *threshold_high_},
             .wide = *wide_valley_,

@@ -9,6 +9,16 @@
 
 namespace orca::avoid {
 
+/// A body that is longer than wide: the rectangle that holds it, around the origin of the robot's frame, x along it. It passes
+/// where the circle around it does not, but cannot turn there.
+struct Rectangle {
+  double half_length = 0.0;  ///< [m]
+  double half_width = 0.0;   ///< [m]
+};
+
+/// Returns the rectangle of that length and width [m]; nothing if one of them is not known, which is 0.
+[[nodiscard]] std::optional<Rectangle> rectangle(double length, double width);
+
 struct Limits {
   double robot_radius = 0.0;   ///< [m] of the circle that holds the robot.
   double margin = 0.0;         ///< [m] kept free on both sides of it.
@@ -17,6 +27,11 @@ struct Limits {
   double safe_distance = 0.0;  ///< [m] free way ahead from which on there is nothing to avoid.
   double stop_distance = 0.0;  ///< [m] free way ahead at which the robot does not drive on.
   double max_speed = 0.0;      ///< [m/s] with a free way of safe_distance.
+  /// If given, the robot passes wherever half its width, with margin, finds room, and does not turn its corners into anything.
+  std::optional<Rectangle> body = {};
+  /// Whether the way to the goal counts as well as the way ahead. A behaviour that has turned the robot away and falls silent,
+  /// because the way ahead is free now, is turned back by the one that drives to the goal.
+  bool watches_goal = false;
 };
 
 /// The other things that an advice depends on.
@@ -51,16 +66,39 @@ struct Advice {
 /// across its beam.
 [[nodiscard]] double free_way(std::span<const Vec2> echoes, double direction, const Limits& limits);
 
+/// How far a robot can turn on the spot before a corner of its body touches an echo [rad]; both are positive.
+struct TurnRoom {
+  double left = std::numeric_limits<double>::infinity();
+  double right = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool allows(double angle) const { return angle <= left && -angle <= right; }
+  /// Returns the angle if there is room for it, else 0.
+  [[nodiscard]] double allowed(double angle) const { return allows(angle) ? angle : 0.0; }
+};
+
+/// Returns the room to turn, less what the robot turns before it can follow the advice. A circle has it always.
+[[nodiscard]] TurnRoom turn_room(std::span<const Vec2> echoes, const Situation& situation,
+                                 const Limits& limits);
+
 /// Returns how far [m] the way ahead is free: straight on and where the robot will have turned to, whichever is
 /// shorter; at most safe_distance.
 [[nodiscard]] double way_ahead(std::span<const Vec2> echoes, const Situation& situation,
                                const Limits& limits);
 
+/// Returns how far [m] the way to the goal is free; safe_distance if it leads there, or if there is no goal.
+[[nodiscard]] double way_to_goal(std::span<const Vec2> echoes, const Situation& situation,
+                                 const Limits& limits);
+
 /// Returns how much of the speed a free way [m] leaves, in [0, 1]: all of it from safe_distance on, nothing from
 /// stop_distance down.
 [[nodiscard]] double room(double way, const Limits& limits);
 
-/// Steers to the nearest direction with a long enough free way when the way ahead is blocked.
+/// Returns how urgent advice is, in [0, 1]: the more the shorter the way is, and all but fully if a body cannot turn to its goal,
+/// since whoever drives to the goal would turn it.
+[[nodiscard]] double urgency(double way, bool may_turn, const Limits& limits);
+
+/// Steers to the nearest direction with a long enough free way when the way ahead is blocked, or when turning to the goal
+/// would touch something.
 [[nodiscard]] Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits);
 
 }  // namespace orca::avoid

@@ -45,7 +45,7 @@ class Avoider : public Component {
   /// @pre  sensor() has new data.
   virtual void listen(EchoMemory& memory) = 0;
   /// Returns what the robot should do. Called once a lap, unless the robot must stand anyway.
-  /// @param limits  those of the parameters, with a side distance of 0.
+  /// @param limits  those of the parameters, with a side distance of 0, and the body that the base describes.
   [[nodiscard]] virtual Advice advice(const EchoMemory& memory, const Situation& situation,
                                       const Limits& limits) = 0;
 
@@ -62,10 +62,14 @@ class Avoider : public Component {
   [[nodiscard]] double farthest() const;
 
  private:
+  static constexpr std::uint32_t kStateVersion = 2;
+
   // What the base says about the robot.
   struct Body {
     double radius;           // [m] of the circle that holds the body and the bumpers.
     double sensor_interval;  // [s] between two readings of the sensor; 0: not known.
+    double length;           // [m] of the rectangle that holds the body; 0: the circle is all.
+    double width;            // [m]
   };
 
   Status configure() override;
@@ -73,6 +77,7 @@ class Avoider : public Component {
   void stop() override;
   void save_state(StateWriter& state) const override;
   Status load_state(StateReader& state) override;
+  [[nodiscard]] std::uint32_t state_version() const override { return kStateVersion; }
   [[nodiscard]] std::vector<StateTag> accepted_states() const override;
 
   Status ask_robot();

@@ -13,11 +13,16 @@ class LaserAvoider : public Avoider {
  protected:
   explicit LaserAvoider(ComponentHost& host);
 
+  /// Returns the limits with the body that the base describes; without one, that of the parameters.
+  [[nodiscard]] Limits with_body(Limits limits) const;
+
  private:
   PushProxyHandle& sensor() override { return laser_; }
   [[nodiscard]] const ObjectType& sensed() const override;
   void listen(EchoMemory& memory) override;
 
+  Param<double> robot_length_;
+  Param<double> robot_width_;
   PushProxy<idl::LaserRangeReadings> laser_{*this, "laser", {.text = "Scans of the laser."}};
 };
 
