@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "bodies.hpp"
 
+#include <bit>
 #include <numbers>
 #include <utility>
 
@@ -11,7 +12,11 @@ namespace {
 
 constexpr double kCell = 1.0;   // [m] The size of a few robots.
 constexpr double kRoom = 10.0;  // [m] Margin around all bodies, so that they rarely leave the cells.
-constexpr double kMaxBodyCells = 1e5;
+constexpr double kMostInARow =
+    4e4;  // Over so many cells of a walk, rounding errors sum up to 1e-6 m at most.
+constexpr std::size_t kMostListed = 4096;  // A body over more cells is in no cell's list.
+constexpr std::size_t kListsPerBody = 8;   // At least: rays look at few bodies of other cells.
+constexpr unsigned kFewestListBits = 10;
 constexpr std::size_t kFew = 6;  // Up to this many bodies, testing each is faster than walking the cells.
 // Up to this many bodies, a view chooses among them; with more, each ray finds its own through the cells.
 constexpr std::size_t kMany = 300;
@@ -71,6 +76,7 @@ std::size_t Bodies::add(Body body) {
   const std::size_t number = bodies_.size();
   outer_.emplace_back(bodies_.emplace_back(std::move(body)));
   surround(number);
+  if (kListsPerBody * bodies_.size() > lists_.size()) choose_cells();
   place(number);
   return number;
 }
@@ -94,13 +100,11 @@ void Bodies::remove(std::size_t number) {
 }
 
 void Bodies::place(std::size_t number) {
-  if (cells_.hold(bodies_[number].bounds)) return list(number);
-  choose_cells();
-  lists_.assign(cells_.count(), {});
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].present) list(i);
+  if (!cells_.hold(bodies_[number].bounds)) choose_cells();
+  list(number);
 }
 
+// Chooses cells and lists for all bodies, and lists them, except those that are not placed yet.
 void Bodies::choose_cells() {
   Bounds all;
   for (const Moving& m : bodies_) {
@@ -113,19 +117,34 @@ void Bodies::choose_cells() {
   all.add(all.low - room);
   all.add(all.high + room);
   const Vec2 side = all.high - all.low;
-  cells_ = Cells(all, std::max(kCell, std::sqrt(side.x * side.y / kMaxBodyCells)));
+  cells_ = Cells(all, std::max({kCell, side.x / kMostInARow, side.y / kMostInARow}));
+  const unsigned bits =
+      std::max(kFewestListBits, static_cast<unsigned>(std::bit_width(kListsPerBody * bodies_.size())));
+  list_shift_ = 64 - bits;
+  lists_.assign(std::size_t{1} << bits, {});
+  sprawling_.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i].present && bodies_[i].is_listed) list(i);
 }
 
 void Bodies::list(std::size_t number) {
   Moving& moving = bodies_[number];
+  moving.is_listed = true;
   moving.listed = cells_.range(moving.bounds);
-  for_cells_of(cells_, moving.listed,
-               [&](std::size_t c) { lists_[c].push_back(static_cast<std::uint32_t>(number)); });
+  const auto small = static_cast<std::uint32_t>(number);
+  if (moving.listed.count() > kMostListed) return sprawling_.push_back(small);
+  for_cells_of(cells_, moving.listed, [&](std::size_t c) { lists_[list_of(c)].push_back(small); });
 }
 
 void Bodies::unlist(std::size_t number) {
-  for_cells_of(cells_, bodies_[number].listed,
-               [&](std::size_t c) { std::erase(lists_[c], static_cast<std::uint32_t>(number)); });
+  Moving& moving = bodies_[number];
+  moving.is_listed = false;
+  const auto small = static_cast<std::uint32_t>(number);
+  if (moving.listed.count() > kMostListed) {
+    std::erase(sprawling_, small);
+    return;
+  }
+  for_cells_of(cells_, moving.listed, [&](std::size_t c) { std::erase(lists_[list_of(c)], small); });
 }
 
 void Bodies::cast_at(std::size_t number, const Ray& ray, Hit& hit) const {
@@ -141,8 +160,9 @@ void Bodies::cast(const Ray& ray, Hit& hit) const {
     for (std::size_t i = 0; i < bodies_.size(); ++i) test(i);
     return;
   }
+  for (const std::uint32_t number : sprawling_) test(number);
   cells_.walk(ray, 0.0, hit.range, [&](std::size_t cell) {
-    for (const std::uint32_t number : lists_[cell]) test(number);
+    for (const std::uint32_t number : lists_[list_of(cell)]) test(number);
   });
 }
 

@@ -13,7 +13,8 @@ namespace orca::sim::detail {
 class Panorama;
 
 // The bodies that can move, listed by the cells of their own uniform grid. Few moves change a list, so a move
-// costs little.
+// costs little. Cells have one size however far the bodies are apart, and share lists, whose number depends on that of
+// the bodies only.
 class Bodies {
  public:
   std::size_t add(Body body);
@@ -36,6 +37,8 @@ class Bodies {
 
  private:
   static constexpr std::uint64_t kMostEdges = 1U << 20U;  // Element numbers reserved for each body.
+  static constexpr std::uint64_t kSpreads =
+      0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio: spreads the cells.
 
   // A body with its edges and bounds, which are computed once per move.
   struct Moving {
@@ -49,6 +52,7 @@ class Bodies {
     bool present = true;
     std::vector<Segment> edges;
     Bounds bounds;
+    bool is_listed = false;
     Cells::Range listed{};
   };
 
@@ -66,13 +70,17 @@ class Bodies {
   void list(std::size_t number);
   void unlist(std::size_t number);
   void choose_cells();
+  [[nodiscard]] std::size_t list_of(std::size_t cell) const { return (cell * kSpreads) >> list_shift_; }
   void surround(std::size_t number);
 
   std::vector<Moving> bodies_;
   std::vector<Outer> outer_;  // One per body.
   Discs discs_;               // The circle around each body.
   Cells cells_;
-  std::vector<std::vector<std::uint32_t>> lists_;  // The bodies' numbers, per cell.
+  // The numbers of the bodies in the cells. Several cells share a list, so that there may be any number of cells.
+  std::vector<std::vector<std::uint32_t>> lists_;
+  unsigned list_shift_ = 0;               // Leaves as many bits of a cell's product as number the lists.
+  std::vector<std::uint32_t> sprawling_;  // Bodies over so many cells that rays look at each.
 };
 
 }  // namespace orca::sim::detail

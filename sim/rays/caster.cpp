@@ -17,8 +17,8 @@ constexpr std::uint64_t kMesh = 1;
 constexpr std::uint64_t kStanding = std::uint64_t{1} << 62U;
 constexpr std::uint64_t kBodies = std::uint64_t{2} << 62U;
 
-detail::Grid::Elements elements_of(const WorldModel& world) {
-  detail::Grid::Elements elements;
+detail::Elements elements_of(const WorldModel& world) {
+  detail::Elements elements;
   for (const Obstacle& o : world.obstacles)
     if (o.mesh == nullptr) elements.add(o.shape, {o.bottom, o.height});
   return elements;
