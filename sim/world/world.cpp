@@ -279,6 +279,8 @@ const RobotModel& World::robot_model(RobotId robot) const { return impl_->robot(
 const Caster& World::caster() const { return impl_->caster; }
 std::size_t World::body(RobotId robot) const { return impl_->bodies.at(index(robot)); }
 
+void World::keep_trajectory(RobotId robot) { impl_->robot(robot).keep_trail(); }
+
 Snapshot World::snapshot() const {
   Snapshot snapshot = snapshot_of(impl_->model);
   impl_->movers.draw(snapshot);
