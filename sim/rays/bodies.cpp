@@ -30,19 +30,39 @@ void for_cells_of(const Cells& cells, const Cells::Range& range, const Visit& vi
 
 }  // namespace
 
-Bodies::Moving::Moving(Body b) : body(std::move(b)) { refresh(); }
+Bodies::Piece::Piece(Body b) : solid(std::move(b)), edges(edges_of(solid.shape)) {}
 
-void Bodies::Moving::refresh() {
-  edges = edges_of(body.shape);
-  bounds = bounds_of(body.shape);
+Bodies::Moving::Moving(std::vector<Body> solids) { set(std::move(solids)); }
+
+void Bodies::Moving::set(std::vector<Body> solids) {
+  pieces.clear();
+  bounds = {};
+  bottom = solids.front().bottom;
+  top = solids.front().top;
+  std::uint64_t number = 0;
+  for (Body& solid : solids) {
+    bottom = std::min(bottom, solid.bottom);
+    top = std::max(top, solid.top);
+    Piece& piece = pieces.emplace_back(std::move(solid));
+    piece.first = number;
+    number += std::max(std::size_t{1}, piece.edges.size());
+    const Bounds around = bounds_of(piece.solid.shape);
+    bounds.add(around.low);
+    bounds.add(around.high);
+  }
 }
 
 Bodies::Outer::Outer(const Moving& moving)
-    : around{0.5 * (moving.bounds.low + moving.bounds.high),
-             0.5 * norm(moving.bounds.high - moving.bounds.low) + kTouch},
-      bottom(moving.body.bottom),
-      top(moving.present ? moving.body.top : moving.body.bottom) {
-  if (const auto* circle = std::get_if<Circle>(&moving.body.shape)) around.radius = circle->radius + kTouch;
+    : around{0.5 * (moving.bounds.low + moving.bounds.high), 0.0},
+      bottom(moving.bottom),
+      top(moving.present ? moving.top : moving.bottom) {
+  for (const Piece& piece : moving.pieces) {
+    if (const auto* circle = std::get_if<Circle>(&piece.solid.shape))
+      around.radius = std::max(around.radius, norm(circle->center - around.center) + circle->radius);
+    for (const Segment& edge : piece.edges)
+      around.radius = std::max(around.radius, norm(edge.a - around.center));
+  }
+  around.radius += kTouch;
 }
 
 bool Bodies::Outer::in_reach(const Ray& ray, double best) const {
@@ -61,8 +81,11 @@ bool Bodies::Moving::cast(const Ray& ray, Hit& hit) const {
     hit.element = number;
     met = true;
   };
-  if (const auto* circle = std::get_if<Circle>(&body.shape)) test(*circle, 0);
-  for (std::size_t i = 0; i < edges.size(); ++i) test(edges[i], i);
+  for (const Piece& piece : pieces) {
+    if (!(piece.solid.bottom <= ray.sensor_height && ray.sensor_height < piece.solid.top)) continue;
+    if (const auto* circle = std::get_if<Circle>(&piece.solid.shape)) test(*circle, piece.first);
+    for (std::size_t i = 0; i < piece.edges.size(); ++i) test(piece.edges[i], piece.first + i);
+  }
   return met;
 }
 
@@ -72,9 +95,9 @@ void Bodies::surround(std::size_t number) {
   discs_.set(number, outer_[number].around);
 }
 
-std::size_t Bodies::add(Body body) {
+std::size_t Bodies::add(std::vector<Body> solids) {
   const std::size_t number = bodies_.size();
-  outer_.emplace_back(bodies_.emplace_back(std::move(body)));
+  outer_.emplace_back(bodies_.emplace_back(std::move(solids)));
   surround(number);
   if (kListsPerBody * bodies_.size() > lists_.size()) choose_cells();
   place(number);
@@ -82,9 +105,15 @@ std::size_t Bodies::add(Body body) {
 }
 
 void Bodies::move(std::size_t number, Shape shape) {
+  std::vector<Body> solids;
+  for (const Piece& piece : bodies_.at(number).pieces) solids.push_back(piece.solid);
+  solids.front().shape = std::move(shape);
+  move(number, std::move(solids));
+}
+
+void Bodies::move(std::size_t number, std::vector<Body> solids) {
   Moving& moving = bodies_.at(number);
-  moving.body.shape = std::move(shape);
-  moving.refresh();
+  moving.set(std::move(solids));
   surround(number);
   if (!moving.present) return;
   if (cells_.hold(moving.bounds) && cells_.range(moving.bounds) == moving.listed) return;

@@ -64,11 +64,13 @@ void Bodies::show(const Cone& cone, std::size_t without, std::uint64_t first, Pa
   for (const std::uint32_t number : near) {
     const Moving& moving = bodies_[number];
     if (number == without || !moving.present) continue;
-    const Body& body = moving.body;
-    std::uint64_t element = first + number * kMostEdges;
-    if (const auto* circle = std::get_if<Circle>(&body.shape))
-      view.add(*circle, element, body.bottom, body.top);
-    for (const Segment& edge : moving.edges) view.add(edge, element++, body.bottom, body.top);
+    for (const Piece& piece : moving.pieces) {
+      const Body& solid = piece.solid;
+      std::uint64_t element = first + number * kMostEdges + piece.first;
+      if (const auto* circle = std::get_if<Circle>(&solid.shape))
+        view.add(*circle, element, solid.bottom, solid.top);
+      for (const Segment& edge : piece.edges) view.add(edge, element++, solid.bottom, solid.top);
+    }
   }
 }
 
