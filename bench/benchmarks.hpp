@@ -15,5 +15,6 @@ void register_throughput();
 void register_graph();
 void register_sim_cast();
 void register_sim_world();
+void register_sim_scaling();
 
 }  // namespace orca::bench

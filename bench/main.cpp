@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   register_graph();
   register_sim_cast();
   register_sim_world();
+  register_sim_scaling();
   Progress progress;
   benchmark::RunSpecifiedBenchmarks(&progress);
   const int missed = print_table(std::cout, rows());

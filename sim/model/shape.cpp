@@ -88,7 +88,9 @@ Shape placed(const Shape& shape, const Pose2& X_WB) {
   if (const auto* circle = std::get_if<Circle>(&shape)) return Circle{X_WB * circle->center, circle->radius};
   if (const auto* box = std::get_if<Box>(&shape)) return Box{X_WB * box->pose, box->half};
   Outline moved = std::get<Outline>(shape);
-  for (Segment& e : moved.edges) e = {X_WB * e.a, X_WB * e.b};
+  const Vec2 ahead = direction(X_WB.yaw);  // Once for all points, because robots are placed in each tick.
+  const auto there = [&](Vec2 p) { return X_WB.position() + rotated(p, ahead); };
+  for (Segment& e : moved.edges) e = {there(e.a), there(e.b)};
   return moved;
 }
 

@@ -138,6 +138,11 @@ TimePoint SharedWorld::next_tick(RobotId robot) const {
   return on_run_clock(member(robot).seen + World::kTick);
 }
 
+void SharedWorld::keep_trajectory(RobotId robot) {
+  const std::lock_guard lock(mutex_);
+  world_.keep_trajectory(robot);
+}
+
 Snapshot SharedWorld::snapshot() const {
   const std::lock_guard lock(mutex_);
   return world_.snapshot();

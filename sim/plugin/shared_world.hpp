@@ -79,6 +79,8 @@ class SharedWorld {
   /// Returns the time of the first tick that the robot has not seen yet [run's clock]. It may have passed
   /// already: another robot may have advanced the world.
   [[nodiscard]] TimePoint next_tick(RobotId robot) const;
+  /// Keeps from now on where the robot goes, for snapshot().
+  void keep_trajectory(RobotId robot);
   [[nodiscard]] Snapshot snapshot() const;
 
  private:

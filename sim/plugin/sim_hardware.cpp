@@ -207,6 +207,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     const orca::Result<RobotId> added = shared_->add_robot(*name_, *robot_, start_, kTruthPeriod);
     if (!added) return added.error();
     id_ = *added;
+    if (keeps_moments_) shared_->keep_trajectory(id_);
     moments_.emplace(*robot_);
     return orca::ok();
   }

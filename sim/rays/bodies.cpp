@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "bodies.hpp"
 
+#include <bit>
 #include <numbers>
 #include <utility>
 
@@ -11,7 +12,11 @@ namespace {
 
 constexpr double kCell = 1.0;   // [m] The size of a few robots.
 constexpr double kRoom = 10.0;  // [m] Margin around all bodies, so that they rarely leave the cells.
-constexpr double kMaxBodyCells = 1e5;
+constexpr double kMostInARow =
+    4e4;  // Over so many cells of a walk, rounding errors sum up to 1e-6 m at most.
+constexpr std::size_t kMostListed = 4096;  // A body over more cells is in no cell's list.
+constexpr std::size_t kListsPerBody = 8;   // At least: rays look at few bodies of other cells.
+constexpr unsigned kFewestListBits = 10;
 constexpr std::size_t kFew = 6;  // Up to this many bodies, testing each is faster than walking the cells.
 // Up to this many bodies, a view chooses among them; with more, each ray finds its own through the cells.
 constexpr std::size_t kMany = 300;
@@ -25,19 +30,39 @@ void for_cells_of(const Cells& cells, const Cells::Range& range, const Visit& vi
 
 }  // namespace
 
-Bodies::Moving::Moving(Body b) : body(std::move(b)) { refresh(); }
+Bodies::Piece::Piece(Body b) : solid(std::move(b)), edges(edges_of(solid.shape)) {}
 
-void Bodies::Moving::refresh() {
-  edges = edges_of(body.shape);
-  bounds = bounds_of(body.shape);
+Bodies::Moving::Moving(std::vector<Body> solids) { set(std::move(solids)); }
+
+void Bodies::Moving::set(std::vector<Body> solids) {
+  pieces.clear();
+  bounds = {};
+  bottom = solids.front().bottom;
+  top = solids.front().top;
+  std::uint64_t number = 0;
+  for (Body& solid : solids) {
+    bottom = std::min(bottom, solid.bottom);
+    top = std::max(top, solid.top);
+    Piece& piece = pieces.emplace_back(std::move(solid));
+    piece.first = number;
+    number += std::max(std::size_t{1}, piece.edges.size());
+    const Bounds around = bounds_of(piece.solid.shape);
+    bounds.add(around.low);
+    bounds.add(around.high);
+  }
 }
 
 Bodies::Outer::Outer(const Moving& moving)
-    : around{0.5 * (moving.bounds.low + moving.bounds.high),
-             0.5 * norm(moving.bounds.high - moving.bounds.low) + kTouch},
-      bottom(moving.body.bottom),
-      top(moving.present ? moving.body.top : moving.body.bottom) {
-  if (const auto* circle = std::get_if<Circle>(&moving.body.shape)) around.radius = circle->radius + kTouch;
+    : around{0.5 * (moving.bounds.low + moving.bounds.high), 0.0},
+      bottom(moving.bottom),
+      top(moving.present ? moving.top : moving.bottom) {
+  for (const Piece& piece : moving.pieces) {
+    if (const auto* circle = std::get_if<Circle>(&piece.solid.shape))
+      around.radius = std::max(around.radius, norm(circle->center - around.center) + circle->radius);
+    for (const Segment& edge : piece.edges)
+      around.radius = std::max(around.radius, norm(edge.a - around.center));
+  }
+  around.radius += kTouch;
 }
 
 bool Bodies::Outer::in_reach(const Ray& ray, double best) const {
@@ -56,8 +81,11 @@ bool Bodies::Moving::cast(const Ray& ray, Hit& hit) const {
     hit.element = number;
     met = true;
   };
-  if (const auto* circle = std::get_if<Circle>(&body.shape)) test(*circle, 0);
-  for (std::size_t i = 0; i < edges.size(); ++i) test(edges[i], i);
+  for (const Piece& piece : pieces) {
+    if (!(piece.solid.bottom <= ray.sensor_height && ray.sensor_height < piece.solid.top)) continue;
+    if (const auto* circle = std::get_if<Circle>(&piece.solid.shape)) test(*circle, piece.first);
+    for (std::size_t i = 0; i < piece.edges.size(); ++i) test(piece.edges[i], piece.first + i);
+  }
   return met;
 }
 
@@ -67,18 +95,25 @@ void Bodies::surround(std::size_t number) {
   discs_.set(number, outer_[number].around);
 }
 
-std::size_t Bodies::add(Body body) {
+std::size_t Bodies::add(std::vector<Body> solids) {
   const std::size_t number = bodies_.size();
-  outer_.emplace_back(bodies_.emplace_back(std::move(body)));
+  outer_.emplace_back(bodies_.emplace_back(std::move(solids)));
   surround(number);
+  if (kListsPerBody * bodies_.size() > lists_.size()) choose_cells();
   place(number);
   return number;
 }
 
 void Bodies::move(std::size_t number, Shape shape) {
+  std::vector<Body> solids;
+  for (const Piece& piece : bodies_.at(number).pieces) solids.push_back(piece.solid);
+  solids.front().shape = std::move(shape);
+  move(number, std::move(solids));
+}
+
+void Bodies::move(std::size_t number, std::vector<Body> solids) {
   Moving& moving = bodies_.at(number);
-  moving.body.shape = std::move(shape);
-  moving.refresh();
+  moving.set(std::move(solids));
   surround(number);
   if (!moving.present) return;
   if (cells_.hold(moving.bounds) && cells_.range(moving.bounds) == moving.listed) return;
@@ -94,13 +129,11 @@ void Bodies::remove(std::size_t number) {
 }
 
 void Bodies::place(std::size_t number) {
-  if (cells_.hold(bodies_[number].bounds)) return list(number);
-  choose_cells();
-  lists_.assign(cells_.count(), {});
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].present) list(i);
+  if (!cells_.hold(bodies_[number].bounds)) choose_cells();
+  list(number);
 }
 
+// Chooses cells and lists for all bodies, and lists them, except those that are not placed yet.
 void Bodies::choose_cells() {
   Bounds all;
   for (const Moving& m : bodies_) {
@@ -113,19 +146,34 @@ void Bodies::choose_cells() {
   all.add(all.low - room);
   all.add(all.high + room);
   const Vec2 side = all.high - all.low;
-  cells_ = Cells(all, std::max(kCell, std::sqrt(side.x * side.y / kMaxBodyCells)));
+  cells_ = Cells(all, std::max({kCell, side.x / kMostInARow, side.y / kMostInARow}));
+  const unsigned bits =
+      std::max(kFewestListBits, static_cast<unsigned>(std::bit_width(kListsPerBody * bodies_.size())));
+  list_shift_ = 64 - bits;
+  lists_.assign(std::size_t{1} << bits, {});
+  sprawling_.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i].present && bodies_[i].is_listed) list(i);
 }
 
 void Bodies::list(std::size_t number) {
   Moving& moving = bodies_[number];
+  moving.is_listed = true;
   moving.listed = cells_.range(moving.bounds);
-  for_cells_of(cells_, moving.listed,
-               [&](std::size_t c) { lists_[c].push_back(static_cast<std::uint32_t>(number)); });
+  const auto small = static_cast<std::uint32_t>(number);
+  if (moving.listed.count() > kMostListed) return sprawling_.push_back(small);
+  for_cells_of(cells_, moving.listed, [&](std::size_t c) { lists_[list_of(c)].push_back(small); });
 }
 
 void Bodies::unlist(std::size_t number) {
-  for_cells_of(cells_, bodies_[number].listed,
-               [&](std::size_t c) { std::erase(lists_[c], static_cast<std::uint32_t>(number)); });
+  Moving& moving = bodies_[number];
+  moving.is_listed = false;
+  const auto small = static_cast<std::uint32_t>(number);
+  if (moving.listed.count() > kMostListed) {
+    std::erase(sprawling_, small);
+    return;
+  }
+  for_cells_of(cells_, moving.listed, [&](std::size_t c) { std::erase(lists_[list_of(c)], small); });
 }
 
 void Bodies::cast_at(std::size_t number, const Ray& ray, Hit& hit) const {
@@ -141,8 +189,9 @@ void Bodies::cast(const Ray& ray, Hit& hit) const {
     for (std::size_t i = 0; i < bodies_.size(); ++i) test(i);
     return;
   }
+  for (const std::uint32_t number : sprawling_) test(number);
   cells_.walk(ray, 0.0, hit.range, [&](std::size_t cell) {
-    for (const std::uint32_t number : lists_[cell]) test(number);
+    for (const std::uint32_t number : lists_[list_of(cell)]) test(number);
   });
 }
 

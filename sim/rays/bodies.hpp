@@ -12,15 +12,17 @@ namespace orca::sim::detail {
 
 class Panorama;
 
-// The bodies that can move, listed by the cells of their own uniform grid. Few moves change a list, so a move
-// costs little.
+// The bodies that can move, each of one or more upright solids, listed by the cells of their own uniform grid. Few moves change a list, so a move
+// costs little. Cells have one size however far the bodies are apart, and share lists, whose number depends on that of
+// the bodies only.
 class Bodies {
  public:
-  std::size_t add(Body body);
-  void move(std::size_t number, Shape shape);
+  std::size_t add(std::vector<Body> solids);
+  void move(std::size_t number, Shape shape);  // Of its first solid.
+  void move(std::size_t number, std::vector<Body> solids);
   void remove(std::size_t number);
 
-  // Replaces the hit by the nearest body on the ray if that is closer. Each edge of each body has its own
+  // Replaces the hit by the nearest body on the ray if that is closer. Each edge or circle of each body has its own
   // number.
   void cast(const Ray& ray, Hit& hit) const;
   // Does the same for the bodies with these numbers only.
@@ -36,19 +38,29 @@ class Bodies {
 
  private:
   static constexpr std::uint64_t kMostEdges = 1U << 20U;  // Element numbers reserved for each body.
+  static constexpr std::uint64_t kSpreads =
+      0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio: spreads the cells.
 
-  // A body with its edges and bounds, which are computed once per move.
+  // A solid with its edges, which are computed once per move.
+  struct Piece {
+    explicit Piece(Body b);
+    Body solid;
+    std::vector<Segment> edges;
+    std::uint64_t first = 0;  // Number in the body of its circle or its first edge.
+  };
+  // A body with its bounds.
   struct Moving {
-    explicit Moving(Body b);
-    void refresh();
-    // Returns true if the ray meets the body before the hit, and sets the hit to the edge's number in the
-    // body.
+    explicit Moving(std::vector<Body> solids);
+    void set(std::vector<Body> solids);
+    // Returns true if the ray meets the body before the hit, and sets the hit to the number of the edge or circle in
+    // the body.
     bool cast(const Ray& ray, Hit& hit) const;
 
-    Body body;
+    std::vector<Piece> pieces;
     bool present = true;
-    std::vector<Segment> edges;
     Bounds bounds;
+    double bottom = 0.0, top = 0.0;  // [m]
+    bool is_listed = false;
     Cells::Range listed{};
   };
 
@@ -66,13 +78,17 @@ class Bodies {
   void list(std::size_t number);
   void unlist(std::size_t number);
   void choose_cells();
+  [[nodiscard]] std::size_t list_of(std::size_t cell) const { return (cell * kSpreads) >> list_shift_; }
   void surround(std::size_t number);
 
   std::vector<Moving> bodies_;
   std::vector<Outer> outer_;  // One per body.
   Discs discs_;               // The circle around each body.
   Cells cells_;
-  std::vector<std::vector<std::uint32_t>> lists_;  // The bodies' numbers, per cell.
+  // The numbers of the bodies in the cells. Several cells share a list, so that there may be any number of cells.
+  std::vector<std::vector<std::uint32_t>> lists_;
+  unsigned list_shift_ = 0;               // Leaves as many bits of a cell's product as number the lists.
+  std::vector<std::uint32_t> sprawling_;  // Bodies over so many cells that rays look at each.
 };
 
 }  // namespace orca::sim::detail

@@ -17,8 +17,8 @@ constexpr std::uint64_t kMesh = 1;
 constexpr std::uint64_t kStanding = std::uint64_t{1} << 62U;
 constexpr std::uint64_t kBodies = std::uint64_t{2} << 62U;
 
-detail::Grid::Elements elements_of(const WorldModel& world) {
-  detail::Grid::Elements elements;
+detail::Elements elements_of(const WorldModel& world) {
+  detail::Elements elements;
   for (const Obstacle& o : world.obstacles)
     if (o.mesh == nullptr) elements.add(o.shape, {o.bottom, o.height});
   return elements;
@@ -58,8 +58,12 @@ Caster::~Caster() = default;
 Caster::Caster(Caster&&) noexcept = default;
 Caster& Caster::operator=(Caster&&) noexcept = default;
 
-std::size_t Caster::add_body(Body body) { return impl_->bodies.add(std::move(body)); }
+std::size_t Caster::add_body(Body body) { return add_solids({std::move(body)}); }
+std::size_t Caster::add_solids(std::vector<Body> solids) { return impl_->bodies.add(std::move(solids)); }
 void Caster::move_body(std::size_t number, Shape shape) { impl_->bodies.move(number, std::move(shape)); }
+void Caster::move_solids(std::size_t number, std::vector<Body> solids) {
+  impl_->bodies.move(number, std::move(solids));
+}
 void Caster::remove_body(std::size_t number) { impl_->bodies.remove(number); }
 
 Vec2 Hit::along() const {

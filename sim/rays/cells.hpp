@@ -18,6 +18,10 @@ class Cells {
 
   struct Range {
     int first_column, last_column, first_row, last_row;
+    [[nodiscard]] std::size_t count() const {
+      return static_cast<std::size_t>(last_column - first_column + 1) *
+             static_cast<std::size_t>(last_row - first_row + 1);
+    }
     friend bool operator==(const Range&, const Range&) = default;
   };
 
@@ -69,7 +73,7 @@ class Cells {
   };
 
   // One direction of a walk: where the ray leaves the present cell, and how many cells follow. Over the 4000
-  // cells that a side may have, rounding errors sum up to 1e-7 m at most.
+  // cells that a side has at most where things stand, rounding errors sum up to 1e-7 m at most.
   struct Axis {
     Axis(const Slope& ray, double low, double size, int at, int cells, std::ptrdiff_t stride)
         : exit((low + (ray.along > 0.0 ? size : 0.0) - ray.start) * ray.inverse),

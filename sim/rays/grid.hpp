@@ -2,42 +2,20 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "cells.hpp"
 #include "cone.hpp"
+#include "elements.hpp"
+#include "orca/sim/caster.hpp"
+#include "regions.hpp"
 
 namespace orca::sim::detail {
 
 class Panorama;
 
-// The heights between which a solid lies [m]. A sensor at exactly `bottom` sees it, one at exactly `top` does
-// not.
-struct Heights {
-  double bottom = 0.0;
-  double top = 0.0;
-  [[nodiscard]] bool hold(double height) const { return bottom <= height && height < top; }
-};
-
-// The boundaries that never move, sorted into the cells of a uniform grid.
+// The boundaries that never move, sorted into the cells of uniform grids, one per region of the plane.
 class Grid {
  public:
-  // The boundaries of upright solids.
-  struct Elements {
-    void add(const Shape& shape, Heights heights);
-    struct Edge {
-      Segment segment;
-      Heights heights;
-    };
-    struct Round {
-      Circle circle;
-      Heights heights;
-    };
-    std::vector<Edge> edges;
-    std::vector<Round> rounds;
-  };
-
-  explicit Grid(Elements elements);
+  explicit Grid(Elements elements) : elements_(std::move(elements)), regions_(elements_) {}
 
   // Replaces the hit, with its element number, by the nearest element on the ray if that is closer.
   // @pre  the ray meets no element before `from` [m].
@@ -50,20 +28,13 @@ class Grid {
   // number is `first` plus `step` times its number here.
   void show(const Cone& cone, std::uint64_t first, std::uint64_t step, Panorama& view) const;
 
- private:
-  void sort_in();
-  void show_part(const Cone& cone, std::uint64_t first, std::uint64_t step, Panorama& view) const;
-  template <class Visit>
-  void for_cells_of(const Segment& segment, const Visit& visit) const;
-  template <class Visit>
-  void for_cells_of(const Circle& circle, const Visit& visit) const;
-  template <class Visit>
-  void for_all_entries(const Visit& visit) const;
+  [[nodiscard]] const Regions& regions() const { return regions_; }
 
-  Elements elements_;  // Numbered: first the edges, then the circles.
-  Cells cells_;
-  std::vector<std::uint32_t> first_;  // Cell c has the entries from first_[c] to before first_[c + 1].
-  std::vector<std::uint32_t> entries_;
+ private:
+  void show_part(const Cone& cone, std::uint64_t first, std::uint64_t step, Panorama& view) const;
+
+  Elements elements_;
+  Regions regions_;
 };
 
 }  // namespace orca::sim::detail

@@ -13,7 +13,7 @@ constexpr std::size_t kMaxSections = 64;
 std::shared_ptr<const Grid> MeshSections::at(double height) const {
   const std::lock_guard lock(mutex_);
   if (const auto known = sections_.find(height); known != sections_.end()) return known->second;
-  Grid::Elements elements;
+  Elements elements;
   for (const auto& mesh : meshes_)
     elements.add(section_of(*mesh, height), {height, std::numeric_limits<double>::infinity()});
   // A cast that uses a section keeps it alive, so erasing it here is safe.

@@ -40,23 +40,21 @@ void Grid::show(const Cone& cone, std::uint64_t first, std::uint64_t step, Panor
 }
 
 void Grid::show_part(const Cone& cone, std::uint64_t first, std::uint64_t step, Panorama& view) const {
-  const auto edges = static_cast<std::uint32_t>(elements_.edges.size());
   const auto show = [&](std::uint32_t element) {
     const std::uint64_t number = first + step * element;
-    if (element < edges) {
-      const Elements::Edge& e = elements_.edges[element];
-      view.add(e.segment, number, e.heights.bottom, e.heights.top);
-    } else {
-      const Elements::Round& r = elements_.rounds[element - edges];
-      view.add(r.circle, number, r.heights.bottom, r.heights.top);
-    }
+    elements_.with(
+        element,
+        [&](const Elements::Edge& e) { view.add(e.segment, number, e.heights.bottom, e.heights.top); },
+        [&](const Elements::Round& r) { view.add(r.circle, number, r.heights.bottom, r.heights.top); });
   };
-  LastLooks looked_at;
-  for (Strips strips(cells_, cone); strips.begin() < std::min(cone.reach, view.far());)
-    strips.next([&](std::size_t cell) {
-      for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i)
-        if (looked_at.add(entries_[i])) show(entries_[i]);
-    });
+  regions_.survey(cone, [&](const CellLists& lists) {
+    LastLooks looked_at;
+    for (Strips strips(lists.cells(), cone); strips.begin() < std::min(cone.reach, view.far());)
+      strips.next([&](std::size_t cell) {
+        for (const std::uint32_t element : lists.at(cell))
+          if (looked_at.add(element)) show(element);
+      });
+  });
 }
 
 void Bodies::show(const Cone& cone, std::size_t without, std::uint64_t first, Panorama& view) const {
@@ -66,11 +64,13 @@ void Bodies::show(const Cone& cone, std::size_t without, std::uint64_t first, Pa
   for (const std::uint32_t number : near) {
     const Moving& moving = bodies_[number];
     if (number == without || !moving.present) continue;
-    const Body& body = moving.body;
-    std::uint64_t element = first + number * kMostEdges;
-    if (const auto* circle = std::get_if<Circle>(&body.shape))
-      view.add(*circle, element, body.bottom, body.top);
-    for (const Segment& edge : moving.edges) view.add(edge, element++, body.bottom, body.top);
+    for (const Piece& piece : moving.pieces) {
+      const Body& solid = piece.solid;
+      std::uint64_t element = first + number * kMostEdges + piece.first;
+      if (const auto* circle = std::get_if<Circle>(&solid.shape))
+        view.add(*circle, element, solid.bottom, solid.top);
+      for (const Segment& edge : piece.edges) view.add(edge, element++, solid.bottom, solid.top);
+    }
   }
 }
 

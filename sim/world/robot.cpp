@@ -7,12 +7,6 @@
 #include "orca/geometry/arc.hpp"
 
 namespace orca::sim::detail {
-namespace {
-
-constexpr double kSampleDistance = 0.05;  // [m]
-constexpr double kSampleTurn = 0.2;       // [rad]
-
-}  // namespace
 
 Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
     : name(std::move(birth.name)),
@@ -25,8 +19,7 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
       wheels_(model.drive, WheelErrors::drawn(model.drive.kind, errors, slip_)),
       on_body_{birth.time, birth.time, birth.X_WB, birth.X_WB, birth.X_WB, birth.X_WB},
       on_turret_(on_body_),
-      odometry_due_(model.odometer ? birth.time + model.odometer->period : kForever),
-      trajectory_{{birth.time, birth.X_WB}} {
+      odometry_due_(model.odometer ? birth.time + model.odometer->period : kForever) {
   if (model.turret) turret_.emplace(*model.turret);
   const auto stream = [&](const std::string& device) { return RandomStream(birth.seed, name, device); };
   for (const SonarRing& s : model.sonars) sonars.emplace_back(s, errors, stream(s.name), birth.time);
@@ -65,7 +58,7 @@ void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
   }
   reckon(rolled, now);
   carry(X_WB, X_WR, now);
-  sample(now);
+  if (trail_) trail_->add({now, pose});
 }
 
 void Robot::reckon(const Travel2& rolled, TimePoint now) {
@@ -124,15 +117,10 @@ void Robot::feel(std::span<const Touch> touches) {
   for (BumperModel& s : bumpers) s.run(touches, on_body_.to, on_body_.in_robot(on_body_.to));
 }
 
-void Robot::sample(TimePoint now) {
-  const Pose2& last = trajectory_.back().pose;
-  if (norm(pose.position() - last.position()) >= kSampleDistance ||
-      std::fabs(wrapped(pose.yaw - last.yaw)) >= kSampleTurn)
-    trajectory_.push_back({now, pose});
-}
-
 RobotSnapshot Robot::drawn() const {
-  RobotSnapshot drawn{name, pose, placed(model.footprint, body), trajectory_};
+  RobotSnapshot drawn{name, pose, placed(model.footprint, body), {}};
+  if (!trail_) return drawn;
+  drawn.trajectory = trail_->samples();
   if (!(drawn.trajectory.back().pose == pose)) drawn.trajectory.push_back({on_body_.to, pose});
   return drawn;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "sensors/infrared_model.hpp"
 #include "sensors/laser_model.hpp"
 #include "sensors/sonar_model.hpp"
+#include "trail.hpp"
 
 namespace orca::sim::detail {
 
@@ -56,6 +58,7 @@ class Robot {
 
   [[nodiscard]] double speed() const { return portable::hypot(driving_.forward, driving_.left); }  // [m/s]
   [[nodiscard]] std::optional<TurretReading> turret() const;
+  void keep_trail() { trail_.emplace(RobotSnapshot::Sample{on_body_.to, pose}); }
   [[nodiscard]] RobotSnapshot drawn() const;
   void add_to(Fnv1a& hash) const;
 
@@ -78,7 +81,6 @@ class Robot {
   void carry(const Pose2& X_WB, const Pose2& X_WR, TimePoint now);
   [[nodiscard]] Pose2 turret_pose(const Pose2& X_WB) const;
   [[nodiscard]] const TickSpan& span(bool on_turret) const { return on_turret ? on_turret_ : on_body_; }
-  void sample(TimePoint now);
 
   Duration tick_;
   RandomStream slip_;
@@ -90,7 +92,7 @@ class Robot {
   TickSpan on_body_;  // The last tick, for sensors on the body.
   TickSpan on_turret_;
   TimePoint odometry_due_;
-  std::vector<RobotSnapshot::Sample> trajectory_;
+  std::optional<Trail> trail_;  // Only if somebody draws it.
 };
 
 }  // namespace orca::sim::detail

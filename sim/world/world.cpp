@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <set>
 #include <utility>
 
 #include "motion/contact_log.hpp"
@@ -11,6 +12,7 @@
 #include "orca/base/team.hpp"
 #include "orca/geometry/arc.hpp"
 #include "robot.hpp"
+#include "robot_solids.hpp"
 
 namespace orca::sim {
 namespace {
@@ -67,8 +69,10 @@ struct World::Impl {
   detail::Physics physics;
   detail::ContactLog contact_log;
   detail::Movers movers;
-  std::deque<detail::Robot> robots;  // Robots do not move in memory. Their numbers are those in physics.
-  std::vector<std::size_t> bodies;   // The robots' numbers in the caster.
+  std::deque<detail::Robot> robots;       // Robots do not move in memory. Their numbers are those in physics.
+  std::vector<std::size_t> bodies;        // The robots' numbers in the caster.
+  std::vector<detail::RobotSolids> seen;  // What sensors see of the robots.
+  std::set<double> eyes;                  // [m] Heights of all sensors of ranges.
   detail::SonarAir air;
   Team team;  // Each robot senses for itself.
   std::vector<ContactEvent> contacts;
@@ -78,6 +82,7 @@ struct World::Impl {
   [[nodiscard]] Status check_birth(const std::string& name, const RobotModel& model, const Pose2& X_WB) const;
   [[nodiscard]] Status check_room(const std::string& name, const Body& body, const Pose2& X_WO) const;
   [[nodiscard]] const std::string& name_of(const detail::Pair& pair) const;
+  void show(const detail::Robot& robot);
   void drive();
   void report_contacts();
   void move();
@@ -118,6 +123,19 @@ Status World::Impl::check_room(const std::string& name, const Body& body, const 
   return ok();
 }
 
+// Lets sensors see a new robot. If it brings sensors at new heights, all robots are cut there, too.
+void World::Impl::show(const detail::Robot& robot) {
+  const std::size_t before = eyes.size();
+  eyes.merge(detail::sensor_heights(robot.model));
+  if (eyes.size() != before)
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      seen[i] = detail::RobotSolids(robots[i].model, eyes);
+      caster.move_solids(bodies[i], seen[i].at(robots[i].body));
+    }
+  seen.emplace_back(robot.model, eyes);
+  bodies.push_back(caster.add_solids(seen.back().at(robot.body)));
+}
+
 // Bodies move straight in a tick; driving along the chord of the arc makes the result exact.
 void World::Impl::drive() {
   const double seconds = to_seconds(kTick);
@@ -152,7 +170,7 @@ void World::Impl::move() {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     detail::Robot& r = robots[i];
     r.moved(physics.pose(i), now, contact_log.touches(i));
-    caster.move_body(bodies[i], placed(r.model.footprint, r.body));
+    caster.move_solids(bodies[i], seen[i].at(r.body));
   }
 }
 
@@ -175,7 +193,7 @@ Result<RobotId> World::add_robot(const std::string& name, const RobotModel& mode
   if (const Status s = impl_->check_birth(name, model, X_WB); !s) return s.error();
   impl_->robots.emplace_back(detail::Robot::Birth{name, X_WB, impl_->now, impl_->options.seed, kTick}, model,
                              impl_->errors);
-  impl_->bodies.push_back(impl_->caster.add_body({placed(model.footprint, X_WB), model.bottom, model.top}));
+  impl_->show(impl_->robots.back());
   return RobotId{impl_->physics.add_robot(model, X_WB)};
 }
 
@@ -278,6 +296,8 @@ const WorldModel& World::model() const { return impl_->model; }
 const RobotModel& World::robot_model(RobotId robot) const { return impl_->robot(robot).model; }
 const Caster& World::caster() const { return impl_->caster; }
 std::size_t World::body(RobotId robot) const { return impl_->bodies.at(index(robot)); }
+
+void World::keep_trajectory(RobotId robot) { impl_->robot(robot).keep_trail(); }
 
 Snapshot World::snapshot() const {
   Snapshot snapshot = snapshot_of(impl_->model);

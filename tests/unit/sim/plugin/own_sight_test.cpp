@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "angles.hpp"
+#include "orca/sim/world.hpp"
 #include "shipped.hpp"
 
 using namespace orca::sim;
@@ -42,4 +44,27 @@ TEST_CASE("infrared rings are judged too", "[sim][robots]") {
   robot.infrareds[0].height = 3.0;
   REQUIRE(gaps_at_own_sensors(robot).size() == 1);
   CHECK_THAT(gaps_at_own_sensors(robot)[0], Contains("infrared ring"));
+}
+
+TEST_CASE("where a gap is reported, a laser does not see the robot, and else it does", "[sim][robots]") {
+  RobotModel robot =
+      shipped(GENERATE("barn_base", "nomad_200", "nomad_scout", "omni", "peoplebot", "pioneer_2dx"));
+  const LaserScanner laser = shipped("pioneer_2dx").lasers.at(0);
+  robot.sonars.clear();
+  robot.infrareds.clear();
+  int seen = 0, unseen = 0;
+  for (double height = 0.015; height < 1.4; height += 0.03) {
+    robot.lasers = {laser};
+    robot.lasers[0].height = height;
+    World world({"empty", {}, {}}, {.seed = 1, .realism = Realism::ideal});
+    REQUIRE(world.add_robot("seen", robot, {2.0, 0.0, 0.7}));
+    bool is_met = false;
+    for (double angle = -0.3; angle < 0.3; angle += 0.005)
+      is_met = is_met || world.caster().cast({{0, 0}, orca::direction(angle), 8.0, height}).found();
+    CAPTURE(robot.name, height);
+    REQUIRE(is_met == gaps_at_own_sensors(robot).empty());
+    (is_met ? seen : unseen)++;
+  }
+  CHECK(seen > 5);
+  CHECK(unseen > 5);
 }

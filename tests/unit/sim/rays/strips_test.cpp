@@ -9,6 +9,7 @@
 
 using namespace orca::sim;
 using detail::Cone;
+using detail::Elements;
 using detail::Grid;
 using orca::direction;
 using orca::RandomStream;
@@ -23,7 +24,7 @@ constexpr double kHeight = 0.3;
 
 // Returns posts and boxes at random places around `middle`.
 Grid random_posts(RandomStream& random, Vec2 middle, int count) {
-  Grid::Elements elements;
+  Elements elements;
   for (int i = 0; i < count; ++i) {
     const Vec2 at = middle + Vec2{random.uniform(-6, 6), random.uniform(-6, 6)};
     elements.add(Circle{at, random.uniform(0.02, 0.4)}, {0.0, 1.0});
@@ -78,7 +79,7 @@ TEST_CASE("no ray of a cone meets anything within its empty depth, near the orig
 TEST_CASE(
     "a cone without obstacles is empty all the way, and one that begins at an obstacle is not empty at all",
     "[sim][caster]") {
-  Grid::Elements elements;
+  Elements elements;
   elements.add(Circle{{5.0, 0.0}, 0.5}, {0.0, 1.0});
   elements.add(Circle{{-5.0, 3.0}, 0.5}, {0.0, 1.0});
   const Grid grid(std::move(elements));
@@ -94,12 +95,15 @@ TEST_CASE("a cone too wide to search counts as full", "[sim][caster]") {
 
 TEST_CASE("a search across many small cells ends early, with a valid result", "[sim][caster]") {
   RandomStream random(22, "test", "corners");
-  Grid::Elements elements;
-  for (const Vec2 corner : {Vec2{0, 0}, Vec2{60, 60}})
-    for (int i = 0; i < 2000; ++i)
-      elements.add(Circle{corner + Vec2{random.uniform(-5, 5), random.uniform(-5, 5)}, 0.01}, {0.0, 1.0});
-  const Grid grid(std::move(elements));
   const Cone cone{{8.0, 8.0}, direction(0.25 * kPi), 0.1, 0.0, 90.0};
+  Elements elements;
+  while (elements.rounds.size() < 4000) {
+    const Vec2 at{random.uniform(-5, 65), random.uniform(-5, 65)};
+    const Vec2 seen = rotated(at - cone.tip, -0.25 * kPi);
+    if (std::fabs(seen.y) > 0.2 * seen.x + 1.0 || seen.x > 65.0) elements.add(Circle{at, 0.01}, {0.0, 1.0});
+  }
+  const Grid grid(std::move(elements));
+  REQUIRE(grid.regions().count() == 1);
   const double nearest = nearest_hit(random, grid, cone);
   CHECK(nearest > 60.0);
   const double depth = grid.empty_depth(cone);

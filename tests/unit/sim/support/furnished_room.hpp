@@ -57,7 +57,8 @@ class FurnishedRoom {
     for (int i = 0; i < 3; ++i) add_cells();
   }
 
-  /// Half of the things are obstacles, half are bodies, which the caster keeps apart.
+  /// Half of the things are obstacles, half are solids of bodies, which the caster keeps apart: the first of bodies of
+  /// three solids, the others of bodies of one.
   [[nodiscard]] Caster caster() const {
     WorldModel world;
     std::vector<Body> bodies;
@@ -70,7 +71,9 @@ class FurnishedRoom {
       }
     }
     Caster caster(world);
-    for (const Body& body : bodies) caster.add_body(body);
+    std::size_t i = 0;
+    for (; i + 3 < bodies.size() / 2; i += 3) caster.add_solids({bodies[i], bodies[i + 1], bodies[i + 2]});
+    for (; i < bodies.size(); ++i) caster.add_body(bodies[i]);
     return caster;
   }
 

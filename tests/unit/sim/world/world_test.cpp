@@ -268,6 +268,7 @@ TEST_CASE("a snapshot holds the world's edges and circles, its places and the wa
           "[sim][snapshot]") {
   RobotId id{};
   World world = world_with_scout(id, Realism::ideal, {-2, -2, 0});
+  world.keep_trajectory(id);
   REQUIRE(world.set_velocity_command(id, 0.5, 0.0));
   run(world, 3.0);
   const Snapshot snapshot = world.snapshot();
@@ -276,6 +277,7 @@ TEST_CASE("a snapshot holds the world's edges and circles, its places and the wa
   CHECK(snapshot.bounds.low.x == Approx(-5.2));
   REQUIRE(snapshot.robots.size() == 1);
   const auto& way = snapshot.robots[0].trajectory;
+  REQUIRE(way.size() > 20);
   CHECK(way.front().pose == Pose2{-2, -2, 0});
   CHECK(way.back().pose == world.pose(id));
   for (std::size_t i = 1; i < way.size(); ++i)

@@ -10,7 +10,7 @@
 
 namespace orca::sim {
 
-/// A robot at one instant, with its trajectory until then.
+/// A robot at one instant, with its trajectory until then if that is kept.
 struct RobotSnapshot {
   std::string name;
   Pose2 pose;
@@ -19,7 +19,8 @@ struct RobotSnapshot {
     TimePoint time;
     Pose2 pose;
   };
-  std::vector<Sample> trajectory;  ///< True poses: the first, one per 5 cm or 0.2 rad, the last.
+  /// True poses: the first, one per 5 cm or 0.2 rad, the last. Steps are longer in a run of more than 800 m.
+  std::vector<Sample> trajectory;
 };
 
 /// A picture of a world at one instant, in world coordinates [m]. A plain value.

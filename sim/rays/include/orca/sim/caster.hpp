@@ -48,7 +48,7 @@ struct Hit {
   [[nodiscard]] Vec2 along() const;  // Returns the surface's tangent at `point`, of any length.
 };
 
-/// An upright solid that sensors see and that may be added, moved and removed: a robot, a person, a box.
+/// An upright solid that sensors see and that may be added, moved and removed: a person, a box, a part of a robot.
 struct Body {
   Shape shape;          ///< Shape in the world frame, at the present pose.
   double bottom = 0.0;  ///< [m] Lowest point above the floor: a sensor at exactly this height sees the body.
@@ -62,7 +62,7 @@ struct Body {
 /// solid are closed, so an edge parallel to the ray may be left to its neighbours. (Bullet's own ray test is
 /// off by more than 1 cm for some 4 % of rays on boxes and is not used.)
 ///
-/// Thread contract: cast() from many threads; add_body, move_body and remove_body need exclusive access.
+/// Thread contract: cast() and survey() from many threads; the others need exclusive access.
 class Caster {
  public:
   explicit Caster(const WorldModel& world);
@@ -73,8 +73,15 @@ class Caster {
   /// Adds a body. @return  its number, counting from 0; numbers are not used again.
   std::size_t add_body(Body body);
 
-  /// Gives the body a new shape in the world frame. @pre  `number` came from add_body.
+  /// Adds a body of several upright solids, which may stand in each other. At each height it has the outline of those
+  /// that reach there. @return  as add_body(). @pre  `solids` is not empty.
+  std::size_t add_solids(std::vector<Body> solids);
+
+  /// Gives the body, or its first solid, a new shape in the world frame. @pre  `number` came from add_body.
   void move_body(std::size_t number, Shape shape);
+
+  /// Gives the body other solids. @pre  `number` came from add_body or add_solids, and `solids` is not empty.
+  void move_solids(std::size_t number, std::vector<Body> solids);
 
   /// Hides the body from all later casts, even if it is moved afterwards. @pre  `number` came from add_body.
   void remove_body(std::size_t number);

@@ -145,7 +145,9 @@ class World {
   [[nodiscard]] const Caster& caster() const;
   /// Returns the robot's number among the caster's bodies.
   [[nodiscard]] std::size_t body(RobotId robot) const;
-  /// Returns a picture of the world, with the trajectory of each robot.
+  /// Keeps from now on where the robot goes, for snapshot(). It takes up to 512 KiB.
+  void keep_trajectory(RobotId robot);
+  /// Returns a picture of the world, with the trajectories that are kept.
   [[nodiscard]] Snapshot snapshot() const;
 
   /// Returns an FNV-1a hash over the bits of time, poses, velocities and odometry: equal for equal runs.
