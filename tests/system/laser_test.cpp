@@ -29,13 +29,9 @@ Run pioneer_with(const std::string& line, const std::string& param, const Words&
   return run_deployer(Words{folder.write("graph.xml", text)} + virtual_clock() + more);
 }
 
-// The same without the question: the graph says how large the robot is.
-Run pioneer_of_width(const std::string& width) {
-  return pioneer_with(
-      "",
-      "<param name=\"robot_radius\" value=\"0.309 m\"/><param name=\"robot_length\" value=\"0.6 m\"/>"
-      "<param name=\"robot_width\" value=\"" +
-          width + "\"/>");
+// The same without the question: the graph says the radius.
+Run pioneer_of_radius(const std::string& radius) {
+  return pioneer_with("", "<param name=\"robot_radius\" value=\"" + radius + "\"/>");
 }
 
 std::string describer(const std::string& params) {
@@ -112,11 +108,28 @@ TEST_CASE("without LaserAvoid the robot drives into the pillar", "[system][laser
 TEST_CASE("LaserAvoid learns from the base how large the robot is, as if the graph said so",
           "[system][laser]") {
   const Run asked =
-      pioneer_with(kQuestion, "<param name=\"robot_width\" value=\"1 m\"/>");  // which does not count
+      pioneer_with(kQuestion, "<param name=\"robot_radius\" value=\"1 m\"/>");  // which does not count
   INFO(asked.err);
   REQUIRE(asked.arrivals().size() == 3);
-  CHECK(times(asked) == times(pioneer_of_width("0.425 m")));
-  CHECK(times(asked) != times(pioneer_of_width("0.3 m")));
+  CHECK(times(asked) == times(pioneer_of_radius("0.309 m")));
+  CHECK(times(asked) != times(pioneer_of_radius("0.205 m")));
+}
+
+TEST_CASE("a robot that is to squeeze through learns from the base how wide it is, as if the graph said so",
+          "[system][laser]") {
+  const std::string squeezing = "<param name=\"squeeze\" value=\"true\"/>";
+  const auto of_width = [&](const std::string& width) {
+    return times(pioneer_with("", squeezing +
+                                      "<param name=\"robot_radius\" value=\"0.309 m\"/>"
+                                      "<param name=\"robot_length\" value=\"0.6 m\"/>"
+                                      "<param name=\"robot_width\" value=\"" +
+                                      width + "\"/>"));
+  };
+  const Run asked = pioneer_with(kQuestion, squeezing + "<param name=\"robot_width\" value=\"1 m\"/>");
+  INFO(asked.err);
+  REQUIRE(asked.arrivals().size() == 3);
+  CHECK(times(asked) == of_width("0.425 m"));
+  CHECK(times(asked) != of_width("0.3 m"));
 }
 
 TEST_CASE("until the base has said how large the robot is the robot stands, and nothing waits for the answer",

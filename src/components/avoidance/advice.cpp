@@ -81,11 +81,11 @@ TurnRoom room_beside(Vec2 echo, double distance, const Rectangle& body) {
   const double high =
       distance > body.half_width ? portable::asin(body.half_width / distance) : 0.5 * std::numbers::pi;
   const double bearing = portable::atan2(echo.y, echo.x);
-  constexpr double kHalf = std::numbers::pi;
+  constexpr double kHalfTurn = std::numbers::pi;
   TurnRoom room;
-  for (const double end : {high, -low, kHalf - low, high - kHalf})
+  for (const double end : {high, -low, kHalfTurn - low, high - kHalfTurn})
     room.left = std::min(room.left, angle_up(bearing - end));
-  for (const double end : {low, -high, kHalf - high, low - kHalf})
+  for (const double end : {low, -high, kHalfTurn - high, low - kHalfTurn})
     room.right = std::min(room.right, angle_up(end - bearing));
   if (std::abs(echo.x) >= body.half_length || std::abs(echo.y) >= body.half_width) return room;
   const double corner =

@@ -17,6 +17,11 @@ constexpr double kSector = std::numbers::pi / 36;
 
 LaserAvoider::LaserAvoider(ComponentHost& host)
     : Avoider(host, kEchoTime),
+      squeeze_(
+          *this, "squeeze", false,
+          {.text =
+               "Whether the robot passes where half its width finds room, or only where its circle does; not "
+               "among robots of which the laser sees less than there is."}),
       robot_length_(
           *this, "robot_length", 0.0,
           {.unit = "m",
@@ -27,6 +32,7 @@ LaserAvoider::LaserAvoider(ComponentHost& host)
 
 Limits LaserAvoider::with_body(Limits limits) const {
   if (!limits.body) limits.body = rectangle(*robot_length_, *robot_width_);
+  if (!*squeeze_) limits.body.reset();
   return limits;
 }
 

@@ -89,7 +89,8 @@ Calibration umbmark(const WheelErrors& errors, std::uint64_t seed) {
     std::array<double, kRuns> ends{};
     for (std::uint64_t run = 0; run < kRuns; ++run) {
       const double turn = way == 0 ? kQuarter : -kQuarter;
-      ends[run] = end_of_drive(DriveKind::differential, errors, turn, 1000 * seed + 2 * run + way, kStepsOfRoll).x;
+      ends[run] =
+          end_of_drive(DriveKind::differential, errors, turn, 1000 * seed + 2 * run + way, kStepsOfRoll).x;
       mean[way] += ends[run] / kRuns;
     }
     for (const double end : ends) squares += std::pow(end - mean[way], 2);

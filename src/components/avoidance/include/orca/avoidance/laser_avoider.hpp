@@ -13,7 +13,8 @@ class LaserAvoider : public Avoider {
  protected:
   explicit LaserAvoider(ComponentHost& host);
 
-  /// Returns the limits with the body that the base describes; without one, that of the parameters.
+  /// Returns the limits with the body that counts, if the robot is to squeeze through: that which the base describes; without one,
+  /// that of the parameters.
   [[nodiscard]] Limits with_body(Limits limits) const;
 
  private:
@@ -21,6 +22,7 @@ class LaserAvoider : public Avoider {
   [[nodiscard]] const ObjectType& sensed() const override;
   void listen(EchoMemory& memory) override;
 
+  Param<bool> squeeze_;
   Param<double> robot_length_;
   Param<double> robot_width_;
   PushProxy<idl::LaserRangeReadings> laser_{*this, "laser", {.text = "Scans of the laser."}};
