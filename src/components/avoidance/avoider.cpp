@@ -226,10 +226,12 @@ double Avoider::deaf_after() const {
 
 double Avoider::farthest() const { return radius() + *margin_ + *safe_distance_ + 0.5; }
 
+std::optional<Rectangle> Avoider::described_body() const {
+  return body_ ? rectangle(body_->length, body_->width) : std::nullopt;
+}
+
 Limits Avoider::limits() const {
-  Limits limits{radius(), *margin_, 0.0, *safe_distance_, *stop_distance_, *max_speed_};
-  if (body_) limits.body = rectangle(body_->length, body_->width);
-  return limits;
+  return {radius(), *margin_, 0.0, *safe_distance_, *stop_distance_, *max_speed_};
 }
 
 }  // namespace orca::avoid

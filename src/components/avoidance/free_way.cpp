@@ -11,8 +11,7 @@ FreeWay::FreeWay(Component& owner)
            .text = "An echo nearer to the robot's circle than this counts as a wall across its beam."}) {}
 
 Advice FreeWay::advice(const EchoMemory& memory, const Situation& situation, Limits limits) const {
-  limits.side_distance = *side_distance_;
-  limits.body.reset();  // an echo comes from somewhere in a cone, so there is no telling it from a corner
+  limits.side_distance = limits.body ? 0.0 : *side_distance_;
   return avoid(memory.echoes(), situation, limits);
 }
 

@@ -31,8 +31,9 @@ LaserAvoider::LaserAvoider(ComponentHost& host)
       robot_width_(*this, "robot_width", 0.0, {.unit = "m", .min = 0.0, .text = "Its width."}) {}
 
 Limits LaserAvoider::with_body(Limits limits) const {
+  if (!*squeeze_) return limits;
+  limits.body = described_body();
   if (!limits.body) limits.body = rectangle(*robot_length_, *robot_width_);
-  if (!*squeeze_) limits.body.reset();
   return limits;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/avoidance/free_way.hpp"
 #include "orca/avoidance/laser_avoider.hpp"
 
 namespace {
@@ -14,8 +15,10 @@ class LaserAvoid final : public orca::avoid::LaserAvoider {
                              const orca::avoid::Limits& limits) override {
     orca::avoid::Limits mine = with_body(limits);
     mine.watches_goal = true;
-    return avoid(memory.echoes(), situation, mine);
+    return free_way_.advice(memory, situation, mine);
   }
+
+  orca::avoid::FreeWay free_way_{*this};
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Limits {
   double robot_radius = 0.0;   ///< [m] of the circle that holds the robot.
   double margin = 0.0;         ///< [m] kept free on both sides of it.
   double side_distance = 0.0;  ///< [m] an echo nearer to the body than this counts as a wall across the beam;
-                               ///< 0: only one within the body.
+                               ///< 0: only one within the circle.
   double safe_distance = 0.0;  ///< [m] free way ahead from which on there is nothing to avoid.
   double stop_distance = 0.0;  ///< [m] free way ahead at which the robot does not drive on.
   double max_speed = 0.0;      ///< [m/s] with a free way of safe_distance.

@@ -45,7 +45,7 @@ class Avoider : public Component {
   /// @pre  sensor() has new data.
   virtual void listen(EchoMemory& memory) = 0;
   /// Returns what the robot should do. Called once a lap, unless the robot must stand anyway.
-  /// @param limits  those of the parameters, with a side distance of 0, and the body that the base describes.
+  /// @param limits  those of the parameters, with a side distance of 0.
   [[nodiscard]] virtual Advice advice(const EchoMemory& memory, const Situation& situation,
                                       const Limits& limits) = 0;
 
@@ -58,6 +58,8 @@ class Avoider : public Component {
   /// Returns how far the robot has turned in the last `age` [s] [rad].
   [[nodiscard]] double turned_since(double age) const { return twist_.turn_rate * age; }
   [[nodiscard]] EchoMemory::Limits keep() const;
+  /// Returns the rectangle that holds the robot, if the base has described one.
+  [[nodiscard]] std::optional<Rectangle> described_body() const;
   /// Returns the distance [m] from the robot's centre beyond which nothing changes any advice.
   [[nodiscard]] double farthest() const;
 

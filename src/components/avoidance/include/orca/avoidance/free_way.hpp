@@ -15,7 +15,8 @@ class FreeWay {
   /// @param owner  the component; it gets the parameter `side_distance`.
   explicit FreeWay(Component& owner);
 
-  /// Returns the advice of avoid(), with the side distance of the parameter.
+  /// Returns the advice of avoid(), with the side distance of the parameter. A body that is to pass where its circle does
+  /// not has none.
   [[nodiscard]] Advice advice(const EchoMemory& memory, const Situation& situation, Limits limits) const;
 
  private:
