@@ -12,9 +12,9 @@ namespace orca::sim::detail {
 
 class Panorama;
 
-// The bodies that can move, each of one or more upright solids, listed by the cells of their own uniform grid. Few moves change a list, so a move
-// costs little. Cells have one size however far the bodies are apart, and share lists, whose number depends on that of
-// the bodies only.
+// The bodies that can move, each of one or more upright solids, listed by the cells of their own uniform grid. Few moves
+// change a list, so a move costs little. Cells have one size however far the bodies are apart, and share lists, whose
+// number depends on that of the bodies only.
 class Bodies {
  public:
   std::size_t add(std::vector<Body> solids);

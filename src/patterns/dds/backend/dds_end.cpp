@@ -98,6 +98,7 @@ void DdsEnd::add(News news) {
 
 void DdsEnd::take_news() {
   const std::lock_guard lock(mutex_);
+  taken_.clear();  // of what a handler that threw has left
   taken_.swap(news_);
   waiting_bytes_ = 0;
   has_news_.store(false, std::memory_order_relaxed);

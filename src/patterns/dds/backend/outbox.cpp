@@ -82,8 +82,14 @@ bool Outbox::take_few() {
   std::size_t bytes = 0;
   for (const Letter& letter : letters_) bytes += letter.size + letter.message.size();
   if (bytes > kFew) return false;
-  taken_.swap(letters_);
+  take();
   return true;
+}
+
+// Takes what waits. What a write that threw has left is lost, as in the network.
+void Outbox::take() {
+  taken_.clear();
+  taken_.swap(letters_);
 }
 
 void Outbox::write_taken() {
@@ -95,7 +101,7 @@ void Outbox::write_all() {
   const std::lock_guard writing(writing_);
   {
     const std::lock_guard lock(mutex_);
-    taken_.swap(letters_);
+    take();
   }
   write_taken();
 }

@@ -47,8 +47,9 @@ class Outbox {
   void work();
   bool wait(std::chrono::steady_clock::time_point until);
   void write_all();
-  bool take_few();
-  void write_taken();
+  bool take_few();     // With writing_ held.
+  void take();         // With writing_ and mutex_ held.
+  void write_taken();  // With writing_ held.
 
   const std::function<void()> tick_;
   std::mutex writing_;         // held by whoever writes; before mutex_
