@@ -92,6 +92,15 @@ TEST_CASE("two robots meet, one parks, and the other passes it; neither touches 
   }
 }
 
+TEST_CASE("two robots that stand beside each other do not touch, and the one that gives up says so",
+          "[system][several]") {
+  const Run run = drive("two_robots", {"--seed", "3"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.contacts().empty());
+  CHECK(run.out.find("failed park blocked: ") != std::string::npos);
+}
+
 TEST_CASE("the two robots need their avoiders: without them they touch where they meet",
           "[system][several]") {
   const Run run =
