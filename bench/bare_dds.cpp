@@ -2,6 +2,7 @@
 #include "bare_dds.hpp"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -109,6 +110,9 @@ class End {
   }
 
   static fd::DomainParticipantQos loopback() {
+    fr::LibrarySettingsAttributes settings;
+    settings.intraprocess_delivery = fr::INTRAPROCESS_OFF;  // as between processes
+    fr::xmlparser::XMLProfileManager::library_settings(settings);
     fd::DomainParticipantQos qos;
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = {"127.0.0.1"};
@@ -173,7 +177,8 @@ double BareDdsPair::time(int round_trips) {
   return taken.count() / (2 * round_trips);
 }
 
-void start_bare_dds(int topics, std::size_t size, std::uint32_t domain) {
+double start_bare_dds(int topics, std::size_t size, std::uint32_t domain) {
+  const auto start = std::chrono::steady_clock::now();
   End from(size, domain);
   End to(size, domain);
   for (int i = 0; i < topics; ++i) {
@@ -185,6 +190,7 @@ void start_bare_dds(int topics, std::size_t size, std::uint32_t domain) {
   for (std::size_t i = 0; i < count; ++i) from.write(i);
   for (std::size_t i = 0; i < count; ++i)
     while (!to.take(i, {0, 1'000'000})) from.write(i);  // what is written before both know each other is lost
+  return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace orca::bench

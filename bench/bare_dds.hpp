@@ -25,8 +25,9 @@ class BareDdsPair {
   const std::unique_ptr<Inside> inside_;
 };
 
-/// Lets one participant publish so many topics and another subscribe to them, and returns when each has carried a sample.
+/// Lets one participant publish so many topics and another subscribe to them.
 /// @param size  [bytes] of a sample.
-void start_bare_dds(int topics, std::size_t size, std::uint32_t domain);
+/// @return time from nothing until each topic has carried a sample [ns].
+double start_bare_dds(int topics, std::size_t size, std::uint32_t domain);
 
 }  // namespace orca::bench

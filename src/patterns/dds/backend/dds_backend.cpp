@@ -61,6 +61,7 @@ class FastBackend final : public DdsBackend {
       : options_(options), participant_(std::move(participant)), outbox_([this] { tick(); }) {}
 
   ~FastBackend() override {
+    inbox_.reset();  // waits for a callback that may be using a line
     std::map<std::uint64_t, std::unique_ptr<Line>> lines;
     const std::lock_guard lock(mutex_);
     lines.swap(lines_);  // a late callback of DDS finds none

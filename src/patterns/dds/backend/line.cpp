@@ -98,7 +98,7 @@ void Line::repeat() {
   for (const Sending& sending : unacknowledged_) {
     if (bytes > kRepeatAtOnce) break;
     bytes += sending.parcel.size();
-    write(sending.sequence, sending.parcel, peer_);
+    write(sending.sequence, sending.parcel, peer_, By::next);
   }
 }
 
@@ -122,8 +122,8 @@ void Line::meet(const Message& message, const Origin& origin) {
   former_ = std::exchange(peer_, message.own);
   origin_ = origin;
   alone_ = 0;
-  greet(peer_);
   repeat();  // what has waited for it
+  greet(peer_);
   if (is_first) return;
   for (const auto& [edge, passenger] : passengers_) passenger->line_joined(session_);
 }

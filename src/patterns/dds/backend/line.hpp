@@ -23,8 +23,9 @@ namespace orca::dds {
 /// The participant that a message came from: the prefix of its DDS identity.
 using Origin = std::array<std::byte, 12>;
 
-/// Who writes a message: the thread that does so for all, or the one that has it, as soon as it holds no lock.
-enum class By : std::uint8_t { outbox, caller };
+/// Who writes a message: the thread that does so for all; the one that has it, as soon as it holds no lock; or the thread
+/// for all when it next writes, a tick later at most, which saves waking it for each of many messages.
+enum class By : std::uint8_t { outbox, caller, next };
 
 /// Whoever is reached by a line: the end of an edge.
 ///

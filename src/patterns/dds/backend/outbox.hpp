@@ -38,7 +38,7 @@ class Outbox {
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
 
-  /// @param by  caller: a call of write_here() follows, until which the letter waits.
+  /// @param by  caller: a call of write_here() follows, until which the letter waits; next: it waits for others, a tick at most.
   void post(Letter letter, By by = By::outbox);
   /// Writes what waits on this thread, if that is little and nobody else is writing; otherwise leaves it to the thread.
   void write_here();

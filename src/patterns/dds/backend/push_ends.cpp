@@ -133,7 +133,7 @@ void SubscribingEnd::take_sample(Sample sample, std::uint64_t missed) {
 void SubscribingEnd::report_heard() {
   const std::uint64_t session = line_session();
   if (reported_in_.exchange(session) == session) return;
-  place().line.send(begin_parcel(place().edge, Parcel::heard), session);
+  place().line.send(begin_parcel(place().edge, Parcel::heard), session, Loss::never, By::next);
 }
 
 void SubscribingEnd::hold(Sample sample, std::uint64_t missed) {
