@@ -84,10 +84,16 @@ Nanoseconds start_shm(Executive& executive) {
 
 Nanoseconds start_dds(Executive& executive) {
   const Clock::time_point began = Clock::now();
-  test::DdsLinks links(executive, test::DdsLinks::Help::none);
+  const std::string run = test::fresh_run();
+  const std::unique_ptr<DdsBackend> servers = test::make_dds("servers", run);
+  const std::unique_ptr<DdsBackend> clients = test::make_dds("clients", run);
+  std::uint64_t edges = 0;
+  const auto must = [](const Status& done) {
+    if (!done.ok()) throw std::runtime_error(done.error().text());
+  };
   return start(began, executive, [&](test::Peer& /*from*/, Endpoint& out, test::Peer& /*to*/, Endpoint& in) {
-    const Status connected = links.connect(out, in);
-    if (!connected.ok()) throw std::runtime_error(connected.error().text());
+    must(servers->connect(out, {in.path(), "clients", {}, ++edges}, {}, Duration{0}));
+    must(clients->connect(in, {out.path(), "servers", out.contract().type.name, edges}, {}, Duration{0}));
   });
 }
 
