@@ -62,6 +62,7 @@ class FastBackend final : public DdsBackend {
 
   ~FastBackend() override {
     inbox_.reset();  // waits for a callback that may be using a line
+    outbox_.end();   // which ticks them
     std::map<std::uint64_t, std::unique_ptr<Line>> lines;
     const std::lock_guard lock(mutex_);
     lines.swap(lines_);  // a late callback of DDS finds none

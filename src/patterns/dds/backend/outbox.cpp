@@ -52,13 +52,15 @@ Outbox::Outbox(std::function<void()> tick)
         work();
       }) {}
 
-Outbox::~Outbox() {
+Outbox::~Outbox() { end(); }
+
+void Outbox::end() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
   }
   changed_.notify_one();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void Outbox::post(Letter letter, By by) {

@@ -33,7 +33,7 @@ class Outbox {
  public:
   /// @param tick  is called every Line::kTick on the thread.
   explicit Outbox(std::function<void()> tick);
-  /// Writes what waits, and ends the thread.
+  /// As end().
   ~Outbox();
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
@@ -42,6 +42,8 @@ class Outbox {
   void post(Letter letter, By by = By::outbox);
   /// Writes what waits on this thread, if that is little and nobody else is writing; otherwise leaves it to the thread.
   void write_here();
+  /// Writes what waits, and ends the thread. What is posted afterwards is not written.
+  void end();
 
  private:
   void work();

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <future>
 #include <thread>
 
@@ -89,6 +90,27 @@ TEST_CASE("who would have to wait for another writer leaves its bytes to the out
   }
   CHECK(notes->written() == std::vector{255, 1});
   CHECK_FALSE(notes->is_by_this_thread());
+}
+
+TEST_CASE("what may wait is written at the next tick, by the outbox's thread", "[patterns][dds]") {
+  const auto notes = std::make_shared<Notes>();
+  Outbox outbox([] {});
+  outbox.post(letter(notes, std::byte{1}), By::next);
+  outbox.post(letter(notes, std::byte{2}), By::next);
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (notes->written().size() < 2 && std::chrono::steady_clock::now() < limit)
+    std::this_thread::sleep_for(Line::kTick);
+  CHECK(notes->written() == std::vector{1, 2});
+  CHECK_FALSE(notes->is_by_this_thread());
+}
+
+TEST_CASE("what is posted after the end is not written", "[patterns][dds]") {
+  const auto notes = std::make_shared<Notes>();
+  Outbox outbox([] {});
+  outbox.post(letter(notes, std::byte{1}));
+  outbox.end();
+  outbox.post(letter(notes, std::byte{2}));
+  CHECK(notes->written() == std::vector{1});
 }
 
 TEST_CASE("what one thread posts is written in its order, whoever writes it", "[patterns][dds]") {
