@@ -107,8 +107,9 @@ TEST_CASE("without LaserAvoid the robot drives into the pillar", "[system][laser
 
 TEST_CASE("LaserAvoid learns from the base how large the robot is, as if the graph said so",
           "[system][laser]") {
-  const Run asked =
-      pioneer_with(kQuestion, "<param name=\"robot_radius\" value=\"1 m\"/>");  // which does not count
+  const Run asked = pioneer_with(kQuestion,
+                                 "<param name=\"squeeze\" value=\"false\"/>"
+                                 "<param name=\"robot_radius\" value=\"1 m\"/>");  // which does not count
   INFO(asked.err);
   REQUIRE(asked.arrivals().size() == 3);
   CHECK(times(asked) == times(pioneer_of_radius("0.309 m")));

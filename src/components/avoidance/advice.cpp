@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kStep = std::numbers::pi / 36;  // candidate directions every 5 degrees
 constexpr int kSteps = 36;                       // up to half a turn to either side
+constexpr double kSqueezePenalty = 0.3;          // [rad] for a way where only the body fits
 constexpr double kOtherSidePenalty = 0.8;        // [rad] for changing the side once chosen
 constexpr double kGoalShare = 0.8;               // of the angle off the goal; the rest: off the robot's axis
 constexpr double kBlockedPenalty = 4.0;          // [rad] for no free way at all: more than any turn costs
@@ -22,11 +23,12 @@ constexpr double kTurnUrgency = 0.95;  // of not turning where a corner would to
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// A body that is longer than wide has a round nose that much farther ahead: a rectangle would fit between two posts only if
+// A body that squeezes has a round nose that much farther ahead: a rectangle would fit between two posts only if
 // it points exactly that way.
 double way_to_point(Vec2 echo, double direction, const Limits& limits) {
-  const double reach = (limits.body ? limits.body->half_width : limits.robot_radius) + limits.margin;
-  const double nose = limits.body ? limits.body->half_length - limits.body->half_width : 0.0;
+  const bool squeezes = limits.squeezes && limits.body;
+  const double reach = (squeezes ? limits.body->half_width : limits.robot_radius) + limits.margin;
+  const double nose = squeezes ? limits.body->half_length - limits.body->half_width : 0.0;
   const auto [cosine, sine] = portable::cos_sin(direction);
   const double along = cosine * echo.x + sine * echo.y;
   const double aside = std::abs(cosine * echo.y - sine * echo.x);
@@ -56,18 +58,19 @@ double cost(double direction, double way, const Situation& situation, const Limi
          (changes_side ? kOtherSidePenalty : 0.0) + kBlockedPenalty * missing;
 }
 
-double best_direction(std::span<const Vec2> echoes, const TurnRoom& turns, const Situation& situation,
-                      const Limits& limits) {
-  double best = 0.0;
-  double lowest = cost(0.0, free_way(echoes, 0.0, limits), situation, limits);
+struct Way {
+  double direction;  // [rad]
+  double cost;       // [rad]
+};
+
+Way best_direction(std::span<const Vec2> echoes, const TurnRoom& turns, const Situation& situation,
+                   const Limits& limits) {
+  Way best{0.0, cost(0.0, free_way(echoes, 0.0, limits), situation, limits)};
   for (int i = 1; i <= kSteps; ++i) {
     for (const double direction : {kStep * i, -kStep * i}) {
       if (!turns.allows(direction)) continue;
       const double c = cost(direction, free_way(echoes, direction, limits), situation, limits);
-      if (c < lowest) {
-        lowest = c;
-        best = direction;
-      }
+      if (c < best.cost) best = {direction, c};
     }
   }
   return best;
@@ -133,6 +136,14 @@ double way_to_goal(std::span<const Vec2> echoes, const Situation& situation, con
   return way < situation.goal_distance ? way : limits.safe_distance;
 }
 
+bool should_squeeze(std::span<const Vec2> echoes, const Situation& situation, Limits limits) {
+  const TurnRoom turns = turn_room(echoes, situation, limits);
+  limits.squeezes = false;
+  const double wide = best_direction(echoes, turns, situation, limits).cost;
+  limits.squeezes = true;
+  return best_direction(echoes, turns, situation, limits).cost + kSqueezePenalty < wide;
+}
+
 double room(double way, const Limits& limits) {
   const double span = limits.safe_distance - limits.stop_distance;
   return std::clamp((way - limits.stop_distance) / span, 0.0, 1.0);
@@ -149,8 +160,8 @@ Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Lim
   const double shortest =
       limits.watches_goal ? std::min(ahead, way_to_goal(echoes, situation, limits)) : ahead;
   if (shortest >= limits.safe_distance && may_turn) return {};
-  return {true, best_direction(echoes, turns, situation, limits), limits.max_speed * room(ahead, limits),
-          urgency(shortest, may_turn, limits)};
+  return {true, best_direction(echoes, turns, situation, limits).direction,
+          limits.max_speed * room(ahead, limits), urgency(shortest, may_turn, limits)};
 }
 
 }  // namespace orca::avoid

@@ -11,7 +11,7 @@ FreeWay::FreeWay(Component& owner)
            .text = "An echo nearer to the robot's circle than this counts as a wall across its beam."}) {}
 
 Advice FreeWay::advice(const EchoMemory& memory, const Situation& situation, Limits limits) const {
-  limits.side_distance = limits.body ? 0.0 : *side_distance_;
+  limits.side_distance = limits.squeezes ? 0.0 : *side_distance_;
   return avoid(memory.echoes(), situation, limits);
 }
 

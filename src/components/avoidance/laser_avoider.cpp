@@ -18,10 +18,10 @@ constexpr double kSector = std::numbers::pi / 36;
 LaserAvoider::LaserAvoider(ComponentHost& host)
     : Avoider(host, kEchoTime),
       squeeze_(
-          *this, "squeeze", false,
+          *this, "squeeze", true,
           {.text =
-               "Whether the robot passes where half its width finds room, or only where its circle does; not "
-               "among robots of which the laser sees less than there is."}),
+               "Whether the robot passes where half its width finds room if its circle finds no way nearby; "
+               "otherwise only where its circle does."}),
       robot_length_(
           *this, "robot_length", 0.0,
           {.unit = "m",
@@ -30,10 +30,11 @@ LaserAvoider::LaserAvoider(ComponentHost& host)
                "Length of a robot that is longer than wide, unless the base says it; 0: the circle is all."}),
       robot_width_(*this, "robot_width", 0.0, {.unit = "m", .min = 0.0, .text = "Its width."}) {}
 
-Limits LaserAvoider::with_body(Limits limits) const {
+Limits LaserAvoider::with_body(const EchoMemory& memory, const Situation& situation, Limits limits) const {
   if (!*squeeze_) return limits;
   limits.body = described_body();
   if (!limits.body) limits.body = rectangle(*robot_length_, *robot_width_);
+  limits.squeezes = limits.body && should_squeeze(memory.echoes(), situation, limits);
   return limits;
 }
 

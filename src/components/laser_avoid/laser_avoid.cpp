@@ -13,7 +13,7 @@ class LaserAvoid final : public orca::avoid::LaserAvoider {
  private:
   orca::avoid::Advice advice(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,
                              const orca::avoid::Limits& limits) override {
-    orca::avoid::Limits mine = with_body(limits);
+    orca::avoid::Limits mine = with_body(memory, situation, limits);
     mine.watches_goal = true;
     return free_way_.advice(memory, situation, mine);
   }

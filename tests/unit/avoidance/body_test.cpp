@@ -26,6 +26,7 @@ const Limits kRound{.robot_radius = std::hypot(kHalfLength, kHalfWidth),
 const Limits kLong = [] {
   Limits limits = kRound;
   limits.body = rectangle(2.0 * kHalfLength, 2.0 * kHalfWidth);
+  limits.squeezes = true;
   limits.watches_goal = true;
   return limits;
 }();
@@ -52,6 +53,17 @@ TEST_CASE("a body passes between posts where its width finds room, but its circl
   CHECK(free_way(posts, 0.0, kRound) < 0.5);
   const std::vector<Vec2> narrow{{0.6, 0.30}, {0.6, -0.30}};
   CHECK(free_way(narrow, 0.0, kLong) < 0.6);
+}
+
+TEST_CASE("a robot squeezes only where no way for its circle is nearby", "[avoidance]") {
+  const Situation situation{.goal = 0.0, .goal_distance = 3.0};
+  const std::vector<Vec2> gate{{0.6, 0.33}, {0.6, -0.33}};
+  CHECK(should_squeeze(gate, situation, kLong));
+  CHECK_FALSE(should_squeeze({}, situation, kLong));
+  const std::vector<Vec2> post{{0.6, 0.33}};  // 10 degrees to the right its circle passes
+  CHECK(free_way(post, 0.0, kLong) == kLong.safe_distance);
+  CHECK(free_way(post, 0.0, kRound) < 0.5);
+  CHECK_FALSE(should_squeeze(post, situation, kLong));
 }
 
 TEST_CASE("straight ahead the way of a body ends where its front with its margin touches", "[avoidance]") {

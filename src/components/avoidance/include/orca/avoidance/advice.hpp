@@ -27,8 +27,10 @@ struct Limits {
   double safe_distance = 0.0;  ///< [m] free way ahead from which on there is nothing to avoid.
   double stop_distance = 0.0;  ///< [m] free way ahead at which the robot does not drive on.
   double max_speed = 0.0;      ///< [m/s] with a free way of safe_distance.
-  /// If given, the robot passes wherever half its width, with margin, finds room, and does not turn its corners into anything.
+  /// If given, the robot does not turn its corners into anything.
   std::optional<Rectangle> body = {};
+  /// Whether it passes wherever half the body's width, with margin, finds room.
+  bool squeezes = false;
   /// Whether the way to the goal counts as well as the way ahead. A behaviour that has turned the robot away and falls silent,
   /// because the way ahead is free now, is turned back by the one that drives to the goal.
   bool watches_goal = false;
@@ -88,6 +90,10 @@ struct TurnRoom {
 /// Returns how far [m] the way to the goal is free; safe_distance if it leads there, or if there is no goal.
 [[nodiscard]] double way_to_goal(std::span<const Vec2> echoes, const Situation& situation,
                                  const Limits& limits);
+
+/// Returns whether the robot should go where only its body fits, because ways for its circle lead much farther off, or nowhere.
+/// @pre  limits.body.
+[[nodiscard]] bool should_squeeze(std::span<const Vec2> echoes, const Situation& situation, Limits limits);
 
 /// Returns how much of the speed a free way [m] leaves, in [0, 1]: all of it from safe_distance on, nothing from
 /// stop_distance down.

@@ -13,9 +13,9 @@ class LaserAvoider : public Avoider {
  protected:
   explicit LaserAvoider(ComponentHost& host);
 
-  /// Returns the limits with the body that counts, if the robot is to squeeze through: that which the base describes; without one,
-  /// that of the parameters.
-  [[nodiscard]] Limits with_body(Limits limits) const;
+  /// Returns the limits with the body that counts, if the robot is to squeeze through and its circle finds no way: that which
+  /// the base describes; without one, that of the parameters.
+  [[nodiscard]] Limits with_body(const EchoMemory& memory, const Situation& situation, Limits limits) const;
 
  private:
   PushProxyHandle& sensor() override { return laser_; }
