@@ -37,13 +37,21 @@ constexpr std::array kErrors{Named{"wheel_mismatch", &ErrorLevels::wheel_mismatc
                              Named{"laser_bias", &ErrorLevels::laser_bias},
                              Named{"laser_sigma", &ErrorLevels::laser_sigma},
                              Named{"laser_drop_angle", &ErrorLevels::laser_drop_angle, kRightAngle},
-                             Named{"infrared_noise", &ErrorLevels::infrared_noise}};
+                             Named{"infrared_noise", &ErrorLevels::infrared_noise},
+                             Named{"sonar_edges", &ErrorLevels::sonar_edges, 1.0},
+                             Named{"sonar_threshold", &ErrorLevels::sonar_threshold, 1.0},
+                             Named{"sonar_in_line", &ErrorLevels::sonar_in_line, kRightAngle},
+                             Named{"laser_spot", &ErrorLevels::laser_spot},
+                             Named{"contact_friction", &ErrorLevels::contact_friction},
+                             Named{"wheel_grip", &ErrorLevels::wheel_grip},
+                             Named{"motor_force", &ErrorLevels::motor_force}};
 
 Error unknown(std::string_view name) {
   std::vector<std::string> names;
   for (const Named& error : kErrors) names.emplace_back(error.name);
-  return fail(Code::invalid_argument, in_quotes(name) + " is no error of a level; errors: " + listed(names) +
-                                          xml::did_you_mean(xml::nearest_name(name, names)));
+  return fail(Code::invalid_argument,
+              in_quotes(name) + " is no error of a level and no estimate; there are: " + listed(names) +
+                  xml::did_you_mean(xml::nearest_name(name, names)));
 }
 
 Status scale(ErrorLevels& levels, std::string_view word) {

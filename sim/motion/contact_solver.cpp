@@ -6,8 +6,6 @@
 namespace orca::sim::detail {
 namespace {
 
-// Coefficient of friction of what touches: own estimate, for painted metal and plastic on a wall.
-constexpr double kFriction = 0.16;
 // Enough for a base between two walls; the solver ends earlier as soon as nothing changes any more.
 constexpr int kRounds = 200;
 constexpr double kUnchanged = 1e-24;  // Square of an impulse [N2 s2].
@@ -31,7 +29,8 @@ btContactSolverInfo settings(double seconds) {
 
 }  // namespace
 
-ContactSolver::ContactSolver(double seconds) : seconds_(seconds), ground_(0.0, nullptr, &shape_) {}
+ContactSolver::ContactSolver(double seconds, double friction)
+    : seconds_(seconds), friction_(friction), ground_(0.0, nullptr, &shape_) {}
 ContactSolver::~ContactSolver() = default;
 
 std::size_t ContactSolver::add(const Motion& motion, double mass, double yaw_inertia) {
@@ -67,7 +66,7 @@ void ContactSolver::add_contact(std::size_t one, std::size_t other, Vec2 place, 
       contacts_.emplace_back(&bodies_[one], &of_other, 0, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
   btManifoldPoint point(btVector3(0, 0, 0), btVector3(0, 0, 0), flat_vector(normal), distance);
   point.m_positionWorldOnA = point.m_positionWorldOnB = flat_vector(place);
-  point.m_combinedFriction = kFriction;
+  point.m_combinedFriction = friction_;
   point.m_lateralFrictionDir1 = flat_vector({-normal.y, normal.x});
   point.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
   manifold.addManifoldPoint(point);

@@ -18,7 +18,8 @@ namespace orca::sim::detail {
 class ContactSolver {
  public:
   // @param seconds  how long the velocities are to hold: forces act so long, and a gap is closed in that time at most.
-  explicit ContactSolver(double seconds);
+  // @param friction  coefficient of what touches.
+  ContactSolver(double seconds, double friction);
   ~ContactSolver();
   ContactSolver(const ContactSolver&) = delete;
   ContactSolver& operator=(const ContactSolver&) = delete;
@@ -47,6 +48,7 @@ class ContactSolver {
   std::size_t add(const Motion& motion, double mass, double yaw_inertia);
 
   double seconds_;
+  double friction_;
   btSphereShape shape_{1.0};  // Bullet wants one; what touches comes from add_contact().
   btRigidBody ground_;
   std::deque<btRigidBody> bodies_;

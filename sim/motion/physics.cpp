@@ -16,13 +16,10 @@
 namespace orca::sim::detail {
 namespace {
 
-constexpr double kGravity = 9.81;    // [m/s2]
-constexpr double kRubberGrip = 0.7;  // Own estimate, for rubber wheels on a dry floor.
-constexpr double kMotorReserve =
-    2.0;  // Force of the motors, as a multiple of what the acceleration limit takes. Own estimate.
-constexpr double kRest = 1e-5;   // [m] Bodies that are pushed together stay that far apart.
-constexpr double kFelt = 0.002;  // [m] What is so near is listed by touches().
-constexpr int kMostParts = 16;   // Parts of a step that is cut by touches.
+constexpr double kGravity = 9.81;  // [m/s2]
+constexpr double kRest = 1e-5;     // [m] Bodies that are pushed together stay that far apart.
+constexpr double kFelt = 0.002;    // [m] What is so near is listed by touches().
+constexpr int kMostParts = 16;     // Parts of a step that is cut by touches.
 
 // Bullet uses what it gets without a look.
 void* allocate(std::size_t size) {
@@ -46,16 +43,16 @@ struct RobotBody {
   std::vector<Touch> felt;
   btDbvtNode* leaf = nullptr;
 
-  [[nodiscard]] Grip grip() const;
+  [[nodiscard]] Grip grip(const ErrorLevels& estimates) const;
 };
 
 // The forces of motors and wheels. Wheels stand still against a wall rather than spin.
-Grip RobotBody::grip() const {
-  const double slides = wanted.grip * kRubberGrip * mass * kGravity;
-  const double harder = std::max(kMotorReserve * drive.max_acceleration, drive.stop_deceleration);
+Grip RobotBody::grip(const ErrorLevels& estimates) const {
+  const double slides = wanted.grip * estimates.wheel_grip * mass * kGravity;
+  const double harder = std::max(estimates.motor_force * drive.max_acceleration, drive.stop_deceleration);
   const double motors = std::min(slides, mass * harder);
   const double turns =
-      std::max(0.5 * drive.track * motors, kMotorReserve * yaw_inertia * drive.max_turn_acceleration);
+      std::max(0.5 * drive.track * motors, estimates.motor_force * yaw_inertia * drive.max_turn_acceleration);
   return {.velocity = wanted.velocity,
           .turn = wanted.turn,
           .heading = wanted.heading,
@@ -92,9 +89,10 @@ struct LeafVisitor final : btDbvt::ICollide {
 }  // namespace
 
 struct Physics::Impl {
-  explicit Impl(const WorldModel& world) : solids(world) {}
+  Impl(const WorldModel& world, const ErrorLevels& errors) : solids(world), estimates(errors) {}
 
   SolidIndex solids;
+  ErrorLevels estimates;
   std::deque<RobotBody> robots;
   std::deque<MoverBody> movers;
   btDbvt moving;  // Robots by their numbers, movers by -1 - number.
@@ -245,15 +243,15 @@ void Physics::Impl::choose_velocities(double seconds, bool hold) {
 }
 
 void Physics::Impl::solve(double seconds) {
-  ContactSolver solver(seconds);
+  ContactSolver solver(seconds, estimates.contact_friction);
   speeds.clear();
   for (const RobotBody& r : robots) speeds.push_back(norm(r.body.velocity));
   std::map<std::size_t, std::size_t> numbers;  // Of the robots that touch, in the solver.
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const RobotBody& r = robots[i];
     if (r.touches)
-      numbers[i] =
-          solver.add_base({r.body.pose, r.body.velocity, r.body.turn}, r.mass, r.yaw_inertia, r.grip());
+      numbers[i] = solver.add_base({r.body.pose, r.body.velocity, r.body.turn}, r.mass, r.yaw_inertia,
+                                   r.grip(estimates));
   }
   std::map<std::size_t, std::size_t> carried;
   for (const Encounter& e : encounters) {
@@ -346,7 +344,8 @@ void Physics::Impl::look_around() {
   }
 }
 
-Physics::Physics(const WorldModel& world) : impl_((report_lack_of_memory(), std::make_unique<Impl>(world))) {}
+Physics::Physics(const WorldModel& world, const ErrorLevels& errors)
+    : impl_((report_lack_of_memory(), std::make_unique<Impl>(world, errors))) {}
 Physics::~Physics() = default;
 
 std::size_t Physics::add_robot(const RobotModel& model, const Pose2& X_WB) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
+#include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
 #include "orca/sim/world_model.hpp"
 #include "sensors/bumper_model.hpp"
@@ -44,7 +45,8 @@ class Physics {
   // The distance [m] up to which near_pairs() knows of pairs.
   static constexpr double kNear = 0.012;
 
-  explicit Physics(const WorldModel& world);
+  // @param errors  of which friction, grip and motors count.
+  explicit Physics(const WorldModel& world, const ErrorLevels& errors = {});
   ~Physics();
   Physics(const Physics&) = delete;
   Physics& operator=(const Physics&) = delete;

@@ -310,8 +310,8 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
       *this,
       "errors",
       "",
-      {.text =
-           "Factors on single errors of that level, to see what depends on them: slip=2; sonar_noise=0.5."}};
+      {.text = "Factors on single errors of that level, or on estimates that all levels share, to see what "
+               "depends on them: slip=2; wheel_grip=0.5. Names: docs/simulation.md."}};
   orca::Param<bool> stop_on_touch_{
       *this,
       "stop_on_touch",

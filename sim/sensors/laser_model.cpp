@@ -29,7 +29,9 @@ LaserModel::LaserModel(LaserScanner scanner, const ErrorLevels& errors, RandomSt
       random_(random),
       drop_tangent_(portable::tan(errors.laser_drop_angle)),
       bias_(random_.uniform(-errors.laser_bias, errors.laser_bias)),
-      scan_end_(start + scanner_.period) {}
+      scan_end_(start + scanner_.period) {
+  scanner_.divergence *= errors.laser_spot;
+}
 
 TimePoint LaserModel::due(std::size_t beam) const {
   if (scanner_.count < 2) return scan_end_;

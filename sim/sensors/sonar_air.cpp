@@ -71,8 +71,9 @@ class SonarAir::Ear {
   [[nodiscard]] std::optional<Point> scattering(Vec2 end) const {
     const Vec2 to = end - cone.beam.sensor.position();
     if (!cone.holds(to)) return std::nullopt;
-    const double loss = kEdgeLoss + cone.loss(to);
-    if (loss > kMostLoss) return std::nullopt;
+    const Lobe& lobe = cone.beam.lobe;
+    const double loss = lobe.edge_loss + cone.loss(to);
+    if (loss > lobe.most_loss) return std::nullopt;
     return Point{end, norm(to), loss};
   }
 
@@ -102,7 +103,7 @@ class SonarAir::Ways {
     const Vec2 way = sender() - listener();
     const double length = norm(way);
     if (length <= kInBody || !ear_.cone.holds(way) || !from_.holds(-1.0 * way) || !in_window(length)) return;
-    if (ear_.cone.loss(way) + from_.loss(-1.0 * way) > kMostLoss) return;
+    if (ear_.cone.loss(way) + from_.loss(-1.0 * way) > most_loss()) return;
     if (ear_.sees_transducer(sender())) keep(length);
   }
 
@@ -137,7 +138,7 @@ class SonarAir::Ways {
     const Vec2 way = point.at - sender();
     if (!from_.holds(way)) return;
     const double length = norm(way);
-    if (!in_window(length + point.length) || point.loss + from_.loss(way) > kMostLoss) return;
+    if (!in_window(length + point.length) || point.loss + from_.loss(way) > most_loss()) return;
     if (ear_.sees(point) && ear_.is_seen(from_.beam, point.at, length)) keep(length + point.length);
   }
 
@@ -149,6 +150,7 @@ class SonarAir::Ways {
     off_point(point);
   }
   [[nodiscard]] const Beam& beam() const { return ear_.cone.beam; }
+  [[nodiscard]] double most_loss() const { return beam().lobe.most_loss; }
   [[nodiscard]] Vec2 listener() const { return beam().sensor.position(); }
   [[nodiscard]] Vec2 sender() const { return from_.beam.sensor.position(); }
   [[nodiscard]] double taken_for(double length) const { return 0.5 * (length - head_start_); }

@@ -10,6 +10,7 @@
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/sim/caster.hpp"
+#include "orca/sim/realism.hpp"
 #include "rays/bearing.hpp"
 #include "rays/panorama.hpp"
 
@@ -24,23 +25,34 @@ inline double lobe_loss(double off_axis, double half_lobe) {
   const double share = off_axis / half_lobe;
   return share * share;
 }
-// [Np] A tenth of the sound is still heard: barely that of a smooth wall at the rim of the lobe.
-inline const double kMostLoss = portable::log(10.0);
-// [Np] An edge scatters only three tenths of the sound, so it is heard only in the middle of the beam.
-inline const double kEdgeLoss = -portable::log(0.3);
 
-// The opening of a transducer's cone, with the values that are often derived from it.
+// The opening of a transducer's cone, with what it hears there and the values that are often derived from it.
 struct Lobe {
-  explicit Lobe(double half)
+  explicit Lobe(double half, const ErrorLevels& errors = {})
       : half_angle(half),
         rim(direction(half)),
         tangent(portable::tan(half)),
-        edge_bearing(bearing_of(direction(half * std::sqrt(0.5 * (kMostLoss - kEdgeLoss))))) {}
+        most_loss(portable::log(1.0 / errors.sonar_threshold)),
+        edge_loss(-portable::log(errors.sonar_edges)),
+        in_line(portable::sin(errors.sonar_in_line)),
+        edge_bearing(bearing_of_edges()) {}
   double half_angle;  // [rad] At most a right angle.
   Vec2 rim;           // Direction of the left rim, of length 1, if the axis is x.
   double tangent;     // Slope of that rim.
+  // [Np] Of the weakest sound that is heard: a little more than that of a smooth wall at the rim of the lobe.
+  double most_loss;
+  // [Np] An edge scatters a part of the sound only, so it is heard in the middle of the beam.
+  double edge_loss;
+  double in_line;  // Sine of the angle up to which joined edges lie in one line: nothing scatters there.
   // Bearing up to which edges are heard: there twice the loss of the lobe and that of an edge make the largest one.
+  // Negative if none is heard.
   double edge_bearing;
+
+ private:
+  [[nodiscard]] double bearing_of_edges() const {
+    if (edge_loss > most_loss) return -1.0;
+    return bearing_of(direction(half_angle * std::fmin(1.0, std::sqrt(0.5 * (most_loss - edge_loss)))));
+  }
 };
 
 // The cone of one transducer at the moment it fires.

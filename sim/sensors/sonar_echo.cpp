@@ -13,19 +13,10 @@ constexpr int kBounceRays = 9;
 constexpr double kOff = 1e-6;
 // [m] Surfaces that are less apart are joined: an eighth of the length of the sound, 7 mm at 49 kHz.
 constexpr double kJoint = 1e-3;
-// Joined edges whose directions differ by less than 1 deg (its sine) lie in one line: nothing scatters there.
-constexpr double kInLine = 0.017452406437283512;
 
-bool in_line(const Boundary& one, const Boundary& other) {
-  const Vec2 a = one.along();
-  const Vec2 b = other.along();
-  const double turn = cross(a, b);
-  return turn * turn <= kInLine * kInLine * dot(a, a) * dot(b, b);
-}
-
-// Returns true if the other edge goes on in line where the one ends.
-bool goes_on(const Boundary& one, const Boundary& other, Vec2 end) {
-  if (!in_line(one, other) || norm(other.nearest_to(end) - end) > kJoint) return false;
+// Returns true if the other edge reaches beyond the end of the one.
+bool goes_beyond(const Boundary& one, const Boundary& other, Vec2 end) {
+  if (norm(other.nearest_to(end) - end) > kJoint) return false;
   const Vec2 outwards = end - one.middle();
   const double beyond = std::max(dot(other.a() - end, outwards), dot(other.b() - end, outwards));
   return beyond > kJoint * norm(outwards);
@@ -98,8 +89,17 @@ class Listener {
   [[nodiscard]] bool is_free_end(const Patch& patch, double bearing, Vec2 point) const {
     const Boundary& edge = seen_.boundary(patch);
     return edge.ends_at(bearing) && std::ranges::none_of(seen_.patches(), [&](const Patch& other) {
-             return is_edge(other) && other.what != patch.what && goes_on(edge, seen_.boundary(other), point);
+             return is_edge(other) && other.what != patch.what && in_line(edge, seen_.boundary(other)) &&
+                    goes_beyond(edge, seen_.boundary(other), point);
            });
+  }
+
+  [[nodiscard]] bool in_line(const Boundary& one, const Boundary& other) const {
+    const Vec2 a = one.along();
+    const Vec2 b = other.along();
+    const double turn = cross(a, b);
+    const double most = beam_.lobe.in_line;
+    return turn * turn <= most * most * dot(a, a) * dot(b, b);
   }
 
   // Follows the sound that a wall mirrors away.

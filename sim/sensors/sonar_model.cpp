@@ -10,7 +10,7 @@ namespace orca::sim::detail {
 
 SonarModel::SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream random, TimePoint start)
     : ring_(std::move(ring)),
-      lobe_(ring_.half_lobe),
+      lobe_(ring_.half_lobe, errors),
       errors_(errors),
       critical_tangent_(portable::tan(errors.critical_angle)),
       random_(random),

@@ -58,7 +58,7 @@ struct World::Impl {
         options(o),
         errors(o.errors.value_or(error_levels(o.realism))),
         caster(model),
-        physics(model),
+        physics(model, errors),
         movers(model, o.seed, caster, physics),
         team(o.threads) {}
 

@@ -61,17 +61,26 @@ const Lines kErrors = {"wheel diameters: bound of their ratio, less 1",
                        "infrared: standard deviation per squared range",
                        "readings in the steps of the device"};
 
-// The numbers of one level, as the page writes them. The names must cover ErrorLevels: with a member more or
-// less this does not compile.
-Lines column_of(Realism realism) {
+// The numbers of one level, as the page writes them, then the estimates that all levels share. The names must cover
+// ErrorLevels: with a member more or less this does not compile.
+Lines numbers_of(Realism realism) {
   const auto [wheel_mismatch, track_error, slip, turn_slip, delay_scale, sonar_noise, sonar_outliers,
               critical_angle, sonar_crosstalk, laser_bias, laser_sigma, laser_drop_angle, mixed_pixels,
-              infrared_noise, quantised] = error_levels(realism);
+              infrared_noise, quantised, sonar_edges, sonar_threshold, sonar_in_line, laser_spot,
+              contact_friction, wheel_grip, motor_force] = error_levels(realism);
   return {percent(wheel_mismatch), percent(track_error),         millimetres(slip),
           millimetres(turn_slip),  number(delay_scale, ""),      percent(sonar_noise),
           percent(sonar_outliers), degrees(critical_angle),      yes_or_no(sonar_crosstalk),
           millimetres(laser_bias), millimetres(laser_sigma),     degrees(laser_drop_angle),
-          yes_or_no(mixed_pixels), number(infrared_noise, "/m"), yes_or_no(quantised)};
+          yes_or_no(mixed_pixels), number(infrared_noise, "/m"), yes_or_no(quantised),
+          number(sonar_edges, ""), number(sonar_threshold, ""),  degrees(sonar_in_line),
+          number(laser_spot, ""),  number(contact_friction, ""), number(wheel_grip, ""),
+          number(motor_force, "")};
+}
+
+Lines column_of(Realism realism) {
+  const Lines all = numbers_of(realism);
+  return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kErrors.size())};
 }
 
 std::string drive_kind(DriveKind kind) {
@@ -167,6 +176,15 @@ TEST_CASE("docs/simulation.md says of each error where its values come from", "[
     }
   }
   CHECK(named == kErrors);
+}
+
+TEST_CASE("docs/simulation.md has the estimates that all levels share", "[sim][docs]") {
+  Lines shown;
+  for (const std::string& row : rows_below("| name | estimate | what it is |")) shown.push_back(cell(row, 1));
+  for (const Realism level : {Realism::ideal, Realism::nominal, Realism::harsh}) {
+    const Lines all = numbers_of(level);
+    CHECK(Lines(all.begin() + static_cast<std::ptrdiff_t>(kErrors.size()), all.end()) == shown);
+  }
 }
 
 TEST_CASE("docs/simulation.md has every shipped robot with its drive, speeds and plan",

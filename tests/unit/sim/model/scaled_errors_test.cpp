@@ -20,6 +20,17 @@ TEST_CASE("single errors of a level are multiplied, and nothing else changes", "
   CHECK(sim::scaled(nominal, "").value().slip == nominal.slip);
 }
 
+TEST_CASE("estimates are multiplied at every level", "[sim][errors]") {
+  for (const Realism level : {Realism::ideal, Realism::nominal, Realism::harsh}) {
+    CHECK(error_levels(level).contact_friction == ErrorLevels{}.contact_friction);
+    CHECK(sim::scaled(error_levels(level), "contact_friction=2").value().contact_friction == 0.32);
+  }
+  const ErrorLevels scaled = sim::scaled({}, "sonar_edges=5; sonar_threshold=20; sonar_in_line=100").value();
+  CHECK(scaled.sonar_edges == 1.0);
+  CHECK(scaled.sonar_threshold == 1.0);
+  CHECK(scaled.sonar_in_line == Approx(0.5 * std::numbers::pi));
+}
+
 TEST_CASE("angles and probabilities stay what they are", "[sim][errors]") {
   const ErrorLevels scaled =
       sim::scaled(error_levels(Realism::harsh), "critical_angle=9; laser_drop_angle=2; sonar_outliers=50")
@@ -34,7 +45,11 @@ TEST_CASE("what is no error or no factor is refused with what is expected", "[si
     return sim::scaled(error_levels(Realism::nominal), factors).error().message;
   };
   CHECK_THAT(refusal("slop=2"),
-             Contains("\"slop\" is no error of a level") && Contains("did you mean \"slip\"?"));
+             Contains("\"slop\" is no error of a level and no estimate; there are: wheel_mismatch, ") &&
+                 Contains("did you mean \"slip\"?"));
+  CHECK_THAT(refusal("friction=2"),
+             Contains("infrared_noise, sonar_edges, sonar_threshold, sonar_in_line, laser_spot, "
+                      "contact_friction, wheel_grip, motor_force"));
   for (const char* bad : {"slip", "slip=", "slip=two", "slip=-1", "slip=1000", "slip=nan"})
     CHECK_THAT(refusal(bad), Contains("slip expects a factor from 0 to 100, as in slip=2"));
 }

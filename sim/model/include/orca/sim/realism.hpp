@@ -18,7 +18,7 @@ enum class Realism {
 /// Returns the level "ideal", "nominal" or "harsh"; nothing for any other word.
 [[nodiscard]] std::optional<Realism> realism_from(std::string_view word);
 
-/// The numbers behind a level. docs/simulation.md gives the source of each.
+/// The numbers behind a level, and estimates. docs/simulation.md gives the source of each.
 struct ErrorLevels {
   double wheel_mismatch = 0.0;  ///< Bound of the ratio of two wheels' diameters, less 1.
   double track_error = 0.0;     ///< Bound of the relative error of the track.
@@ -39,6 +39,19 @@ struct ErrorLevels {
   bool mixed_pixels = false;    ///< A spot on two surfaces reads as something in between.
   double infrared_noise = 0.0;  ///< [1/m] Standard deviation of an infrared range per square of the range.
   bool quantised = false;       ///< Readings come in the device's steps.
+
+  // Own estimates that every level shares.
+  double sonar_edges = 0.3;      ///< Strength of an edge's echo, as a share of a wall's.
+  double sonar_threshold = 0.1;  ///< Weakest sound that is heard, as a share of that on the axis.
+  /// [rad] Walls whose directions differ by less count as one line.
+  double sonar_in_line = std::numbers::pi / 180.0;
+  double laser_spot = 1.0;  ///< Factor on the opening angle that the robot's file gives the beam.
+  /// Coefficient of friction of what touches: painted metal and plastic on a wall.
+  double contact_friction = 0.16;
+  /// Share of the weight that the wheels hold before they slide: rubber on a dry floor.
+  double wheel_grip = 0.7;
+  /// Force of the motors, as a multiple of what the acceleration limit takes.
+  double motor_force = 2.0;
 };
 
 [[nodiscard]] ErrorLevels error_levels(Realism realism);

@@ -8,8 +8,8 @@
 
 namespace orca::sim {
 
-/// Multiplies single errors of a level, in order to see how much a result depends on them. An angle grows to 90 degrees at
-/// most, a probability to 1.
+/// Multiplies single errors of a level, or estimates that all levels share, in order to see how much a result depends on
+/// them. An angle grows to 90 degrees at most, a probability or a share to 1.
 ///
 /// @param factors  names of numbers of ErrorLevels with a factor each, from 0 to 100: "slip=2; sonar_noise=0.5". Empty: none.
 /// @errors  invalid_argument, with the first word that is wrong and what is expected.
