@@ -28,6 +28,7 @@ DEVICE = ("hw_api", "geometry", *COMPONENT)
 PATTERNS = "src/patterns"
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
 SUPERVISOR = "src/runtime/supervisor"
+BATCH = "src/runtime/batch"
 SIM_MODEL = ("geometry", "xml", "base")
 SIM_RAYS = ("sim_model", *SIM_MODEL)
 SIM_SENSORS = ("sim_rays", *SIM_RAYS)
@@ -106,9 +107,14 @@ LAYERS = (
           tuple(f"orca/supervisor/{name}.hpp" for name in ("host_process_main", "outputs", "supervised_run", "system_facts")),
           ("supervisor_bulletin", "supervisor_processes", "supervisor_channel", "host_run", "host_containment", "graph", "plugin", "xml",
            "patterns_shm", "patterns_endpoints", *DEVICE), ("fmt",), module=SUPERVISOR),
+    Layer("batch_experiment", (f"{BATCH}/experiment",), ("orca/batch/experiment.hpp",), ("xml", "base"), module=BATCH),
+    Layer("batch_results", (f"{BATCH}/results",), ("orca/batch/record.hpp", "orca/batch/store.hpp"), ("batch_experiment", "xml", "base"),
+          ("sqlite",), module=BATCH),
+    Layer("batch_running", (f"{BATCH}/running", f"{BATCH}/checking", BATCH), ("orca/batch/",),
+          ("batch_results", "batch_experiment", "host_run", "host_containment", "graph", "plugin", "xml", *DEVICE), module=BATCH),
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),
     Layer("apps", ("src/apps",), (),
-          ("supervisor_run", "supervisor_processes", "supervisor_channel", "host_run", "host_containment", "host_picture", "graph", "plugin", "text",
+          ("batch_running", "batch_results", "batch_experiment", "supervisor_run", "supervisor_processes", "supervisor_channel", "host_run", "host_containment", "host_picture", "graph", "plugin", "text",
            "xml", *DEVICE), ("fmt",)),
 )
 
@@ -127,6 +133,7 @@ LIBRARY_HEADERS = {
     "png": ("png.h", "libpng"),
     "zlib": ("zlib.h",),
     "cairo": ("cairo",),
+    "sqlite": ("sqlite3.h",),
     "catch2": ("catch2/",),
     "benchmark": ("benchmark/",),
 }

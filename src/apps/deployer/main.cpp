@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "actions.hpp"
-#include "arithmetic.hpp"
+#include "common/arithmetic.hpp"
 #include "options.hpp"
 #include "orca/host/last_words.hpp"
 #include "processes.hpp"
@@ -27,7 +27,7 @@ bool runs_in_virtual_time(const orca::deployer::Options& options) {
 int main(int argc, char** argv) {
   if (orca::deployer::is_host_process(argc, argv)) return orca::deployer::be_host_process(argc, argv);
   const orca::deployer::Options options = orca::deployer::parse_options({argv + 1, argv + argc});
-  if (runs_in_virtual_time(options)) orca::deployer::choose_portable_arithmetic(argv);
+  if (runs_in_virtual_time(options)) orca::apps::choose_portable_arithmetic(argv);
   orca::deployer::prepare_streams();
   const orca::host::LastWords last_words(static_cast<int>(ExitCode::failed_running),
                                          static_cast<int>(ExitCode::could_not_start));

@@ -43,7 +43,10 @@ Status Client::ask(const supervisor::Ask& ask, const Taker& taker, Duration limi
   for (;;) {
     Result<supervisor::Message> message = channel_->wait_for_message(limit);
     if (!message) {
-      if (message.error().code == Code::unavailable) return fail(Code::unavailable, "the system has ended");
+      if (message.error().code == Code::unavailable)
+        return fail(Code::unavailable,
+                    "the system has ended, or has closed the connection because it was asked more than 200 "
+                    "times in a second");
       return message.error();
     }
     if (message->request != request) continue;  // the rest of an earlier answer

@@ -12,7 +12,7 @@
 #include <sys/platform/x86.h>
 #endif
 
-namespace orca::deployer {
+namespace orca::apps {
 namespace {
 
 constexpr const char* kTunables = "GLIBC_TUNABLES";
@@ -69,4 +69,4 @@ void choose_portable_arithmetic(char** arguments) {
   unsetenv(kMark);
 }
 
-}  // namespace orca::deployer
+}  // namespace orca::apps

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace orca::deployer {
+namespace orca::apps {
 
 /// Lets sin(), exp() and the like give the same bits on every x86-64 processor (ADR 0032). The C library chooses
 /// among its variants of them when a program starts, and those that fuse multiplication and addition round
@@ -18,4 +18,4 @@ void choose_portable_arithmetic(char** arguments);
 /// @param tunables  those of the user, which are kept; empty: none.
 [[nodiscard]] std::string with_portable_arithmetic(const std::string& tunables);
 
-}  // namespace orca::deployer
+}  // namespace orca::apps

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include <cinttypes>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "common/arithmetic.hpp"
+#include "options.hpp"
+#include "orca/base/log.hpp"
+#include "orca/base/text.hpp"
+#include "orca/batch/store.hpp"
+#include "progress.hpp"
+
+namespace orca::simbatch {
+namespace {
+
+ExitCode refuse(const Error& error) {
+  std::fprintf(stderr, "error: %s\n", error.text().c_str());
+  return ExitCode::bad_input;
+}
+
+std::filesystem::path results_in(const std::filesystem::path& folder) { return folder / "results.sqlite"; }
+
+// Returns the experiment if it and its graphs have no fault; otherwise says all that is wrong.
+std::optional<batch::Experiment> checked(const Options& options) {
+  xml::Diagnostics diagnostics;
+  std::optional<batch::Experiment> experiment = batch::read_experiment(options.subject, diagnostics);
+  if (experiment) batch::check_graphs(*experiment, options.batch, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  return diagnostics.has_errors() ? std::nullopt : std::move(experiment);
+}
+
+ExitCode check(const Options& options) {
+  const std::optional<batch::Experiment> experiment = checked(options);
+  if (!experiment) return ExitCode::bad_input;
+  std::fprintf(stderr, "%s: no errors; %zu variants, %zu worlds, %zu seeds: %zu runs\n",
+               options.subject.c_str(), experiment->variants.size(), experiment->worlds.size(),
+               experiment->seeds.size(), experiment->run_count());
+  return ExitCode::done;
+}
+
+std::vector<std::size_t> missing(const batch::Experiment& experiment, const batch::Store& store) {
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < experiment.run_count(); ++i) {
+    const batch::Run run = experiment.run(i);
+    if (!store.has(experiment.variants[run.variant].name, experiment.worlds[run.world].name, run.seed))
+      wanted.push_back(i);
+  }
+  return wanted;
+}
+
+void show_summary(const batch::Store& store) {
+  std::map<std::string, std::map<batch::Ending, std::size_t>> counts;
+  std::map<std::string, std::size_t> all;
+  (void)store.for_each([&](const batch::Row& row) {
+    ++counts[row.variant][row.outcome.ending];
+    ++all[row.variant];
+  });
+  for (const auto& [variant, endings] : counts) {
+    std::printf("%s: %zu runs", variant.c_str(), all[variant]);
+    for (const auto& [ending, count] : endings) std::printf(", %zu %s", count, batch::name_of(ending));
+    std::printf("\n");
+  }
+}
+
+ExitCode run(const Options& options) {
+  const std::optional<batch::Experiment> experiment = checked(options);
+  if (!experiment) return ExitCode::bad_input;
+  const std::filesystem::path folder = options.out.empty() ? experiment->name + ".batch" : options.out;
+  if (std::filesystem::exists(results_in(folder)) && !options.resume)
+    return refuse(fail(Code::already_exists, in_quotes(folder.string()) +
+                                                 " holds results already; --resume makes what is missing, "
+                                                 "--out DIR takes another folder"));
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return refuse(fail(Code::unavailable, folder.string() + ": " + error.message()));
+  Result<std::unique_ptr<batch::Store>> store =
+      batch::Store::open(results_in(folder).string(), batch::identity_of(*experiment));
+  if (!store) return refuse(store.error());
+  const std::vector<std::size_t> wanted = missing(*experiment, **store);
+  Progress progress(*experiment, **store, wanted.size());
+  const Result<bool> finished = batch::run_batch(*experiment, wanted, options.batch, progress);
+  progress.end();
+  if (!finished || !*finished) {
+    std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n",
+                 finished ? "stopped" : finished.error().text().c_str());
+    return ExitCode::could_not_finish;
+  }
+  show_summary(**store);
+  return ExitCode::done;
+}
+
+std::string quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+ExitCode table(const Options& options) {
+  const std::filesystem::path file = results_in(options.subject);
+  if (!std::filesystem::exists(file))
+    return refuse(fail(Code::not_found, in_quotes(options.subject) + " holds no results of a batch"));
+  Result<std::unique_ptr<batch::Store>> store = batch::Store::open(file.string(), {});
+  if (!store) return refuse(store.error());
+  std::printf("variant,world,seed,ending,time,goals,failed_goals,contacts,way,trace_hash,reason\n");
+  const Status read = (*store)->for_each([](const batch::Row& row) {
+    const batch::Outcome& o = row.outcome;
+    std::printf("%s,%s,%" PRIu64 ",%s,%.17g,%u,%u,%u,%.17g,%s,%s\n", row.variant.c_str(), row.world.c_str(),
+                row.seed, batch::name_of(o.ending), o.time, o.goals, o.failed_goals, o.contacts, o.way,
+                o.trace_hash.c_str(), quoted(o.reason).c_str());
+  });
+  return read.ok() ? ExitCode::done : refuse(read.error());
+}
+
+ExitCode act(const Options& options) {
+  switch (options.action) {
+    case Options::Action::help: std::fputs(help_text(), stdout); return ExitCode::done;
+    case Options::Action::version: std::puts("orca simbatch " ORCA_VERSION); return ExitCode::done;
+    case Options::Action::check: return check(options);
+    case Options::Action::table: return table(options);
+    case Options::Action::run: return run(options);
+  }
+  return ExitCode::bad_input;
+}
+
+}  // namespace
+}  // namespace orca::simbatch
+
+int main(int argc, char** argv) {
+  using namespace orca::simbatch;
+  orca::apps::choose_portable_arithmetic(argv);
+  orca::log::set_level(orca::log::Level::off);
+  orca::Result<Options> options = parse_options({argv + 1, argv + argc});
+  if (!options) {
+    std::fprintf(stderr, "error: %s\nsimbatch --help explains what there is\n",
+                 options.error().message.c_str());
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
+  options->batch.plugin_folders.insert(options->batch.plugin_folders.begin(),
+                                       (own.parent_path().parent_path() / "plugins").string());
+  return static_cast<int>(act(*options));
+}

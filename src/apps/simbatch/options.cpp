@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "options.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <thread>
+
+#include "orca/base/text.hpp"
+#include "orca/xml/number.hpp"
+
+namespace orca::simbatch {
+namespace {
+
+Status set_jobs(Options& options, const std::string& value) {
+  const Result<std::int64_t> jobs = xml::parse_integer(value);
+  if (!jobs || *jobs < 1 || *jobs > 1024)
+    return fail(Code::invalid_argument, "--jobs takes a number from 1 to 1024, found " + in_quotes(value));
+  options.batch.jobs = static_cast<std::size_t>(*jobs);
+  return ok();
+}
+
+Status set_executor(Options& options, const std::string& value) {
+  if (value != "fiber" && value != "baton")
+    return fail(Code::invalid_argument, "--executor takes fiber or baton, found " + in_quotes(value));
+  options.batch.backend = value == "fiber" ? Backend::fiber : Backend::baton;
+  return ok();
+}
+
+using WithValue = std::function<Status(Options&, const std::string&)>;
+
+const std::map<std::string, WithValue>& options_with_value() {
+  static const std::map<std::string, WithValue> all{
+      {"--jobs", set_jobs},
+      {"--executor", set_executor},
+      {"--out",
+       [](Options& options, const std::string& value) {
+         options.out = value;
+         return ok();
+       }},
+      {"--plugins", [](Options& options, const std::string& value) {
+         options.batch.plugin_folders.push_back(std::filesystem::absolute(value).string());
+         return ok();
+       }}};
+  return all;
+}
+
+const std::map<std::string, std::function<void(Options&)>>& flags() {
+  using Action = Options::Action;
+  static const std::map<std::string, std::function<void(Options&)>> all{
+      {"--resume", [](Options& options) { options.resume = true; }},
+      {"--check", [](Options& options) { options.action = Action::check; }},
+      {"--help", [](Options& options) { options.action = Action::help; }},
+      {"-h", [](Options& options) { options.action = Action::help; }},
+      {"--version", [](Options& options) { options.action = Action::version; }}};
+  return all;
+}
+
+Status take_subject(Options& options, const std::string& word) {
+  if (word.starts_with("-")) {
+    std::vector<std::string> names;
+    for (const auto& [name, set] : options_with_value()) names.push_back(name);
+    for (const auto& [name, set] : flags()) names.push_back(name);
+    return fail(Code::invalid_argument,
+                "there is no option " + in_quotes(word) + "; there are " + listed(names));
+  }
+  if (!options.subject.empty())
+    return fail(Code::invalid_argument,
+                in_quotes(word) + " is one word too many after " + in_quotes(options.subject));
+  options.subject = word;
+  return ok();
+}
+
+Status take(Options& options, const std::vector<std::string>& words, std::size_t& i) {
+  const std::string& word = words[i];
+  if (const auto flag = flags().find(word); flag != flags().end()) {
+    flag->second(options);
+    return ok();
+  }
+  const auto option = options_with_value().find(word);
+  if (option == options_with_value().end()) return take_subject(options, word);
+  if (++i == words.size()) return fail(Code::invalid_argument, word + " needs a value after it");
+  return option->second(options, words[i]);
+}
+
+bool needs_subject(Options::Action action) {
+  return action == Options::Action::run || action == Options::Action::check ||
+         action == Options::Action::table;
+}
+
+}  // namespace
+
+Result<Options> parse_options(const std::vector<std::string>& words) {
+  Options options;
+  options.batch.jobs = std::max(1U, std::thread::hardware_concurrency());
+  std::size_t first = 0;
+  if (!words.empty() && words.front() == "export") {
+    options.action = Options::Action::table;
+    first = 1;
+  }
+  for (std::size_t i = first; i < words.size(); ++i)
+    if (Status taken = take(options, words, i); !taken.ok()) return taken.error();
+  if (needs_subject(options.action) && options.subject.empty())
+    return fail(Code::invalid_argument,
+                options.action == Options::Action::table
+                    ? "export needs the folder of the results"
+                    : "an experiment is needed, e.g. sim/experiments/avoid_office.xml");
+  return options;
+}
+
+const char* help_text() {
+  return R"(simbatch EXPERIMENT.xml [options]     run variants x worlds x seeds in simulated time, and compare them
+
+  simbatch sim/experiments/avoid_office.xml              all runs, into the folder avoid_office.batch
+  simbatch sim/experiments/avoid_office.xml --check      only say what is wrong with the experiment and its graphs
+  simbatch sim/experiments/avoid_office.xml --resume     what is missing in the folder, never anything twice
+  simbatch export avoid_office.batch                     one line for each run as CSV, in a fixed order
+
+Each run is made in a process of its own, so one that crashes, hangs or takes too much memory costs no other; it is a result,
+too. Ctrl-C and kill -9 lose nothing that was finished. The same experiment gives the same bytes, whatever --jobs and the
+machine's load are.
+
+  --out DIR             folder for results.sqlite (default: the experiment's name with .batch)
+  --jobs N              runs at a time (default: as many as processors)
+  --resume              go on with the results that DIR holds
+  --executor KIND       fiber (default) or baton
+  --plugins FOLDER      look for plugins here too, after Orca's own; may be repeated
+  --help, --version
+
+Exit status: 0 done (runs that failed are results), 1 could not finish, 2 bad input, nothing was run.
+docs/comparing.md explains experiments.
+)";
+}
+
+}  // namespace orca::simbatch

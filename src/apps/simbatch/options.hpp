@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/batch/batch.hpp"
+
+namespace orca::simbatch {
+
+/// The exit status of the program.
+enum class ExitCode { done = 0, could_not_finish = 1, bad_input = 2 };
+
+/// The requests of a command line.
+struct Options {
+  enum class Action { run, check, table, help, version };
+  Action action = Action::run;
+  std::string subject;  ///< The experiment, or the folder of results.
+  std::string out;      ///< Folder for the results; empty: named after the experiment.
+  bool resume = false;  ///< Make what is missing in the folder.
+  batch::BatchOptions batch;
+};
+
+/// Reads a command line.
+/// @errors  invalid_argument with what was expected.
+[[nodiscard]] Result<Options> parse_options(const std::vector<std::string>& words);
+
+/// Returns the text of --help.
+[[nodiscard]] const char* help_text();
+
+}  // namespace orca::simbatch

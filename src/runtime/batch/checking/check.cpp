@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <set>
+#include <string>
+
+#include "orca/batch/batch.hpp"
+#include "orca/graph/loader.hpp"
+#include "orca/host/catalogue.hpp"
+
+namespace orca::batch {
+
+void check_graphs(const Experiment& experiment, const BatchOptions& options, xml::Diagnostics& diagnostics) {
+  std::set<std::string> said;
+  for (std::size_t world = 0; world < experiment.worlds.size(); ++world) {
+    for (std::size_t variant = 0; variant < experiment.variants.size(); ++variant) {
+      host::PluginCatalogue catalogue(plugin::PluginIndex(options.plugin_folders), ClockKind::virtual_time);
+      graph::LoadOptions load;
+      load.settings = experiment.settings_of({variant, world, experiment.seeds.front()});
+      load.try_components = true;
+      load.any_link = true;
+      xml::Diagnostics found;
+      (void)graph::load_file(experiment.variants[variant].graph, load, catalogue, found);
+      for (const xml::Diagnostic& one : found.sorted()) {
+        if (one.severity != xml::Severity::error || !said.insert(one.text()).second) continue;
+        diagnostics.error(one.code, one.position,
+                          one.message + " (variant " + experiment.variants[variant].name + ", world " +
+                              experiment.worlds[world].name + ")");
+      }
+    }
+  }
+}
+
+}  // namespace orca::batch

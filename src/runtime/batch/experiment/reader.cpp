@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "codes.hpp"
+#include "number_list.hpp"
+#include "orca/base/text.hpp"
+#include "orca/batch/experiment.hpp"
+#include "orca/xml/attributes.hpp"
+#include "orca/xml/document.hpp"
+#include "orca/xml/reporter.hpp"
+#include "rules.hpp"
+
+namespace orca::batch {
+namespace {
+
+using xml::Attributes;
+
+constexpr std::size_t kMostRuns = 10'000'000;
+constexpr double kDefaultLimit = 300.0;   // [s]
+constexpr double kDefaultMemory = 8.0e9;  // [bytes]
+
+class ExperimentReader {
+ public:
+  ExperimentReader(const std::string& file, xml::Reporter& reporter)
+      : folder_(std::filesystem::absolute(file).parent_path()), reporter_(reporter) {
+    experiment_.file = file;
+  }
+
+  Experiment read(const xml::Element& root) {
+    const Attributes attributes(root, kExperimentRule, kExperimentFile, reporter_);
+    header(attributes);
+    for (const auto& [element, rule] : attributes.children()) {
+      const Attributes child = attributes.of_child(*element, *rule);
+      if (rule == &kSetRule) set(child, experiment_.settings);
+      if (rule == &kVariantRule) variant(child);
+      if (rule == &kWorldRule) world(child);
+      if (rule == &kWorldsRule) worlds(child);
+    }
+    check_whole(attributes);
+    return std::move(experiment_);
+  }
+
+ private:
+  void header(const Attributes& experiment) {
+    experiment_.name = experiment.name("name").value_or("");
+    const auto version = experiment.text("version");
+    if (version && *version != "1")
+      experiment.error_at("version", codes::kBadValue,
+                          "version " + in_quotes(*version) + " is not known; the only one is \"1\"");
+    if (experiment.has("graph")) graph_ = path(experiment.text("graph").value_or(""));
+    experiment_.seeds = numbers(experiment, "seeds");
+    experiment_.until = experiment.duration("until").value_or(Duration{0});
+    experiment_.limit = experiment.duration_or("limit", from_seconds(kDefaultLimit)).value_or(Duration{0});
+    experiment_.memory_limit =
+        static_cast<std::uint64_t>(experiment.number_or("memory", kDefaultMemory).value_or(0.0));
+  }
+
+  void variant(const Attributes& element) {
+    Variant variant{element.name("name").value_or(""), graph_, {}, element.element().position()};
+    if (element.has("graph")) variant.graph = path(element.text("graph").value_or(""));
+    if (variant.graph.empty())
+      element.error(codes::kNoGraph, "variant " + in_quotes(variant.name) +
+                                         " has no graph; give it one, or the experiment one for all");
+    settings(element, variant.settings);
+    remember(element, "variant", variant.name);
+    experiment_.variants.push_back(std::move(variant));
+  }
+
+  void world(const Attributes& element) {
+    World world{element.name("name").value_or(""), {}, element.element().position()};
+    settings(element, world.settings);
+    remember(element, "world", world.name);
+    experiment_.worlds.push_back(std::move(world));
+  }
+
+  void worlds(const Attributes& element) {
+    const std::string name = element.name("name").value_or("");
+    const std::string arg = element.text("arg").value_or("");
+    const std::string file = path(element.text("file").value_or(""));
+    std::vector<Setting> more;
+    settings(element, more);
+    const xml::Position& position = element.element().position();
+    for (const std::uint64_t number : numbers(element, "numbers")) {
+      World world{name + "_" + std::to_string(number), more, position};
+      world.settings.push_back({arg, file + "#" + std::to_string(number), position});
+      if (!remember(element, "world", world.name)) return;
+      experiment_.worlds.push_back(std::move(world));
+    }
+  }
+
+  void settings(const Attributes& element, std::vector<Setting>& to) {
+    for (const auto& [child, rule] : element.children()) set(element.of_child(*child, *rule), to);
+  }
+
+  void set(const Attributes& element, std::vector<Setting>& to) {
+    const auto arg = element.text("arg");
+    if (element.has("value") == element.has("file")) {
+      element.error(codes::kValueOrFile, "<set> needs either a value or a file");
+      return;
+    }
+    const auto value = element.text(element.has("value") ? "value" : "file");
+    if (!arg || !value) return;
+    to.push_back({*arg, element.has("file") ? path(*value) : *value, element.element().position()});
+  }
+
+  std::vector<std::uint64_t> numbers(const Attributes& element, const char* attribute) {
+    const auto text = element.text(attribute);
+    if (!text) return {};
+    Result<std::vector<std::uint64_t>> read = read_number_list(*text);
+    if (read) return std::move(read).value();
+    element.error_at(attribute, codes::kNumbers, read.error().message);
+    return {};
+  }
+
+  // Reports a name that another of its kind has already; returns whether it is new.
+  bool remember(const Attributes& element, const std::string& kind, const std::string& name) {
+    if (name.empty()) return true;  // reported
+    const auto [known, is_new] = names_.try_emplace({kind, name}, element.element().position());
+    if (!is_new)
+      element.error_at("name", codes::kDuplicateName,
+                       "there is a " + kind + " " + in_quotes(name) + " already, at " + known->second.text());
+    return is_new;
+  }
+
+  void check_whole(const Attributes& experiment) {
+    if (experiment_.variants.empty())
+      experiment.error(codes::kMissing, "an experiment needs a <variant>, better two that are compared");
+    if (experiment_.worlds.empty())
+      experiment.error(codes::kMissing,
+                       "an experiment needs a <world>; <world name=\"here\"/> leaves that of the graph");
+    const double runs = static_cast<double>(experiment_.variants.size()) *
+                        static_cast<double>(experiment_.worlds.size()) *
+                        static_cast<double>(experiment_.seeds.size());
+    if (runs > static_cast<double>(kMostRuns))
+      experiment.error(codes::kTooMany, "the experiment has more than 10,000,000 runs");
+  }
+
+  // Paths start at the experiment's folder.
+  [[nodiscard]] std::string path(const std::string& written) const {
+    return written.empty() ? "" : (folder_ / written).lexically_normal().string();
+  }
+
+  const std::filesystem::path folder_;
+  xml::Reporter& reporter_;
+  Experiment experiment_;
+  std::string graph_;  // of variants that name none
+  std::map<std::pair<std::string, std::string>, xml::Position> names_;
+};
+
+std::optional<Experiment> read(const std::optional<xml::Document>& document, const std::string& file,
+                               xml::Diagnostics& diagnostics) {
+  if (!document) return std::nullopt;
+  xml::Reporter reporter(diagnostics);
+  const xml::Element& root = document->root;
+  if (root.name() != kExperimentRule.name) {
+    reporter.error(codes::kWrongRoot, root.position(),
+                   "this is <" + root.name() + ">, not <experiment>; a graph is run with deployer");
+    return std::nullopt;
+  }
+  Experiment experiment = ExperimentReader(file, reporter).read(root);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return experiment;
+}
+
+}  // namespace
+
+Run Experiment::run(std::size_t number) const {
+  const std::size_t variant = number % variants.size();
+  const std::size_t place = number / variants.size();
+  return {variant, place / seeds.size(), seeds[place % seeds.size()]};
+}
+
+std::vector<std::string> Experiment::settings_of(const Run& run) const {
+  std::vector<std::string> texts;
+  for (const std::vector<Setting>* some :
+       {&settings, &worlds[run.world].settings, &variants[run.variant].settings})
+    for (const Setting& setting : *some) texts.push_back(setting.text());
+  return texts;
+}
+
+std::optional<Experiment> read_experiment(const std::string& file, xml::Diagnostics& diagnostics) {
+  return read(xml::read_file(file, diagnostics), file, diagnostics);
+}
+
+std::optional<Experiment> read_experiment(std::string_view text, const std::string& file,
+                                          xml::Diagnostics& diagnostics) {
+  return read(xml::read_text(text, file, diagnostics), file, diagnostics);
+}
+
+}  // namespace orca::batch

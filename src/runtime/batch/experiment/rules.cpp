@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "rules.hpp"
+
+#include <array>
+
+#include "codes.hpp"
+
+namespace orca::batch {
+namespace {
+
+using xml::AttributeRule;
+using xml::ElementRule;
+using xml::ValueRule;
+
+constexpr double kDay = 86400.0;
+constexpr ValueRule kName{.form = ValueRule::Form::name};
+constexpr ValueRule kSeconds{
+    .form = ValueRule::Form::number, .unit = "s", .min = 0.0, .max = kDay, .above_min = true};
+constexpr ValueRule kBytes{.form = ValueRule::Form::number, .unit = "B", .min = 1e8, .max = 1e15};
+
+constexpr std::array kExperiment{
+    AttributeRule{"name", true, "Name of the experiment.", kName},
+    AttributeRule{"version", false, "Version of the format; the only one is 1."},
+    AttributeRule{"graph", false, "Graph of all variants that name none themselves."},
+    AttributeRule{"seeds", true, "Seeds of the runs: numbers and ranges, \"1-20 50\"."},
+    AttributeRule{"until", true, "Time after which a run ends, on its own clock.", kSeconds},
+    AttributeRule{"limit", false, "Time after which a run counts as hung; 300 s if not given.", kSeconds},
+    AttributeRule{"memory", false, "Largest address space of a run; 8 GB if not given.", kBytes}};
+constexpr std::array kSet{
+    AttributeRule{"arg", true, "Argument of the graph, or COMPONENT.PARAM."},
+    AttributeRule{"value", false, "Its value."},
+    AttributeRule{"file", false, "Instead of value: a file, whose path starts at the experiment's folder."}};
+constexpr std::array kVariant{AttributeRule{"name", true, "Name of the variant.", kName},
+                              AttributeRule{"graph", false, "Its graph, if it is not that of all."}};
+constexpr std::array kWorld{AttributeRule{"name", true, "Name of the world.", kName}};
+constexpr std::array kWorlds{
+    AttributeRule{"name", true, "Name before the number of each world: barn_17.", kName},
+    AttributeRule{"arg", true, "Argument of the graph that gets FILE#NUMBER."},
+    AttributeRule{"file", true, "File with numbered worlds, or a world with a <generate>."},
+    AttributeRule{"numbers", true, "Numbers and ranges, \"1-200\"."}};
+
+}  // namespace
+
+constexpr ElementRule kSetRule{
+    .name = "set", .attributes = kSet, .text = "Something that is set in the graph."};
+
+namespace {
+
+constexpr std::array kSettings{&kSetRule};
+
+}  // namespace
+
+constexpr ElementRule kVariantRule{.name = "variant",
+                                   .attributes = kVariant,
+                                   .children = kSettings,
+                                   .text = "One of the things that are compared."};
+constexpr ElementRule kWorldRule{.name = "world",
+                                 .attributes = kWorld,
+                                 .children = kSettings,
+                                 .text = "A place in which each variant is tried."};
+constexpr ElementRule kWorldsRule{.name = "worlds",
+                                  .attributes = kWorlds,
+                                  .children = kSettings,
+                                  .text = "Many such places, by their numbers in a file."};
+
+namespace {
+
+constexpr std::array kInExperiment{&kSetRule, &kVariantRule, &kWorldRule, &kWorldsRule};
+
+}  // namespace
+
+constexpr ElementRule kExperimentRule{.name = "experiment",
+                                      .attributes = kExperiment,
+                                      .children = kInExperiment,
+                                      .text = "A comparison of variants in worlds."};
+
+namespace {
+
+constexpr std::array kElements{&kExperimentRule, &kSetRule, &kVariantRule, &kWorldRule, &kWorldsRule};
+
+}  // namespace
+
+constexpr xml::FileRules kExperimentFile{"an experiment",
+                                         kElements,
+                                         {.unknown_element = codes::kUnknownElement,
+                                          .misplaced_element = codes::kUnknownElement,
+                                          .unknown_attribute = codes::kUnknownAttribute,
+                                          .missing_attribute = codes::kMissing,
+                                          .stray_text = codes::kStrayText,
+                                          .bad_value = codes::kBadValue,
+                                          .wrong_unit = codes::kBadValue,
+                                          .out_of_range = codes::kBadValue,
+                                          .unknown_choice = codes::kBadValue}};
+
+}  // namespace orca::batch

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/base/time.hpp"
+#include "orca/xml/diagnostics.hpp"
+
+namespace orca::batch {
+
+/// A setting for a graph, as deployer --set takes it, and where the experiment gives it.
+struct Setting {
+  std::string name;   ///< An argument of the graph, or "COMPONENT.PARAM".
+  std::string value;  ///< A path is absolute.
+  xml::Position position;
+
+  /// Returns "NAME=VALUE".
+  [[nodiscard]] std::string text() const { return name + "=" + value; }
+};
+
+/// One of the things that are compared: a graph, and what is set in it.
+struct Variant {
+  std::string name;
+  std::string graph;  ///< Path.
+  std::vector<Setting> settings;
+  xml::Position position;
+};
+
+/// One of the places in which each variant is tried.
+struct World {
+  std::string name;
+  std::vector<Setting> settings;
+  xml::Position position;
+};
+
+/// One run of an experiment: a variant in a world with a seed.
+struct Run {
+  std::size_t variant;  ///< Index.
+  std::size_t world;    ///< Index.
+  std::uint64_t seed;
+};
+
+/// A comparison: each variant is run in each world with each seed. A plain value.
+struct Experiment {
+  std::string name;
+  std::string file;               ///< Path.
+  std::vector<Setting> settings;  ///< For all runs.
+  std::vector<Variant> variants;
+  std::vector<World> worlds;
+  std::vector<std::uint64_t> seeds;
+  Duration until{0};               ///< Limit of each run [s of its clock].
+  Duration limit{0};               ///< Limit of each run [s of the wall clock].
+  std::uint64_t memory_limit = 0;  ///< [bytes] of address space of each run.
+
+  [[nodiscard]] std::size_t run_count() const { return variants.size() * worlds.size() * seeds.size(); }
+  /// Returns a run. Those that differ in the variant only stand together, so that what a stopped batch has finished can be
+  /// compared in pairs.
+  /// @pre  number < run_count().
+  [[nodiscard]] Run run(std::size_t number) const;
+  /// Returns the settings of a run, the more special ones last: of all, of the world, of the variant.
+  [[nodiscard]] std::vector<std::string> settings_of(const Run& run) const;
+};
+
+/// Reads an experiment. It does not look at the graphs.
+/// @param diagnostics  receives everything that is wrong with it (docs/comparing.md).
+/// @return the experiment, if nothing is.
+/// @thread  no shared state; any thread.
+[[nodiscard]] std::optional<Experiment> read_experiment(const std::string& file,
+                                                        xml::Diagnostics& diagnostics);
+
+/// Does the same for a text in memory; relative paths start at the folder of `file`.
+[[nodiscard]] std::optional<Experiment> read_experiment(std::string_view text, const std::string& file,
+                                                        xml::Diagnostics& diagnostics);
+
+/// Returns a text by which the results of an experiment are known. It changes with its name, its limit of time, its settings, and the
+/// names, graphs and settings of its variants; not with more worlds or seeds, which --resume adds.
+[[nodiscard]] std::string identity_of(const Experiment& experiment);
+
+}  // namespace orca::batch

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace orca::batch {
+
+/// How a run ended. The names are those of the table of results, and never change.
+enum class Ending : std::uint8_t {
+  success,      ///< All goals were reached, and nothing was touched.
+  collision,    ///< A robot touched something.
+  goal_failed,  ///< A goal was given up.
+  time_out,     ///< The experiment's time was up before.
+  failed,       ///< A component failed, or something did not start.
+  crash,        ///< The process of the run died.
+  hang          ///< It did not end within the experiment's wall clock limit, and was killed.
+};
+
+[[nodiscard]] const char* name_of(Ending ending);
+/// Returns the ending of that name; nothing if there is none.
+[[nodiscard]] std::optional<Ending> ending_of(std::string_view name);
+
+/// What a run came to, the same whenever and wherever it is made. A plain value.
+struct Outcome {
+  Ending ending = Ending::crash;
+  std::string reason;  ///< Of a failure, a crash or a hang; otherwise empty.
+  double time =
+      0.0;  ///< [s] simulated, from the start to the last arrival of a success, otherwise to the end.
+  std::uint32_t goals = 0;  ///< Number that were reached.
+  std::uint32_t failed_goals = 0;
+  std::uint32_t contacts = 0;
+  double way = 0.0;          ///< [m] driven by all robots together.
+  std::string trace_hash{};  ///< 16 hexadecimal digits; empty: the run did not come so far.
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+/// What a run took of the machine. It differs each time.
+struct Cost {
+  double wall = 0.0;  ///< [s]
+  double cpu = 0.0;   ///< [s] of all its threads.
+};
+
+/// Writes an outcome as text, one line for each part.
+[[nodiscard]] std::string to_text(const Outcome& outcome);
+/// Reads such a text; nothing if it is not whole.
+[[nodiscard]] std::optional<Outcome> read_outcome(std::string_view text);
+
+}  // namespace orca::batch

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/batch/record.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace orca::batch {
+namespace {
+
+constexpr std::array<std::pair<Ending, const char*>, 7> kEndings{{{Ending::success, "success"},
+                                                                  {Ending::collision, "collision"},
+                                                                  {Ending::goal_failed, "goal_failed"},
+                                                                  {Ending::time_out, "time_out"},
+                                                                  {Ending::failed, "failed"},
+                                                                  {Ending::crash, "crash"},
+                                                                  {Ending::hang, "hang"}}};
+constexpr std::size_t kLines = 8;
+
+// The shortest text that reads back as the same number.
+std::string number_text(double number) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+  return {text.data(), end};
+}
+
+template <class Number>
+bool read_number(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+std::string one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
+}  // namespace
+
+const char* name_of(Ending ending) {
+  return std::ranges::find(kEndings, ending, &std::pair<Ending, const char*>::first)->second;
+}
+
+std::optional<Ending> ending_of(std::string_view name) {
+  for (const auto& [ending, its_name] : kEndings)
+    if (name == its_name) return ending;
+  return std::nullopt;
+}
+
+std::string to_text(const Outcome& outcome) {
+  std::string text;
+  for (const std::string& line :
+       {std::string(name_of(outcome.ending)), one_line(outcome.reason), number_text(outcome.time),
+        std::to_string(outcome.goals), std::to_string(outcome.failed_goals), std::to_string(outcome.contacts),
+        number_text(outcome.way), outcome.trace_hash})
+    text += line + "\n";
+  return text;
+}
+
+std::optional<Outcome> read_outcome(std::string_view text) {
+  const std::vector<std::string_view> lines = lines_of(text);
+  if (lines.size() != kLines) return std::nullopt;
+  const std::optional<Ending> ending = ending_of(lines[0]);
+  Outcome outcome;
+  if (!ending || !read_number(lines[2], outcome.time) || !read_number(lines[3], outcome.goals) ||
+      !read_number(lines[4], outcome.failed_goals) || !read_number(lines[5], outcome.contacts) ||
+      !read_number(lines[6], outcome.way))
+    return std::nullopt;
+  outcome.ending = *ending;
+  outcome.reason = lines[1];
+  outcome.trace_hash = lines[7];
+  return outcome;
+}
+
+}  // namespace orca::batch

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/batch/store.hpp"
+
+#include <sqlite3.h>
+
+#include <utility>
+
+#include "orca/base/text.hpp"
+
+namespace orca::batch {
+namespace {
+
+constexpr const char* kSchema = R"(
+  PRAGMA journal_mode = WAL;
+  PRAGMA synchronous = NORMAL;
+  CREATE TABLE IF NOT EXISTS experiment (identity TEXT NOT NULL);
+  CREATE TABLE IF NOT EXISTS runs (
+    variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, ending TEXT NOT NULL, reason TEXT NOT NULL,
+    time REAL NOT NULL, goals INTEGER NOT NULL, failed_goals INTEGER NOT NULL, contacts INTEGER NOT NULL,
+    way REAL NOT NULL, trace_hash TEXT NOT NULL, PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS timing (
+    variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, wall REAL NOT NULL, cpu REAL NOT NULL,
+    PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+)";
+
+struct Close {
+  void operator()(sqlite3* database) const { sqlite3_close(database); }
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using Database = std::unique_ptr<sqlite3, Close>;
+
+// A statement, with its values in the order of their marks.
+class Statement {
+ public:
+  Statement(sqlite3* database, const char* text) {
+    sqlite3_stmt* made = nullptr;
+    (void)sqlite3_prepare_v2(database, text, -1, &made, nullptr);
+    statement_.reset(made);  // null, if there was an error, which the steps will tell
+  }
+
+  Statement& operator<<(const std::string& value) {
+    (void)sqlite3_bind_text(statement_.get(), ++bound_, value.c_str(), static_cast<int>(value.size()),
+                            SQLITE_TRANSIENT);
+    return *this;
+  }
+  Statement& operator<<(double value) {
+    (void)sqlite3_bind_double(statement_.get(), ++bound_, value);
+    return *this;
+  }
+  Statement& operator<<(std::uint32_t value) {
+    (void)sqlite3_bind_int64(statement_.get(), ++bound_, value);
+    return *this;
+  }
+
+  // Returns SQLITE_ROW, SQLITE_DONE or an error.
+  int step() { return sqlite3_step(statement_.get()); }
+
+  [[nodiscard]] std::string text(int column) const {
+    const auto* const bytes = sqlite3_column_text(statement_.get(), column);
+    return bytes == nullptr ? "" : reinterpret_cast<const char*>(bytes);
+  }
+  [[nodiscard]] double number(int column) const { return sqlite3_column_double(statement_.get(), column); }
+  [[nodiscard]] std::uint32_t count(int column) const {
+    return static_cast<std::uint32_t>(sqlite3_column_int64(statement_.get(), column));
+  }
+
+ private:
+  std::unique_ptr<sqlite3_stmt, Close> statement_;
+  int bound_ = 0;
+};
+
+// Seeds are text: 64 bits without a sign do not fit SQLite's numbers. Padded, their order is that of the numbers.
+std::string padded(std::uint64_t seed) {
+  constexpr std::size_t kDigits = 20;
+  const std::string digits = std::to_string(seed);
+  return std::string(kDigits - digits.size(), '0') + digits;
+}
+
+class SqliteStore final : public Store {
+ public:
+  SqliteStore(std::string file, Database database) : file_(std::move(file)), database_(std::move(database)) {}
+
+  Status prepare(const std::string& identity) {
+    if (sqlite3_exec(database_.get(), kSchema, nullptr, nullptr, nullptr) != SQLITE_OK) return fault();
+    if (identity.empty()) return ok();
+    Statement known(database_.get(), "SELECT identity FROM experiment");
+    const int found = known.step();
+    if (found == SQLITE_ROW) return check(known.text(0), identity);
+    if (found != SQLITE_DONE) return fault();
+    Statement note(database_.get(), "INSERT INTO experiment VALUES (?)");
+    return (note << identity).step() == SQLITE_DONE ? ok() : fault();
+  }
+
+  Status add(const Row& row) override {
+    const std::string seed = padded(row.seed);
+    const Outcome& o = row.outcome;
+    if (sqlite3_exec(database_.get(), "BEGIN", nullptr, nullptr, nullptr) != SQLITE_OK) return fault();
+    Statement run(database_.get(), "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    run << row.variant << row.world << seed << std::string(name_of(o.ending)) << o.reason << o.time << o.goals
+        << o.failed_goals << o.contacts << o.way << o.trace_hash;
+    Statement timing(database_.get(), "INSERT OR IGNORE INTO timing VALUES (?, ?, ?, ?, ?)");
+    timing << row.variant << row.world << seed << row.cost.wall << row.cost.cpu;
+    if (run.step() != SQLITE_DONE || timing.step() != SQLITE_DONE) return fault();
+    return sqlite3_exec(database_.get(), "COMMIT", nullptr, nullptr, nullptr) == SQLITE_OK ? ok() : fault();
+  }
+
+  [[nodiscard]] bool has(const std::string& variant, const std::string& world,
+                         std::uint64_t seed) const override {
+    Statement found(database_.get(), "SELECT 1 FROM runs WHERE variant = ? AND world = ? AND seed = ?");
+    return (found << variant << world << padded(seed)).step() == SQLITE_ROW;
+  }
+
+  Status for_each(const std::function<void(const Row&)>& take) const override {
+    Statement all(
+        database_.get(),
+        "SELECT * FROM runs JOIN timing USING (variant, world, seed) ORDER BY variant, world, seed");
+    int found = SQLITE_ROW;
+    while ((found = all.step()) == SQLITE_ROW) take(row_of(all));
+    return found == SQLITE_DONE ? ok() : fault();
+  }
+
+ private:
+  [[nodiscard]] Status fault() const {
+    return fail(Code::unavailable, file_ + ": " + sqlite3_errmsg(database_.get()));
+  }
+
+  [[nodiscard]] Status check(const std::string& known, const std::string& identity) const {
+    if (known == identity) return ok();
+    return fail(Code::failed_precondition,
+                file_ +
+                    " holds results of another experiment, or of this one before it was changed; "
+                    "choose another folder with --out");
+  }
+
+  static Row row_of(const Statement& found) {
+    Row row;
+    row.variant = found.text(0);
+    row.world = found.text(1);
+    row.seed = std::stoull(found.text(2));
+    row.outcome.ending = ending_of(found.text(3)).value_or(Ending::crash);
+    row.outcome.reason = found.text(4);
+    row.outcome.time = found.number(5);
+    row.outcome.goals = found.count(6);
+    row.outcome.failed_goals = found.count(7);
+    row.outcome.contacts = found.count(8);
+    row.outcome.way = found.number(9);
+    row.outcome.trace_hash = found.text(10);
+    row.cost = {found.number(11), found.number(12)};
+    return row;
+  }
+
+  const std::string file_;
+  const Database database_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Store>> Store::open(const std::string& file, const std::string& identity) {
+  sqlite3* opened = nullptr;
+  const int result = sqlite3_open(file.c_str(), &opened);
+  Database database(opened);
+  if (result != SQLITE_OK)
+    return fail(Code::unavailable, file + " cannot be opened: " + sqlite3_errmsg(opened));
+  auto store = std::make_unique<SqliteStore>(file, std::move(database));
+  if (Status prepared = store->prepare(identity); !prepared.ok()) return prepared.error();
+  return std::unique_ptr<Store>(std::move(store));
+}
+
+}  // namespace orca::batch

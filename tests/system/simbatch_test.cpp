@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Batches of runs from outside: the same experiment gives the same bytes, and nothing that was finished is lost.
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+Words simbatch(const Words& words) { return Words{ORCA_BINARY_DIR "/bin/simbatch"} + words; }
+
+Run run_simbatch(const Words& words, Seconds limit = Seconds(120)) {
+  Subprocess program(simbatch(words));
+  return finish(program, limit);
+}
+
+// A short drive of two variants through two worlds, twice.
+std::string drive(const TempFolder& folder) {
+  return folder.write("drive.xml", R"(<experiment name="drive" seeds="1 7" until="12 s" graph=")" +
+                                       source_file("graphs/pioneer_laser_goto.xml") + R"(">
+  <variant name="LaserAvoid"><set arg="avoid" value="orca.LaserAvoid"/></variant>
+  <variant name="VfhPlus"><set arg="avoid" value="orca.VfhPlus"/></variant>
+  <world name="ideal"><set arg="realism" value="ideal"/></world>
+  <world name="harsh"><set arg="realism" value="harsh"/></world>
+</experiment>)");
+}
+
+// Components that misbehave, each in a run of its own.
+std::string misdeeds(const TempFolder& folder, const std::string& limit = "60 s") {
+  std::string variants;
+  Words deeds{"none", "segfault", "exit", "abort", "hang"};
+  if (!kSanitized) deeds.push_back("hoard");  // without a limit of memory it takes that of the machine
+  for (const std::string& deed : deeds)
+    variants += "<variant name=\"" + deed + "\"><set arg=\"deed\" value=\"" + deed + "\"/></variant>";
+  return folder.write("misdeeds.xml",
+                      "<experiment name=\"misdeeds\" seeds=\"1\" until=\"10 s\" memory=\"2 GB\" limit=\"" +
+                          limit + "\" graph=\"" + system_graph("hooligan.xml") +
+                          "\"><set arg=\"plugins\" value=\"" + std::string(ORCA_BINARY_DIR "/tests/plugins") +
+                          "\"/><set arg=\"where\" value=\"later\"/>" + variants +
+                          "<world name=\"here\"/></experiment>");
+}
+
+std::string exported(const std::string& folder) {
+  const Run run = run_simbatch({"export", folder});
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  return run.out;
+}
+
+std::string batch(const std::string& experiment, const std::string& out, const Words& more = {}) {
+  const Run run = run_simbatch(Words{experiment, "--out", out} + more);
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  return exported(out);
+}
+
+// The ending of each variant's only run.
+std::map<std::string, std::string> endings(const std::string& table) {
+  std::map<std::string, std::string> found;
+  for (const std::string& line : split_lines(table)) {
+    const std::string variant = line.substr(0, line.find(','));
+    const std::size_t seed = line.find(',', variant.size() + 1);
+    const std::size_t ending = line.find(',', seed + 1) + 1;
+    found[variant] = line.substr(ending, line.find(',', ending) - ending);
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("the same experiment gives the same bytes with one worker and with several, on fiber and baton",
+          "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment = drive(folder);
+  const std::string one = batch(experiment, folder.file("one"), {"--jobs", "1"});
+  CHECK(split_lines(one).size() == 9);
+  CHECK(batch(experiment, folder.file("three"), {"--jobs", "3"}) == one);
+  CHECK(batch(experiment, folder.file("baton"), {"--executor", "baton"}) == one);
+}
+
+TEST_CASE("seeds matter, and not where nothing is random", "[system][batch]") {
+  const TempFolder folder;
+  std::map<std::string, std::string> hash_of;
+  for (const std::string& line : split_lines(batch(drive(folder), folder.file("out")))) {
+    const std::size_t hash = line.rfind(',', line.rfind(',') - 1) + 1;
+    hash_of[line.substr(0, line.find(',', line.find(',', line.find(',') + 1) + 1))] = line.substr(hash, 16);
+  }
+  CHECK(hash_of["VfhPlus,harsh,1"] != hash_of["VfhPlus,harsh,7"]);
+  CHECK(hash_of["VfhPlus,harsh,1"] != hash_of["LaserAvoid,harsh,1"]);
+}
+
+TEST_CASE("a run of a batch is that of the deployer", "[system][batch]") {
+  const TempFolder folder;
+  const std::string table = batch(drive(folder), folder.file("out"));
+  const Run alone = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--seed", "7", "--until",
+                                       "12 s", "--set", "avoid=orca.VfhPlus", "--set", "realism=harsh"} +
+                                 virtual_clock());
+  REQUIRE(alone.trace_hash());
+  bool found = false;
+  for (const std::string& line : split_lines(table))
+    if (line.starts_with("VfhPlus,harsh,7,")) found = line.find(*alone.trace_hash()) != std::string::npos;
+  CHECK(found);
+}
+
+TEST_CASE("a run that crashes, exits, hangs or takes all memory is a result and costs no other",
+          "[system][batch]") {
+  const TempFolder folder;
+  const auto ending_of = endings(batch(misdeeds(folder, kSanitized ? "60 s" : "10 s"), folder.file("out")));
+  CHECK(ending_of.at("none") == "success");
+  CHECK(ending_of.at("segfault") == "crash");
+  CHECK(ending_of.at("abort") == "crash");
+  CHECK(ending_of.at("exit") == "crash");
+  CHECK(ending_of.at("hang") == "failed");  // the runtime names a component that does not come back
+  if (!kSanitized)
+    CHECK(ending_of.at("hoard") == "success");  // only the component fails, and the graph allows it
+}
+
+TEST_CASE("a run that does not end within the limit is killed and counts as hung", "[system][batch]") {
+  const TempFolder folder;
+  const auto ending_of = endings(batch(misdeeds(folder, "0.001 s"), folder.file("out")));
+  CHECK(ending_of.at("none") == "hang");
+}
+
+TEST_CASE("kill -9 loses nothing that was finished, and --resume makes the rest once", "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment = drive(folder);
+  const std::string whole = batch(experiment, folder.file("whole"));
+  const std::string out = folder.file("killed");
+  {
+    Subprocess program(simbatch({experiment, "--out", out, "--jobs", "1"}));
+    const auto has_some = [&] {
+      const Run run = run_simbatch({"export", out});
+      return run.exit_code() == 0 && split_lines(run.out).size() > 2;
+    };
+    while (!has_some()) REQUIRE_FALSE(program.wait(Seconds(0.02)));
+    program.send(SIGKILL);
+    REQUIRE(program.wait(Seconds(10)));
+    CHECK_FALSE(program.group_lives());
+  }
+  const std::string some = exported(out);
+  for (const std::string& line : split_lines(some)) CHECK_THAT(whole, Contains(line));
+  const Run again = run_simbatch({experiment, "--out", out});
+  CHECK(again.exit_code() == 2);
+  CHECK(again.says("holds results already; --resume makes what is missing"));
+  CHECK(batch(experiment, out, {"--resume"}) == whole);
+}
+
+TEST_CASE("Ctrl-C ends a batch at once, and says how to go on", "[system][batch]") {
+  const TempFolder folder;
+  Subprocess program(simbatch({misdeeds(folder, "600 s"), "--out", folder.file("out"), "--jobs", "6"}));
+  REQUIRE(program.wait_for_output("running", Seconds(20 * kSlowdown)));
+  program.send_to_group(SIGINT);
+  const Run run = finish(program, Seconds(5));
+  CHECK(run.ended);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.says("stopped; what was finished is kept, --resume goes on"));
+  CHECK_FALSE(program.group_lives());
+}
+
+TEST_CASE("everything that is wrong with an experiment and its graphs is said before anything runs",
+          "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment =
+      folder.write("e.xml", R"(<experiment name="e" seeds="1" until="1 s" graph=")" +
+                                source_file("graphs/pioneer_laser_goto.xml") + R"(">
+  <variant name="a"><set arg="avoid" value="orca.LazerAvoid"/></variant>
+  <variant name="b"><set arg="avoit" value="x"/></variant>
+  <world name="w"/>
+</experiment>)");
+  const Run run = run_simbatch({experiment, "--out", folder.file("out")});
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says("orca.LazerAvoid"));
+  CHECK(run.says("(variant a, world w)"));
+  CHECK(run.says("avoit"));
+  CHECK_FALSE(std::filesystem::exists(folder.file("out")));
+  CHECK(run_simbatch({folder.file("none.xml")}).exit_code() == 2);
+}
+
+TEST_CASE("the shipped experiment has no errors", "[system][batch]") {
+  const Run run = run_simbatch({source_file("sim/experiments/avoid_office.xml"), "--check"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("2 variants, 3 worlds, 20 seeds: 120 runs"));
+}
+
+TEST_CASE("wrong words are refused with what there is", "[system][batch]") {
+  CHECK(run_simbatch({}).exit_code() == 2);
+  const Run unknown = run_simbatch({"e.xml", "--job", "2"});
+  CHECK(unknown.exit_code() == 2);
+  CHECK(unknown.says("there is no option \"--job\"; there are "));
+  CHECK(run_simbatch({"e.xml", "--jobs", "0"}).says("--jobs takes a number from 1 to 1024"));
+  CHECK(run_simbatch({"e.xml", "--jobs"}).says("--jobs needs a value after it"));
+  CHECK(run_simbatch({"export", "."}).says("holds no results of a batch"));
+  const Run help = run_simbatch({"--help"});
+  CHECK(help.exit_code() == 0);
+  CHECK_THAT(help.out, Contains("--resume"));
+}

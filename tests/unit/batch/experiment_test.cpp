@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an experiment says, and how wrong ones are refused.
+#include "orca/batch/experiment.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+#include <string>
+#include <tuple>
+
+using namespace orca;
+using namespace orca::batch;
+using Catch::Contains;
+
+namespace {
+
+constexpr const char* kGood = R"(<experiment name="e" graph="../graphs/g.xml" seeds="1-3" until="60 s">
+  <set arg="speed" value="0.5 m/s"/>
+  <variant name="a"/>
+  <variant name="b" graph="other.xml"><set arg="avoid" value="B"/></variant>
+  <world name="w"><set arg="world" file="x.xml"/></world>
+  <worlds name="n" arg="world" file="many.csv" numbers="4 6-7"/>
+</experiment>)";
+
+Experiment good() {
+  xml::Diagnostics diagnostics;
+  std::optional<Experiment> experiment = read_experiment(kGood, "/top/sim/e.xml", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(experiment);
+  return *std::move(experiment);
+}
+
+std::string faults_of(const std::string& text) {
+  xml::Diagnostics diagnostics;
+  CHECK_FALSE(read_experiment(text, "e.xml", diagnostics));
+  return diagnostics.text();
+}
+
+std::string with(const std::string& attributes, const std::string& inside) {
+  return "<experiment name=\"e\" " + attributes + ">" + inside + "</experiment>";
+}
+
+constexpr const char* kEnough = "graph=\"g.xml\" seeds=\"1\" until=\"1 s\"";
+constexpr const char* kVariantAndWorld = "<variant name=\"a\"/><world name=\"w\"/>";
+
+}  // namespace
+
+TEST_CASE("an experiment is variants, worlds and seeds; paths start at its folder", "[batch]") {
+  const Experiment experiment = good();
+  CHECK(experiment.seeds == std::vector<std::uint64_t>{1, 2, 3});
+  CHECK(experiment.until == 60s);
+  REQUIRE(experiment.variants.size() == 2);
+  CHECK(experiment.variants[0].graph == "/top/graphs/g.xml");
+  CHECK(experiment.variants[1].graph == "/top/sim/other.xml");
+  REQUIRE(experiment.worlds.size() == 4);
+  CHECK(experiment.worlds[3].name == "n_7");
+  CHECK(experiment.worlds[3].settings[0].text() == "world=/top/sim/many.csv#7");
+}
+
+TEST_CASE("each variant meets each world and seed once, and pairs stand together", "[batch]") {
+  const Experiment experiment = good();
+  REQUIRE(experiment.run_count() == 24);
+  std::set<std::tuple<std::size_t, std::size_t, std::uint64_t>> all;
+  for (std::size_t i = 0; i < experiment.run_count(); ++i) {
+    const Run run = experiment.run(i);
+    all.insert({run.variant, run.world, run.seed});
+    CHECK(run.variant == i % 2);
+  }
+  CHECK(all.size() == 24);
+}
+
+TEST_CASE("the settings of a variant have the last word", "[batch]") {
+  CHECK(good().settings_of({1, 0, 1}) ==
+        std::vector<std::string>{"speed=0.5 m/s", "world=/top/sim/x.xml", "avoid=B"});
+}
+
+TEST_CASE("everything that is wrong with an experiment is reported at once, each at its place", "[batch]") {
+  const std::string faults = faults_of(R"(<experiment name="e" seeds="5-1" until="0 s" sedes="1">
+  <variant name="a"/>
+  <variant name="a" graph="g.xml"/>
+  <world name="w"><set arg="x"/></world>
+  <worlds name="n" arg="world" file="f" numbers="a"/>
+  <wrold name="v"/>
+</experiment>)");
+  CHECK_THAT(faults, Contains("e.xml:1:29: error E008: ") && Contains("goes down"));
+  CHECK_THAT(faults, Contains("error E005: ") && Contains("until"));
+  CHECK_THAT(faults, Contains("error E003: ") && Contains("sedes"));
+  CHECK_THAT(faults, Contains("e.xml:2:3: error E010: variant \"a\" has no graph"));
+  CHECK_THAT(faults, Contains("e.xml:3:18: error E007: there is a variant \"a\" already, at e.xml:2:3"));
+  CHECK_THAT(faults, Contains("e.xml:4:19: error E009: <set> needs either a value or a file"));
+  CHECK_THAT(faults, Contains("error E008: \"a\" is neither a number nor a range"));
+  CHECK_THAT(faults, Contains("error E002: ") && Contains("did you mean \"world\""));
+}
+
+TEST_CASE("an experiment needs a variant, a world, seeds and a limit of time", "[batch]") {
+  CHECK_THAT(faults_of(with(kEnough, "<world name=\"w\"/>")), Contains("needs a <variant>"));
+  CHECK_THAT(faults_of(with(kEnough, "<variant name=\"a\"/>")), Contains("needs a <world>"));
+  CHECK_THAT(faults_of(with("graph=\"g.xml\"", kVariantAndWorld)), Contains("seeds") && Contains("until"));
+}
+
+TEST_CASE("a graph is no experiment, and one of another version is not read", "[batch]") {
+  CHECK_THAT(faults_of("<graph name=\"g\"/>"), Contains("E001: this is <graph>, not <experiment>"));
+  CHECK_THAT(faults_of(with(std::string(kEnough) + " version=\"2\"", kVariantAndWorld)),
+             Contains("version \"2\" is not known"));
+}
+
+TEST_CASE("more runs than anybody waits for are refused", "[batch]") {
+  CHECK_THAT(
+      faults_of(with("graph=\"g.xml\" seeds=\"1-1000000\" until=\"1 s\"",
+                     "<variant name=\"a\"/><worlds name=\"n\" arg=\"w\" file=\"f\" numbers=\"1-11\"/>")),
+      Contains("E011: the experiment has more than 10,000,000 runs"));
+}
+
+TEST_CASE("results are known by what may change them", "[batch]") {
+  const std::string identity = identity_of(good());
+  CHECK(identity == identity_of(good()));
+  Experiment more = good();
+  more.seeds.push_back(4);
+  CHECK(identity_of(more) == identity);
+  Experiment longer = good();
+  longer.until = 61s;
+  CHECK(identity_of(longer) != identity);
+  Experiment faster = good();
+  faster.settings[0].value = "0.6 m/s";
+  CHECK(identity_of(faster) != identity);
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The file of results, whatever happens to the process that writes it.
+#include "orca/batch/store.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <vector>
+
+#include "temp_folder.hpp"
+
+using namespace orca;
+using namespace orca::batch;
+using orca::test::TempFolder;
+
+namespace {
+
+Row row(const std::string& variant, const std::string& world, std::uint64_t seed) {
+  Row row{variant, world, seed, {}, {1.5, 2.5}};
+  row.outcome.ending = Ending::success;
+  row.outcome.time = 0.1 + 0.2;
+  row.outcome.goals = 3;
+  row.outcome.way = 1.0 / 3.0;
+  return row;
+}
+
+std::unique_ptr<Store> opened(const std::string& file, const std::string& identity = "1") {
+  return Store::open(file, identity).value();
+}
+
+std::vector<Row> rows_of(const Store& store) {
+  std::vector<Row> rows;
+  REQUIRE(store.for_each([&](const Row& one) { rows.push_back(one); }).ok());
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("results come out ordered and unchanged, whatever order they were added in", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("r.sqlite"));
+  for (const std::uint64_t seed : {18446744073709551615U, std::uint64_t{10}, std::uint64_t{9}})
+    REQUIRE(store->add(row("b", "w", seed)).ok());
+  REQUIRE(store->add(row("a", "x", 1)).ok());
+  const std::vector<Row> rows = rows_of(*store);
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[0].variant == "a");
+  CHECK(rows[1].seed == 9);
+  CHECK(rows[2].seed == 10);
+  CHECK(rows[3].seed == 18446744073709551615U);
+  CHECK(rows[3].outcome == row("", "", 0).outcome);
+  CHECK(rows[3].cost.wall == 1.5);
+  CHECK(rows[3].cost.cpu == 2.5);
+}
+
+TEST_CASE("a run that is there already is not added again", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("r.sqlite"));
+  REQUIRE(store->add(row("a", "w", 1)).ok());
+  Row again = row("a", "w", 1);
+  again.outcome.goals = 7;
+  REQUIRE(store->add(again).ok());
+  CHECK(rows_of(*store).at(0).outcome.goals == 3);
+  CHECK(store->has("a", "w", 1));
+  CHECK_FALSE(store->has("a", "w", 2));
+}
+
+TEST_CASE("results of another experiment are not mixed with these", "[batch]") {
+  const TempFolder folder;
+  REQUIRE(opened(folder.file("r.sqlite"), "1")->add(row("a", "w", 1)).ok());
+  const auto other = Store::open(folder.file("r.sqlite"), "2");
+  REQUIRE_FALSE(other);
+  CHECK_THAT(other.error().message,
+             Catch::Contains("results of another experiment") && Catch::Contains("--out"));
+  CHECK(rows_of(*opened(folder.file("r.sqlite"), "")).size() == 1);
+}
+
+TEST_CASE("a file that is no database, and a folder that is not there, are refused with the reason",
+          "[batch]") {
+  const TempFolder folder;
+  const std::string text = folder.write("r.sqlite", std::string(5000, 'x'));
+  CHECK_THAT(Store::open(text, "1").error().message, Catch::Contains("not a database"));
+  CHECK_THAT(Store::open(folder.file("none/r.sqlite"), "1").error().message,
+             Catch::Contains("unable to open database file"));
+}
+
+TEST_CASE("what add() has returned is in the file when its process is killed", "[batch]") {
+  const TempFolder folder;
+  const std::string file = folder.file("r.sqlite");
+  const pid_t writer = fork();
+  if (writer == 0) {
+    const auto store = opened(file);
+    for (std::uint64_t seed = 1; seed <= 50; ++seed)
+      if (!store->add(row("a", "w", seed)).ok()) _exit(1);
+    raise(SIGKILL);
+  }
+  int status = 0;
+  REQUIRE(waitpid(writer, &status, 0) == writer);
+  REQUIRE(WIFSIGNALED(status));
+  CHECK(rows_of(*opened(file)).size() == 50);
+}
