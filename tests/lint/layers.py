@@ -110,6 +110,7 @@ LAYERS = (
     Layer("batch_experiment", (f"{BATCH}/experiment",), ("orca/batch/experiment.hpp",), ("xml", "base"), module=BATCH),
     Layer("batch_results", (f"{BATCH}/results",), ("orca/batch/record.hpp", "orca/batch/store.hpp"), ("batch_experiment", "xml", "base"),
           ("sqlite",), module=BATCH),
+    Layer("batch_statistics", (f"{BATCH}/statistics",), ("orca/batch/statistics/",), ("base",)),
     Layer("batch_running", (f"{BATCH}/running", f"{BATCH}/checking", BATCH), ("orca/batch/",),
           ("batch_results", "batch_experiment", "host_run", "host_containment", "graph", "plugin", "xml", *DEVICE), module=BATCH),
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),
