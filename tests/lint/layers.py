@@ -115,7 +115,7 @@ LAYERS = (
           ("batch_results", "batch_experiment", "host_run", "host_containment", "graph", "plugin", "xml", *DEVICE), module=BATCH),
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),
     Layer("apps", ("src/apps",), (),
-          ("batch_running", "batch_results", "batch_experiment", "supervisor_run", "supervisor_processes", "supervisor_channel", "host_run", "host_containment", "host_picture", "graph", "plugin", "text",
+          ("batch_running", "batch_results", "batch_experiment", "batch_statistics", "supervisor_run", "supervisor_processes", "supervisor_channel", "host_run", "host_containment", "host_picture", "graph", "plugin", "text",
            "xml", *DEVICE), ("fmt",)),
 )
 

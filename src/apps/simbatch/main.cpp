@@ -3,7 +3,6 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <optional>
 
 #include "common/arithmetic.hpp"
@@ -12,6 +11,7 @@
 #include "orca/base/text.hpp"
 #include "orca/batch/store.hpp"
 #include "progress.hpp"
+#include "summary.hpp"
 
 namespace orca::simbatch {
 namespace {
@@ -51,18 +51,12 @@ std::vector<std::size_t> missing(const batch::Experiment& experiment, const batc
   return wanted;
 }
 
-void show_summary(const batch::Store& store) {
-  std::map<std::string, std::map<batch::Ending, std::size_t>> counts;
-  std::map<std::string, std::size_t> all;
-  (void)store.for_each([&](const batch::Row& row) {
-    ++counts[row.variant][row.outcome.ending];
-    ++all[row.variant];
-  });
-  for (const auto& [variant, endings] : counts) {
-    std::printf("%s: %zu runs", variant.c_str(), all[variant]);
-    for (const auto& [ending, count] : endings) std::printf(", %zu %s", count, batch::name_of(ending));
-    std::printf("\n");
-  }
+ExitCode show_summary(const batch::Store& store) {
+  std::vector<batch::Row> rows;
+  if (Status read = store.for_each([&](const batch::Row& row) { rows.push_back(row); }); !read.ok())
+    return refuse(read.error());
+  std::fputs(summary_text(rows).c_str(), stdout);
+  return ExitCode::done;
 }
 
 ExitCode run(const Options& options) {
@@ -88,8 +82,7 @@ ExitCode run(const Options& options) {
                  finished ? "stopped" : finished.error().text().c_str());
     return ExitCode::could_not_finish;
   }
-  show_summary(**store);
-  return ExitCode::done;
+  return show_summary(**store);
 }
 
 std::string quoted(const std::string& text) {
