@@ -2,7 +2,6 @@
 // Programs that know nothing of Orca but its IDL files read what a port publishes.
 #include <catch2/catch.hpp>
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -14,6 +13,7 @@
 
 #include "dds_links.hpp"
 #include "executives.hpp"
+#include "on_loopback.hpp"
 #include "orca/idl/generated/motionPubSubTypes.h"
 #include "orca/idl/generated/navigationPubSubTypes.h"
 #include "orca/idl/motion.hpp"
@@ -38,16 +38,6 @@ struct Subscriber : Peer {
   explicit Subscriber(Executive& executive) : Peer(executive, "subscriber") {}
   PushProxy<T> in{*this, "in"};
 };
-
-// As most DDS programs can be told: on a machine's own network only, where Orca is within a machine.
-fd::DomainParticipantQos on_loopback() {
-  fd::DomainParticipantQos qos;
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->interfaceWhiteList = {"127.0.0.1"};
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {udp};
-  return qos;
-}
 
 // A bare program that reads the topic of Publisher::out with the type that fastddsgen has generated.
 template <class PubSubType>

@@ -2,7 +2,6 @@
 // A process that ends its part in DDS while another writes to it as fast as it can.
 #include <catch2/catch.hpp>
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -21,6 +20,7 @@
 #include "dds/backend/message.hpp"
 #include "dds_links.hpp"
 #include "executives.hpp"
+#include "on_loopback.hpp"
 #include "orca/base/hash.hpp"
 #include "orca/idl/motion.hpp"
 #include "peer.hpp"
@@ -63,15 +63,6 @@ class Octets final : public fd::TopicDataType {
   bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
 };
 
-fd::DomainParticipantQos on_loopback() {
-  fd::DomainParticipantQos qos;
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->interfaceWhiteList = {"127.0.0.1"};
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {udp};
-  return qos;
-}
-
 std::uint64_t name_hash(const std::string& process) {
   Fnv1a hash;
   hash.add_text(process);
@@ -103,6 +94,13 @@ class Talker {
   Talker(const Talker&) = delete;
   Talker& operator=(const Talker&) = delete;
 
+  // Returns whether it knows a reader, which is the process it talks to.
+  [[nodiscard]] bool has_found() const {
+    fd::PublicationMatchedStatus status;
+    writer_->get_publication_matched_status(status);
+    return status.current_count > 0;
+  }
+
  private:
   void talk() {
     const std::vector<std::byte> greeting = orca::dds::encode({name_hash("talker"), 7});
@@ -133,7 +131,8 @@ TEST_CASE("a process may leave while another talks to it", "[patterns][dds]") {
       const std::unique_ptr<DdsBackend> leaver = make_dds("leaver", run);
       Publisher publisher(executive);
       REQUIRE(leaver->connect(publisher.endpoint("out"), {"x.in", "talker", {}, 1}, {}, Duration{0}).ok());
-      std::this_thread::sleep_for(200ms);  // until the talker has found it
+      REQUIRE(eventually(executive, [&] { return talker.has_found(); }));
+      std::this_thread::sleep_for(200ms);  // while it is talked to
     }
   });
 }
