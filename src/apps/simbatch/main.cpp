@@ -10,6 +10,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/batch/store.hpp"
+#include "orca/xml/number.hpp"
 #include "progress.hpp"
 #include "summary.hpp"
 
@@ -100,9 +101,9 @@ ExitCode table(const Options& options) {
   std::printf("variant,world,seed,ending,time,goals,failed_goals,contacts,way,trace_hash,reason\n");
   const Status read = (*store)->for_each([](const batch::Row& row) {
     const batch::Outcome& o = row.outcome;
-    std::printf("%s,%s,%" PRIu64 ",%s,%.17g,%u,%u,%u,%.17g,%s,%s\n", row.variant.c_str(), row.world.c_str(),
-                row.seed, batch::name_of(o.ending), o.time, o.goals, o.failed_goals, o.contacts, o.way,
-                o.trace_hash.c_str(), quoted(o.reason).c_str());
+    std::printf("%s,%s,%" PRIu64 ",%s,%s,%u,%u,%u,%s,%s,%s\n", row.variant.c_str(), row.world.c_str(),
+                row.seed, batch::name_of(o.ending), xml::number_text(o.time).c_str(), o.goals, o.failed_goals,
+                o.contacts, xml::number_text(o.way).c_str(), o.trace_hash.c_str(), quoted(o.reason).c_str());
   });
   return read.ok() ? ExitCode::done : refuse(read.error());
 }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "orca/xml/number.hpp"
+
 namespace orca::batch {
 namespace {
 
@@ -19,13 +21,6 @@ constexpr std::array<std::pair<Ending, const char*>, 7> kEndings{{{Ending::succe
                                                                   {Ending::crash, "crash"},
                                                                   {Ending::hang, "hang"}}};
 constexpr std::size_t kLines = 8;
-
-// The shortest text that reads back as the same number.
-std::string number_text(double number) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
-  return {text.data(), end};
-}
 
 template <class Number>
 bool read_number(std::string_view text, Number& number) {
@@ -62,9 +57,9 @@ std::optional<Ending> ending_of(std::string_view name) {
 std::string to_text(const Outcome& outcome) {
   std::string text;
   for (const std::string& line :
-       {std::string(name_of(outcome.ending)), one_line(outcome.reason), number_text(outcome.time),
+       {std::string(name_of(outcome.ending)), one_line(outcome.reason), xml::number_text(outcome.time),
         std::to_string(outcome.goals), std::to_string(outcome.failed_goals), std::to_string(outcome.contacts),
-        number_text(outcome.way), outcome.trace_hash})
+        xml::number_text(outcome.way), outcome.trace_hash})
     text += line + "\n";
   return text;
 }

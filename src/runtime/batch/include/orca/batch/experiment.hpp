@@ -78,7 +78,8 @@ struct Experiment {
                                                         xml::Diagnostics& diagnostics);
 
 /// Returns a text by which the results of an experiment are known. It changes with its name, its limit of time, its settings, and the
-/// names, graphs and settings of its variants; not with more worlds or seeds, which --resume adds.
+/// names, graphs' files and settings of its variants; not with more worlds or seeds, which --resume adds, nor with plugins and files that
+/// the graphs name.
 [[nodiscard]] std::string identity_of(const Experiment& experiment);
 
 }  // namespace orca::batch
