@@ -125,11 +125,18 @@ TEST_CASE(
 
 namespace {
 
+int components_at_work() {
+  std::istringstream shown(run_orcactl({"ps"}).out);
+  int count = 0;
+  for (std::string line; std::getline(shown, line);) count += line.find("WORK") != std::string::npos ? 1 : 0;
+  return count;
+}
+
 // The teller is asked for a thousand counts a second from another process, where a gauge notes when they come.
 class Gauged {
  public:
   Gauged() : program_(deployer({folder_.write("swap.xml", gauged_graph()), "--log", "debug"})) {
-    REQUIRE(program_.wait_for_output("start 1", Seconds(20) * kSlowdown));
+    REQUIRE(comes_true([] { return components_at_work() == 3; }, Seconds(20) * kSlowdown));
   }
 
   // Exchanges the teller, and returns for how long neither object could work [us]. What orcactl does, without a program that
@@ -177,13 +184,18 @@ class Gauged {
 
  private:
   static std::string gauged_graph() {
+    // A line of log in start() would be most of the exchange.
+    const std::string silent = "><param name=\"tells\" value=\"false\"/>";
     std::string text = graph("talking");
-    const std::string talker = "process=\"talking\"/>";
+    const std::string teller = "process=\"counting\"/>\n  <component";
+    text.replace(text.find(teller), teller.size(),
+                 "process=\"counting\"" + silent + "</component>\n  <component");
+    const std::string talker = "process=\"talking\"/>\n  <connect";
     text.replace(text.find(talker), talker.size(),
-                 "process=\"talking\"><param name=\"period\" value=\"0.001\"/><param name=\"tells\" "
-                 "value=\"false\"/></component>"
-                 "<component name=\"gauge\" type=\"test.Gauge\" process=\"talking\"/>"
-                 "<connect from=\"teller.out\" to=\"gauge.in\" queue=\"1000\"/>");
+                 "process=\"talking\"" + silent +
+                     "<param name=\"period\" value=\"0.001\"/></component>"
+                     "<component name=\"gauge\" type=\"test.Gauge\" process=\"talking\"/>"
+                     "<connect from=\"teller.out\" to=\"gauge.in\" queue=\"1000\"/>\n  <connect");
     return text;
   }
 

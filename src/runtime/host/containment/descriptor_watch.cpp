@@ -71,16 +71,20 @@ std::optional<Finding> DescriptorWatch::count_for(const std::string& who) {
                                              " descriptors and not closed them: " + names_of(opened)};
 }
 
-void DescriptorBalance::begin(bool anew, bool alone) {
+void DescriptorBalance::begin(bool anew, bool alone, const Descriptors* open) {
   if (anew) *this = {};
-  std::optional<Descriptors> open = open_descriptors();
-  known_ = known_ && open && alone;
-  at_begin_ = std::move(open).value_or(Descriptors{});
+  known_ = known_ && alone;
+  if (!known_) return;
+  std::optional<Descriptors> read = open != nullptr ? *open : open_descriptors();
+  known_ = read.has_value();
+  if (known_) at_begin_ = std::move(*read);
 }
 
 void DescriptorBalance::end(bool alone) {
+  known_ = known_ && alone;
+  if (!known_) return;
   const std::optional<Descriptors> open = open_descriptors();
-  known_ = known_ && open && alone;
+  known_ = open.has_value();
   if (!known_) return;
   forget_closed(opened_, *open);
   add_new(opened_, at_begin_, *open);

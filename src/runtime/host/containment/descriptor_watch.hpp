@@ -59,7 +59,8 @@ class DescriptorBalance {
   /// Notes that a hook begins.
   /// @param anew   it is start(): earlier openings are forgotten.
   /// @param alone  no other component has a turn at the moment.
-  void begin(bool anew, bool alone);
+  /// @param open   the open descriptors, if they are known already; null: they are read.
+  void begin(bool anew, bool alone, const Descriptors* open = nullptr);
   /// Notes that the hook is over.
   /// @param alone  no other component had a turn since it began.
   void end(bool alone);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "orca/host/last_words.hpp"
 #include "process_watches.hpp"
@@ -57,6 +58,7 @@ void Environment::keep(bool strands_overlap, AlarmSink sink) {
   turns_ = 0;
   hooks_running_ = 0;
   each_turn_ = false;
+  foresight_.reset();
   said_.clear();
   kept_ = true;
 }
@@ -92,10 +94,36 @@ void Environment::entering(const Activity& turn) {
   watched([&] {
     Guest& guest = this->guest(turn);
     look_each_turn(nullptr);
-    if (is_rare(turn.hook())) look_at_all(nullptr, false);  // what is wrong now was done by others
+    if (is_rare(turn.hook())) return enter_rare(guest, turn.hook());
     begin_hook(guest);
-    if (is_rare(turn.hook())) begin_balance(guest, turn.hook());
   });
+}
+
+void Environment::enter_rare(Guest& guest, Hook hook) {
+  const std::optional<Foresight> seen = std::exchange(foresight_, std::nullopt);
+  const bool is_known = seen && holds(*seen, guest);
+  if (!is_known) look_at_all(nullptr, false);  // what is wrong now was done by others
+  begin_hook(guest);
+  guest.others_turns = turns_ - guest.turns;
+  guest.own_openings = own_openings_;
+  guest.balance.begin(hook == Hook::start, is_alone(guest), is_known ? &seen->open : nullptr);
+}
+
+void Environment::look_ahead(const std::string& who) {
+  watched([&] {
+    foresight_.reset();
+    if (!is_undisturbed()) return;
+    look_at_all(nullptr, false);
+    if (std::optional<Descriptors> open = open_descriptors())
+      foresight_ = Foresight{who, std::move(*open), turns_, own_openings_};
+  });
+}
+
+bool Environment::holds(const Foresight& seen, const Guest& guest) const {
+  if (seen.who != guest.name || !is_undisturbed() || seen.own_openings != own_openings_) return false;
+  const bool only_saved =
+      turns_ == seen.turns + 1 && guest.last_turn == turns_ && guest.hook == to_string(Hook::save_state);
+  return turns_ == seen.turns || only_saved;
 }
 
 void Environment::leaving(const Activity& turn) {
@@ -126,7 +154,7 @@ void Environment::begin_hook(Guest& guest) {
 
 void Environment::leave(Guest& guest, const Activity& turn) {
   ++guest.turns;
-  ++turns_;
+  guest.last_turn = ++turns_;
   guest.hook = hook_text(turn.hook(), turn.port());
   guest.had_turn = true;
   if (turn.hook() == Hook::strand && guest.hooks_running == 0) begin_hook(guest);  // no end of a hook follows
@@ -190,12 +218,6 @@ void Environment::look_at_descriptors(const Guests& possible, bool may_open) {
   if (const auto finding = descriptors_.look(exact ? &possible.front()->name : nullptr))
     accuse(possible, *finding);
   if (may_open) descriptors_.accept();
-}
-
-void Environment::begin_balance(Guest& guest, Hook hook) {
-  guest.others_turns = turns_ - guest.turns;
-  guest.own_openings = own_openings_;
-  guest.balance.begin(hook == Hook::start, is_alone(guest));
 }
 
 void Environment::end_balance(Guest& guest, Hook hook) {

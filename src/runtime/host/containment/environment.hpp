@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -42,6 +43,9 @@ class Environment {
   void keep(bool strands_overlap, AlarmSink sink);
   void let_go();
 
+  /// Makes the checks of entering() early, for a component whose code is about to be exchanged: if nothing but save_state()
+  /// runs before its start(), that need not wait for them. Any thread.
+  void look_ahead(const std::string& who);
   /// Notes that a hook of a component begins.
   void entering(const Activity& turn);
   /// Checks the state when a component or a hardware container gives up control to wait for something.
@@ -64,6 +68,7 @@ class Environment {
     std::string name;
     std::string hook;  // the last one
     std::uint64_t turns = 0;
+    std::uint64_t last_turn = 0;  // its number among those of all guests
     int hooks_running = 0;
     bool had_turn = false;  // since the last full check
     DescriptorBalance balance;
@@ -71,6 +76,13 @@ class Environment {
     std::uint64_t own_openings = 0;  // at that time
   };
   using Guests = std::vector<const Guest*>;
+  // What look_ahead() has found, and what would make it out of date.
+  struct Foresight {
+    std::string who;
+    Descriptors open;
+    std::uint64_t turns;         // of all guests
+    std::uint64_t own_openings;  // of the runtime
+  };
 
   Environment();
   // Calls `body` unless let_go() was called, then raises the alarms for what it has found.
@@ -94,7 +106,10 @@ class Environment {
   void look_each_turn(const Guest* leaver);
   void look_at_all(const Guest* leaver, bool may_open);
   void look_at_descriptors(const Guests& possible, bool may_open);
-  void begin_balance(Guest& guest, Hook hook);
+  void enter_rare(Guest& guest, Hook hook);
+  [[nodiscard]] bool is_undisturbed() const { return hooks_running_ == 0 && opening_ == 0; }
+  // Returns whether what was seen is so still, as a guest's hook begins.
+  [[nodiscard]] bool holds(const Foresight& seen, const Guest& guest) const;
   void end_balance(Guest& guest, Hook hook);
 
   void accuse(const Guests& possible, const Finding& finding);
@@ -111,6 +126,7 @@ class Environment {
   Watches of_thread_;
   Watches of_process_;
   DescriptorWatch descriptors_;
+  std::optional<Foresight> foresight_;
   std::map<std::string, Guest, std::less<>> guests_;
   std::uint64_t turns_ = 0;  // of all guests
   int hooks_running_ = 0;    // of all guests

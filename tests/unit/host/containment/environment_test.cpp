@@ -227,3 +227,45 @@ TEST_CASE("a component is not blamed for descriptors that stop() leaves open if 
   close_all(opened);
   CHECK(watched.alarms.size() == (others ? 0 : 1));
 }
+
+TEST_CASE("what a look ahead of start() has seen holds until anybody else has had a turn",
+          "[host][environment]") {
+  const bool others = GENERATE(false, true);
+  const bool other_opens = others && GENERATE(false, true);
+  Watched watched(false);
+  std::vector<int> opened;
+  work_quietly("bad", 2);
+  Environment::of_process().look_ahead("bad");
+  { const Turn save("bad", Hook::save_state); }
+  if (others) {
+    const Turn turn("other");
+    if (other_opens) open_descriptors_for_good(1, opened);
+  }
+  {
+    const Turn start("bad", Hook::start);
+    if (!other_opens) open_descriptors_for_good(1, opened);
+  }
+  { const Turn stop("bad", Hook::stop); }
+  close_all(opened);
+  if (other_opens) {
+    CHECK(watched.alarms.empty());
+  } else {
+    REQUIRE(watched.alarms.size() == 1);
+    CHECK_THAT(watched.alarms[0].text(), Contains("left open what start() or itself has opened"));
+  }
+}
+
+TEST_CASE("a look ahead finds what was changed before, and lays it to no component that starts",
+          "[host][environment]") {
+  Watched watched(false);
+  { const Turn turn("bad"); }
+  { const Turn turn("bad"); }
+  {
+    const Turn third("bad");  // is not checked in full
+    umask(0777);
+  }
+  Environment::of_process().look_ahead("good");
+  { const Turn start("good", Hook::start); }
+  REQUIRE(watched.alarms.size() == 1);
+  CHECK(watched.alarms[0].source() == "bad");
+}

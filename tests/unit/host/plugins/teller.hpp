@@ -94,7 +94,7 @@ class Teller final : public orca::Component {
   }
   orca::Status start() override {
     if (TELLER_FAULT == kStart) throw std::runtime_error("no start today");
-    log_debug("start " + version());
+    if (*tells_) log_debug("start " + version());
     return orca::ok();
   }
   void stop() override { log_debug("stop " + version()); }
@@ -168,6 +168,7 @@ class Teller final : public orca::Component {
   orca::PushProxy<orca::idl::MotionCommand> in_{*this, TELLER_INPUT};
   orca::PushServer<orca::idl::GoalPoint> out_{*this, "out"};
   orca::SendServer<orca::idl::GoalPoint> poke_{*this, "poke", &Teller::on_poke};
+  orca::Param<bool> tells_{*this, "tells", true, {.text = "Whether to log its start."}};
   orca::Param<std::int64_t> step_{*this, "step", 1, {.min = 1, .max = 10}};
 
   std::int64_t count_ = 0;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "containment/environment.hpp"
 #include "fit.hpp"
 #include "orca/base/text.hpp"
 
@@ -106,6 +107,7 @@ std::optional<Result<SwapReport>> Swap::configured() {
     return end(refuse(Code::deadline_exceeded, "configure() of the new one did not return within 10 s"));
   }
   if (successor_->has_failed()) return end(refuse(Code::failed_precondition, successor_->failure()));
+  Environment::of_process().look_ahead(order_.component);
   await(Phase::taking_over, place_.component.order_take_over(*successor_, take_over_));
   return step();
 }
