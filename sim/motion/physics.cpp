@@ -108,6 +108,7 @@ struct Physics::Impl {
   void meet_solids(std::size_t robot, double margin);
   void meet_triangle(const Solid& solid, Encounter& e);
   void meet_moving(std::size_t robot, double margin);
+  [[nodiscard]] std::vector<int> moving_near(std::size_t robot, double margin);
   void meet_robot(std::size_t one, std::size_t other);
   void meet_mover(std::size_t robot, std::size_t mover);
   void find_touches();
@@ -117,6 +118,7 @@ struct Physics::Impl {
   [[nodiscard]] double first_touch(double seconds) const;
   void advance(double seconds);
   void look_around();
+  [[nodiscard]] double nearest(std::size_t robot, double margin);
 };
 
 btDbvtNode* Physics::Impl::enter(const MovingBody& body, int number) {
@@ -184,12 +186,16 @@ void Physics::Impl::meet_triangle(const Solid& solid, Encounter& e) {
   }
 }
 
-void Physics::Impl::meet_moving(std::size_t robot, double margin) {
+std::vector<int> Physics::Impl::moving_near(std::size_t robot, double margin) {
   std::vector<int> found;
   LeafVisitor visitor([&](int number) { found.push_back(number); });
   moving.collideTV(moving.m_root, volume_of(around(robots[robot].body, margin)), visitor);
   std::ranges::sort(found);  // The tree's order depends on how the bodies moved before.
-  for (const int number : found) {
+  return found;
+}
+
+void Physics::Impl::meet_moving(std::size_t robot, double margin) {
+  for (const int number : moving_near(robot, margin)) {
     if (number < 0) meet_mover(robot, static_cast<std::size_t>(-1 - number));
     if (number > static_cast<int>(robot)) meet_robot(robot, static_cast<std::size_t>(number));
   }
@@ -344,6 +350,19 @@ void Physics::Impl::look_around() {
   }
 }
 
+// Returns the distance to the nearest of the things that come as near as the margin [m]; the margin if none does.
+double Physics::Impl::nearest(std::size_t robot, double margin) {
+  encounters.clear();
+  meet_solids(robot, margin);
+  for (const int number : moving_near(robot, margin)) {
+    if (number < 0) meet_mover(robot, static_cast<std::size_t>(-1 - number));
+    if (number >= 0 && number != static_cast<int>(robot)) meet_robot(robot, static_cast<std::size_t>(number));
+  }
+  double least = margin;
+  for (const Encounter& e : encounters) least = std::min(least, e.gap(0.0).distance);
+  return least;
+}
+
 Physics::Physics(const WorldModel& world, const ErrorLevels& errors)
     : impl_((report_lack_of_memory(), std::make_unique<Impl>(world, errors))) {}
 Physics::~Physics() = default;
@@ -399,5 +418,14 @@ void Physics::step(double seconds) {
 Pose2 Physics::pose(std::size_t robot) const { return impl_->robots[robot].body.pose; }
 const std::map<Pair, double>& Physics::near_pairs() const { return impl_->near; }
 const std::vector<Touch>& Physics::touches(std::size_t robot) const { return impl_->robots[robot].felt; }
+
+// Most of the time something is near, so a wide look at all that stands around is rare.
+double Physics::clearance(std::size_t robot, double limit) const {
+  constexpr double kFirstLook = 0.25;  // [m]
+  for (double margin = std::min(kFirstLook, limit);; margin = std::min(2.0 * margin, limit)) {
+    const double found = impl_->nearest(robot, margin);
+    if (found < margin || margin >= limit) return found;
+  }
+}
 
 }  // namespace orca::sim::detail

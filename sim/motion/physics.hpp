@@ -73,6 +73,10 @@ class Physics {
   // Returns the distances of all pairs that are nearer than kNear [m], negative if they overlap.
   [[nodiscard]] const std::map<Pair, double>& near_pairs() const;
 
+  // Returns the distance from the robot to the nearest thing that it could touch [m], at most `limit`; negative if they overlap.
+  // @pre  no step is under way.
+  [[nodiscard]] double clearance(std::size_t robot, double limit) const;
+
   // Returns the places where the robot touches or nearly touches something, in its base frame.
   [[nodiscard]] const std::vector<Touch>& touches(std::size_t robot) const;
 

@@ -49,6 +49,6 @@ void describe_sensors(const RobotModel& model, idl::Robot& robot);
 /// Adds the robot of that name to the scene, and the walls and places if no other robot of the same world has added
 /// them.
 void draw(const Snapshot& from, const std::string& name, const RobotModel& model,
-          std::vector<Scene::Moment> moments, Scene& to);
+          std::vector<Scene::Moment> moments, std::vector<Scene::Step> motion, Scene& to);
 
 }  // namespace orca::sim

@@ -8,6 +8,7 @@ namespace orca::sim {
 namespace {
 
 constexpr Duration kFarBehind = std::chrono::milliseconds(200);
+constexpr Duration kMotionPeriod = std::chrono::milliseconds(100);
 
 template <class Reading>
 void shift(Reading& reading, Duration by) {
@@ -114,9 +115,17 @@ void SharedWorld::collect_turret(Member& member) {
   member.inbox.turret.back().stamp = on_run_clock(world_.time());
 }
 
+void SharedWorld::collect_motion(Member& member) {
+  if (!member.next_step || world_.time() < *member.next_step) return;
+  *member.next_step += kMotionPeriod;
+  member.motion.push_back({on_run_clock(world_.time()), world_.pose(member.robot),
+                           world_.velocity(member.robot), world_.clearance(member.robot, Scene::kFar)});
+}
+
 void SharedWorld::collect(Member& member) {
   collect_readings(member);
   collect_turret(member);
+  collect_motion(member);
   if (const auto& odometry = world_.odometry(member.robot)) {
     member.inbox.odometry.push_back(*odometry);
     member.inbox.odometry.back().stamp = on_run_clock(odometry->stamp);
@@ -141,6 +150,16 @@ TimePoint SharedWorld::next_tick(RobotId robot) const {
 void SharedWorld::keep_trajectory(RobotId robot) {
   const std::lock_guard lock(mutex_);
   world_.keep_trajectory(robot);
+}
+
+void SharedWorld::keep_motion(RobotId robot) {
+  const std::lock_guard lock(mutex_);
+  member(robot).next_step = world_.time();
+}
+
+std::vector<Scene::Step> SharedWorld::motion(RobotId robot) const {
+  const std::lock_guard lock(mutex_);
+  return member(robot).motion;
 }
 
 Snapshot SharedWorld::snapshot() const {

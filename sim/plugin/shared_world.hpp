@@ -11,6 +11,7 @@
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/hw/endpoints.hpp"
+#include "orca/hw/scene.hpp"
 #include "orca/sim/world.hpp"
 
 namespace orca::sim {
@@ -81,6 +82,9 @@ class SharedWorld {
   [[nodiscard]] TimePoint next_tick(RobotId robot) const;
   /// Keeps from now on where the robot goes, for snapshot().
   void keep_trajectory(RobotId robot);
+  /// Keeps the robot's true motion from now on, ten steps a second, for motion().
+  void keep_motion(RobotId robot);
+  [[nodiscard]] std::vector<Scene::Step> motion(RobotId robot) const;
   [[nodiscard]] Snapshot snapshot() const;
 
  private:
@@ -92,6 +96,8 @@ class SharedWorld {
     TimePoint next_turret;
     TimePoint seen;  // World's clock when it last polled.
     Inbox inbox;
+    std::optional<TimePoint> next_step{};  // Only if its motion is kept.
+    std::vector<Scene::Step> motion{};
   };
 
   [[nodiscard]] Member& member(RobotId robot);
@@ -101,6 +107,7 @@ class SharedWorld {
   void collect(Member& member);
   void collect_readings(Member& member);
   void collect_turret(Member& member);
+  void collect_motion(Member& member);
   [[nodiscard]] TimePoint on_run_clock(TimePoint time) const { return time + epoch_; }
 
   mutable std::mutex mutex_;

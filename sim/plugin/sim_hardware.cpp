@@ -187,8 +187,10 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
 
   orca::hw::Drawable* drawable() override { return this; }
   void keep_moments() override { keeps_moments_ = true; }
+  void keep_motion() override { keeps_motion_ = true; }
   void draw(orca::Scene& scene) override {
-    if (moments_) orca::sim::draw(shared_->snapshot(), *name_, *robot_, moments_->moments(), scene);
+    if (moments_)
+      orca::sim::draw(shared_->snapshot(), *name_, *robot_, moments_->moments(), shared_->motion(id_), scene);
   }
 
   // A robot whose device is opened again is where it was left, in the same world.
@@ -208,6 +210,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
     if (!added) return added.error();
     id_ = *added;
     if (keeps_moments_) shared_->keep_trajectory(id_);
+    if (keeps_motion_) shared_->keep_motion(id_);
     moments_.emplace(*robot_);
     return orca::ok();
   }
@@ -337,6 +340,7 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   std::shared_ptr<SharedWorld> shared_;
   RobotId id_{};
   bool keeps_moments_ = false;
+  bool keeps_motion_ = false;
   std::optional<MomentLog> moments_;
 };
 

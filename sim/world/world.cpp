@@ -276,6 +276,9 @@ Pose2 World::pose(RobotId robot) const { return impl_->robot(robot).pose; }
 Pose2 World::body_pose(RobotId robot) const { return impl_->robot(robot).body; }
 std::optional<TurretReading> World::turret(RobotId robot) const { return impl_->robot(robot).turret(); }
 Twist2 World::velocity(RobotId robot) const { return impl_->robot(robot).velocity; }
+double World::clearance(RobotId robot, double limit) const {
+  return impl_->physics.clearance(index(robot), limit);
+}
 const std::vector<ContactEvent>& World::contacts() const { return impl_->contacts; }
 const std::optional<SonarScan>& World::sonar(RobotId robot, std::size_t ring) const {
   return impl_->robot(robot).sonars.at(ring).completed();

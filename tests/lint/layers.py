@@ -108,14 +108,15 @@ LAYERS = (
           ("supervisor_bulletin", "supervisor_processes", "supervisor_channel", "host_run", "host_containment", "graph", "plugin", "xml",
            "patterns_shm", "patterns_endpoints", *DEVICE), ("fmt",), module=SUPERVISOR),
     Layer("batch_experiment", (f"{BATCH}/experiment",), ("orca/batch/experiment.hpp",), ("xml", "base"), module=BATCH),
-    Layer("batch_results", (f"{BATCH}/results",), ("orca/batch/record.hpp", "orca/batch/store.hpp"), ("batch_experiment", "xml", "base"),
+    Layer("batch_measures", (f"{BATCH}/measures",), ("orca/batch/measures.hpp",), ("base", *DEVICE), module=BATCH),
+    Layer("batch_results", (f"{BATCH}/results",), ("orca/batch/record.hpp", "orca/batch/store.hpp"), ("batch_measures", "batch_experiment", "xml", "base"),
           ("sqlite",), module=BATCH),
     Layer("batch_statistics", (f"{BATCH}/statistics",), ("orca/batch/statistics/",), ("base",)),
     Layer("batch_running", (f"{BATCH}/running", f"{BATCH}/checking", BATCH), ("orca/batch/",),
-          ("batch_results", "batch_experiment", "host_run", "host_containment", "graph", "plugin", "xml", *DEVICE), module=BATCH),
+          ("batch_results", "batch_measures", "batch_experiment", "host_run", "host_containment", "graph", "plugin", "xml", *DEVICE), module=BATCH),
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),
     Layer("apps", ("src/apps",), (),
-          ("batch_running", "batch_results", "batch_experiment", "batch_statistics", "supervisor_run", "supervisor_processes", "supervisor_channel", "host_run", "host_containment", "host_picture", "graph", "plugin", "text",
+          ("batch_running", "batch_results", "batch_measures", "batch_experiment", "batch_statistics", "supervisor_run", "supervisor_processes", "supervisor_channel", "host_run", "host_containment", "host_picture", "graph", "plugin", "text",
            "xml", *DEVICE), ("fmt",)),
 )
 

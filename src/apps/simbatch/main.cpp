@@ -98,12 +98,20 @@ ExitCode table(const Options& options) {
     return refuse(fail(Code::not_found, in_quotes(options.subject) + " holds no results of a batch"));
   Result<std::unique_ptr<batch::Store>> store = batch::Store::open(file.string(), {});
   if (!store) return refuse(store.error());
-  std::printf("variant,world,seed,ending,time,goals,failed_goals,contacts,way,trace_hash,reason\n");
+  std::string title = "variant,world,seed,ending,failure,time,goals,failed_goals,contacts";
+  for (const batch::Measure& measure : batch::all_measures()) title += std::string(",") + measure.name;
+  std::printf("%s,trace_hash,reason\n", title.c_str());
   const Status read = (*store)->for_each([](const batch::Row& row) {
     const batch::Outcome& o = row.outcome;
-    std::printf("%s,%s,%" PRIu64 ",%s,%s,%u,%u,%u,%s,%s,%s\n", row.variant.c_str(), row.world.c_str(),
-                row.seed, batch::name_of(o.ending), xml::number_text(o.time).c_str(), o.goals, o.failed_goals,
-                o.contacts, xml::number_text(o.way).c_str(), o.trace_hash.c_str(), quoted(o.reason).c_str());
+    std::string measures;
+    for (const batch::Measure& measure : batch::all_measures()) {
+      const std::optional<double>& value = o.measures.*measure.value;
+      measures += "," + (value ? xml::number_text(*value) : "");
+    }
+    std::printf("%s,%s,%" PRIu64 ",%s,%s,%s,%u,%u,%u%s,%s,%s\n", row.variant.c_str(), row.world.c_str(),
+                row.seed, batch::name_of(o.ending), batch::name_of(o.failure),
+                xml::number_text(o.time).c_str(), o.goals, o.failed_goals, o.contacts, measures.c_str(),
+                o.trace_hash.c_str(), quoted(o.reason).c_str());
   });
   return read.ok() ? ExitCode::done : refuse(read.error());
 }

@@ -13,8 +13,10 @@ const Outcome kSome{.ending = Ending::failed,
                     .goals = 2,
                     .failed_goals = 1,
                     .contacts = 3,
-                    .way = 1.0 / 3.0,
-                    .trace_hash = "0123456789abcdef"};
+                    .failure = Failure::trap,
+                    .measures = {.way = 1.0 / 3.0, .spl = 0.0, .impact_speed = 0.25},
+                    .trace_hash = "0123456789abcdef",
+                    .track = "0.00 1.25,0.10 1.25"};
 
 }  // namespace
 
@@ -42,4 +44,8 @@ TEST_CASE("endings have names that read back", "[batch]") {
                               Ending::failed, Ending::crash, Ending::hang})
     CHECK(ending_of(name_of(ending)) == ending);
   CHECK_FALSE(ending_of("good"));
+  for (const Failure failure :
+       {Failure::none, Failure::collision, Failure::trap, Failure::oscillation, Failure::deadline})
+    CHECK(failure_of(name_of(failure)) == failure);
+  CHECK_FALSE(failure_of("bad luck"));
 }

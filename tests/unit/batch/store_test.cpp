@@ -23,7 +23,8 @@ Row row(const std::string& variant, const std::string& world, std::uint64_t seed
   row.outcome.ending = Ending::success;
   row.outcome.time = 0.1 + 0.2;
   row.outcome.goals = 3;
-  row.outcome.way = 1.0 / 3.0;
+  row.outcome.measures = {.way = 1.0 / 3.0, .clearance = 0.125};
+  row.outcome.failure = Failure::oscillation;
   return row;
 }
 

@@ -15,5 +15,6 @@ inline constexpr const char* kNumbers = "E008";
 inline constexpr const char* kValueOrFile = "E009";
 inline constexpr const char* kNoGraph = "E010";
 inline constexpr const char* kTooMany = "E011";
+inline constexpr const char* kReferences = "E012";
 
 }  // namespace orca::batch::codes

@@ -10,6 +10,7 @@
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/reporter.hpp"
+#include "references.hpp"
 #include "rules.hpp"
 
 namespace orca::batch {
@@ -70,6 +71,7 @@ class ExperimentReader {
 
   void world(const Attributes& element) {
     World world{element.name("name").value_or(""), {}, element.element().position()};
+    if (element.has("reference")) world.reference = element.number("reference");
     settings(element, world.settings);
     remember(element, "world", world.name);
     experiment_.worlds.push_back(std::move(world));
@@ -81,13 +83,28 @@ class ExperimentReader {
     const std::string file = path(element.text("file").value_or(""));
     std::vector<Setting> more;
     settings(element, more);
+    const std::map<std::uint64_t, double> lengths = references(element);
     const xml::Position& position = element.element().position();
     for (const std::uint64_t number : numbers(element, "numbers")) {
       World world{name + "_" + std::to_string(number), more, position};
       world.settings.push_back({arg, file + "#" + std::to_string(number), position});
       if (!remember(element, "world", world.name)) return;
+      if (const auto length = lengths.find(number); length != lengths.end()) world.reference = length->second;
       experiment_.worlds.push_back(std::move(world));
     }
+  }
+
+  std::map<std::uint64_t, double> references(const Attributes& element) const {
+    if (!element.has("references")) {
+      if (element.has("column"))
+        element.error_at("column", codes::kReferences, "a column needs the table, references");
+      return {};
+    }
+    auto read = read_references(path(element.text("references").value_or("")),
+                                element.text("column").value_or("reference"));
+    if (read) return std::move(read).value();
+    element.error_at("references", codes::kReferences, read.error().message);
+    return {};
   }
 
   void settings(const Attributes& element, std::vector<Setting>& to) {

@@ -16,6 +16,8 @@ constexpr double kDay = 86400.0;
 constexpr ValueRule kName{.form = ValueRule::Form::name};
 constexpr ValueRule kSeconds{
     .form = ValueRule::Form::number, .unit = "s", .min = 0.0, .max = kDay, .above_min = true};
+constexpr ValueRule kMetres{
+    .form = ValueRule::Form::number, .unit = "m", .min = 0.0, .max = 1e6, .above_min = true};
 constexpr ValueRule kBytes{.form = ValueRule::Form::number, .unit = "B", .min = 1e8, .max = 1e15};
 
 constexpr std::array kExperiment{
@@ -32,12 +34,16 @@ constexpr std::array kSet{
     AttributeRule{"file", false, "Instead of value: a file, whose path starts at the experiment's folder."}};
 constexpr std::array kVariant{AttributeRule{"name", true, "Name of the variant.", kName},
                               AttributeRule{"graph", false, "Its graph, if it is not that of all."}};
-constexpr std::array kWorld{AttributeRule{"name", true, "Name of the world.", kName}};
+constexpr std::array kWorld{
+    AttributeRule{"name", true, "Name of the world.", kName},
+    AttributeRule{"reference", false, "Length of the way that runs are compared with.", kMetres}};
 constexpr std::array kWorlds{
     AttributeRule{"name", true, "Name before the number of each world: barn_17.", kName},
     AttributeRule{"arg", true, "Argument of the graph that gets FILE#NUMBER."},
     AttributeRule{"file", true, "File with numbered worlds, or a world with a <generate>."},
-    AttributeRule{"numbers", true, "Numbers and ranges, \"1-200\"."}};
+    AttributeRule{"numbers", true, "Numbers and ranges, \"1-200\"."},
+    AttributeRule{"references", false, "Table (.csv) with the length of the way of each number in a column."},
+    AttributeRule{"column", false, "Name of that column; \"reference\" if not given."}};
 
 }  // namespace
 

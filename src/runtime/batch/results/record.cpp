@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,12 +21,21 @@ constexpr std::array<std::pair<Ending, const char*>, 7> kEndings{{{Ending::succe
                                                                   {Ending::failed, "failed"},
                                                                   {Ending::crash, "crash"},
                                                                   {Ending::hang, "hang"}}};
-constexpr std::size_t kLines = 8;
+constexpr std::size_t kLinesBesideMeasures = 9;
+constexpr std::string_view kMissing = "-";
 
 template <class Number>
 bool read_number(std::string_view text, Number& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc{} && end == text.data() + text.size();
+}
+
+bool read_measures(std::span<const std::string_view> lines, Measures& measures) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i] == kMissing) continue;
+    if (!read_number(lines[i], (measures.*all_measures()[i].value).emplace())) return false;
+  }
+  return true;
 }
 
 std::string one_line(std::string text) {
@@ -59,23 +69,30 @@ std::string to_text(const Outcome& outcome) {
   for (const std::string& line :
        {std::string(name_of(outcome.ending)), one_line(outcome.reason), xml::number_text(outcome.time),
         std::to_string(outcome.goals), std::to_string(outcome.failed_goals), std::to_string(outcome.contacts),
-        xml::number_text(outcome.way), outcome.trace_hash})
+        std::string(name_of(outcome.failure)), outcome.trace_hash, outcome.track})
     text += line + "\n";
+  for (const Measure& measure : all_measures()) {
+    const std::optional<double>& value = outcome.measures.*measure.value;
+    text += (value ? xml::number_text(*value) : std::string(kMissing)) + "\n";
+  }
   return text;
 }
 
 std::optional<Outcome> read_outcome(std::string_view text) {
   const std::vector<std::string_view> lines = lines_of(text);
-  if (lines.size() != kLines) return std::nullopt;
+  if (lines.size() != kLinesBesideMeasures + all_measures().size()) return std::nullopt;
   const std::optional<Ending> ending = ending_of(lines[0]);
+  const std::optional<Failure> failure = failure_of(lines[6]);
   Outcome outcome;
-  if (!ending || !read_number(lines[2], outcome.time) || !read_number(lines[3], outcome.goals) ||
+  if (!ending || !failure || !read_number(lines[2], outcome.time) || !read_number(lines[3], outcome.goals) ||
       !read_number(lines[4], outcome.failed_goals) || !read_number(lines[5], outcome.contacts) ||
-      !read_number(lines[6], outcome.way))
+      !read_measures(std::span(lines).subspan(kLinesBesideMeasures), outcome.measures))
     return std::nullopt;
   outcome.ending = *ending;
   outcome.reason = lines[1];
+  outcome.failure = *failure;
   outcome.trace_hash = lines[7];
+  outcome.track = lines[8];
   return outcome;
 }
 

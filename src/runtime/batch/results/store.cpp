@@ -17,11 +17,31 @@ constexpr const char* kSchema = R"(
   CREATE TABLE IF NOT EXISTS runs (
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, ending TEXT NOT NULL, reason TEXT NOT NULL,
     time REAL NOT NULL, goals INTEGER NOT NULL, failed_goals INTEGER NOT NULL, contacts INTEGER NOT NULL,
-    way REAL NOT NULL, trace_hash TEXT NOT NULL, PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+    failure TEXT NOT NULL, trace_hash TEXT NOT NULL,@
+    PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS tracks (
+    variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, places TEXT NOT NULL,
+    PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
   CREATE TABLE IF NOT EXISTS timing (
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, wall REAL NOT NULL, cpu REAL NOT NULL,
     PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
 )";
+
+// Returns the schema, with a column for each measure.
+std::string schema() {
+  std::string columns;
+  for (const Measure& measure : all_measures())
+    columns += (columns.empty() ? " " : ", ") + std::string(measure.name) + " REAL";
+  std::string text = kSchema;
+  return text.replace(text.find('@'), 1, columns + ",");
+}
+
+// Returns "?, ?, ?".
+std::string marks(std::size_t count) {
+  std::string text = "?";
+  for (std::size_t i = 1; i < count; ++i) text += ", ?";
+  return text;
+}
 
 struct Close {
   void operator()(sqlite3* database) const { sqlite3_close(database); }
@@ -32,9 +52,9 @@ using Database = std::unique_ptr<sqlite3, Close>;
 // A statement, with its values in the order of their marks.
 class Statement {
  public:
-  Statement(sqlite3* database, const char* text) {
+  Statement(sqlite3* database, const std::string& text) {
     sqlite3_stmt* made = nullptr;
-    (void)sqlite3_prepare_v2(database, text, -1, &made, nullptr);
+    (void)sqlite3_prepare_v2(database, text.c_str(), -1, &made, nullptr);
     statement_.reset(made);  // null, if there was an error, which the steps will tell
   }
 
@@ -45,6 +65,11 @@ class Statement {
   }
   Statement& operator<<(double value) {
     (void)sqlite3_bind_double(statement_.get(), ++bound_, value);
+    return *this;
+  }
+  Statement& operator<<(const std::optional<double>& value) {
+    if (value) return *this << *value;
+    (void)sqlite3_bind_null(statement_.get(), ++bound_);
     return *this;
   }
   Statement& operator<<(std::uint32_t value) {
@@ -60,6 +85,10 @@ class Statement {
     return bytes == nullptr ? "" : reinterpret_cast<const char*>(bytes);
   }
   [[nodiscard]] double number(int column) const { return sqlite3_column_double(statement_.get(), column); }
+  [[nodiscard]] std::optional<double> number_if_any(int column) const {
+    if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL) return std::nullopt;
+    return number(column);
+  }
   [[nodiscard]] std::uint32_t count(int column) const {
     return static_cast<std::uint32_t>(sqlite3_column_int64(statement_.get(), column));
   }
@@ -81,7 +110,8 @@ class SqliteStore final : public Store {
   SqliteStore(std::string file, Database database) : file_(std::move(file)), database_(std::move(database)) {}
 
   Status prepare(const std::string& identity) {
-    if (sqlite3_exec(database_.get(), kSchema, nullptr, nullptr, nullptr) != SQLITE_OK) return fault();
+    if (sqlite3_exec(database_.get(), schema().c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+      return fault();
     if (identity.empty()) return ok();
     Statement known(database_.get(), "SELECT identity FROM experiment");
     const int found = known.step();
@@ -95,12 +125,18 @@ class SqliteStore final : public Store {
     const std::string seed = padded(row.seed);
     const Outcome& o = row.outcome;
     if (sqlite3_exec(database_.get(), "BEGIN", nullptr, nullptr, nullptr) != SQLITE_OK) return fault();
-    Statement run(database_.get(), "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    Statement run(database_.get(),
+                  "INSERT OR IGNORE INTO runs VALUES (" +
+                      marks(static_cast<std::size_t>(kFirstMeasure) + all_measures().size()) + ")");
     run << row.variant << row.world << seed << std::string(name_of(o.ending)) << o.reason << o.time << o.goals
-        << o.failed_goals << o.contacts << o.way << o.trace_hash;
+        << o.failed_goals << o.contacts << std::string(name_of(o.failure)) << o.trace_hash;
+    for (const Measure& measure : all_measures()) run << o.measures.*measure.value;
+    Statement track(database_.get(), "INSERT OR IGNORE INTO tracks VALUES (?, ?, ?, ?)");
+    track << row.variant << row.world << seed << o.track;
     Statement timing(database_.get(), "INSERT OR IGNORE INTO timing VALUES (?, ?, ?, ?, ?)");
     timing << row.variant << row.world << seed << row.cost.wall << row.cost.cpu;
-    if (run.step() != SQLITE_DONE || timing.step() != SQLITE_DONE) return fault();
+    for (Statement* const statement : {&run, &track, &timing})
+      if (statement->step() != SQLITE_DONE) return fault();
     return sqlite3_exec(database_.get(), "COMMIT", nullptr, nullptr, nullptr) == SQLITE_OK ? ok() : fault();
   }
 
@@ -108,6 +144,13 @@ class SqliteStore final : public Store {
                          std::uint64_t seed) const override {
     Statement found(database_.get(), "SELECT 1 FROM runs WHERE variant = ? AND world = ? AND seed = ?");
     return (found << variant << world << padded(seed)).step() == SQLITE_ROW;
+  }
+
+  [[nodiscard]] std::string track(const std::string& variant, const std::string& world,
+                                  std::uint64_t seed) const override {
+    Statement found(database_.get(),
+                    "SELECT places FROM tracks WHERE variant = ? AND world = ? AND seed = ?");
+    return (found << variant << world << padded(seed)).step() == SQLITE_ROW ? found.text(0) : "";
   }
 
   Status for_each(const std::function<void(const Row&)>& take) const override {
@@ -143,11 +186,16 @@ class SqliteStore final : public Store {
     row.outcome.goals = found.count(6);
     row.outcome.failed_goals = found.count(7);
     row.outcome.contacts = found.count(8);
-    row.outcome.way = found.number(9);
+    row.outcome.failure = failure_of(found.text(9)).value_or(Failure::none);
     row.outcome.trace_hash = found.text(10);
-    row.cost = {found.number(11), found.number(12)};
+    int column = kFirstMeasure;
+    for (const Measure& measure : all_measures())
+      row.outcome.measures.*measure.value = found.number_if_any(column++);
+    row.cost = {found.number(column), found.number(column + 1)};
     return row;
   }
+
+  static constexpr int kFirstMeasure = 11;  // of the columns
 
   const std::string file_;
   const Database database_;

@@ -44,17 +44,23 @@ std::string reason_of(const host::RunResult& result) {
   return result.error ? result.error->text() : result.culprit;
 }
 
-Outcome outcome_of(const host::RunResult& result) {
+Outcome outcome_of(const host::RunResult& result, const std::optional<double>& reference) {
   Outcome outcome;
   outcome.ending = ending_of(result);
   if (outcome.ending == Ending::failed) outcome.reason = reason_of(result);
   const bool arrives = outcome.ending == Ending::success && !result.arrivals.empty();
-  const TimePoint end = arrives ? to_time_point(result.arrivals.back().creation_time()) : result.end;
-  outcome.time = to_seconds(end - result.start);
+  RunEnd end{.succeeded = outcome.ending == Ending::success, .end = result.end, .reference = reference};
+  if (arrives) end.end = to_time_point(result.arrivals.back().creation_time());
+  if (!result.contacts.empty()) end.first_contact = to_time_point(result.contacts.front().stamp());
+  outcome.time = to_seconds(end.end - result.start);
   outcome.goals = static_cast<std::uint32_t>(result.arrivals.size());
   outcome.failed_goals = static_cast<std::uint32_t>(result.failures.size());
   outcome.contacts = static_cast<std::uint32_t>(result.contacts.size());
-  for (const host::RunResult::Way& way : result.ways) outcome.way += way.length;
+  if (result.scene) {
+    outcome.measures = measure(*result.scene, end);
+    if (outcome.ending < Ending::failed) outcome.failure = failure_in(*result.scene, end);
+    outcome.track = track_text(*result.scene);
+  }
   if (result.trace_hash) outcome.trace_hash = hexadecimal(*result.trace_hash);
   return outcome;
 }
@@ -62,8 +68,11 @@ Outcome outcome_of(const host::RunResult& result) {
 // Hands the outcome over as soon as it is known.
 class Reporter final : public host::RunListener {
  public:
-  explicit Reporter(int to) : to_(to) {}
-  void ended(const host::RunResult& result) override { write_all(to_, to_text(outcome_of(result))); }
+  /// @param reference  [m] of the world.
+  Reporter(int to, const std::optional<double>& reference) : to_(to), reference_(reference) {}
+  void ended(const host::RunResult& result) override {
+    write_all(to_, to_text(outcome_of(result, reference_)));
+  }
   [[noreturn]] void abandon(const host::RunResult& result) override {
     ended(result);
     _exit(EXIT_SUCCESS);
@@ -71,6 +80,7 @@ class Reporter final : public host::RunListener {
 
  private:
   const int to_;
+  const std::optional<double> reference_;
 };
 
 // Sanitizers take terabytes of addresses for themselves.
@@ -106,8 +116,8 @@ void work(const Experiment& experiment, const Run& run, const BatchOptions& opti
   run_options.executive = {ClockKind::virtual_time, options.backend};
   run_options.seed = run.seed;
   run_options.until = experiment.until;
-  run_options.looks_on = true;
-  Reporter reporter(to);
+  run_options.keeps_motion = true;
+  Reporter reporter(to, experiment.worlds[run.world].reference);
   (void)host::run_system(*graph, catalogue, run_options, stop, reporter);
   _exit(EXIT_SUCCESS);
 }

@@ -16,6 +16,12 @@
 
 namespace orca::host {
 
+/// What of a simulated robot is to be kept for the end of the run.
+struct SceneWishes {
+  bool moments = false;  ///< For a picture.
+  bool motion = false;   ///< For measures.
+};
+
 /// The surroundings that all instances of one run share.
 struct RunContext {
   Executive& executive;
@@ -27,8 +33,7 @@ struct RunContext {
   std::function<void()> changed;
   /// Number of missions begun so far; the last one has it as its id.
   std::atomic<std::uint64_t>& missions;
-  /// Whether a picture is to be drawn at the end.
-  bool wants_scene = false;
+  SceneWishes scene{};
   /// What is to fail on purpose.
   std::vector<PlannedFailure> failures{};
   /// Returns the word by which other processes wake a component; empty: there are no others.

@@ -81,6 +81,7 @@ class Run {
     watched_.run([this] { main(); }, [this](const std::string& component,
                                             const std::string& text) { stand_still(component, text); });
     if (!options_.picture.file.empty()) draw();
+    if (options_.keeps_motion) scene_ = watched_.scene();
   }
 
   void refuse_output(const Error& error) {
@@ -284,8 +285,10 @@ class Run {
   }
 
   [[nodiscard]] SystemOptions wishes() const {
-    return {options_.seed.value_or(graph_.seed.value_or(1)), !options_.picture.file.empty(),
-            options_.planned_failures, options_.log_name};
+    return {options_.seed.value_or(graph_.seed.value_or(1)),
+            {.moments = !options_.picture.file.empty(), .motion = options_.keeps_motion},
+            options_.planned_failures,
+            options_.log_name};
   }
   [[nodiscard]] System& system() { return watched_.system(); }
   [[nodiscard]] Reporter& reporter() { return watched_.reporter(); }
@@ -301,6 +304,7 @@ class Run {
     watched_.reporter().fill(result);
     result.end = end_.value_or(executive_.now());
     result.ways = sightings_.ways();
+    result.scene = scene_;
     if (ran) result.counters = counters_ ? *counters_ : collect_counters(graph_, watched_.system());
     return result;
   }
@@ -319,6 +323,7 @@ class Run {
   const Reports reports_ = [this](const std::string& name) { return system().component(name)->report(); };
   EdgeChoice choice_{graph_};
   TimedChanges changes_{graph_, watched_, catalogue_, executive_, options_.changes};
+  std::optional<Scene> scene_;           // after the end
   std::optional<LiveView> view_;         // of the system
   std::optional<TimePoint> end_;         // when the taking down began
   std::optional<RunCounters> counters_;  // of the run until it was taken down

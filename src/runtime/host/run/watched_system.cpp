@@ -24,7 +24,7 @@ WatchedSystem::WatchedSystem(const graph::Graph& graph, const SystemPlace& place
                options.seed,
                [this] { changed_->notify(); },
                options.missions != nullptr ? *options.missions : missions_,
-               options.wants_scene,
+               options.scene,
                options.failures,
                options.doorbell,
                options.state_sink,

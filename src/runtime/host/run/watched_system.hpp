@@ -37,7 +37,7 @@ struct SystemPlace {
 /// The options of a watched system.
 struct SystemOptions {
   std::uint64_t seed = 1;
-  bool wants_scene = false;  ///< A picture is to be drawn at the end.
+  SceneWishes scene{};
   std::vector<PlannedFailure> failures{};
   std::string log_name = "orca";  ///< Name in the log for what concerns no single component.
   /// Number of missions begun so far, which processes may share; null: the system has its own.
@@ -82,8 +82,8 @@ class WatchedSystem {
   /// @thread  any, while the strands run.
   void stop_motors();
 
-  /// Returns what a picture of the run shows.
-  /// @pre  the options want a scene, and nothing runs any more.
+  /// Returns what a picture of the run shows, and what SystemOptions::scene has asked for.
+  /// @pre  nothing runs any more.
   [[nodiscard]] Scene scene();
 
   /// Destroys all instances.

@@ -119,6 +119,9 @@ class World {
   /// Returns the true velocity in the last tick, in the robot's frame.
   [[nodiscard]] Twist2 velocity(RobotId robot) const;
 
+  /// Returns how far the robot is from the nearest thing that it could touch [m], at most `limit`; 0 or less while it touches.
+  [[nodiscard]] double clearance(RobotId robot, double limit) const;
+
   /// Returns the contacts that began in the last tick. A touch is reported once, until the two have come
   /// apart again. If two robots collide, both report it.
   [[nodiscard]] const std::vector<ContactEvent>& contacts() const;

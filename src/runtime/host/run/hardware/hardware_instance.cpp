@@ -29,8 +29,10 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
         param.set(value->second);
     errors = container_->prepare();
     std::erase_if(errors, [](const HardwareFault& found) { return found.only_warns; });
-    if (hw::Drawable* const drawable = container_->drawable(); drawable != nullptr && run_.wants_scene)
-      drawable->keep_moments();
+    if (hw::Drawable* const drawable = container_->drawable(); drawable != nullptr) {
+      if (run_.scene.moments) drawable->keep_moments();
+      if (run_.scene.motion) drawable->keep_motion();
+    }
     if (!errors.empty()) return;
     description_ = container_->description();
     robot_ = find_robot();

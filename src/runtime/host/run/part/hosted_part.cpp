@@ -31,7 +31,7 @@ constexpr Duration kOrderLimit = 5s;
 
 SystemOptions system_options(const PartOptions& options, PartListener& listener) {
   return {options.seed,
-          !options.outputs.picture.file.empty(),
+          {.moments = !options.outputs.picture.file.empty(), .motion = false},
           options.failures,
           options.log_name,
           options.missions,

@@ -6,6 +6,7 @@
 
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
+#include "orca/geometry/twist2.hpp"
 
 namespace orca {
 
@@ -39,6 +40,14 @@ struct Scene {
     std::vector<Cone> sonar;
     std::vector<Scan> lasers;
   };
+  /// Where a robot really was, and how near to something that it could touch.
+  struct Step {
+    TimePoint time;  ///< Of the run's clock.
+    Pose2 pose;
+    Twist2 velocity;           ///< In the robot's frame.
+    double clearance_m = 0.0;  ///< From its outline; at most kFar, 0 or less where it touches.
+  };
+  static constexpr double kFar = 2.0;  ///< [m] How far Step::clearance_m looks.
   struct Robot {
     std::string name;
     Pose2 pose;
@@ -46,6 +55,7 @@ struct Scene {
     std::vector<Line> outline;    ///< Of its plan, in its own frame; empty: a circle.
     std::vector<Vec2> track;      ///< Where it has been, oldest first.
     std::vector<Moment> moments;  ///< Oldest first.
+    std::vector<Step> motion;     ///< Evenly spaced, oldest first; only after Drawable::keep_motion().
   };
   struct Mark {
     std::string label;

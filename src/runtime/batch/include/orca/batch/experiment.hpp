@@ -36,6 +36,7 @@ struct World {
   std::string name;
   std::vector<Setting> settings;
   xml::Position position;
+  std::optional<double> reference{};  ///< [m] Length of the way that a run in it is compared with.
 };
 
 /// One run of an experiment: a variant in a world with a seed.

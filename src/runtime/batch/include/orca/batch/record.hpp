@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "orca/batch/measures.hpp"
+
 namespace orca::batch {
 
 /// How a run ended. The names are those of the table of results, and never change.
@@ -32,8 +34,10 @@ struct Outcome {
   std::uint32_t goals = 0;  ///< Number that were reached.
   std::uint32_t failed_goals = 0;
   std::uint32_t contacts = 0;
-  double way = 0.0;          ///< [m] driven by all robots together.
+  Failure failure = Failure::none;
+  Measures measures{};
   std::string trace_hash{};  ///< 16 hexadecimal digits; empty: the run did not come so far.
+  std::string track{};       ///< Where the robots went, as track_text() says it.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 

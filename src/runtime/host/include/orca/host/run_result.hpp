@@ -10,6 +10,7 @@
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/host/robot_names.hpp"
+#include "orca/hw/scene.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
@@ -58,6 +59,7 @@ struct RunResult {
   std::vector<idl::Contact> contacts;       ///< In the order in which they were reported.
   std::vector<idl::Alarm> alarms;           ///< In the order in which they were raised.
   std::vector<Way> ways;                    ///< Only if RunOptions::looks_on.
+  std::optional<Scene> scene;               ///< Only if RunOptions::keeps_motion, and all strands have ended.
   RobotNames robots;                        ///< None if the system could not be built.
   RunCounters counters;
 };

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "orca/base/time.hpp"
+
+namespace orca {
+struct Scene;
+}
+
+namespace orca::batch {
+
+/// Why a run did not succeed, as far as the motion of its robots shows. The names are those of the table of results, and never
+/// change.
+enum class Failure : std::uint8_t {
+  none,         ///< It succeeded, or what ended it says nothing of its motion.
+  collision,    ///< A robot touched something.
+  trap,         ///< In the last 20 s no robot left an area of 1 m, and none turned to and fro there.
+  oscillation,  ///< No robot left it, and one turned to and fro ten times or more.
+  deadline      ///< A robot was still on its way.
+};
+
+[[nodiscard]] const char* name_of(Failure failure);
+/// Returns the failure of that name; nothing if there is none.
+[[nodiscard]] std::optional<Failure> failure_of(std::string_view name);
+
+/// How the robots of a run moved, all together. What is not known is missing: without a simulated robot everything. A plain value.
+struct Measures {
+  std::optional<double> way{};
+  std::optional<double> way_ratio{};
+  std::optional<double> spl{};
+  std::optional<double> barn_score{};
+  std::optional<double> clearance{};
+  std::optional<double> clearance_p5{};
+  std::optional<double> jerk{};
+  std::optional<double> reversals{};
+  std::optional<double> impact_speed{};
+  friend bool operator==(const Measures&, const Measures&) = default;
+};
+
+/// A measure: where it is kept, and what it means.
+struct Measure {
+  const char* name;  ///< Of the column in tables; never changes.
+  const char* unit;  ///< "" for a ratio.
+  const char* text;
+  std::optional<double> Measures::*value;
+};
+
+/// Returns all measures, in the order of the columns.
+[[nodiscard]] std::span<const Measure> all_measures();
+
+/// What is known of a run besides its motion.
+struct RunEnd {
+  bool succeeded = false;
+  TimePoint end{};                                 ///< Of the run's clock: the last arrival of a success.
+  std::optional<TimePoint> first_contact{};        ///< Of the same clock.
+  std::optional<double> reference = std::nullopt;  ///< [m] Length of the way that the world names.
+};
+
+/// Measures the true motion of a run's robots.
+/// @thread  no shared state; any thread.
+[[nodiscard]] Measures measure(const Scene& scene, const RunEnd& end);
+
+/// Returns why a run that was not ended by a fault did not succeed.
+[[nodiscard]] Failure failure_in(const Scene& scene, const RunEnd& end);
+
+/// Returns where the robots went, as "x y" [m] with commas between the places and semicolons between the robots: at most 129
+/// evenly spaced places of each, to 1 cm.
+[[nodiscard]] std::string track_text(const Scene& scene);
+
+}  // namespace orca::batch

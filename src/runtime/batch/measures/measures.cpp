@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/batch/measures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "motion.hpp"
+#include "orca/hw/scene.hpp"
+
+namespace orca::batch {
+namespace {
+
+using Steps = std::span<const Scene::Step>;
+
+constexpr Duration kEndOfRun = std::chrono::seconds(20);
+constexpr double kSmallArea = 1.0;  // [m] diagonal of its box
+constexpr std::size_t kManyReversals = 10;
+
+// The score of the BARN Challenge (X. Xiao et al., "Autonomous Ground Navigation in Highly Constrained Spaces", IEEE Robotics &
+// Automation Magazine 29(4), 2022): the clock starts when the robot has moved so far, and the best time is that of the
+// reference at this speed.
+constexpr double kHasMoved = 0.1;   // [m]
+constexpr double kBestSpeed = 2.0;  // [m/s]
+
+constexpr std::array kMeasures{
+    Measure{"way", "m", "True way of all robots.", &Measures::way},
+    Measure{"way_ratio", "", "That way by the world's reference; 1 is best.", &Measures::way_ratio},
+    Measure{"spl", "", "Success weighted by path length: 1 / way_ratio, at most 1, and 0 without success.",
+            &Measures::spl},
+    Measure{"barn_score", "", "Score of the BARN benchmark: of the reference at 2 m/s, 0.5 at best.",
+            &Measures::barn_score},
+    Measure{"clearance", "m", "Smallest distance to anything that a robot could touch, at most 2 m.",
+            &Measures::clearance},
+    Measure{"clearance_p5", "m", "Distance that was kept in 95 % of the time.", &Measures::clearance_p5},
+    Measure{"jerk", "m/s3", "Root of the mean square of the forward jerk, of speeds over half a second.",
+            &Measures::jerk},
+    Measure{"reversals", "1/m", "Changes between turning left and right, per metre.", &Measures::reversals},
+    Measure{"impact_speed", "m/s", "Speed at the first contact.", &Measures::impact_speed}};
+
+constexpr std::array<std::pair<Failure, const char*>, 5> kFailures{{{Failure::none, ""},
+                                                                    {Failure::collision, "collision"},
+                                                                    {Failure::trap, "trap"},
+                                                                    {Failure::oscillation, "oscillation"},
+                                                                    {Failure::deadline, "deadline"}}};
+
+std::vector<Steps> motions_of(const Scene& scene) {
+  std::vector<Steps> motions;
+  for (const Scene::Robot& robot : scene.robots)
+    if (!robot.motion.empty()) motions.emplace_back(robot.motion);
+  return motions;
+}
+
+double barn_score(const std::vector<Steps>& motions, const RunEnd& end) {
+  if (!end.succeeded) return 0.0;
+  TimePoint start = end.end;
+  for (const Steps& steps : motions) start = std::min(start, time_of_way(steps, kHasMoved).value_or(end.end));
+  const double best = *end.reference / kBestSpeed;
+  return best / std::clamp(to_seconds(end.end - start), 2.0 * best, 8.0 * best);
+}
+
+void compare_with_reference(const std::vector<Steps>& motions, const RunEnd& end, Measures& measures) {
+  measures.way_ratio = *measures.way / *end.reference;
+  measures.spl = end.succeeded ? std::min(1.0, *end.reference / std::max(*measures.way, 1e-9)) : 0.0;
+  measures.barn_score = barn_score(motions, end);
+}
+
+}  // namespace
+
+const char* name_of(Failure failure) {
+  return std::ranges::find(kFailures, failure, &std::pair<Failure, const char*>::first)->second;
+}
+
+std::optional<Failure> failure_of(std::string_view name) {
+  for (const auto& [failure, its_name] : kFailures)
+    if (name == its_name) return failure;
+  return std::nullopt;
+}
+
+std::span<const Measure> all_measures() { return kMeasures; }
+
+Measures measure(const Scene& scene, const RunEnd& end) {
+  const std::vector<Steps> motions = motions_of(scene);
+  if (motions.empty()) return {};
+  Measures measures;
+  std::vector<double> clearances;
+  std::vector<double> jerks;
+  std::size_t reversals = 0;
+  double way = 0.0;
+  for (const Steps& steps : motions) {
+    way += way_of(steps);
+    const std::vector<Stretch> stretches = stretches_of(steps);
+    reversals += reversals_in(stretches);
+    for (const Scene::Step& step : steps) clearances.push_back(step.clearance_m);
+    if (!stretches.empty()) add_jerks(stretches, to_seconds(steps[kStretch].time - steps[0].time), jerks);
+  }
+  measures.way = way;
+  measures.clearance = quantile(clearances, 0.0);
+  measures.clearance_p5 = quantile(clearances, 0.05);
+  if (!jerks.empty()) measures.jerk = root_mean_square(jerks);
+  if (way > kHasMoved) measures.reversals = static_cast<double>(reversals) / way;
+  if (end.first_contact)
+    for (const Steps& steps : motions)
+      measures.impact_speed =
+          std::max(measures.impact_speed.value_or(0.0), speed_before(steps, *end.first_contact));
+  if (end.reference) compare_with_reference(motions, end, measures);
+  return measures;
+}
+
+Failure failure_in(const Scene& scene, const RunEnd& end) {
+  if (end.first_contact) return Failure::collision;
+  if (end.succeeded) return Failure::none;
+  bool turned = false;
+  for (const Steps& steps : motions_of(scene)) {
+    const Steps last = since(steps, end.end - kEndOfRun);
+    if (extent_of(last) > kSmallArea) return Failure::deadline;
+    turned = turned || reversals_in(stretches_of(last)) >= kManyReversals;
+  }
+  if (motions_of(scene).empty()) return Failure::none;
+  return turned ? Failure::oscillation : Failure::trap;
+}
+
+}  // namespace orca::batch
