@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "orca/geometry/pose2.hpp"
+#include "orca/goals/target.hpp"
 
 namespace orca::go {
-
-/// A goal in the frame of the robot's pose.
-struct Target {
-  Vec2 place;
-  double rise = 0.0;          ///< [m] how far the place lies above the robot, or below.
-  double reach_radius = 0.0;  ///< [m] of the ball around the place; 0: never reached, the robot circles it.
-  bool use_orientation = false;
-  double orientation = 0.0;  ///< [rad] to face there, if use_orientation.
-  double reach_angle = 0.0;  ///< [rad] tolerance of that.
-  bool via = false;          ///< Only passed: no slowing down.
-};
 
 struct Limits {
   double max_speed = 0.0;      ///< [m/s]
@@ -25,22 +14,6 @@ struct Limits {
   double circle_radius = 0.0;  ///< [m] of the circle around a place that is never reached.
 };
 
-/// The state of the lap before: where the robot was, and what Goto commanded.
-struct Before {
-  bool near = false;   ///< It has come within reach and is about to rest there: Step::near of that lap.
-  double speed = 0.0;  ///< [m/s] that was commanded.
-  double time = 0.0;   ///< [s] since then.
-};
-
-/// The result of one lap: a direction in the robot frame and a speed, or the end of the task.
-struct Step {
-  enum class Kind { drive, turn, reached };
-  Kind kind = Kind::drive;
-  double direction = 0.0;  ///< [rad] robot frame, counter-clockwise positive, in (-pi, pi].
-  double speed = 0.0;      ///< [m/s]
-  bool near = false;       ///< The robot comes to rest at the target.
-};
-
 /// Computes one control step towards a target. The robot drives straight at it, slower near a goal and when
 /// the target lies off the robot's axis. Within reach it decelerates evenly to rest, then turns to the
 /// target's orientation. It may drift out of reach meanwhile, by at most half the reach_radius; but then it
@@ -48,11 +21,5 @@ struct Step {
 /// without reach.
 [[nodiscard]] Step step_towards(const Target& target, const Pose2& pose, const Limits& limits,
                                 const Before& before);
-
-/// Returns whether the pose lies within the target's reach radius.
-[[nodiscard]] bool within_reach(const Target& target, const Pose2& pose);
-
-/// Returns the distance from the pose to the target [m], on the floor.
-[[nodiscard]] double distance(const Target& target, const Pose2& pose);
 
 }  // namespace orca::go

@@ -71,7 +71,22 @@ def wilson(successes, count):
     return middle - half, middle + half
 
 
-def report(outcomes):
+def references(args):
+    """Returns the length of the reference path of each world [m]; nothing if the file has none."""
+    table = args.file.parent / "worlds.csv"
+    if not args.file.name.startswith("cylinders") or not table.exists():
+        return {}
+    with open(table, newline="", encoding="utf-8") as rows:
+        return {int(row["world"]): float(row["path_len_start_m2.25"]) for row in csv.DictReader(rows)}
+
+
+def score(outcome, length):
+    """Returns the BARN score of a run: its time is compared with that of a robot which drives the reference at 2 m/s."""
+    ideal = length / 2.0
+    return ideal / min(max(outcome.time, 2.0 * ideal), 8.0 * ideal) if outcome.result == "success" else 0.0
+
+
+def report(outcomes, lengths):
     by_result = {}
     for outcome in outcomes:
         by_result.setdefault(outcome.result, []).append(outcome)
@@ -80,6 +95,9 @@ def report(outcomes):
     print(f"success {len(good)} of {len(outcomes)} = {100 * len(good) / len(outcomes):.1f} % "
           f"(95 %: {100 * low:.1f} to {100 * high:.1f} %)"
           + (f", median time {good[len(good) // 2]:.1f} s" if good else ""))
+    scores = [score(o, lengths[o.number]) for o in outcomes if o.number in lengths]
+    if scores:
+        print(f"BARN score {sum(scores) / len(scores):.3f}")
     for result in sorted(by_result.keys() - {"success"}):
         print(f"{result} {len(by_result[result])}")
 
@@ -122,7 +140,7 @@ def main():
             outcomes.append(outcome)
             print(f"world {outcome.number:4}  {outcome.result:9}  {outcome.time:6.2f} s  {outcome.detail}".rstrip(),
                   flush=True)
-    report(outcomes)
+    report(outcomes, references(args))
     return 1 if any(o.result in BROKEN for o in outcomes) else 0
 
 

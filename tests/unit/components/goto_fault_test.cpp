@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "goto/fault.hpp"
+#include "orca/goals/fault.hpp"
 
 using namespace orca;
 using namespace orca::go;

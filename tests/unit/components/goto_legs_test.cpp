@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "goto/legs.hpp"
+#include "orca/goals/legs.hpp"
 
 using namespace orca;
 using namespace orca::go;

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "goto/path.hpp"
+#include "orca/goals/path.hpp"
 
 using namespace orca;
 using namespace orca::go;

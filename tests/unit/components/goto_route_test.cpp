@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "goto/patience.hpp"
-#include "goto/route.hpp"
+#include "orca/goals/patience.hpp"
+#include "orca/goals/route.hpp"
 
 using namespace orca;
 using namespace orca::go;

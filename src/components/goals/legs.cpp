@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "legs.hpp"
+#include "orca/goals/legs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <deque>
 
-#include "algorithm.hpp"
-#include "route.hpp"
+#include "orca/goals/route.hpp"
+#include "orca/goals/target.hpp"
 
 namespace orca::go {
 

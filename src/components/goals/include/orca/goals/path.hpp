@@ -2,8 +2,8 @@
 #pragma once
 
 #include "orca/geometry/pose2.hpp"
+#include "orca/goals/route.hpp"
 #include "orca/idl/navigation.hpp"
-#include "route.hpp"
 
 namespace orca::go {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "route.hpp"
+#include "orca/goals/route.hpp"
 
 namespace orca::go {
 

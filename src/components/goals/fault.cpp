@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "fault.hpp"
+#include "orca/goals/fault.hpp"
 
 #include <cmath>
 

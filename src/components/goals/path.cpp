@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "path.hpp"
+#include "orca/goals/path.hpp"
 
 #include <cmath>
 

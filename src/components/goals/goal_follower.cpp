@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/goals/goal_follower.hpp"
+
+#include <cstdio>
+#include <utility>
+
+#include "orca/geometry/objects/covariance.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/goals/fault.hpp"
+#include "orca/goals/path.hpp"
+#include "orca/idl/time.hpp"
+
+namespace orca::go {
+namespace {
+
+std::string in_short(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return text;
+}
+
+}  // namespace
+
+GoalFollower::GoalFollower(ComponentHost& host, double blocked_after)
+    : Component(host),
+      goal_(*this, "GotoCoordinateSend", &GoalFollower::on_goal,
+            {.text = "Via points and goals to drive to."}),
+      motion_(*this, "MotionCmdPush",
+              {.text = "One command per lap: a wish, full stop on arrival, no opinion without a goal."}),
+      arrived_(*this, "ArrivedPush", {.text = "One object per goal reached; none for via points."}),
+      failed_(*this, "GoalFailedPush",
+              {.text = "One object per goal given up: refused, blocked or timed out."}),
+      goal_push_(*this, "GoalPush", {.text = "The via point or goal that it drives to now, once per lap."}),
+      path_(
+          *this, "PathPush",
+          {.text = "The way that is left: one object whenever its points change, and for a new subscriber."}),
+      odometry_(*this, "odometry",
+                {.text = "Pose of the robot, used if no localizer is connected.", .optional = true}),
+      localizer_(*this, "localizer",
+                 {.text = "Pose of the robot, in the frame of the goals.", .optional = true}),
+      blocked_after_(
+          *this, "blocked_after", blocked_after,
+          {.unit = "s",
+           .min = 0.0,
+           .text =
+               "Time without coming nearer to a point after which its goal is given up; 0: it never is."}),
+      height_(*this, "height", 0.0,
+              {.unit = "m", .text = "Height (z) of the robot in the frame of the goals."}),
+      door_run_up_(
+          *this, "door_run_up", 0.7,
+          {.unit = "m",
+           .min = 0.2,
+           .text = "Distance before a door at which it lines up, and behind it at which it is through."}),
+      door_room_(
+          *this, "door_room", 0.5,
+          {.unit = "m", .min = 0.0, .text = "Width that the robot needs; a narrower door is refused."}),
+      weight_(
+          *this, "weight", 1.0,
+          {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}) {}
+
+Status GoalFollower::configure() {
+  if (!localizer_.connected() && !odometry_.connected())
+    return fail(Code::failed_precondition,
+                "connect its port localizer or odometry: it must know where it is");
+  lap_on(localizer_.connected() ? "localizer" : "odometry");
+  return ok();
+}
+
+Status GoalFollower::start() {
+  motion_.start(lap_period());
+  return ok();
+}
+
+// The legs of a door are laid out anew from where the robot is.
+void GoalFollower::save_state(StateWriter& state) const {
+  state.write(route_, patience_, before_, posed_at_, doubts_);
+}
+Status GoalFollower::load_state(StateReader& state) {
+  return state.read(route_, patience_, before_, posed_at_, doubts_);
+}
+
+Status GoalFollower::on_goal(const ObjectPtr<idl::GoalPoint>& goal) {
+  if (route_.is_given_up(*goal))
+    return fail(Code::failed_precondition, "the route to \"" + goal->name() + "\" has been given up");
+  const char* fault = fault_of(*goal, *height_);
+  if (const auto door = goal.as<idl::Door>(); door && fault == nullptr)
+    fault = fault_of_door(*door, *door_room_);
+  if (fault != nullptr) return refuse(*goal, fault);
+  route_.add(goal, now());
+  doubts_ = false;
+  before_.near = false;
+  patience_.begin();
+  return ok();
+}
+
+Status GoalFollower::refuse(const idl::GoalPoint& goal, const char* fault) {
+  if (goal.mission() != 0) route_.give_up(goal.mission());
+  if (failed_.subscriber_count() > 0) announce(goal, idl::GOAL_REFUSED, std::string("refused: it ") + fault);
+  return fail(Code::invalid_argument, "the goal \"" + goal.name() + "\" " + fault);
+}
+
+Outcome GoalFollower::work() {
+  const Pose2 pose = take_pose();
+  pass_via_points(pose);
+  if (route_.empty()) {
+    before_ = {};
+    motion_.push(dont_care());
+    idle();
+  } else if (!is_hopeless(pose)) {
+    const Target& target = next_place(pose);
+    push_goal(target);
+    drive(pose, target);
+  }
+  push_path(pose);
+  return again();
+}
+
+// Shows the way that is left, if it has changed or somebody has come who has not seen it.
+void GoalFollower::push_path(const Pose2& pose) {
+  const PathShown now_shown{route_.changes(), path_.subscriber_count()};
+  const PathShown before = std::exchange(path_shown_, now_shown);
+  if (now_shown.change == before.change && now_shown.to <= before.to) return;
+  if (now_shown.to == 0) return;
+  auto path = path_.loan();
+  fill_path(route_, pose, *height_, *path);
+  path_.push(std::move(path));
+}
+
+void GoalFollower::take(const Step& step, const Pose2& pose, const Target& target) {
+  before_.near = step.near;
+  before_.speed = step.speed;
+  if (step.kind != Step::Kind::reached) {
+    motion_.push(head(step.direction, step.speed, *weight_));
+  } else if (deviation_ <= target.reach_radius) {
+    arrive(pose);
+  } else {
+    wait_to_be_sure();
+  }
+}
+
+// Stands where it believes the goal is: its pose may become surer.
+void GoalFollower::wait_to_be_sure() {
+  motion_.push(full_stop());
+  if (!std::exchange(doubts_, true))
+    log_warning("perhaps at \"" + route_.next().name() + "\", but not arrived: " + doubt());
+}
+
+// Says how unsure the position is, for people.
+std::string GoalFollower::doubt() const {
+  return "its position is known only to " + in_short(deviation_) + " m, the goal's reach is " +
+         in_short(route_.next().reach_radius().distance()) + " m";
+}
+
+// Pushes the point that it drives to, or a place on the way through a door.
+void GoalFollower::push_goal(const Target& target) {
+  const auto& point = route_.next().coordinate().point();
+  if (target.place == Vec2{point.x(), point.y()}) {
+    goal_push_.push(copy_value(route_.point()));
+    return;
+  }
+  auto place = make_object(route_.next());
+  place->coordinate().point().x(target.place.x);
+  place->coordinate().point().y(target.place.y);
+  goal_push_.push(std::move(place));
+}
+
+// Returns whether it has given up the route. It does not as long as nobody wants to know.
+bool GoalFollower::is_hopeless(const Pose2& pose) {
+  const double stuck = patience_.note(distance(next_place(pose), pose), now());
+  const idl::GoalPoint& next = route_.next();
+  if (failed_.subscriber_count() == 0 || next.reach_radius().distance() <= 0.0) return false;
+  if (next.time_limit() > 0.0 && route_.age(now()) >= next.time_limit()) {
+    end_route(idl::GOAL_TIMED_OUT, "timed out: not reached within " + in_short(next.time_limit()) + " s");
+  } else if (*blocked_after_ > 0.0 && stuck >= *blocked_after_) {
+    end_route(idl::GOAL_BLOCKED, "blocked: no nearer than " + in_short(patience_.nearest()) + " m to " +
+                                     place() + " for " + in_short(*blocked_after_) + " s" +
+                                     (doubts_ ? ", and " + doubt() : ""));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+// Names what the robot drives to now, for people.
+std::string GoalFollower::place() const { return route_.next().via() ? "the next via point" : "the goal"; }
+
+void GoalFollower::end_route(idl::GoalFailure kind, const std::string& reason) {
+  const ObjectPtr<idl::GoalPoint> goal = route_.point();
+  route_.give_up(goal->mission());
+  before_ = {};
+  motion_.push(full_stop());
+  announce(*goal, kind, reason);
+  end_mission();
+}
+
+void GoalFollower::announce(const idl::GoalPoint& goal, idl::GoalFailure kind, const std::string& reason) {
+  auto failed = failed_.loan();
+  failed->name() = goal.name();
+  failed->kind(kind);
+  failed->reason() = reason;
+  failed->stamp(to_time_value(now()));
+  failed_.push(std::move(failed));
+}
+
+void GoalFollower::stop() {
+  before_ = {};
+  patience_.begin();
+  legs_ = {};
+  posed_at_.reset();
+}
+
+Pose2 GoalFollower::take_pose() {
+  if (!localizer_.connected()) {
+    const auto odometry = odometry_.get_update();
+    note_pose(odometry->stamp(), odometry->covariance());
+    return plane_pose(*odometry);
+  }
+  const auto pose = localizer_.get_update();
+  note_pose(pose->stamp(), pose->covariance());
+  return plane_pose(*pose);
+}
+
+void GoalFollower::note_pose(const idl::TimeValue& stamp, const std::array<double, 9>& covariance) {
+  deviation_ = position_deviation(covariance);
+  const TimePoint time = to_time_point(stamp);
+  before_.time = posed_at_ ? to_seconds(time - *posed_at_) : 0.0;
+  posed_at_ = time;
+}
+
+void GoalFollower::pass_via_points(const Pose2& pose) {
+  while (!route_.empty()) {
+    const Target place = next_place(pose);
+    if (!place.via || !within_reach(place, pose)) return;
+    if (legs_.at_last()) route_.pop();
+    legs_.pop();
+    patience_.begin();
+  }
+}
+
+void GoalFollower::arrive(const Pose2& pose) {
+  auto arrived = arrived_.loan();
+  arrived->name() = route_.next().name();
+  arrived->x(pose.x);
+  arrived->y(pose.y);
+  arrived->stamp(to_time_value(*posed_at_));
+  route_.pop();
+  before_ = {};
+  patience_.begin();
+  motion_.push(full_stop());
+  arrived_.push(std::move(arrived));
+  end_mission();
+}
+
+// Returns the place that the robot, at `pose`, drives to now.
+const Target& GoalFollower::next_place(const Pose2& pose) {
+  return legs_.next(route_.point(), pose, {*height_, *door_run_up_});
+}
+
+}  // namespace orca::go

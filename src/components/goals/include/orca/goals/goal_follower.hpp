@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "orca/component.hpp"
+#include "orca/goals/legs.hpp"
+#include "orca/goals/patience.hpp"
+#include "orca/goals/route.hpp"
+#include "orca/goals/target.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/sensing.hpp"
+
+namespace orca::go {
+
+/// The common part of behaviours that drive to goals (thesis 11.1): it takes goals, refuses what no robot on the floor can do,
+/// passes via points, says when the robot has arrived, and gives up what cannot be reached. A derived class does the driving.
+///
+/// Via points that come before a goal are passed in order. A point that comes when the route already ends in
+/// a goal, or belongs to another mission, replaces the whole route. Doors are driven through in a straight line.
+/// While somebody subscribes to its failures it gives up goals that it cannot reach. It has not arrived as long as it
+/// does not know well enough where it is.
+///
+/// The pose comes from the localizer or, without one, from the odometry; it starts the laps. What it knows goes to another
+/// behaviour that drives to goals and takes its place while the robot drives.
+///
+/// Thread contract: as every component.
+class GoalFollower : public Component {
+ protected:
+  /// @param blocked_after [s]  default of the parameter.
+  GoalFollower(ComponentHost& host, double blocked_after);
+
+  /// Drives towards a target, for one lap: pushes one command, or calls rest() or stand().
+  /// @param pose  of the robot, in the frame of the goals.
+  virtual void drive(const Pose2& pose, const Target& target) = 0;
+  /// Takes note that there is nothing to drive to.
+  virtual void idle() {}
+
+  /// Takes over a step of step_of_rest(), or one like it: pushes its command, or announces the arrival.
+  void take(const Step& step, const Pose2& pose, const Target& target);
+  /// Returns what step_of_rest() needs of the lap before.
+  [[nodiscard]] const Before& before() const { return before_; }
+  /// Takes note of the speed [m/s] commanded in this lap, by a command that take() has not pushed.
+  void note_speed(double speed) { before_ = {false, speed, before_.time}; }
+
+  [[nodiscard]] PushServer<idl::MotionCommand>& motion() { return motion_; }
+  [[nodiscard]] PushProxy<idl::RobotPose>& localizer() { return localizer_; }
+  [[nodiscard]] PushProxy<idl::Odometry>& odometry() { return odometry_; }
+  [[nodiscard]] double weight() const { return *weight_; }
+  /// Returns when the pose of this lap was measured. @pre  within drive().
+  [[nodiscard]] TimePoint posed_at() const { return *posed_at_; }
+
+  /// Takes note of when the pose of this lap was measured, and of how sure it is.
+  void note_pose(const idl::TimeValue& stamp, const std::array<double, 9>& covariance);
+
+  // A derived class that overrides these calls them too.
+  Status configure() override;
+  Status start() override;
+  void stop() override;
+  void save_state(StateWriter& state) const override;
+  Status load_state(StateReader& state) override;
+  Outcome work() override;
+  /// Takes the pose of this lap. A derived class that overrides it calls this one or note_pose().
+  [[nodiscard]] virtual Pose2 take_pose();
+
+ private:
+  // What the subscribers to the path have seen.
+  struct PathShown {
+    std::uint64_t change = 0;  // of the route
+    std::size_t to = 0;        // subscribers
+  };
+
+  Status on_goal(const ObjectPtr<idl::GoalPoint>& goal);
+  Status refuse(const idl::GoalPoint& goal, const char* fault);
+  void push_path(const Pose2& pose);
+  void push_goal(const Target& target);
+  void pass_via_points(const Pose2& pose);
+  const Target& next_place(const Pose2& pose);
+  void arrive(const Pose2& pose);
+  void wait_to_be_sure();
+  [[nodiscard]] std::string doubt() const;
+  [[nodiscard]] std::string place() const;
+  bool is_hopeless(const Pose2& pose);
+  void end_route(idl::GoalFailure kind, const std::string& reason);
+  void announce(const idl::GoalPoint& goal, idl::GoalFailure kind, const std::string& reason);
+
+  SendServer<idl::GoalPoint> goal_;
+  PushServer<idl::MotionCommand> motion_;
+  PushServer<idl::Arrived> arrived_;
+  PushServer<idl::GoalFailed> failed_;
+  PushServer<idl::GoalPoint> goal_push_;
+  PushServer<idl::Path> path_;
+  PushProxy<idl::Odometry> odometry_;
+  PushProxy<idl::RobotPose> localizer_;
+
+  Param<double> blocked_after_;
+  Param<double> height_;
+  Param<double> door_run_up_;
+  Param<double> door_room_;
+  Param<double> weight_;
+
+  Route route_;
+  PathShown path_shown_;
+  Legs legs_;
+  Patience patience_;
+  Before before_;
+  std::optional<TimePoint> posed_at_;
+  double deviation_ = 0.0;  // [m] standard deviation of its position, in the worst direction; 0: not known
+  bool doubts_ = false;     // Whether it has said that it may be at the goal.
+};
+
+}  // namespace orca::go

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "orca/base/portable_math.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/goals/goal_follower.hpp"
+#include "orca/idl/hardware.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/idl/time.hpp"
+#include "orca/navigation/beams.hpp"
+#include "orca/navigation/navigator.hpp"
+#include "orca/navigation/pose_history.hpp"
+
+namespace {
+
+using orca::ObjectPtr;
+using orca::Pose2;
+using orca::Status;
+using orca::Vec2;
+using orca::go::Step;
+using orca::go::Target;
+
+/// A behaviour that drives to goals by a plan: it maps what its laser sees, finds the cheapest way through the map and follows it.
+/// It takes the place of Goto and an avoid behaviour. See README.md.
+class GridPlanner final : public orca::go::GoalFollower {
+ public:
+  explicit GridPlanner(orca::ComponentHost& host) : GoalFollower(host, kBlockedAfter) {}
+
+ private:
+  static constexpr double kBlockedAfter = 60.0;  // [s]
+  static constexpr double kBrakes = 0.8;         // of the change of speed that the base is capable of
+
+  // What the base says about the robot. Zero: it does not say.
+  struct Body {
+    double radius = 0.0;        // [m]
+    double length = 0.0;        // [m]
+    double width = 0.0;         // [m]
+    double max_speed = 0.0;     // [m/s]
+    double max_rate = 0.0;      // [rad/s]
+    double acceleration = 0.0;  // [m/s2]
+  };
+
+  Status configure() override {
+    const Status sound = GoalFollower::configure();
+    if (odometry().connected()) lap_on("odometry");
+    return sound;
+  }
+
+  Status start() override {
+    if (Status begun = GoalFollower::start(); !begun.ok()) return begun;
+    history_.clear();
+    X_MO_.reset();
+    scan_ = {};
+    heard_at_.reset();
+    navigator_.reset();
+    return ask_robot();
+  }
+
+  void stop() override {
+    if (question_) robot_.query_forget(*question_);
+    question_.reset();
+    GoalFollower::stop();
+  }
+
+  Status params_changed() override {
+    if (navigator_) navigator_->set_rules(rules());
+    return orca::ok();
+  }
+
+  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override { return {{"orca.Goto", 1}}; }
+
+  Status ask_robot() {
+    body_.reset();
+    if (!robot_.connected()) return orca::ok();
+    const orca::Result<orca::QueryId> sent = robot_.query_request(robot_.loan());
+    if (!sent)
+      return orca::fail(sent.error().code, "cannot ask the base about the robot: " + sent.error().message);
+    question_ = *sent;
+    return orca::ok();
+  }
+
+  Status learn_robot() {
+    const auto answer = question_ ? robot_.query_receive(*question_) : std::nullopt;
+    if (!answer) return orca::ok();
+    question_.reset();
+    if (!*answer)
+      return orca::fail(answer->error().code,
+                        "the base does not describe the robot: " + answer->error().message);
+    const orca::idl::Robot& robot = ***answer;
+    body_ = Body{std::max(robot.radius(), robot.bumper_radius()), robot.length(), robot.width()};
+    for (const orca::idl::Drive& drive : robot.drives()) {
+      body_->max_speed = drive.max_speed();
+      body_->max_rate = drive.max_steer_speed();
+      body_->acceleration = drive.speed_change();
+    }
+    return orca::ok();
+  }
+
+  orca::Outcome work() override {
+    if (const Status learnt = learn_robot(); !learnt.ok()) return orca::failed(learnt.error().text());
+    if (!navigator_ && !question_) navigator_.emplace(footprint(), rules());
+    return GoalFollower::work();
+  }
+
+  // Between two poses of the localizer odometry carries the robot on.
+  Pose2 take_pose() override {
+    if (!odometry().connected()) {
+      const Pose2 pose = GoalFollower::take_pose();
+      note_motion(*localizer().latest(), posed_at(), pose);
+    } else if (!localizer().connected()) {
+      const Pose2 pose = GoalFollower::take_pose();
+      note_motion(*odometry().latest(), posed_at(), pose);
+    } else {
+      const auto moved = odometry().get_update();
+      note_motion(*moved, orca::to_time_point(moved->stamp()), orca::plane_pose(*moved));
+      if (!X_MO_ || localizer().new_data_arrived()) take_fix(*localizer().get_update());
+      note_pose(moved->stamp(), localizer().latest()->covariance());
+    }
+    if (laser_.new_data_arrived()) scan_ = laser_.get_update();
+    const Pose2 pose = in_map(history_.at(posed_at()).value_or(Pose2{}));
+    if (navigator_ && scan_) hear(pose);
+    return pose;
+  }
+
+  template <typename Motion>
+  void note_motion(const Motion& motion, orca::TimePoint stamp, const Pose2& pose) {
+    twist_ = {motion.translational_velocity(), motion.sideways_velocity(), motion.steering_velocity()};
+    history_.add(stamp, pose);
+  }
+
+  // Finds where the frame of the odometry is: at the instant of the fix both poses are known.
+  void take_fix(const orca::idl::RobotPose& fix) {
+    const auto then = history_.at(orca::to_time_point(fix.stamp()));
+    if (!then && X_MO_) return;
+    X_MO_ = orca::plane_pose(fix) * inverse(then.value_or(history_.at(history_.newest()).value_or(Pose2{})));
+  }
+
+  [[nodiscard]] Pose2 in_map(const Pose2& X_OR) const { return X_MO_ ? *X_MO_ * X_OR : X_OR; }
+
+  // The scan waits for the pose of its last beam.
+  void hear(const Pose2& pose) {
+    const double sweep = std::max(0.0, scan_->time_increment()) * static_cast<double>(scan_->ranges().size());
+    const orca::TimePoint first = orca::to_time_point(scan_->stamp());
+    const orca::TimePoint last = first + orca::from_seconds(sweep);
+    if (last > history_.newest()) return;
+    const ObjectPtr<orca::idl::LaserRangeReadings> scan = std::exchange(scan_, {});
+    const auto X_OR_first = history_.at(first);
+    const auto X_OR_last = history_.at(last);
+    if (!X_OR_first || !X_OR_last) return;
+    const Pose2 mount = orca::plane_pose(scan->pose());
+    orca::nav::beams_of({scan->ranges(), scan->min_range(), scan->max_range(), scan->angle_start(),
+                         scan->angle_increment(), in_map(*X_OR_first) * mount, in_map(*X_OR_last) * mount},
+                        *map_range_, beams_);
+    navigator_->hear(beams_, pose);
+    heard_at_ = now();
+  }
+
+  void idle() override {
+    if (navigator_) navigator_->drop_path();
+  }
+
+  void drive(const Pose2& pose, const Target& target) override {
+    if (!navigator_ || !heard_at_ || orca::to_seconds(now() - *heard_at_) > *deaf_after_) {
+      motion().push(orca::full_stop());
+      note_speed(0.0);
+      return;
+    }
+    const orca::nav::Moment moment{now(), pose, twist_};
+    if (auto step = step_of_rest(target, pose, deceleration(), before())) return rest(*step, moment, target);
+    const orca::nav::Steer steer = navigator_->steer(moment, {place_for(pose, target), target.via});
+    motion().push(orca::turn(steer.turn_rate, steer.speed, weight()));
+    note_speed(steer.speed);
+  }
+
+  // Comes to rest within reach of a goal, but not by driving into something.
+  void rest(Step step, const orca::nav::Moment& moment, const Target& target) {
+    const double most =
+        orca::nav::speed_to_stop_within(navigator_->room_ahead(moment), deceleration(), *reaction_time_);
+    step.speed = std::min(step.speed, most);
+    if (step.kind == Step::Kind::reached) navigator_->drop_path();
+    take(step, moment.pose, target);
+  }
+
+  // Returns where to drive to: the target, or a place farther along on the circle around one that has no reach.
+  [[nodiscard]] Vec2 place_for(const Pose2& pose, const Target& target) const {
+    if (target.reach_radius > 0.0) return target.place;
+    const Vec2 off = pose.position() - target.place;
+    constexpr double kAhead = 0.9;  // [rad]
+    const double angle = orca::portable::atan2(off.y, off.x) + kAhead;
+    return target.place + *circle_radius_ * orca::direction(angle);
+  }
+
+  [[nodiscard]] orca::nav::Footprint footprint() const {
+    const Body body = body_.value_or(Body{*robot_radius_, *robot_length_, *robot_width_});
+    return {0.5 * body.length, 0.5 * body.width, body.radius};
+  }
+
+  [[nodiscard]] double deceleration() const {
+    if (*deceleration_ > 0.0) return *deceleration_;
+    constexpr double kCareful = 0.5;  // [m/s2]
+    return body_ && body_->acceleration > 0.0 ? kBrakes * body_->acceleration : kCareful;
+  }
+
+  static double at_most(double wish, double most) { return most > 0.0 ? std::min(wish, most) : wish; }
+
+  [[nodiscard]] orca::nav::NavigatorRules rules() const {
+    const Body body = body_.value_or(Body{});
+    orca::nav::NavigatorRules rules;
+    rules.pursuit.max_speed = at_most(*max_speed_, body.max_speed);
+    rules.pursuit.turn_rate = at_most(*turn_rate_, body.max_rate);
+    rules.pursuit.look_ahead_time = *look_ahead_time_;
+    rules.pursuit.lateral_acceleration = *lateral_acceleration_;
+    rules.pursuit.deceleration = deceleration();
+    rules.pursuit.delay = *reaction_time_;
+    rules.pursuit.narrow_speed = *narrow_speed_;
+    rules.pursuit.speed_per_clearance = *speed_per_clearance_;
+    rules.pursuit.margin = *margin_;
+    rules.wishes.clearance = *clearance_;
+    rules.extent = *map_size_;
+    rules.replan_every = *replan_every_;
+    return rules;
+  }
+
+  orca::PushProxy<orca::idl::LaserRangeReadings> laser_{*this, "laser", {.text = "Scans of the laser."}};
+  orca::QueryProxy<orca::idl::Ask, orca::idl::Robot> robot_{
+      *this,
+      "robot",
+      {.text = "Base that is asked about the robot's outline and how fast it can be.", .optional = true}};
+
+  orca::Param<double> max_speed_{
+      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed."}};
+  orca::Param<double> turn_rate_{
+      *this, "turn_rate", 1.5, {.unit = "rad/s", .min = 0.05, .text = "Largest turn rate."}};
+  orca::Param<double> deceleration_{
+      *this,
+      "deceleration",
+      0.0,
+      {.unit = "m/s2",
+       .min = 0.0,
+       .text = "Deceleration that it counts on; 0: four fifths of what the base says, or 0.5 m/s2."}};
+  orca::Param<double> lateral_acceleration_{
+      *this,
+      "lateral_acceleration",
+      1.0,
+      {.unit = "m/s2", .min = 0.01, .text = "Largest acceleration in a bend."}};
+  orca::Param<double> reaction_time_{
+      *this,
+      "reaction_time",
+      0.2,
+      {.unit = "s", .min = 0.0, .text = "Time from a measurement until the robot moves as it demands."}};
+  orca::Param<double> look_ahead_time_{
+      *this,
+      "look_ahead_time",
+      0.9,
+      {.unit = "s",
+       .min = 0.1,
+       .text = "The point of the path to steer for is as far ahead as it drives in this time."}};
+  orca::Param<double> margin_{
+      *this, "margin", 0.03, {.unit = "m", .min = 0.0, .text = "Free space to keep around the outline."}};
+  orca::Param<double> narrow_speed_{
+      *this,
+      "narrow_speed",
+      0.4,
+      {.unit = "m/s", .min = 0.01, .text = "Largest speed where nothing beyond the margin is free."}};
+  orca::Param<double> speed_per_clearance_{
+      *this,
+      "speed_per_clearance",
+      4.0,
+      {.unit = "1/s",
+       .min = 0.0,
+       .text = "What each metre beyond the margin that is free adds to that speed."}};
+  orca::Param<double> clearance_{
+      *this,
+      "clearance",
+      0.35,
+      {.unit = "m",
+       .min = 0.05,
+       .text = "Free space beside the robot up to which more makes a way cheaper."}};
+  orca::Param<double> replan_every_{
+      *this,
+      "replan_every",
+      0.5,
+      {.unit = "s", .min = 0.05, .text = "Time after which it looks for a better path."}};
+  orca::Param<double> map_size_{
+      *this,
+      "map_size",
+      16.0,
+      {.unit = "m",
+       .min = 4.0,
+       .max = 60.0,
+       .text = "Side of the square map around the robot, as it is when work begins."}};
+  orca::Param<double> map_range_{
+      *this,
+      "map_range",
+      6.0,
+      {.unit = "m", .min = 0.5, .text = "Echoes farther away are not put into the map."}};
+  orca::Param<double> deaf_after_{
+      *this,
+      "deaf_after",
+      0.6,
+      {.unit = "s", .min = 0.0, .text = "Time without scans after which the robot stops."}};
+  orca::Param<double> circle_radius_{
+      *this,
+      "circle_radius",
+      0.6,
+      {.unit = "m", .min = 0.05, .text = "Radius of the circle around a goal whose reach_radius is 0."}};
+  orca::Param<double> robot_radius_{
+      *this,
+      "robot_radius",
+      0.3,
+      {.unit = "m",
+       .min = 0.01,
+       .text = "Radius of the circle that holds the robot, unless the base says it."}};
+  orca::Param<double> robot_length_{
+      *this,
+      "robot_length",
+      0.0,
+      {.unit = "m",
+       .min = 0.0,
+       .text = "Length of a rectangular robot, unless the base says it; 0: the circle is all."}};
+  orca::Param<double> robot_width_{
+      *this, "robot_width", 0.0, {.unit = "m", .min = 0.0, .text = "Its width."}};
+
+  std::optional<orca::QueryId> question_;  // to the base, as long as it has not answered
+  std::optional<Body> body_;
+  std::optional<orca::nav::Navigator> navigator_;  // from when the outline is known
+  orca::nav::PoseHistory history_;     // in the frame of the odometry; without one, of the goals
+  std::optional<Pose2> X_MO_;          // the frame of the odometry in that of the goals; nothing: they are the same
+  ObjectPtr<orca::idl::LaserRangeReadings> scan_;  // waits for the pose of its last beam
+  std::vector<orca::nav::Beam> beams_;
+  orca::Twist2 twist_;
+  std::optional<orca::TimePoint> heard_at_;
+};
+
+}  // namespace
+
+ORCA_COMPONENT(GridPlanner, "orca.GridPlanner")

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "orca/geometry/vec2.hpp"
+
+namespace orca::nav {
+
+/// A cell of a lattice: columns count along x, rows along y.
+struct Cell {
+  int column = 0;
+  int row = 0;
+  friend bool operator==(const Cell&, const Cell&) = default;
+};
+
+/// The division of a rectangle of the plane into square cells, row by row from its corner of least x and y.
+///
+/// A plain value; its functions may be called from any thread.
+struct Lattice {
+  Vec2 corner;         ///< [m] of least x and y.
+  double side = 0.05;  ///< [m] of a cell.
+  int columns = 0;
+  int rows = 0;
+
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+  [[nodiscard]] bool holds(Cell cell) const {
+    return cell.column >= 0 && cell.row >= 0 && cell.column < columns && cell.row < rows;
+  }
+  /// Returns the place of a cell in an array of size(). @pre holds(cell).
+  [[nodiscard]] std::size_t index(Cell cell) const {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(cell.column);
+  }
+  [[nodiscard]] Cell cell_of(std::size_t index) const {
+    return {static_cast<int>(index % static_cast<std::size_t>(columns)),
+            static_cast<int>(index / static_cast<std::size_t>(columns))};
+  }
+  /// Returns the cell around a point, which need not be one that the lattice holds.
+  /// @pre  the point is within 1e8 cells of the corner.
+  [[nodiscard]] Cell cell_at(Vec2 point) const {
+    return {static_cast<int>(std::floor((point.x - corner.x) / side)),
+            static_cast<int>(std::floor((point.y - corner.y) / side))};
+  }
+  [[nodiscard]] Vec2 middle_of(Cell cell) const {
+    return {corner.x + (cell.column + 0.5) * side, corner.y + (cell.row + 0.5) * side};
+  }
+};
+
+/// Calls `visit(cell)` for the cells that the straight line from `from` to `to` crosses, in order, including both ends, until
+/// it returns false.
+/// @return whether all were visited.
+/// @source  Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987.
+template <typename Visit>
+bool walk_line(const Lattice& lattice, Vec2 from, Vec2 to, Visit visit) {
+  constexpr double kNever = 1e300;
+  Cell cell = lattice.cell_at(from);
+  const Cell end = lattice.cell_at(to);
+  const Vec2 way = to - from;
+  const int step_x = way.x < 0.0 ? -1 : 1;
+  const int step_y = way.y < 0.0 ? -1 : 1;
+  const Vec2 wall{lattice.corner.x + (cell.column + (way.x < 0.0 ? 0 : 1)) * lattice.side,
+                  lattice.corner.y + (cell.row + (way.y < 0.0 ? 0 : 1)) * lattice.side};
+  double next_x = way.x != 0.0 ? (wall.x - from.x) / way.x : kNever;
+  double next_y = way.y != 0.0 ? (wall.y - from.y) / way.y : kNever;
+  const double every_x = way.x != 0.0 ? lattice.side / std::fabs(way.x) : kNever;
+  const double every_y = way.y != 0.0 ? lattice.side / std::fabs(way.y) : kNever;
+  // Counted, so that rounding cannot lead past the end.
+  for (int left = std::abs(end.column - cell.column) + std::abs(end.row - cell.row);; --left) {
+    if (!visit(cell)) return false;
+    if (left == 0) return true;
+    const bool along_x = cell.row == end.row || (cell.column != end.column && next_x < next_y);
+    (along_x ? cell.column : cell.row) += along_x ? step_x : step_y;
+    (along_x ? next_x : next_y) += along_x ? every_x : every_y;
+  }
+}
+
+}  // namespace orca::nav

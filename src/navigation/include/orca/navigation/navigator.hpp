@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "orca/base/time.hpp"
+#include "orca/geometry/twist2.hpp"
+#include "orca/navigation/occupancy_map.hpp"
+#include "orca/navigation/path_planner.hpp"
+#include "orca/navigation/pure_pursuit.hpp"
+
+namespace orca::nav {
+
+/// The state of the robot at one instant.
+struct Moment {
+  TimePoint now;
+  Pose2 pose;    ///< in the frame of the map.
+  Twist2 twist;  ///< in the robot's frame.
+};
+
+/// Where the robot should go.
+struct Errand {
+  Vec2 place;            ///< map frame.
+  bool passing = false;  ///< It need not stop there.
+};
+
+/// How a Navigator works.
+struct NavigatorRules {
+  Pursuit pursuit;
+  PlanWishes wishes;
+  double cell = 0.05;         ///< [m] side of a cell of the map.
+  double extent = 16.0;       ///< [m] of the map, around the robot.
+  double replan_every = 0.5;  ///< [s] at which a better path is looked for.
+  double patience = 1.0;      ///< [s] of standing blocked before it backs off.
+};
+
+/// The way from scans to motion: it keeps the map, plans, follows the path, and recovers where nothing leads on. It plans when
+/// there is no path to the place, when the path is blocked, and now and then in case there is a better one.
+///
+/// Recovery: after `patience` without any motion it backs off and plans anew. From the second time in a row on it also forgets
+/// what it has seen farther than 1.5 m away, for that may be old.
+///
+/// Thread contract: one thread at a time.
+class Navigator {
+ public:
+  explicit Navigator(const Footprint& footprint, const NavigatorRules& rules);
+
+  /// Takes over other rules; the sizes of the map stay.
+  void set_rules(const NavigatorRules& rules) { rules_ = rules; }
+  /// Takes over a scan that was taken about where the robot is now.
+  void hear(std::span<const Beam> scan, const Pose2& pose);
+  /// Returns the motion of the next moment.
+  [[nodiscard]] Steer steer(const Moment& moment, const Errand& errand);
+  /// Returns how far the robot can drive straight on [m], at most 1.5 m.
+  [[nodiscard]] double room_ahead(const Moment& moment) const;
+  /// Forgets the path: the robot does something else now.
+  void drop_path();
+
+  [[nodiscard]] const Path& path() const { return plan_.path; }
+  [[nodiscard]] const OccupancyMap& map() const { return map_; }
+  /// Returns how often it has recovered since the last drop_path().
+  [[nodiscard]] int recoveries() const { return recoveries_; }
+
+ private:
+  void keep_path(const Moment& moment, const Errand& errand);
+  void replan(const Moment& moment, const Errand& errand);
+  [[nodiscard]] Scene scene(const Moment& moment) const;
+  [[nodiscard]] Steer watch(const Steer& steer, const Moment& moment);
+  void recover(const Moment& moment);
+
+  Footprint footprint_;
+  NavigatorRules rules_;
+  OccupancyMap map_;
+  PathPlanner planner_;
+  std::vector<Vec2> points_;  // of obstacles near the robot, map frame
+  Plan plan_;
+  std::optional<Vec2> planned_for_;
+  TimePoint planned_at_{};
+  double along_ = 0.0;    // [m] place on the path
+  bool news_ = false;     // a scan has come since the last look at the path
+  bool turning_ = false;  // on the spot
+  std::optional<TimePoint> blocked_since_;
+  std::optional<TimePoint> backs_off_since_;
+  Pose2 stood_at_;        // where it last made way
+  TimePoint moved_at_{};  // when
+  int recoveries_ = 0;
+};
+
+}  // namespace orca::nav

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "orca/geometry/vec2.hpp"
+#include "orca/navigation/grid_search.hpp"
+#include "orca/navigation/lattice.hpp"
+
+namespace orca::nav {
+
+/// A line of straight pieces that a robot follows. Places on it are named by their distance from its start along it.
+///
+/// A plain value; its const functions may be called from any thread.
+class Path {
+ public:
+  Path() = default;
+  /// Points that equal the one before are left out.
+  explicit Path(std::span<const Vec2> points);
+
+  [[nodiscard]] bool empty() const { return points_.empty(); }
+  [[nodiscard]] const std::vector<Vec2>& points() const { return points_; }
+  /// Returns its length [m].
+  [[nodiscard]] double length() const { return along_.empty() ? 0.0 : along_.back(); }
+  /// Returns the point `along` [m] from the start; before the start and behind the end those. @pre not empty.
+  [[nodiscard]] Vec2 at(double along) const;
+  /// Returns the direction [rad] of the path there. @pre not empty.
+  [[nodiscard]] double heading(double along) const;
+  /// Returns the place [m] on the part from `from` to `to` [m] that is nearest to a point, the first of equals.
+  /// @pre  not empty.
+  [[nodiscard]] double nearest(Vec2 point, double from, double to) const;
+
+ private:
+  [[nodiscard]] std::size_t piece_at(double along) const;
+
+  std::vector<Vec2> points_;
+  std::vector<double> along_;  // [m] from the start to each point
+};
+
+/// Replaces parts of a way by straight lines through the cells, as far as these are not dearer than the way.
+/// @param costs  as for GridSearch.
+/// @return the ends of the lines: the middles of cells of the way.
+[[nodiscard]] std::vector<Vec2> straightened(const Lattice& lattice, std::span<const std::uint16_t> costs,
+                                             const CellWay& way);
+
+/// Rounds the bends of a line: it is cut into pieces of about `spacing` [m], and their inner ends move towards the middle of their
+/// neighbours, never into a cell that is dearer than the one before.
+/// @pre  `line` has a point; spacing > 0.
+[[nodiscard]] Path rounded(const Lattice& lattice, std::span<const std::uint16_t> costs,
+                           std::span<const Vec2> line, double spacing, int rounds);
+
+/// Returns the cost of a straight line through the cells, as GridSearch counts it; `kImpassable` if a cell is not passable.
+[[nodiscard]] double cost_of_line(const Lattice& lattice, std::span<const std::uint16_t> costs, Vec2 from,
+                                  Vec2 to);
+inline constexpr double kImpassable = 1e300;
+
+}  // namespace orca::nav

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "orca/navigation/distance_transform.hpp"
+#include "orca/navigation/footprint.hpp"
+#include "orca/navigation/grid_search.hpp"
+#include "orca/navigation/occupancy_map.hpp"
+#include "orca/navigation/path.hpp"
+
+namespace orca::nav {
+
+/// What a planner prefers.
+struct PlanWishes {
+  double clearance = 0.35;  ///< [m] beside the robot's inner circle; nearer to obstacles a way gets dearer.
+  double clearance_cost = 4.0;  ///< [1] extra cost of a way right beside an obstacle, relative to a free one.
+  double unknown_cost = 0.5;    ///< [1] extra cost of a way through cells that have not been seen.
+};
+
+/// A planned way.
+struct Plan {
+  Path path;              ///< from the robot to the goal, map frame.
+  double cost = 0.0;      ///< of the path, comparable with PathPlanner::cost_of().
+  bool complete = false;  ///< whether it leads to the goal, not only as near to it as possible.
+};
+
+/// Returns where the outline, driven along a path, first touches an obstacle of the map, in [from, to] [m]; negative: nowhere.
+/// @thread  pure function; any thread.
+[[nodiscard]] double touches_along(const OccupancyMap& map, const Footprint& footprint, const Path& path,
+                                   double from, double to);
+
+/// A planner of ways through an occupancy map. Cells nearer to an obstacle than the robot's inner circle are not passable. What
+/// the circle cannot decide, the exact outline does: where it would touch something on the way, the place is closed and
+/// the search repeated. It keeps its buffers from call to call.
+///
+/// Thread contract: one thread at a time.
+class PathPlanner {
+ public:
+  /// Looks at the map: distances and costs are computed anew.
+  void look_at(const OccupancyMap& map, const Footprint& footprint, const PlanWishes& wishes);
+
+  /// Plans a way. A goal outside of the map counts as the place of the map on the straight line to it.
+  /// @pre  look_at() has been called with this map since it changed; the map holds `start`.
+  [[nodiscard]] Plan plan(const OccupancyMap& map, Vec2 start, Vec2 goal);
+
+  /// Returns the cost of the part of a path from `from` [m] on, as the costs are now; kImpassable if it leads through a cell
+  /// that is not passable, or if the outline would touch something.
+  [[nodiscard]] double cost_of(const OccupancyMap& map, const Path& path, double from) const;
+
+ private:
+  void open_around(const OccupancyMap& map, Cell start);
+  [[nodiscard]] std::uint16_t cost_at(std::int32_t squared_distance) const;
+  /// Returns where the outline first touches something [m], beyond `from`; negative: nowhere.
+  [[nodiscard]] double first_touch(const OccupancyMap& map, const Path& path, double from) const;
+  void close(const Lattice& lattice, Vec2 place);
+
+  DistanceTransform transform_;
+  GridSearch search_;
+  Footprint footprint_;
+  std::vector<std::uint8_t> obstacles_;
+  std::vector<std::uint16_t> costs_;
+  std::vector<std::uint16_t> cost_by_distance_;  // squared, in cells
+  std::span<const std::int32_t> distances_;      // squared, in cells
+};
+
+}  // namespace orca::nav

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/navigation/occupancy_map.hpp"
+
+#include <cmath>
+
+namespace orca::nav {
+namespace {
+
+constexpr int kHit = 4;
+constexpr int kMiss = 1;
+constexpr int kMost = 12;
+constexpr int kLeast = -8;  // Three echoes make a cell occupied that has long been free.
+
+std::uint8_t share_of_cell(double coordinate, double corner, double side) {
+  const double cells = (coordinate - corner) / side;
+  return static_cast<std::uint8_t>(std::clamp((cells - std::floor(cells)) * 256.0, 0.0, 255.0));
+}
+
+}  // namespace
+
+OccupancyMap::OccupancyMap(double side, double extent) {
+  const int cells = std::max(1, static_cast<int>(std::lround(extent / side)));
+  lattice_ = {{}, side, cells, cells};
+  reset({});
+}
+
+void OccupancyMap::reset(Vec2 middle) {
+  // On whole cells of the frame, so that a map does not depend on where the robot happened to be first.
+  const auto snapped = [this](double value) { return std::floor(value / lattice_.side) * lattice_.side; };
+  const double half = 0.5 * lattice_.side * lattice_.columns;
+  lattice_.corner = {snapped(middle.x - half), snapped(middle.y - half)};
+  cells_.assign(lattice_.size(), {});
+}
+
+void OccupancyMap::follow(Vec2 place) {
+  const Cell here = lattice_.cell_at(place);
+  const int half = lattice_.columns / 2;
+  const auto off = [half](int index) { return std::abs(index - half) > half / 2 ? index - half : 0; };
+  const Cell shift{off(here.column), off(here.row)};
+  if (shift == Cell{}) return;
+  std::vector<State> moved(cells_.size());
+  for (int row = 0; row < lattice_.rows; ++row)
+    for (int column = 0; column < lattice_.columns; ++column) {
+      const Cell from{column + shift.column, row + shift.row};
+      if (lattice_.holds(from)) moved[lattice_.index({column, row})] = cells_[lattice_.index(from)];
+    }
+  cells_ = std::move(moved);
+  lattice_.corner = lattice_.corner + lattice_.side * Vec2{double(shift.column), double(shift.row)};
+}
+
+void OccupancyMap::see(std::span<const Beam> scan) {
+  if (++scan_ == 0) {  // 0 marks cells that no scan has counted in
+    for (State& cell : cells_) cell.scan = 0;
+    scan_ = 1;
+  }
+  for (const Beam& beam : scan)
+    if (beam.echo) hit(beam);
+  for (const Beam& beam : scan) look_through(beam);
+}
+
+void OccupancyMap::hit(const Beam& beam) {
+  const Cell cell = lattice_.cell_at(beam.to);
+  if (!lattice_.holds(cell)) return;
+  State& state = cells_[lattice_.index(cell)];
+  state.at = {share_of_cell(beam.to.x, lattice_.corner.x, lattice_.side),
+              share_of_cell(beam.to.y, lattice_.corner.y, lattice_.side)};
+  if (state.scan == scan_) return;
+  state.scan = scan_;
+  state.evidence = static_cast<std::int8_t>(std::min(state.evidence + kHit, kMost));
+}
+
+void OccupancyMap::look_through(const Beam& beam) {
+  walk_line(lattice_, beam.from, beam.to, [&](Cell cell) {
+    if (!lattice_.holds(cell)) return false;
+    State& state = cells_[lattice_.index(cell)];
+    const bool counts = state.scan != scan_ && (beam.echo || state.evidence <= 0);
+    if (!counts) return true;
+    state.scan = scan_;
+    state.evidence = static_cast<std::int8_t>(std::max(state.evidence - kMiss, kLeast));
+    // Evidence that has run out is not the same as never seen.
+    if (state.evidence == 0) state.evidence = -kMiss;
+    return true;
+  });
+}
+
+void OccupancyMap::forget_beyond(Vec2 place, double distance) {
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    if (norm(lattice_.middle_of(lattice_.cell_of(i)) - place) > distance) cells_[i] = {};
+}
+
+Vec2 OccupancyMap::point(Cell cell) const {
+  const State& state = cells_[lattice_.index(cell)];
+  const auto along = [this](int number, std::uint8_t share) {
+    return (number + (share + 0.5) / 256.0) * lattice_.side;
+  };
+  return lattice_.corner + Vec2{along(cell.column, state.at[0]), along(cell.row, state.at[1])};
+}
+
+}  // namespace orca::nav
