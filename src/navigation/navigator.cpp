@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "orca/geometry/arc.hpp"
 
@@ -27,7 +28,8 @@ Navigator::Navigator(const Footprint& footprint, const NavigatorRules& rules)
     : footprint_(footprint), rules_(rules), map_(rules.cell, rules.extent) {}
 
 void Navigator::hear(std::span<const Beam> scan, const Pose2& pose) {
-  if (!map_.lattice().holds(map_.lattice().cell_at(pose.position()))) map_.reset(pose.position());
+  const bool lost = !map_.lattice().holds(map_.lattice().cell_at(pose.position()));
+  if (!std::exchange(begun_, true) || lost) map_.reset(pose.position());
   map_.follow(pose.position());
   map_.see(scan);
   const double reach = footprint_.outer_radius() + rules_.pursuit.max_look_ahead * 1.5 + 0.3;

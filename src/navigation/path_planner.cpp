@@ -98,8 +98,9 @@ Plan PathPlanner::plan(const OccupancyMap& map, Vec2 start, Vec2 goal) {
     const CellWay way = search_(lattice, costs_, from, to);
     std::vector<Vec2> line = straightened(lattice, costs_, way);
     line.front() = start;
-    if (way.complete && to == lattice.cell_at(goal)) line.back() = goal;
-    Plan plan{rounded(lattice, costs_, line, kSpacing, kRounds), 0.0, way.complete};
+    const bool complete = way.complete && to == lattice.cell_at(goal);
+    if (complete) line.back() = goal;
+    Plan plan{rounded(lattice, costs_, line, kSpacing, kRounds), 0.0, complete};
     const double touch = first_touch(map, plan.path, kOwnPlace);
     if (touch < 0.0 || attempt == kTries) {
       plan.complete = plan.complete && touch < 0.0;

@@ -25,7 +25,8 @@ constexpr double kBackWay = 0.25;       // [m]
 
 struct Choice {
   Arc arc;
-  double free = -1.0;      // [m] of the arc
+  double free = -1.0;      // [m] of the arc and what comes behind it
+  double seen = 0.0;       // [m] of them that was looked at
   double clearance = 0.0;  // [m] on the way there
   double look = 0.0;       // [m]
 };
@@ -35,11 +36,11 @@ Vec2 carrot(const Path& path, double along, const Pose2& pose) { return seen_fro
 Choice try_arc(Vec2 target, double look, double horizon, const Scene& scene, const Footprint& footprint,
                double margin) {
   const Arc arc = arc_to(target);
-  const double length = std::min(arc.length, horizon);
+  const double length = std::max(arc.length, horizon);
   const int steps = std::max(1, static_cast<int>(std::ceil(length / kStep)));
   const Room room =
       room_along(footprint, scene.pose, {length, 0.0, length * arc.curvature}, steps, scene.points, margin);
-  return {arc, room.share >= 1.0 ? arc.length : room.share * length, room.clearance, look};
+  return {arc, room.share * length, length, room.clearance, look};
 }
 
 // Returns the arc with the longest look-ahead that is free; if none is, that with the longest free part.
@@ -47,12 +48,14 @@ Choice choose(const Path& path, double along, const Scene& scene, const Footprin
               const Pursuit& pursuit) {
   const double reach = std::clamp(std::fabs(scene.speed) * pursuit.look_ahead_time, pursuit.min_look_ahead,
                                   pursuit.max_look_ahead);
+  const double stop =
+      std::fabs(scene.speed) * pursuit.delay + 0.5 * scene.speed * scene.speed / pursuit.deceleration;
   Choice best;
   for (const double share : kShares) {
     const double look = std::max(share * reach, kShortestLook);
     const Vec2 target = carrot(path, std::min(along + look, path.length()), scene.pose);
     if (norm(target) < 1e-3) continue;
-    const Choice choice = try_arc(target, look, 1.5 * look, scene, footprint, pursuit.margin);
+    const Choice choice = try_arc(target, look, stop + kStep, scene, footprint, pursuit.margin);
     if (choice.free > best.free) best = choice;
     if (choice.free >= choice.arc.length - kAlmostThere) return choice;
   }
@@ -68,7 +71,7 @@ double regulated_speed(const Choice& choice, double left, const Pursuit& pursuit
   speed = std::min(speed, pursuit.narrow_speed + pursuit.speed_per_clearance * beside);
   // A short look-ahead was chosen because a longer one was not free: it needs time to steer.
   speed = std::min(speed, std::max(pursuit.narrow_speed, choice.look / (0.5 * pursuit.look_ahead_time)));
-  if (choice.free < choice.arc.length - kAlmostThere)
+  if (choice.free < choice.seen)
     speed = std::min(speed, speed_to_stop_within(choice.free, pursuit.deceleration, pursuit.delay));
   const double end = speed_to_stop_within(left, pursuit.deceleration, 0.0);
   return std::min(speed, norm({end, last_speed}));

@@ -79,6 +79,7 @@ class Navigator {
   std::optional<Vec2> planned_for_;
   TimePoint planned_at_{};
   double along_ = 0.0;    // [m] place on the path
+  bool begun_ = false;    // a scan has come
   bool news_ = false;     // a scan has come since the last look at the path
   bool turning_ = false;  // on the spot
   std::optional<TimePoint> blocked_since_;
