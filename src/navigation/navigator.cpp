@@ -20,6 +20,8 @@ constexpr double kWay = 0.1;            // [m] or
 constexpr double kTurn = 0.3;           // [rad] that count as motion
 constexpr double kIdle = 3.0;           // [s] without motion, though not blocked
 constexpr double kRoomAhead = 1.5;      // [m]
+constexpr double kSameWay = 2.5;        // [m] ahead on which two paths are compared
+constexpr double kBeside = 0.25;        // [m] apart: the same way
 constexpr double kAside = 0.5;          // [m] off the path: plan anew
 
 }  // namespace
@@ -37,8 +39,14 @@ void Navigator::hear(std::span<const Beam> scan, const Pose2& pose) {
   map_.for_points_near(pose.position(), reach, [this](Vec2 point) { points_.push_back(point); });
   // An echo counts at once, even where the map still believes that nothing is there.
   for (const Beam& beam : scan)
-    if (beam.echo && norm(beam.to - pose.position()) < reach) points_.push_back(beam.to);
+    if (beam.echo && norm(beam.to - pose.position()) < reach && !is_known(beam.to))
+      points_.push_back(beam.to);
   news_ = true;
+}
+
+bool Navigator::is_known(Vec2 echo) const {
+  const Cell cell = map_.lattice().cell_at(echo);
+  return map_.lattice().holds(cell) && map_.occupied(cell);
 }
 
 void Navigator::drop_path() {
@@ -102,10 +110,22 @@ void Navigator::replan(const Moment& moment, const Errand& errand) {
   planned_at_ = moment.now;
   const bool keeps = !plan_.path.empty() && plan_.complete && !blocked_since_ &&
                      norm(plan_.path.at(along_) - moment.pose.position()) < kAside &&
-                     plan.cost > kBetter * planner_.cost_of(map_, plan_.path, along_);
+                     plan.cost > kBetter * planner_.cost_of(map_, plan_.path, along_) &&
+                     !runs_beside(plan.path);
   if (keeps) return;
   plan_ = std::move(plan);
   along_ = 0.0;
+}
+
+// Returns whether a path from here goes the same way as the present one for some time: then it is only newer.
+bool Navigator::runs_beside(const Path& path) const {
+  for (double way = 0.0; way < kSameWay; way += kWay) {
+    const Vec2 place = path.at(way);
+    const double nearest =
+        plan_.path.nearest(place, along_, std::min(along_ + way + 1.0, plan_.path.length()));
+    if (norm(plan_.path.at(nearest) - place) > kBeside) return false;
+  }
+  return true;
 }
 
 // Notes whether the robot gets on, and begins to recover if it does not.

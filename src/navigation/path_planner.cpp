@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orca/navigation/gaps.hpp"
+
 namespace orca::nav {
 namespace {
 
@@ -100,7 +102,7 @@ Plan PathPlanner::plan(const OccupancyMap& map, Vec2 start, Vec2 goal) {
     line.front() = start;
     const bool complete = way.complete && to == lattice.cell_at(goal);
     if (complete) line.back() = goal;
-    Plan plan{rounded(lattice, costs_, line, kSpacing, kRounds), 0.0, complete};
+    Plan plan{lined_up(map, footprint_, rounded(lattice, costs_, line, kSpacing, kRounds)), 0.0, complete};
     const double touch = first_touch(map, plan.path, kOwnPlace);
     if (touch < 0.0 || attempt == kTries) {
       plan.complete = plan.complete && touch < 0.0;

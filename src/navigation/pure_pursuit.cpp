@@ -15,13 +15,15 @@ constexpr std::array kShares{1.0, 0.75, 0.55, 0.4, 0.28};  // of the look-ahead
 constexpr double kShortestLook = 0.15;                     // [m]
 constexpr double kStep = 0.05;                             // [m] at which arcs are looked at
 constexpr double kTurnStep = 0.1;                          // [rad] at which turns are looked at
-constexpr double kTurnMargin = 0.01;    // [m] kept free while turning: the robot moves slowly
-constexpr double kTurnGain = 3.0;       // [1/s] turn rate per angle left
-constexpr double kLeastTurnRate = 0.2;  // [rad/s]
-constexpr double kCreep = 0.06;         // [m/s] Below this it counts as standing.
-constexpr double kAlmostThere = 0.05;   // [m] left of an arc that need not be free
-constexpr double kBackSpeed = 0.15;     // [m/s]
-constexpr double kBackWay = 0.25;       // [m]
+constexpr double kTurnMargin = 0.01;      // [m] kept free while turning: the robot moves slowly
+constexpr double kTurnGain = 3.0;         // [1/s] turn rate per angle left
+constexpr double kLeastTurnRate = 0.2;    // [rad/s]
+constexpr double kSqueezeMargin = 0.005;  // [m] kept free where the margin finds no way,
+constexpr double kSqueezeSpeed = 0.5;     // at that share of the narrow speed
+constexpr double kCreep = 0.06;           // [m/s] Below this it counts as standing.
+constexpr double kAlmostThere = 0.05;     // [m] left of an arc that need not be free
+constexpr double kBackSpeed = 0.15;       // [m/s]
+constexpr double kBackWay = 0.25;         // [m]
 
 struct Choice {
   Arc arc;
@@ -51,14 +53,15 @@ Choice choose(const Path& path, double along, const Scene& scene, const Footprin
   const double stop =
       std::fabs(scene.speed) * pursuit.delay + 0.5 * scene.speed * scene.speed / pursuit.deceleration;
   Choice best;
-  for (const double share : kShares) {
-    const double look = std::max(share * reach, kShortestLook);
-    const Vec2 target = carrot(path, std::min(along + look, path.length()), scene.pose);
-    if (norm(target) < 1e-3) continue;
-    const Choice choice = try_arc(target, look, stop + kStep, scene, footprint, pursuit.margin);
-    if (choice.free > best.free) best = choice;
-    if (choice.free >= choice.arc.length - kAlmostThere) return choice;
-  }
+  for (const double margin : {pursuit.margin, kSqueezeMargin})
+    for (const double share : kShares) {
+      const double look = std::max(share * reach, kShortestLook);
+      const Vec2 target = carrot(path, std::min(along + look, path.length()), scene.pose);
+      if (norm(target) < 1e-3) continue;
+      const Choice choice = try_arc(target, look, stop + kStep, scene, footprint, margin);
+      if (choice.free > best.free) best = choice;
+      if (choice.free >= choice.arc.length - kAlmostThere) return choice;
+    }
   return best;
 }
 
@@ -69,6 +72,7 @@ double regulated_speed(const Choice& choice, double left, const Pursuit& pursuit
     speed = std::min({speed, std::sqrt(pursuit.lateral_acceleration / bend), pursuit.turn_rate / bend});
   const double beside = std::max(0.0, choice.clearance - pursuit.margin);
   speed = std::min(speed, pursuit.narrow_speed + pursuit.speed_per_clearance * beside);
+  if (choice.clearance < pursuit.margin) speed = std::min(speed, kSqueezeSpeed * pursuit.narrow_speed);
   // A short look-ahead was chosen because a longer one was not free: it needs time to steer.
   speed = std::min(speed, std::max(pursuit.narrow_speed, choice.look / (0.5 * pursuit.look_ahead_time)));
   if (choice.free < choice.seen)

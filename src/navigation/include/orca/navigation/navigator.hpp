@@ -66,6 +66,8 @@ class Navigator {
  private:
   void keep_path(const Moment& moment, const Errand& errand);
   void replan(const Moment& moment, const Errand& errand);
+  [[nodiscard]] bool is_known(Vec2 echo) const;
+  [[nodiscard]] bool runs_beside(const Path& path) const;
   [[nodiscard]] Scene scene(const Moment& moment) const;
   [[nodiscard]] Steer watch(const Steer& steer, const Moment& moment);
   void recover(const Moment& moment);

@@ -44,7 +44,7 @@ class OccupancyMap {
   [[nodiscard]] bool occupied(Cell cell) const { return cells_[lattice_.index(cell)].evidence > 0; }
   [[nodiscard]] bool occupied(std::size_t index) const { return cells_[index].evidence > 0; }
   [[nodiscard]] bool known(std::size_t index) const { return cells_[index].evidence != 0; }
-  /// Returns where the last echo within an occupied cell was, to within 1/256 of the cell.
+  /// Returns the mean of the latest echoes within an occupied cell, to within 1/32 of the cell.
   [[nodiscard]] Vec2 point(Cell cell) const;
   /// Calls `visit(point)` for the echoes of occupied cells in the square of half side `reach` [m] around `place`.
   template <typename Visit>
@@ -60,7 +60,7 @@ class OccupancyMap {
  private:
   struct State {
     std::int8_t evidence = 0;          // above 0: occupied; 0: unknown
-    std::array<std::uint8_t, 2> at{};  // of the last echo, in 1/256 of the cell
+    std::array<std::uint8_t, 2> at{};  // mean of the latest echoes, in 1/256 of the cell
     std::uint8_t scan = 0;             // number of the last scan that counted here
   };
 
