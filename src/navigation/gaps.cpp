@@ -97,14 +97,15 @@ Path lined_up(const OccupancyMap& map, const Footprint& footprint, const Path& p
     const double end = path.nearest(piece->other, begin, path.length());
     copy_to(begin);
     if (begin > done) points.push_back(piece->one);
+    done = std::max(done, begin);
+    along = std::max(along, end);
+    if (end >= path.length()) continue;  // It leads into the gap, not through it.
     points.push_back(gap->middle);
     points.push_back(piece->other);
     done = std::max(done, end);
-    along = std::max(along, end);
   }
   copy_to(path.length());
-  if (norm(points.back() - path.at(path.length())) > 0.01 && done < path.length())
-    points.push_back(path.at(path.length()));
+  if (done < path.length()) points.push_back(path.at(path.length()));
   return Path(points);
 }
 

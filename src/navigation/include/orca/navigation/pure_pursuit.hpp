@@ -57,9 +57,9 @@ struct Steer {
 
 /// What the robot knows when it steers.
 struct Scene {
-  Pose2 pose;                    ///< of the robot when the command takes effect.
+  Pose2 pose{};  ///< of the robot when the command takes effect.
   double speed = 0.0;            ///< [m/s] then.
-  std::span<const Vec2> points;  ///< of obstacles, in the frame of the pose and the path.
+  std::span<const Vec2> points{};  ///< of obstacles, in the frame of the pose and the path.
   bool turning = false;          ///< Steer::turning of the moment before.
 };
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orca/navigation/navigator.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "orca/geometry/arc.hpp"
+
+using namespace orca::nav;
+using orca::Pose2;
+using orca::TimePoint;
+using orca::Vec2;
+
+namespace {
+
+constexpr Footprint kBase{0.254, 0.215, 0.333};
+constexpr double kLap = 0.05;
+
+struct Wall {
+  Vec2 from;
+  Vec2 to;
+};
+
+// Returns the way along a beam to the first wall; at most 5 m.
+double range_of(const std::vector<Wall>& walls, Vec2 from, Vec2 axis) {
+  double least = 5.0;
+  for (const Wall& wall : walls) {
+    const Vec2 along = wall.to - wall.from;
+    const double turn = cross(axis, along);
+    if (std::abs(turn) < 1e-12) continue;
+    const double way = cross(wall.from - from, along) / turn;
+    const double share = cross(wall.from - from, axis) / turn;
+    if (way > 0.0 && share >= 0.0 && share <= 1.0) least = std::min(least, way);
+  }
+  return least;
+}
+
+std::vector<Beam> scan_of(const std::vector<Wall>& walls, const Pose2& pose) {
+  std::vector<Beam> scan;
+  for (int i = 0; i < 360; ++i) {
+    const Vec2 axis = orca::direction(pose.yaw + i * std::numbers::pi / 180.0);
+    const double range = range_of(walls, pose.position(), axis);
+    scan.push_back({pose.position(), pose.position() + range * axis, range < 5.0});
+  }
+  return scan;
+}
+
+struct Drive {
+  Pose2 end;
+  double least_clearance = 1.0;
+  int recoveries = 0;
+};
+
+// Drives a robot that obeys after one lap through a plane with walls.
+Drive drive_to(Vec2 goal, const std::vector<Wall>& walls, double seconds) {
+  Navigator navigator(kBase, {});
+  Drive drive;
+  orca::Twist2 twist;
+  for (double time = 0.0; time < seconds && norm(drive.end.position() - goal) > 0.2; time += kLap) {
+    const std::vector<Beam> scan = scan_of(walls, drive.end);
+    navigator.hear(scan, drive.end);
+    const Steer steer = navigator.steer({TimePoint{orca::from_seconds(time)}, drive.end, twist}, {goal});
+    drive.end = along_arc(drive.end, twist * kLap);
+    twist = {steer.speed, 0.0, steer.turn_rate};
+    for (const Beam& beam : scan)
+      if (beam.echo)
+        drive.least_clearance =
+            std::min(drive.least_clearance, clearance(kBase, seen_from(drive.end, beam.to)));
+    drive.recoveries = std::max(drive.recoveries, navigator.recoveries());
+  }
+  return drive;
+}
+
+}  // namespace
+
+TEST_CASE("the navigator gets out of a U that it can only see from within", "[navigation]") {
+  const std::vector<Wall> u{
+      {{1.5, -1.0}, {1.5, 1.0}}, {{-0.5, 1.0}, {1.5, 1.0}}, {{-0.5, -1.0}, {1.5, -1.0}}};
+  const Drive drive = drive_to({4.0, 0.0}, u, 60.0);
+  CHECK(norm(drive.end.position() - Vec2{4.0, 0.0}) < 0.21);
+  CHECK(drive.least_clearance > 0.0);
+}
+
+TEST_CASE("the navigator drives through a door that is 10 cm wider than the robot, from aside",
+          "[navigation]") {
+  const double half = kBase.half_width + 0.05;
+  const std::vector<Wall> door{{{2.0, half}, {2.0, 9.0}}, {{2.0, -half}, {2.0, -9.0}}};
+  const Drive drive = drive_to({4.0, 1.5}, door, 60.0);
+  CHECK(norm(drive.end.position() - Vec2{4.0, 1.5}) < 0.21);
+  CHECK(drive.least_clearance > 0.0);
+}
+
+TEST_CASE("shut in, the navigator tries to recover and touches nothing", "[navigation]") {
+  const std::vector<Wall> cell{{{-1.0, -1.0}, {1.0, -1.0}},
+                               {{1.0, -1.0}, {1.0, 1.0}},
+                               {{1.0, 1.0}, {-1.0, 1.0}},
+                               {{-1.0, 1.0}, {-1.0, -1.0}}};
+  const Drive drive = drive_to({4.0, 0.0}, cell, 30.0);
+  CHECK(std::abs(drive.end.x) < 1.0);
+  CHECK(std::abs(drive.end.y) < 1.0);
+  CHECK(drive.recoveries > 0);
+  CHECK(drive.least_clearance > 0.0);
+}
