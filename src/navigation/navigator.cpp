@@ -59,7 +59,7 @@ void Navigator::drop_path() {
 }
 
 Scene Navigator::scene(const Moment& moment) const {
-  const Pose2 soon = moment.pose * moved(moment.twist, 0.5 * rules_.pursuit.delay);
+  const Pose2 soon = moment.pose * moved(moment.twist, rules_.pursuit.delay);
   return {soon, moment.twist.forward, points_, turning_};
 }
 

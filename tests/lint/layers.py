@@ -46,6 +46,7 @@ LAYERS = (
     Layer("geometry", ("src/geometry",), ("orca/geometry/",), ("base",)),
     Layer("geometry_objects", ("src/geometry/objects",), ("orca/geometry/objects/",), ("geometry", "idl", "base"),
           ("eigen",)),
+    Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base")),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ENDPOINTS, ("fmt",)),  # its handles need them inside only
     Layer("patterns_endpoints", ("src/patterns/endpoints", *(f"src/patterns/include/orca/patterns/{name}" for name in (
         "endpoints", "counters", "request_id", "update_rate"))),
@@ -74,7 +75,8 @@ LAYERS = (
     Layer("device", ("src/hw",), (), ("geometry_objects", *DEVICE), ("fmt",), siblings=False),
     Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",),
           ("geometry_objects", "geometry", *COMPONENT)),
-    Layer("components", ("src/components",), (), ("avoidance", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
+    Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
+    Layer("components", ("src/components",), (), ("avoidance", "goals", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
     Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
         "figures", "floor", "guesses", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "sensors", "shape", "snapshot", "walker", "world_model")),

@@ -250,7 +250,7 @@ class GridPlanner final : public orca::go::GoalFollower {
   orca::Param<double> reaction_time_{
       *this,
       "reaction_time",
-      0.2,
+      0.15,
       {.unit = "s", .min = 0.0, .text = "Time from a measurement until the robot moves as it demands."}};
   orca::Param<double> look_ahead_time_{
       *this,

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// GridPlanner in a whole system: the graph that ships with it, dead ends and narrow doors.
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+// Doors of a hall that are 10 cm wider than the Pioneer, which is 0.425 m wide.
+constexpr const char* kNarrowDoors =
+    "<world name=\"doors\" version=\"1\"><generate kind=\"narrow_doors\" door=\"0.525 m\" radius=\"0.2 "
+    "m\"/></world>";
+
+Run office(const Words& more = {}) {
+  return run_deployer(Words{source_file("graphs/pioneer_planner.xml"), "--until", "150 s"} + virtual_clock() +
+                      more);
+}
+
+Run to_the_goal(const std::string& world, int seed, const Words& more = {}) {
+  return run_deployer(Words{system_graph("planner_places.xml"), "--seed", std::to_string(seed), "--until",
+                            "200 s", "--set", "world=" + world + "#" + std::to_string(seed)} +
+                      virtual_clock() + more);
+}
+
+void check_twenty_seeds(const std::string& world, const Words& more = {}) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    const Run run = to_the_goal(world, seed, more);
+    INFO("seed " << seed << "\n" << run.out << run.err);
+    CHECK(run.contacts().empty());
+    CHECK(run.arrivals().size() == 1);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the Pioneer plans its way to three goals of the office and touches nothing", "[system][planner]") {
+  for (const char* realism : {"nominal", "harsh"})
+    for (int seed = 1; seed <= 3; ++seed) {
+      const Run run = office({"--seed", std::to_string(seed), "--set", std::string("realism=") + realism});
+      INFO(realism << ", seed " << seed << "\n" << run.out << run.err);
+      CHECK(run.exit_code() == 0);
+      CHECK(run.arrivals().size() == 3);
+      CHECK(run.contacts().empty());
+    }
+}
+
+TEST_CASE("without via points it finds its way through the doors of the office by itself",
+          "[system][planner]") {
+  const Run run = office({"--set", "goals=kitchen: 4.2 9.8; office_2: 9 2; meeting: 13 10.4"});
+  INFO(run.out << run.err);
+  CHECK(run.arrivals().size() == 3);
+  CHECK(run.contacts().empty());
+}
+
+TEST_CASE("a goal that no way leads to is given up, and the next one is reached", "[system][planner]") {
+  const Run run = office({"--set", "goals=outside: 4.2 40; kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8"});
+  INFO(run.out << run.err);
+  REQUIRE(run.failures().size() == 1);
+  CHECK(run.failures()[0].starts_with("failed outside blocked: no nearer than "));
+  CHECK(run.arrivals().size() == 1);
+  CHECK(run.contacts().empty());
+}
+
+TEST_CASE(
+    "it gets round the U that a robot which drives straight to the goal ends in, with any of twenty seeds",
+    "[system][planner]") {
+  check_twenty_seeds(source_file("sim/worlds/u_trap.xml"));
+}
+
+TEST_CASE(
+    "it drives through doors that are 10 cm wider than the robot without a contact, with any of twenty seeds",
+    "[system][planner]") {
+  const TempFolder folder;
+  check_twenty_seeds(folder.write("doors.xml", kNarrowDoors));
+}
+
+TEST_CASE("a run with the planner has one trace hash, with fiber and baton", "[system][planner]") {
+  const Run baton = office({"--executor", "baton"});
+  REQUIRE(baton.trace_hash());
+  CHECK(baton.trace_hash() == office({"--executor", "baton"}).trace_hash());
+  if (!kThreadSanitizer)  // which does not support fibers
+    CHECK(baton.trace_hash() == office({"--executor", "fiber"}).trace_hash());
+}
