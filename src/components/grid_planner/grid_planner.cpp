@@ -328,8 +328,8 @@ class GridPlanner final : public orca::go::GoalFollower {
   std::optional<orca::QueryId> question_;  // to the base, as long as it has not answered
   std::optional<Body> body_;
   std::optional<orca::nav::Navigator> navigator_;  // from when the outline is known
-  orca::nav::PoseHistory history_;     // in the frame of the odometry; without one, of the goals
-  std::optional<Pose2> X_MO_;          // the frame of the odometry in that of the goals; nothing: they are the same
+  orca::nav::PoseHistory history_;                 // in the frame of the odometry; without one, of the goals
+  std::optional<Pose2> X_MO_;  // the frame of the odometry in that of the goals; nothing: they are the same
   ObjectPtr<orca::idl::LaserRangeReadings> scan_;  // waits for the pose of its last beam
   std::vector<orca::nav::Beam> beams_;
   orca::Twist2 twist_;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 
 #include "orca/geometry/vec2.hpp"
 
@@ -50,31 +51,51 @@ struct Lattice {
   }
 };
 
-/// Calls `visit(cell)` for the cells that the straight line from `from` to `to` crosses, in order, including both ends, until
-/// it returns false.
+namespace detail {
+
+/// The walls between the cells along one axis, in the order in which a line crosses them.
+class Walls {
+ public:
+  Walls(double from, double way, double corner, double side, int number)
+      : step_(way < 0.0 ? -1 : 1),
+        next_(way != 0.0 ? (corner + (number + (way < 0.0 ? 0 : 1)) * side - from) / way : kNever),
+        every_(way != 0.0 ? side / std::fabs(way) : kNever) {}
+
+  /// Returns the share [1] of the line before the next wall.
+  [[nodiscard]] double next() const { return next_; }
+  void cross(int& number) {
+    number += step_;
+    next_ += every_;
+  }
+
+ private:
+  static constexpr double kNever = 1e300;
+  int step_;
+  double next_;
+  double every_;
+};
+
+}  // namespace detail
+
+/// Calls `visit(cell)` for the cells that the straight line from `from` to `to` crosses, in order, including both
+/// ends, until it returns false.
 /// @return whether all were visited.
 /// @source  Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987.
 template <typename Visit>
 bool walk_line(const Lattice& lattice, Vec2 from, Vec2 to, Visit visit) {
-  constexpr double kNever = 1e300;
   Cell cell = lattice.cell_at(from);
   const Cell end = lattice.cell_at(to);
-  const Vec2 way = to - from;
-  const int step_x = way.x < 0.0 ? -1 : 1;
-  const int step_y = way.y < 0.0 ? -1 : 1;
-  const Vec2 wall{lattice.corner.x + (cell.column + (way.x < 0.0 ? 0 : 1)) * lattice.side,
-                  lattice.corner.y + (cell.row + (way.y < 0.0 ? 0 : 1)) * lattice.side};
-  double next_x = way.x != 0.0 ? (wall.x - from.x) / way.x : kNever;
-  double next_y = way.y != 0.0 ? (wall.y - from.y) / way.y : kNever;
-  const double every_x = way.x != 0.0 ? lattice.side / std::fabs(way.x) : kNever;
-  const double every_y = way.y != 0.0 ? lattice.side / std::fabs(way.y) : kNever;
+  detail::Walls upright(from.x, to.x - from.x, lattice.corner.x, lattice.side, cell.column);
+  detail::Walls level(from.y, to.y - from.y, lattice.corner.y, lattice.side, cell.row);
   // Counted, so that rounding cannot lead past the end.
   for (int left = std::abs(end.column - cell.column) + std::abs(end.row - cell.row);; --left) {
     if (!visit(cell)) return false;
     if (left == 0) return true;
-    const bool along_x = cell.row == end.row || (cell.column != end.column && next_x < next_y);
-    (along_x ? cell.column : cell.row) += along_x ? step_x : step_y;
-    (along_x ? next_x : next_y) += along_x ? every_x : every_y;
+    if (cell.row == end.row || (cell.column != end.column && upright.next() < level.next())) {
+      upright.cross(cell.column);
+    } else {
+      level.cross(cell.row);
+    }
   }
 }
 

@@ -57,10 +57,10 @@ struct Steer {
 
 /// What the robot knows when it steers.
 struct Scene {
-  Pose2 pose{};  ///< of the robot when the command takes effect.
-  double speed = 0.0;            ///< [m/s] then.
+  Pose2 pose{};                    ///< of the robot when the command takes effect.
+  double speed = 0.0;              ///< [m/s] then.
   std::span<const Vec2> points{};  ///< of obstacles, in the frame of the pose and the path.
-  bool turning = false;          ///< Steer::turning of the moment before.
+  bool turning = false;            ///< Steer::turning of the moment before.
 };
 
 /// Returns how to follow a path. It takes the longest look-ahead whose arc is free for the exact outline, and drives not
