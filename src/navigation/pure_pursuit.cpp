@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "orca/base/portable_math.hpp"
 
@@ -86,12 +85,10 @@ bool may_turn(double angle, const Scene& scene, const Footprint& footprint) {
   return room_along(footprint, scene.pose, {0.0, 0.0, angle}, steps, scene.points, kTurnMargin).share >= 1.0;
 }
 
+// The other way round is never free where this one is not: the corners of a rectangle that turns by more than half a circle come
+// everywhere.
 Steer turn_on_the_spot(double angle, const Scene& scene, const Footprint& footprint, const Pursuit& pursuit) {
-  const double other = angle > 0.0 ? angle - 2.0 * std::numbers::pi : angle + 2.0 * std::numbers::pi;
-  if (!may_turn(angle, scene, footprint)) {
-    if (!may_turn(other, scene, footprint)) return {.turning = true, .blocked = true};
-    angle = other;
-  }
+  if (!may_turn(angle, scene, footprint)) return {.turning = true, .blocked = true};
   const double rate = std::clamp(kTurnGain * std::fabs(angle), kLeastTurnRate, pursuit.turn_rate);
   return {0.0, std::copysign(rate, angle), true, false};
 }

@@ -132,25 +132,35 @@ TEST_CASE("before something on the path it stops in time, and says that it is bl
   CHECK(pose.x + kRobot.half_length > 2.8);
 }
 
-TEST_CASE("to a path that begins behind it turns on the spot, the way round that is free", "[navigation]") {
+TEST_CASE("to a path that begins behind it turns on the spot, the shorter way, if its corners find room",
+          "[navigation]") {
   const Path path = straight_on(5.0);
-  const Steer left = follow(path, 0.0, {.pose = {0.0, 0.0, -2.0}}, kRobot, kPursuit, 0.0);
-  CHECK(left.turning);
-  CHECK(left.speed == 0.0);
-  CHECK(left.turn_rate > 0.0);
-  const Pose2 here{0.0, 0.0, -2.0};
-  const std::array post{here * Vec2{-0.2, -0.26}};  // beside the tail: turning left would sweep over it
-  const Steer right = follow(path, 0.0, {.pose = here, .points = post}, kRobot, kPursuit, 0.0);
-  CHECK(right.blocked == (right.turn_rate == 0.0));
-  CHECK(right.turn_rate <= 0.0);
+  for (const double yaw : {-2.0, 2.0}) {
+    const Pose2 here{0.0, 0.0, yaw};
+    const Steer steer = follow(path, 0.0, {.pose = here}, kRobot, kPursuit, 0.0);
+    CHECK(steer.turning);
+    CHECK(steer.speed == 0.0);
+    CHECK(steer.turn_rate * yaw < 0.0);
+    const std::array post{here *
+                          Vec2{0.0, 0.28}};  // farther away than half the width, nearer than the corners
+    const Steer shut = follow(path, 0.0, {.pose = here, .points = post}, kRobot, kPursuit, 0.0);
+    CHECK(shut.blocked);
+    CHECK(shut.turn_rate == 0.0);
+  }
 }
 
-TEST_CASE("it backs off along an arc that is free, or not at all", "[navigation]") {
-  const std::array behind{Vec2{-0.4, 0.15}};
-  const Steer steer = back_off({.points = behind}, kRobot);
-  CHECK((steer.blocked || steer.speed < 0.0));
-  CHECK(back_off({}, kRobot).speed < 0.0);
-  CHECK(back_off({}, kRobot).turn_rate == 0.0);
+TEST_CASE("it backs off along an arc with at least as much room as straight back, or not at all",
+          "[navigation]") {
+  const Steer open = back_off({}, kRobot);
+  CHECK(open.speed < 0.0);
+  CHECK(open.turn_rate == 0.0);
+  const std::array aside{Vec2{-0.42, 0.15}};
+  const Steer steer = back_off({.points = aside}, kRobot);
+  REQUIRE(steer.speed < 0.0);
+  const auto room = [&](double curvature) {
+    return room_along(kRobot, {}, {-0.25, 0.0, -0.25 * curvature}, 5, aside, 0.01).share;
+  };
+  CHECK(room(steer.turn_rate / steer.speed) >= room(0.0));
   const std::array near{Vec2{-0.27, 0.15}, Vec2{-0.27, -0.15}, Vec2{-0.27, 0.0}};
   CHECK(back_off({.points = near}, kRobot).blocked);
 }

@@ -64,8 +64,8 @@ struct Scene {
 };
 
 /// Returns how to follow a path. It takes the longest look-ahead whose arc is free for the exact outline, and drives not
-/// faster than it can see, stop, and steer there. If the path begins aside or behind it turns on the spot, the shorter way
-/// that is free.
+/// faster than it can see, stop, and steer there. If the path begins aside or behind it turns on the spot, if its corners
+/// find room.
 /// @param along [m]  place of the robot on the path.
 /// @param last_speed [m/s]  at the end of the path; 0: it stops there.
 [[nodiscard]] Steer follow(const Path& path, double along, const Scene& scene, const Footprint& footprint,
