@@ -14,7 +14,11 @@ constexpr double kBetter = 0.92;        // A new path must cost less than that s
 constexpr double kPlaceMoved = 0.05;    // [m] unless the errand has moved by that much.
 constexpr double kWatchedPath = 2.0;    // [m] of the path that each scan is compared with
 constexpr double kBlockedReplan = 0.2;  // [s] between two plans while blocked
-constexpr double kBackTime = 1.8;       // [s] of backing off
+constexpr double kBackTime = 1.8;       // [s] of backing off, times the number of recoveries in a row,
+constexpr int kMostRetreats = 5;        // up to this
+constexpr double kBehind = 0.2;         // [m] to the place of its trail that it backs to
+constexpr double kTrailStep = 0.05;     // [m] between two places of the trail
+constexpr std::size_t kTrail = 200;     // places in it
 constexpr double kRemembered = 1.5;     // [m] around the robot that recovery does not forget
 constexpr double kWay = 0.1;            // [m] or
 constexpr double kTurn = 0.3;           // [rad] that count as motion
@@ -75,17 +79,36 @@ Steer Navigator::steer(const Moment& moment, const Errand& errand) {
     moved_at_ = moment.now;
   }
   if (backs_off_since_) {
-    const Steer back = back_off(scene(moment), footprint_);
-    if (!back.blocked && to_seconds(moment.now - *backs_off_since_) < kBackTime) return back;
+    const Steer back = retreat(moment);
+    const double time = kBackTime * std::min(recoveries_, kMostRetreats);
+    if (!back.blocked && to_seconds(moment.now - *backs_off_since_) < time) return back;
     backs_off_since_.reset();
     moved_at_ = moment.now;
   }
+  note_trail(moment.pose.position());
   keep_path(moment, errand);
   news_ = false;
   const bool passes = errand.passing && plan_.complete;
   const Steer steer = follow(plan_.path, along_, scene(moment), footprint_, rules_.pursuit,
                              passes ? rules_.pursuit.max_speed : 0.0);
   return watch(steer, moment);
+}
+
+// Backs off along the way that it has come, which was free then; if it is not any more, along any arc that is.
+Steer Navigator::retreat(const Moment& moment) {
+  while (!trail_.empty() && norm(trail_.back() - moment.pose.position()) < kBehind) trail_.pop_back();
+  const Scene now = scene(moment);
+  if (!trail_.empty()) {
+    const Steer back = back_to(seen_from(now.pose, trail_.back()), now, footprint_);
+    if (!back.blocked) return back;
+  }
+  return back_off(now, footprint_);
+}
+
+void Navigator::note_trail(Vec2 place) {
+  if (!trail_.empty() && norm(place - trail_.back()) < kTrailStep) return;
+  if (trail_.size() == kTrail) trail_.erase(trail_.begin());
+  trail_.push_back(place);
 }
 
 void Navigator::keep_path(const Moment& moment, const Errand& errand) {

@@ -7,10 +7,10 @@ namespace orca::nav {
 namespace {
 
 constexpr int kHit = 4;
-constexpr int kMiss = 1;
+constexpr int kMiss = 2;
 constexpr int kKeep =
     7;  // An echo moves the point of an occupied cell by an eighth of the way: the noise of beams averages out.
-constexpr int kMost = 12;
+constexpr int kMost = 16;
 constexpr int kLeast = -8;  // Three echoes make a cell occupied that has long been free.
 
 std::uint8_t share_of_cell(double coordinate, double corner, double side) {

@@ -18,6 +18,8 @@ constexpr int kRounds = 12;                             // of rounding
 constexpr double kLookEvery = 0.05;                     // [m] at which the outline is tried along a path
 constexpr double kOwnPlace =
     0.25;  // [m] of the path from the start, where the robot's real heading counts, not the path's
+constexpr double kSure =
+    3.0;  // [m] of the path from the start; what is farther away is not seen well enough to close a way
 constexpr double kTouching = 0.005;  // [m] clearance that counts as a touch
 constexpr double kClosed = 0.11;     // [m] radius of a place that is closed
 constexpr int kTries = 6;
@@ -128,7 +130,7 @@ void PathPlanner::open_around(const OccupancyMap& map, Cell start) {
 double PathPlanner::first_touch(const OccupancyMap& map, const Path& path, double from) const {
   const Lattice& lattice = map.lattice();
   const double sure = (footprint_.outer_radius() + lattice.side) / lattice.side;
-  for (double along = from; along < path.length(); along += kLookEvery) {
+  for (double along = from; along < std::min(from + kSure, path.length()); along += kLookEvery) {
     const Cell cell = lattice.cell_at(path.at(along));
     if (!lattice.holds(cell) || distances_[lattice.index(cell)] > sure * sure) continue;
     if (touches(map, footprint_, path, along)) return along;

@@ -22,6 +22,7 @@ constexpr double kSqueezeSpeed = 0.5;     // at that share of the narrow speed
 constexpr double kCreep = 0.06;           // [m/s] Below this it counts as standing.
 constexpr double kAlmostThere = 0.05;     // [m] left of an arc that need not be free
 constexpr double kBackSpeed = 0.15;       // [m/s]
+constexpr double kTrailWay = 0.1;         // [m] of the way back that must be free
 constexpr double kBackWay = 0.25;         // [m]
 
 struct Choice {
@@ -126,6 +127,15 @@ Steer follow(const Path& path, double along, const Scene& scene, const Footprint
             false};
   if (std::fabs(off) < 0.5 * pursuit.turned) return {.blocked = true};
   return turn_on_the_spot(off, scene, footprint, pursuit);
+}
+
+Steer back_to(Vec2 point, const Scene& scene, const Footprint& footprint) {
+  if (point.x >= -std::fabs(point.y)) return {.blocked = true};
+  const double curvature = arc_to(point).curvature;
+  const Travel2 travel{-kTrailWay, 0.0, -kTrailWay * curvature};
+  if (room_along(footprint, scene.pose, travel, 2, scene.points, kSqueezeMargin).share < 1.0)
+    return {.blocked = true};
+  return {-kBackSpeed, -kBackSpeed * curvature, false, false};
 }
 
 Steer back_off(const Scene& scene, const Footprint& footprint) {

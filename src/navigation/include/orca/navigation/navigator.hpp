@@ -39,7 +39,7 @@ struct NavigatorRules {
 /// The way from scans to motion: it keeps the map, plans, follows the path, and recovers where nothing leads on. It plans when
 /// there is no path to the place, when the path is blocked, and now and then in case there is a better one.
 ///
-/// Recovery: after `patience` without any motion it backs off and plans anew. From the second time in a row on it also forgets
+/// Recovery: after `patience` without any motion it backs off along the way that it has come, the farther the more often in a row, and plans anew. From the second time in a row on it also forgets
 /// what it has seen farther than 1.5 m away, for that may be old.
 ///
 /// Thread contract: one thread at a time.
@@ -71,12 +71,15 @@ class Navigator {
   [[nodiscard]] Scene scene(const Moment& moment) const;
   [[nodiscard]] Steer watch(const Steer& steer, const Moment& moment);
   void recover(const Moment& moment);
+  [[nodiscard]] Steer retreat(const Moment& moment);
+  void note_trail(Vec2 place);
 
   Footprint footprint_;
   NavigatorRules rules_;
   OccupancyMap map_;
   PathPlanner planner_;
   std::vector<Vec2> points_;  // of obstacles near the robot, map frame
+  std::vector<Vec2> trail_;   // where it has been, map frame, oldest first
   Plan plan_;
   std::optional<Vec2> planned_for_;
   TimePoint planned_at_{};

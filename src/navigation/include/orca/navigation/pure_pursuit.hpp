@@ -71,6 +71,10 @@ struct Scene {
 [[nodiscard]] Steer follow(const Path& path, double along, const Scene& scene, const Footprint& footprint,
                            const Pursuit& pursuit, double last_speed);
 
+/// Returns how to drive backwards to a point given in the frame of the scene's pose: along the arc that leads there. It is blocked
+/// if that arc is not free, or the point does not lie behind.
+[[nodiscard]] Steer back_to(Vec2 point, const Scene& scene, const Footprint& footprint);
+
 /// Returns how to back off from where nothing leads on: along the freest of some arcs backwards.
 [[nodiscard]] Steer back_off(const Scene& scene, const Footprint& footprint);
 
