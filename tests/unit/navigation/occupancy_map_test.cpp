@@ -59,7 +59,7 @@ TEST_CASE("many beams of one scan count once in a cell, and an echo there counts
   scan.push_back({{}, {1.02, 0.02}, true});
   map.see(scan);
   CHECK(occupied(map, {1.02, 0.02}));
-  see(map, {}, {2.02, 0.02}, true, 3);
+  see(map, {}, {2.02, 0.02}, true, 1);
   CHECK(occupied(map, {1.02, 0.02}));
   see(map, {}, {2.02, 0.02}, true, 1);
   CHECK_FALSE(occupied(map, {1.02, 0.02}));

@@ -20,7 +20,7 @@ struct Beam {
 
 /// A square window of occupancy that moves with the robot. Evidence of each cell is counted: a scan that ends in a cell adds,
 /// a scan that looks through it subtracts, both at most once per scan and within bounds. That is the log-odds filter of
-/// Elfes 1989 with whole numbers, for a sensor that sees the truth four times as strongly by an echo as by its absence.
+/// Elfes 1989 with whole numbers, for a sensor that sees the truth twice as strongly by an echo as by its absence.
 ///
 /// Beams without echo make unknown cells free but do not clear occupied ones: a smooth wall gives no echo at a grazing angle.
 ///

@@ -33,8 +33,8 @@ struct Plan {
                                    double from, double to);
 
 /// A planner of ways through an occupancy map. Cells nearer to an obstacle than the robot's inner circle are not passable. What
-/// the circle cannot decide, the exact outline does: where it would touch something on the way, the place is closed and
-/// the search repeated. It keeps its buffers from call to call.
+/// the circle cannot decide, the exact outline does: where it would touch something on the first 3 m of the way, the
+/// place is closed and the search repeated. Farther away a sensor's noise could close a way that is open. It keeps its buffers from call to call.
 ///
 /// Thread contract: one thread at a time.
 class PathPlanner {
@@ -47,7 +47,7 @@ class PathPlanner {
   [[nodiscard]] Plan plan(const OccupancyMap& map, Vec2 start, Vec2 goal);
 
   /// Returns the cost of the part of a path from `from` [m] on, as the costs are now; kImpassable if it leads through a cell
-  /// that is not passable, or if the outline would touch something.
+  /// that is not passable, or if the outline would touch something on the first 3 m of it.
   [[nodiscard]] double cost_of(const OccupancyMap& map, const Path& path, double from) const;
 
  private:
