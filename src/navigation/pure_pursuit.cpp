@@ -86,8 +86,8 @@ bool may_turn(double angle, const Scene& scene, const Footprint& footprint) {
   return room_along(footprint, scene.pose, {0.0, 0.0, angle}, steps, scene.points, kTurnMargin).share >= 1.0;
 }
 
-// The other way round is never free where this one is not: the corners of a rectangle that turns by more than half a circle come
-// everywhere.
+// The longer way round is not tried: a rectangle that turns by more than half a circle sweeps all that its corners reach. Only the
+// steps at which a turn is looked at could make it seem free.
 Steer turn_on_the_spot(double angle, const Scene& scene, const Footprint& footprint, const Pursuit& pursuit) {
   if (!may_turn(angle, scene, footprint)) return {.turning = true, .blocked = true};
   const double rate = std::clamp(kTurnGain * std::fabs(angle), kLeastTurnRate, pursuit.turn_rate);
