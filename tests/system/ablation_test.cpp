@@ -74,6 +74,13 @@ const std::vector<Case> kCases{
     {"scout_hospital", "base", How::silent, Worse::stands},
     {"scout_hospital", "localizer", How::crashed, Worse::nowhere},
 
+    {"pioneer_planner", "command", How::silent, Worse::stands},
+    {"pioneer_planner", "planner", How::silent, Worse::nowhere},
+    {"pioneer_planner", "fuser", How::silent, Worse::stands},
+    {"pioneer_planner", "base", How::silent, Worse::stands},
+    {"pioneer_planner", "laser", How::crashed, Worse::nowhere},
+    {"pioneer_planner", "localizer", How::crashed, Worse::nowhere},
+
     {"pioneer_laser_goto", "command", How::silent, Worse::stands},
     {"pioneer_laser_goto", "goto", How::silent, Worse::nowhere},
     {"pioneer_laser_goto", "avoid", How::removed, Worse::contact},

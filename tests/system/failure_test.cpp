@@ -35,6 +35,7 @@ const std::vector<Robot> kRobots{
     {"scout_odometry", "", {"goto", "avoid"}},
     {"scout_hospital", "", {"goto", "avoid"}},
     {"pioneer_laser_goto", "", {"goto", "avoid"}},
+    {"pioneer_planner", "", {"planner"}},
     {"random_walk", "", {"walk", "avoid"}},
     {"two_robots", "dewey/", {"goto", "avoid"}},
     {"two_robots", "huey/", {"goto", "avoid"}},
