@@ -60,13 +60,15 @@ _DEPLOYER = ("deployer", "orca_run")
 MODULES = (
     Module("src/base/", (stage("base_test"), stage("patterns_contract_test"), stage("host_test"))),
     Module("src/patterns/", (stage("patterns_test", "patterns_bytes_test", "patterns_frames_test", "patterns_shm_test"), stage("patterns_contract_test"),
+                             stage("patterns_dds_test", "patterns_dds_leaving_test", "patterns_dds_processes_test"),
                              stage("patterns_allocation_test"))),
     Module("src/runtime/graph/", (stage("graph_test"), stage("plugin_faults_test"))),
     Module("src/runtime/plugin/", (stage("plugin_test"), stage("plugin_faults_test", "system_bad_plugins_test", also=_DEPLOYER))),
     Module("src/runtime/host/",
            (stage("host_test"),
             stage("system_phases_test", "system_graph_features_test", "system_scout_goto_test", "system_hooligan_test",
-                  "system_signals_test", "system_bad_plugins_test", "plugin_faults_test", also=_DEPLOYER))),
+                  "system_signals_test", "system_bad_plugins_test", "plugin_faults_test", also=_DEPLOYER),
+            stage("system_resume_test", "system_groups_test", "system_trading_test", "system_swap_test", also=_DEPLOYER))),
 )
 
 
