@@ -4,6 +4,8 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <string>
 
@@ -48,6 +50,13 @@ std::string misdeeds(const TempFolder& folder, const std::string& limit = "60 s"
                           "<world name=\"here\"/></experiment>");
 }
 
+std::string text_in(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  REQUIRE_FALSE(text.empty());
+  return text;
+}
+
 std::string exported(const std::string& folder) {
   const Run run = run_simbatch({"export", folder});
   INFO(run.err);
@@ -83,6 +92,8 @@ TEST_CASE("the same experiment gives the same bytes with one worker and with sev
   const std::string one = batch(experiment, folder.file("one"), {"--jobs", "1"});
   CHECK(split_lines(one).size() == 9);
   CHECK(batch(experiment, folder.file("three"), {"--jobs", "3"}) == one);
+  for (const char* page : {"/report.html", "/report.md"})
+    CHECK(text_in(folder.file("one") + page) == text_in(folder.file("three") + page));
   CHECK(batch(experiment, folder.file("baton"), {"--executor", "baton"}) == one);
 }
 
@@ -108,6 +119,39 @@ TEST_CASE("a run of a batch is that of the deployer", "[system][batch]") {
   for (const std::string& line : split_lines(table))
     if (line.starts_with("VfhPlus,harsh,7,")) found = line.find(*alone.trace_hash()) != std::string::npos;
   CHECK(found);
+}
+
+TEST_CASE("the command in a report makes a run without success again", "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment =
+      folder.write("short.xml", "<experiment name=\"short\" seeds=\"7\" until=\"5 s\" graph=\"" +
+                                    source_file("graphs/pioneer_laser_goto.xml") +
+                                    "\"><variant name=\"a\"/><world name=\"harsh\"><set arg=\"realism\" "
+                                    "value=\"harsh\"/></world></experiment>");
+  const std::string table = batch(experiment, folder.file("out"));
+  const std::string page = text_in(folder.file("out") + "/report.md");
+  CHECK_THAT(page, Contains("a in harsh, seed 7: time_out, deadline"));
+  const std::size_t begin = page.find("deployer '");
+  REQUIRE(begin != std::string::npos);
+  const std::string command = page.substr(begin, page.find('\n', begin) - begin);
+  Subprocess program(Words{"/bin/sh", "-c", ORCA_BINARY_DIR "/bin/" + command});
+  const Run run = finish(program, Seconds(60 * kSlowdown));
+  const std::string hash = split_lines(run.out).back();
+  REQUIRE(hash.starts_with("trace-hash "));
+  CHECK_THAT(table, Contains(hash.substr(11)));
+}
+
+TEST_CASE("a report can be made again, and needs results", "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment = drive(folder);
+  const std::string out = folder.file("out");
+  CHECK(run_simbatch({"report", experiment, "--out", out}).says("holds no results of a batch"));
+  (void)batch(experiment, out);
+  const std::string first = text_in(out + "/report.html");
+  REQUIRE(std::filesystem::remove(out + "/report.html"));
+  const Run again = run_simbatch({"report", experiment, "--out", out});
+  CHECK(again.exit_code() == 0);
+  CHECK(text_in(out + "/report.html") == first);
 }
 
 TEST_CASE("a run that crashes, exits, hangs or takes all memory is a result and costs no other",

@@ -3,16 +3,18 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <optional>
+#include <utility>
 
 #include "common/arithmetic.hpp"
 #include "options.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
+#include "orca/batch/report.hpp"
 #include "orca/batch/store.hpp"
 #include "orca/xml/number.hpp"
 #include "progress.hpp"
-#include "summary.hpp"
 
 namespace orca::simbatch {
 namespace {
@@ -52,18 +54,52 @@ std::vector<std::size_t> missing(const batch::Experiment& experiment, const batc
   return wanted;
 }
 
-ExitCode show_summary(const batch::Store& store) {
-  std::vector<batch::Row> rows;
-  if (Status read = store.for_each([&](const batch::Row& row) { rows.push_back(row); }); !read.ok())
-    return refuse(read.error());
-  std::fputs(summary_text(rows).c_str(), stdout);
+Status write_file(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  return out ? ok() : fail(Code::unavailable, file.string() + " cannot be written");
+}
+
+// Writes the report beside the results, and says the most important on stdout.
+ExitCode report(const batch::Experiment& experiment, const batch::Store& store,
+                const std::filesystem::path& folder) {
+  const Result<batch::Report> made = batch::make_report(experiment, store);
+  if (!made) return refuse(made.error());
+  for (const auto& [name, text] :
+       {std::pair("report.html", &made->html), std::pair("report.md", &made->markdown)}) {
+    if (const Status written = write_file(folder / name, *text); !written.ok()) {
+      std::fprintf(stderr, "error: %s\n", written.error().text().c_str());
+      return ExitCode::could_not_finish;
+    }
+  }
+  std::fputs(made->summary.c_str(), stdout);
+  std::fprintf(stderr, "report: %s\n", (folder / "report.html").c_str());
   return ExitCode::done;
+}
+
+std::filesystem::path folder_of(const Options& options, const batch::Experiment& experiment) {
+  return options.out.empty() ? experiment.name + ".batch" : options.out;
+}
+
+// Makes the report on results that are there, however many of the runs they are.
+ExitCode report_again(const Options& options) {
+  xml::Diagnostics diagnostics;
+  const std::optional<batch::Experiment> experiment = batch::read_experiment(options.subject, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (!experiment) return ExitCode::bad_input;
+  const std::filesystem::path folder = folder_of(options, *experiment);
+  if (!std::filesystem::exists(results_in(folder)))
+    return refuse(fail(Code::not_found, in_quotes(folder.string()) + " holds no results of a batch"));
+  const Result<std::unique_ptr<batch::Store>> store =
+      batch::Store::open(results_in(folder).string(), batch::identity_of(*experiment));
+  return store ? report(*experiment, **store, folder) : refuse(store.error());
 }
 
 ExitCode run(const Options& options) {
   const std::optional<batch::Experiment> experiment = checked(options);
   if (!experiment) return ExitCode::bad_input;
-  const std::filesystem::path folder = options.out.empty() ? experiment->name + ".batch" : options.out;
+  const std::filesystem::path folder = folder_of(options, *experiment);
   if (std::filesystem::exists(results_in(folder)) && !options.resume)
     return refuse(fail(Code::already_exists, in_quotes(folder.string()) +
                                                  " holds results already; --resume makes what is missing, "
@@ -83,7 +119,7 @@ ExitCode run(const Options& options) {
                  finished ? "stopped" : finished.error().text().c_str());
     return ExitCode::could_not_finish;
   }
-  return show_summary(**store);
+  return report(*experiment, **store, folder);
 }
 
 std::string quoted(const std::string& text) {
@@ -122,6 +158,7 @@ ExitCode act(const Options& options) {
     case Options::Action::version: std::puts("orca simbatch " ORCA_VERSION); return ExitCode::done;
     case Options::Action::check: return check(options);
     case Options::Action::table: return table(options);
+    case Options::Action::report: return report_again(options);
     case Options::Action::run: return run(options);
   }
   return ExitCode::bad_input;

@@ -86,7 +86,7 @@ Status take(Options& options, const std::vector<std::string>& words, std::size_t
 
 bool needs_subject(Options::Action action) {
   return action == Options::Action::run || action == Options::Action::check ||
-         action == Options::Action::table;
+         action == Options::Action::table || action == Options::Action::report;
 }
 
 }  // namespace
@@ -95,8 +95,8 @@ Result<Options> parse_options(const std::vector<std::string>& words) {
   Options options;
   options.batch.jobs = std::max(1U, std::thread::hardware_concurrency());
   std::size_t first = 0;
-  if (!words.empty() && words.front() == "export") {
-    options.action = Options::Action::table;
+  if (!words.empty() && (words.front() == "export" || words.front() == "report")) {
+    options.action = words.front() == "export" ? Options::Action::table : Options::Action::report;
     first = 1;
   }
   for (std::size_t i = first; i < words.size(); ++i)
@@ -115,13 +115,14 @@ const char* help_text() {
   simbatch sim/experiments/avoid_office.xml              all runs, into the folder avoid_office.batch
   simbatch sim/experiments/avoid_office.xml --check      only say what is wrong with the experiment and its graphs
   simbatch sim/experiments/avoid_office.xml --resume     what is missing in the folder, never anything twice
+  simbatch report sim/experiments/avoid_office.xml       the report once more, on the results that there are
   simbatch export avoid_office.batch                     one line for each run as CSV, in a fixed order
 
 Each run is made in a process of its own, so one that crashes, hangs or takes too much memory costs no other; it is a result,
 too. Ctrl-C and kill -9 lose nothing that was finished. The same experiment gives the same bytes, whatever --jobs and the
 machine's load are.
 
-  --out DIR             folder for results.sqlite (default: the experiment's name with .batch)
+  --out DIR             folder for results.sqlite, report.html and report.md (default: the experiment's name with .batch)
   --jobs N              runs at a time (default: as many as processors)
   --resume              go on with the results that DIR holds
   --executor KIND       fiber (default) or baton

@@ -15,7 +15,7 @@ enum class ExitCode { done = 0, could_not_finish = 1, bad_input = 2 };
 
 /// The requests of a command line.
 struct Options {
-  enum class Action { run, check, table, help, version };
+  enum class Action { run, check, table, report, help, version };
   Action action = Action::run;
   std::string subject;  ///< The experiment, or the folder of results.
   std::string out;      ///< Folder for the results; empty: named after the experiment.

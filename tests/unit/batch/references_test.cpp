@@ -64,6 +64,28 @@ TEST_CASE("worlds have the length that they name, or that a table has for their 
   CHECK(experiment->worlds[3].reference == 13.25);
 }
 
+TEST_CASE("without numbers the worlds are those of the table; without either there are none",
+          "[batch][references]") {
+  const TempFolder folder;
+  folder.write("t.csv", kTable);
+  const auto read = [&](const std::string& attributes, xml::Diagnostics& diagnostics) {
+    return read_experiment(R"(<experiment name="e" graph="g.xml" seeds="1" until="60 s"><variant name="a"/>
+      <worlds name="n" arg="world" file="many.csv" )" +
+                               attributes + "/></experiment>",
+                           folder.file("e.xml"), diagnostics);
+  };
+  xml::Diagnostics none;
+  const auto experiment = read("references=\"t.csv\" column=\"length\"", none);
+  INFO(none.text());
+  REQUIRE(experiment);
+  REQUIRE(experiment->worlds.size() == 2);
+  CHECK(experiment->worlds[1].name == "n_7");
+  CHECK(experiment->worlds[1].reference == 13.25);
+  xml::Diagnostics found;
+  CHECK_FALSE(read("", found));
+  CHECK_THAT(found.text(), Contains("E004") && Contains("needs numbers, or a table of references"));
+}
+
 TEST_CASE("a table that is not there is an error of the experiment", "[batch][references]") {
   xml::Diagnostics diagnostics;
   CHECK_FALSE(read_experiment(R"(<experiment name="e" graph="g.xml" seeds="1" until="60 s"><variant name="a"/>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "codes.hpp"
@@ -9,8 +10,10 @@
 #include "orca/batch/experiment.hpp"
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/document.hpp"
+#include "orca/xml/names.hpp"
 #include "orca/xml/reporter.hpp"
 #include "references.hpp"
+#include "results/metric.hpp"
 #include "rules.hpp"
 
 namespace orca::batch {
@@ -52,6 +55,7 @@ class ExperimentReader {
                           "version " + in_quotes(*version) + " is not known; the only one is \"1\"");
     if (experiment.has("graph")) graph_ = path(experiment.text("graph").value_or(""));
     experiment_.seeds = numbers(experiment, "seeds");
+    experiment_.metrics = metrics(experiment);
     experiment_.until = experiment.duration("until").value_or(Duration{0});
     experiment_.limit = experiment.duration_or("limit", from_seconds(kDefaultLimit)).value_or(Duration{0});
     experiment_.memory_limit =
@@ -85,13 +89,24 @@ class ExperimentReader {
     settings(element, more);
     const std::map<std::uint64_t, double> lengths = references(element);
     const xml::Position& position = element.element().position();
-    for (const std::uint64_t number : numbers(element, "numbers")) {
+    for (const std::uint64_t number : numbers_of_worlds(element, lengths)) {
       World world{name + "_" + std::to_string(number), more, position};
       world.settings.push_back({arg, file + "#" + std::to_string(number), position});
       if (!remember(element, "world", world.name)) return;
       if (const auto length = lengths.find(number); length != lengths.end()) world.reference = length->second;
       experiment_.worlds.push_back(std::move(world));
     }
+  }
+
+  // Returns the numbers that are named, or else those of the table.
+  std::vector<std::uint64_t> numbers_of_worlds(const Attributes& element,
+                                               const std::map<std::uint64_t, double>& table) {
+    if (element.has("numbers")) return numbers(element, "numbers");
+    if (!element.has("references"))
+      element.error(codes::kMissing, "<worlds> needs numbers, or a table of references that has them");
+    std::vector<std::uint64_t> all;
+    for (const auto& [number, length] : table) all.push_back(number);
+    return all;
   }
 
   std::map<std::uint64_t, double> references(const Attributes& element) const {
@@ -120,6 +135,22 @@ class ExperimentReader {
     const auto value = element.text(element.has("value") ? "value" : "file");
     if (!arg || !value) return;
     to.push_back({*arg, element.has("file") ? path(*value) : *value, element.element().position()});
+  }
+
+  std::vector<std::string> metrics(const Attributes& experiment) const {
+    std::istringstream words(experiment.text("metrics").value_or("success time"));
+    std::vector<std::string> names;
+    for (std::string name; words >> name;) {
+      if (find_metric(name) == nullptr) {
+        std::vector<std::string> known;
+        for (const Metric& metric : all_metrics()) known.push_back(metric.name);
+        experiment.error_at("metrics", codes::kBadValue,
+                            "there is no metric " + in_quotes(name) + "; there are " + listed(known) +
+                                xml::did_you_mean(xml::nearest_name(name, known)));
+      }
+      names.push_back(std::move(name));
+    }
+    return names;
   }
 
   std::vector<std::uint64_t> numbers(const Attributes& element, const char* attribute) {

@@ -26,6 +26,7 @@ constexpr std::array kExperiment{
     AttributeRule{"graph", false, "Graph of all variants that name none themselves."},
     AttributeRule{"seeds", true, "Seeds of the runs: numbers and ranges, \"1-20 50\"."},
     AttributeRule{"until", true, "Time after which a run ends, on its own clock.", kSeconds},
+    AttributeRule{"metrics", false, "In which variants are compared; \"success time\" if not given."},
     AttributeRule{"limit", false, "Time after which a run counts as hung; 300 s if not given.", kSeconds},
     AttributeRule{"memory", false, "Largest address space of a run; 8 GB if not given.", kBytes}};
 constexpr std::array kSet{
@@ -41,7 +42,8 @@ constexpr std::array kWorlds{
     AttributeRule{"name", true, "Name before the number of each world: barn_17.", kName},
     AttributeRule{"arg", true, "Argument of the graph that gets FILE#NUMBER."},
     AttributeRule{"file", true, "File with numbered worlds, or a world with a <generate>."},
-    AttributeRule{"numbers", true, "Numbers and ranges, \"1-200\"."},
+    AttributeRule{"numbers", false,
+                  "Numbers and ranges, \"1-200\"; those of the table of references if not given."},
     AttributeRule{"references", false, "Table (.csv) with the length of the way of each number in a column."},
     AttributeRule{"column", false, "Name of that column; \"reference\" if not given."}};
 

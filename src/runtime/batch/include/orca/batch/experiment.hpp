@@ -54,9 +54,10 @@ struct Experiment {
   std::vector<Variant> variants;
   std::vector<World> worlds;
   std::vector<std::uint64_t> seeds;
-  Duration until{0};               ///< Limit of each run [s of its clock].
-  Duration limit{0};               ///< Limit of each run [s of the wall clock].
-  std::uint64_t memory_limit = 0;  ///< [bytes] of address space of each run.
+  std::vector<std::string> metrics;  ///< In which variants are compared.
+  Duration until{0};                 ///< Limit of each run [s of its clock].
+  Duration limit{0};                 ///< Limit of each run [s of the wall clock].
+  std::uint64_t memory_limit = 0;    ///< [bytes] of address space of each run.
 
   [[nodiscard]] std::size_t run_count() const { return variants.size() * worlds.size() * seeds.size(); }
   /// Returns a run. Those that differ in the variant only stand together, so that what a stopped batch has finished can be

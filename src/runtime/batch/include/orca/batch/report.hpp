@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/batch/experiment.hpp"
+#include "orca/batch/store.hpp"
+
+namespace orca::batch {
+
+/// The pages of a report on a batch, the same for the same results.
+struct Report {
+  std::string html;      ///< Self-contained, with plots.
+  std::string markdown;  ///< The same without plots.
+  std::string summary;   ///< What is established and what is not, a line each, for a terminal.
+};
+
+/// Makes the report on those results of an experiment that there are.
+/// @errors  those of the store; failed_precondition if it holds no run of the experiment.
+/// @thread  one thread, which may use the store.
+[[nodiscard]] Result<Report> make_report(const Experiment& experiment, const Store& store);
+
+/// Returns the command that makes one run again, alone.
+[[nodiscard]] std::string replay_command(const Experiment& experiment, const Run& run);
+
+}  // namespace orca::batch

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/batch/statistics/bootstrap.hpp"
+#include "orca/batch/statistics/verdict.hpp"
+#include "orca/batch/store.hpp"
+#include "results/metric.hpp"
+
+namespace orca::batch {
+
+/// A metric of a variant's runs.
+struct Summary {
+  std::size_t runs = 0;      ///< That have it.
+  Estimate mean;             ///< With an interval over worlds and seeds.
+  double middle_half = 0.0;  ///< Mean of the middle half of the runs.
+};
+
+/// What the runs of a variant came to.
+struct VariantResult {
+  std::string name;
+  std::size_t runs = 0;
+  std::map<Ending, std::size_t> endings;
+  std::map<Failure, std::size_t> failures;
+  Interval success_rate;                     ///< Wilson's, which takes all runs for independent.
+  std::map<std::string, Summary> metrics{};  ///< By name; without those that no run has.
+};
+
+/// A test of the difference of two variants in one metric.
+struct Difference {
+  std::string first, second;  ///< Variants.
+  std::string metric;
+  std::size_t pairs = 0;   ///< Of runs in the same world with the same seed.
+  bool by_worlds = false;  ///< Whether the test compares worlds, and not runs.
+  Estimate difference;     ///< first - second, with an interval over worlds and seeds.
+  double p =
+      1.0;  ///< Of McNemar's test for success, of Wilcoxon's for others; adjusted for all tests by Holm's method.
+  double improvement =
+      0.5;  ///< Probability that a run of the first is better than one of the second in the same world.
+  Verdict verdict;
+};
+
+/// The results of a batch, and what may be claimed of them.
+struct BatchResult {
+  std::vector<VariantResult> variants;  ///< By name.
+  std::vector<std::string> worlds;      ///< By name.
+  /// Number of successes and runs by variant and world.
+  std::map<std::pair<std::string, std::string>, std::pair<std::size_t, std::size_t>> matrix;
+  std::vector<Difference> differences;  ///< Of each pair of variants in each metric that is compared.
+};
+
+/// The fewest worlds whose means are compared instead of their runs: the smallest p-value of five is 0.0625.
+inline constexpr std::size_t kLeastWorlds = 6;
+
+/// @param compared  names of metrics.
+/// @errors  those of the statistics, if there are no rows.
+/// @thread  a pure function; any thread.
+[[nodiscard]] Result<BatchResult> compare(const std::vector<Row>& rows,
+                                          const std::vector<std::string>& compared);
+
+}  // namespace orca::batch

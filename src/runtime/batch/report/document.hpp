@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace orca::batch {
+
+/// A report as a list of blocks, which becomes a page of HTML or of Markdown. Texts are plain: whoever writes the page escapes
+/// them. Plain values.
+struct Heading {
+  std::string text;
+};
+struct Paragraph {
+  std::string text;
+};
+struct Table {
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+};
+/// A drawing; a page of Markdown has only its caption.
+struct Figure {
+  std::string svg;
+  std::string caption;
+};
+/// A command to type.
+struct Command {
+  std::string text;
+};
+using Block = std::variant<Heading, Paragraph, Table, Figure, Command>;
+
+struct Document {
+  std::string title;
+  std::vector<Block> blocks;
+
+  template <class Kind>
+  void add(Kind block) {
+    blocks.emplace_back(std::move(block));
+  }
+};
+
+/// Returns one self-contained page, which is well-formed XML too.
+[[nodiscard]] std::string to_html(const Document& document);
+[[nodiscard]] std::string to_markdown(const Document& document);
+
+/// Returns a text with the characters that HTML gives a meaning written as references.
+[[nodiscard]] std::string escaped(const std::string& text);
+
+}  // namespace orca::batch

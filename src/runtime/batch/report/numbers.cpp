@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "numbers.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace orca::batch {
+namespace {
+
+std::string formatted(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string span_text(const Interval& interval, const Metric& metric) {
+  return value_text(interval.low, metric) + " to " + value_text(interval.high, metric);
+}
+
+}  // namespace
+
+std::string value_text(double value, const Metric& metric) {
+  if (metric.is_success()) return formatted("%.1f %%", 100.0 * value + 0.0);
+  return formatted(std::fabs(value) < 10.0 ? "%.3f" : "%.1f", value);
+}
+
+std::string estimate_text(const Estimate& estimate, const Metric& metric) {
+  return value_text(estimate.value, metric) + " (" + span_text(estimate.interval, metric) + ")";
+}
+
+std::string p_text(double p) { return p < 1e-4 ? "< 0.0001" : formatted("%.4f", p); }
+
+std::string title_of(const Metric& metric) {
+  return metric.unit.empty() ? metric.name : metric.name + " [" + metric.unit + "]";
+}
+
+std::string line_of(const VariantResult& variant) {
+  const Metric& success = *find_metric("success");
+  std::string text = variant.name + ": " + std::to_string(variant.runs) + " runs, " +
+                     estimate_text(variant.metrics.at("success").mean, success) +
+                     " succeed (95 % over worlds and seeds)";
+  for (const auto& [ending, count] : variant.endings)
+    if (ending != Ending::success) text += ", " + std::to_string(count) + " " + name_of(ending);
+  return text;
+}
+
+std::string line_of(const Difference& difference) {
+  const Metric& metric = *find_metric(difference.metric);
+  return difference.first + " - " + difference.second + ", " + title_of(metric) + ": " +
+         estimate_text(difference.difference, metric) + ", " + difference.verdict.text;
+}
+
+}  // namespace orca::batch

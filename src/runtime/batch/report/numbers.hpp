@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "comparison.hpp"
+
+namespace orca::batch {
+
+/// Returns a value of a metric for people, to three digits or more: success as "98.3 %", others without their unit.
+[[nodiscard]] std::string value_text(double value, const Metric& metric);
+/// Returns "80.4 (79.9 to 81.0)".
+[[nodiscard]] std::string estimate_text(const Estimate& estimate, const Metric& metric);
+/// Returns "0.012", or "< 0.0001".
+[[nodiscard]] std::string p_text(double p);
+/// Returns "time [s]".
+[[nodiscard]] std::string title_of(const Metric& metric);
+/// Returns a line for the terminal on a variant, and one on a difference.
+[[nodiscard]] std::string line_of(const VariantResult& variant);
+[[nodiscard]] std::string line_of(const Difference& difference);
+
+}  // namespace orca::batch

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "plots.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "document.hpp"
+
+namespace orca::batch {
+namespace {
+
+// Colours that people with any colour vision tell apart (M. Okabe and K. Ito, "Color universal design", 2008).
+constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+constexpr double kWidth = 640.0, kHeight = 320.0, kLeft = 52.0, kBottom = 40.0, kTop = 12.0, kRight = 150.0;
+constexpr double kMapWidth = 420.0, kMostMapHeight = 520.0, kMapMargin = 0.3;
+
+const char* colour(std::size_t number) { return kColours[number % kColours.size()]; }
+
+std::string number(double value, const char* format = "%.1f") {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string svg(double width, double height, const std::string& inside) {
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width, "%.0f") + "\" height=\"" +
+         number(height, "%.0f") + "\" viewBox=\"0 0 " + number(width, "%.0f") + " " + number(height, "%.0f") +
+         "\" font-size=\"12\" font-family=\"sans-serif\">\n" + inside + "</svg>\n";
+}
+
+std::string line(double x1, double y1, double x2, double y2, const std::string& stroke) {
+  return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" +
+         number(y2) + "\" stroke=\"" + stroke + "\"/>\n";
+}
+
+std::string words(double x, double y, const std::string& text, const std::string& anchor = "start",
+                  const std::string& fill = "#222") {
+  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\" fill=\"" +
+         fill + "\">" + escaped(text) + "</text>\n";
+}
+
+std::string polyline(const std::vector<Vec2>& points, const char* stroke, double width) {
+  std::string text = "<polyline fill=\"none\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" +
+                     number(width) + "\" stroke-opacity=\"0.8\" points=\"";
+  for (const Vec2& point : points) text += number(point.x) + "," + number(point.y) + " ";
+  return text + "\"/>\n";
+}
+
+// Returns 1, 2 or 5 times a power of ten, so that some five steps make up the range.
+double step_of(double range) {
+  const double raw = range / 5.0;
+  double power = 1.0;
+  while (10.0 * power <= raw) power *= 10.0;
+  while (power > raw) power /= 10.0;
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (raw <= factor * power) return factor * power;
+  return 10.0 * power;
+}
+
+// The frame of a plot from values to pixels.
+struct Axes {
+  double low, high;
+  [[nodiscard]] double x(double value) const {
+    return kLeft + (value - low) / (high - low) * (kWidth - kLeft - kRight);
+  }
+  [[nodiscard]] static double y(double share) {
+    return kHeight - kBottom - share * (kHeight - kBottom - kTop);
+  }
+};
+
+Axes axes_of(const std::vector<Series>& all) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Series& series : all) {
+    for (const double value : series.values) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  const double margin = high > low ? 0.05 * (high - low) : std::max(0.05 * std::fabs(high), 0.05);
+  return {low - margin, high + margin};
+}
+
+std::string ticks(const Axes& axes, const std::string& title) {
+  std::string text;
+  for (int i = 0; i <= 4; ++i) {
+    const double share = 0.25 * i;
+    text += line(kLeft, Axes::y(share), kWidth - kRight, Axes::y(share), "#ddd");
+    text += words(kLeft - 6.0, Axes::y(share) + 4.0, number(100.0 * share, "%.0f %%"), "end");
+  }
+  const double step = step_of(axes.high - axes.low);
+  for (double value = std::ceil(axes.low / step) * step; value <= axes.high; value += step) {
+    text += line(axes.x(value), Axes::y(0.0), axes.x(value), Axes::y(0.0) + 4.0, "#888");
+    text += words(axes.x(value), Axes::y(0.0) + 17.0,
+                  number(std::fabs(value) < 1e-9 * step ? 0.0 : value, "%.4g"), "middle");
+  }
+  return text + words(0.5 * (kLeft + kWidth - kRight), kHeight - 6.0, title, "middle");
+}
+
+// A step up at each value.
+std::vector<Vec2> steps_of(const Series& series, const Axes& axes) {
+  std::vector<double> values = series.values;
+  std::ranges::sort(values);
+  std::vector<Vec2> points{{axes.x(axes.low), Axes::y(0.0)}};
+  const auto runs = static_cast<double>(std::max(series.runs, values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    points.push_back({axes.x(values[i]), Axes::y(static_cast<double>(i) / runs)});
+    points.push_back({axes.x(values[i]), Axes::y(static_cast<double>(i + 1) / runs)});
+  }
+  points.push_back({axes.x(axes.high), Axes::y(static_cast<double>(values.size()) / runs)});
+  return points;
+}
+
+struct Area {
+  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  void add(Vec2 place) {
+    low = {std::min(low.x, place.x - kMapMargin), std::min(low.y, place.y - kMapMargin)};
+    high = {std::max(high.x, place.x + kMapMargin), std::max(high.y, place.y + kMapMargin)};
+  }
+};
+
+// From metres to pixels; y points up in the world, and down in a drawing.
+struct MapFrame {
+  Area area;
+  double scale;
+  [[nodiscard]] Vec2 operator()(Vec2 place) const {
+    return {scale * (place.x - area.low.x), scale * (area.high.y - place.y)};
+  }
+};
+
+MapFrame frame_of(const std::vector<Line>& walls, const std::vector<Track>& tracks) {
+  Area area;
+  for (const Line& wall : walls) {
+    area.add(wall.from);
+    area.add(wall.to);
+  }
+  for (const Track& track : tracks)
+    for (const Vec2& place : track.places) area.add(place);
+  const Vec2 size = area.high - area.low;
+  return {area, std::min(kMapWidth / size.x, kMostMapHeight / size.y)};
+}
+
+std::string drawn(const Track& track, const MapFrame& frame) {
+  if (track.places.empty()) return {};
+  std::vector<Vec2> points;
+  for (const Vec2& place : track.places) points.push_back(frame(place));
+  std::string text = polyline(points, colour(track.variant), 1.5);
+  const Vec2 end = points.back();
+  if (track.ends_badly)
+    text += "<circle cx=\"" + number(end.x) + "\" cy=\"" + number(end.y) +
+            "\" r=\"5\" fill=\"none\" stroke=\"" + colour(track.variant) + "\" stroke-width=\"2\"/>\n";
+  return text;
+}
+
+}  // namespace
+
+std::string distribution_plot(const std::string& axis, const std::vector<Series>& all) {
+  const Axes axes = axes_of(all);
+  std::string inside = ticks(axes, axis);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    inside += polyline(steps_of(all[i], axes), colour(i), 2.0);
+    const double y = kTop + 14.0 + 18.0 * static_cast<double>(i);
+    inside += words(kWidth - kRight + 10.0, y, all[i].name, "start", colour(i));
+  }
+  return svg(kWidth, kHeight, inside);
+}
+
+std::string map_plot(const std::vector<Line>& walls, const std::vector<Track>& tracks) {
+  const MapFrame frame = frame_of(walls, tracks);
+  std::string path = "<path fill=\"none\" stroke=\"#444\" d=\"";
+  for (const Line& wall : walls) {
+    const Vec2 from = frame(wall.from);
+    const Vec2 to = frame(wall.to);
+    path += "M" + number(from.x) + " " + number(from.y) + "L" + number(to.x) + " " + number(to.y);
+  }
+  std::string inside = path + "\"/>\n";
+  for (const Track& track : tracks) inside += drawn(track, frame);
+  const Vec2 size = frame.area.high - frame.area.low;
+  return svg(frame.scale * size.x, frame.scale * size.y, inside);
+}
+
+std::string legend_plot(const std::vector<std::string>& variants) {
+  std::string inside;
+  double x = 0.0;
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    inside +=
+        "<rect x=\"" + number(x) + "\" y=\"4\" width=\"14\" height=\"4\" fill=\"" + colour(i) + "\"/>\n";
+    inside += words(x + 20.0, 12.0, variants[i], "start", colour(i));
+    x += 40.0 + 8.0 * static_cast<double>(variants[i].size());
+  }
+  return svg(std::max(x, 1.0), 18.0, inside);
+}
+
+std::vector<std::vector<Vec2>> read_tracks(const std::string& text) {
+  std::vector<std::vector<Vec2>> tracks(1);
+  const char* at = text.c_str();
+  for (Vec2 place; *at != '\0';) {
+    int taken = 0;
+    if (std::sscanf(at, "%lf %lf%n", &place.x, &place.y, &taken) != 2) break;
+    tracks.back().push_back(place);
+    at += taken;
+    if (*at == ';') tracks.emplace_back();
+    if (*at != '\0') ++at;
+  }
+  return tracks;
+}
+
+}  // namespace orca::batch

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/batch/report.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "comparison.hpp"
+#include "document.hpp"
+#include "numbers.hpp"
+#include "orca/xml/number.hpp"
+#include "plots.hpp"
+
+namespace orca::batch {
+namespace {
+
+constexpr std::size_t kShownWorlds = 6;
+constexpr std::size_t kShownFailures = 3;  // of a variant and kind
+
+std::string settings_text(const std::vector<Setting>& settings) {
+  std::string text;
+  for (const Setting& setting : settings) text += (text.empty() ? "" : ", ") + setting.text();
+  return text;
+}
+
+class Writer {
+ public:
+  Writer(const Experiment& experiment, const Store& store, const std::vector<Row>& rows,
+         const BatchResult& result)
+      : experiment_(experiment), store_(store), rows_(rows), result_(result) {}
+
+  Document write() {
+    document_.title = "Comparison: " + experiment_.name;
+    introduce();
+    success();
+    claims();
+    metrics();
+    worlds();
+    distributions();
+    tracks();
+    failures();
+    return std::move(document_);
+  }
+
+ private:
+  void introduce() {
+    document_.add(Paragraph{
+        std::to_string(rows_.size()) + " of " + std::to_string(experiment_.run_count()) +
+        " runs, each in simulated time and at most " + xml::number_text(to_seconds(experiment_.until)) +
+        " s long. All variants met the same worlds with the same seeds. The figures come from Orca's "
+        "simulator: they belong beside others of the same simulator, not beside those of another one."});
+    Table table{{"variant", "graph", "settings"}, {}};
+    for (const Variant& variant : experiment_.variants)
+      table.rows.push_back({variant.name, variant.graph, settings_text(variant.settings)});
+    document_.add(std::move(table));
+    if (!experiment_.settings.empty())
+      document_.add(Paragraph{"Settings of all runs: " + settings_text(experiment_.settings)});
+  }
+
+  void success() {
+    document_.add(Heading{"Success"});
+    Table table{{"variant", "runs", "success (95 % over worlds and seeds)", "95 % (Wilson)", "others"}, {}};
+    const Metric& metric = *find_metric("success");
+    for (const VariantResult& variant : result_.variants) {
+      std::string others;
+      for (const auto& [ending, count] : variant.endings)
+        if (ending != Ending::success && count > 0)
+          others += (others.empty() ? "" : ", ") + std::to_string(count) + " " + name_of(ending);
+      table.rows.push_back({variant.name, std::to_string(variant.runs),
+                            estimate_text(variant.metrics.at("success").mean, metric),
+                            value_text(variant.success_rate.low, metric) + " to " +
+                                value_text(variant.success_rate.high, metric),
+                            others});
+    }
+    document_.add(std::move(table));
+    document_.add(Paragraph{
+        "A success reaches all goals and touches nothing. The first interval draws worlds and then seeds "
+        "(hierarchical bootstrap, 10,000 draws); Wilson's takes all runs for independent."});
+  }
+
+  void claims() {
+    if (result_.differences.empty()) return;
+    document_.add(Heading{"What may be claimed"});
+    Table table{{"metric", "variants", "difference (95 %)", "better in", "pairs", "p", "claim"}, {}};
+    for (const Difference& one : result_.differences) {
+      const Metric& metric = *find_metric(one.metric);
+      table.rows.push_back({title_of(metric), one.first + " - " + one.second,
+                            estimate_text(one.difference, metric),
+                            value_text(one.improvement, *find_metric("success")), std::to_string(one.pairs),
+                            p_text(one.p) + (one.by_worlds ? " (worlds)" : " (runs)"), one.verdict.text});
+    }
+    document_.add(std::move(table));
+    document_.add(
+        Paragraph{"Paired by world and seed; time only where both succeed. p: McNemar's test for success, "
+                  "Wilcoxon's signed-rank test for others, of the "
+                  "means of worlds or, where there are fewer than " +
+                  std::to_string(kLeastWorlds) +
+                  " worlds, of runs, which says nothing of other worlds; adjusted for the number of tests by "
+                  "Holm's method. \"Better in\" is the probability that a run of the "
+                  "first is better than one of the second in the same world. A difference is called "
+                  "established only with at least 9 runs of each, p of 0.05 "
+                  "or less, and an interval without 0. \"Not established\" does not mean equal."});
+  }
+
+  void metrics() {
+    document_.add(Heading{"All metrics"});
+    Table table{{"metric"}, {}};
+    for (const VariantResult& variant : result_.variants) table.head.push_back(variant.name);
+    table.head.emplace_back("what it is");
+    for (const Metric& metric : all_metrics()) {
+      std::vector<std::string> row{title_of(metric)};
+      bool is_known = false;
+      for (const VariantResult& variant : result_.variants) {
+        const auto found = variant.metrics.find(metric.name);
+        is_known = is_known || found != variant.metrics.end();
+        row.push_back(found == variant.metrics.end() ? "" : summary_text(found->second, metric));
+      }
+      row.push_back(metric.text + (metric.of_successes ? " Of successes only." : ""));
+      if (is_known) table.rows.push_back(std::move(row));
+    }
+    document_.add(std::move(table));
+    document_.add(
+        Paragraph{"Means with intervals of 95 % over worlds and seeds; after the semicolon the mean of the "
+                  "middle half of the runs."});
+  }
+
+  static std::string summary_text(const Summary& summary, const Metric& metric) {
+    const std::string mean = estimate_text(summary.mean, metric);
+    return metric.is_success() ? mean : mean + "; " + value_text(summary.middle_half, metric);
+  }
+
+  void worlds() {
+    document_.add(Heading{"Successes by world"});
+    Table table{{"world"}, {}};
+    for (const VariantResult& variant : result_.variants) table.head.push_back(variant.name);
+    for (const std::string& world : result_.worlds) {
+      std::vector<std::string> row{world};
+      for (const VariantResult& variant : result_.variants) {
+        const auto found = result_.matrix.find({variant.name, world});
+        row.push_back(found == result_.matrix.end() ? ""
+                                                    : std::to_string(found->second.first) + " of " +
+                                                          std::to_string(found->second.second));
+      }
+      table.rows.push_back(std::move(row));
+    }
+    document_.add(std::move(table));
+  }
+
+  [[nodiscard]] std::vector<std::string> variant_names() const {
+    std::vector<std::string> names;
+    for (const VariantResult& variant : result_.variants) names.push_back(variant.name);
+    return names;
+  }
+
+  [[nodiscard]] std::size_t number_of(const std::string& variant) const {
+    return static_cast<std::size_t>(std::ranges::find(result_.variants, variant, &VariantResult::name) -
+                                    result_.variants.begin());
+  }
+
+  void distributions() {
+    std::vector<Series> times;
+    std::vector<Series> speeds;
+    for (const VariantResult& variant : result_.variants) {
+      times.push_back({variant.name, {}, variant.runs});
+      speeds.push_back({variant.name, {}, variant.runs});
+    }
+    for (const Row& row : rows_) {
+      const Outcome& outcome = row.outcome;
+      if (outcome.ending != Ending::success) continue;
+      times[number_of(row.variant)].values.push_back(outcome.time);
+      if (outcome.measures.way && outcome.time > 0.0)
+        speeds[number_of(row.variant)].values.push_back(*outcome.measures.way / outcome.time);
+    }
+    if (std::ranges::any_of(times, [](const Series& one) { return !one.values.empty(); })) {
+      document_.add(Heading{"Times and speeds"});
+      document_.add(Figure{distribution_plot("time until the last goal [s]", times),
+                           "Share of the runs that were done by then. Runs without success never are."});
+    }
+    if (std::ranges::any_of(speeds, [](const Series& one) { return !one.values.empty(); }))
+      document_.add(Figure{distribution_plot("mean speed of a success [m/s]", speeds),
+                           "Share of the runs at most that fast."});
+  }
+
+  // Worlds in which runs failed come first.
+  [[nodiscard]] std::vector<std::string> worlds_to_show() const {
+    std::vector<std::string> worlds = result_.worlds;
+    const auto failed = [&](const std::string& world) {
+      return std::ranges::any_of(result_.variants, [&](const VariantResult& variant) {
+        const auto found = result_.matrix.find({variant.name, world});
+        return found != result_.matrix.end() && found->second.first < found->second.second;
+      });
+    };
+    std::ranges::stable_partition(worlds, failed);
+    worlds.resize(std::min(worlds.size(), kShownWorlds));
+    return worlds;
+  }
+
+  void tracks() {
+    bool is_first = true;
+    for (const std::string& world : worlds_to_show()) {
+      std::vector<Track> tracks;
+      for (const Row& row : rows_) {
+        if (row.world != world) continue;
+        const bool ends_badly = row.outcome.ending != Ending::success;
+        for (std::vector<Vec2>& places : read_tracks(store_.track(row.variant, row.world, row.seed)))
+          if (!places.empty()) tracks.push_back({std::move(places), number_of(row.variant), ends_badly});
+      }
+      if (tracks.empty()) continue;
+      if (is_first) document_.add(Heading{"Where they drove"});
+      is_first = false;
+      document_.add(
+          Figure{legend_plot(variant_names()) + map_plot({}, tracks),
+                 "World " + world + ": all seeds; a circle marks the end of a run without success."});
+    }
+  }
+
+  void failures() {
+    std::map<std::pair<std::string, std::string>, std::size_t> shown;
+    bool is_first = true;
+    for (const Row& row : rows_) {
+      if (row.outcome.ending == Ending::success) continue;
+      const std::string kind = kind_of(row.outcome);
+      if (shown[{row.variant, kind}]++ >= kShownFailures) continue;
+      if (is_first) document_.add(Heading{"Runs without success"});
+      is_first = false;
+      document_.add(Paragraph{row.variant + " in " + row.world + ", seed " + std::to_string(row.seed) + ": " +
+                              kind + (row.outcome.reason.empty() ? "" : " (" + row.outcome.reason + ")")});
+      if (const auto run = find(row)) document_.add(Command{replay_command(experiment_, *run)});
+    }
+    for (const auto& [what, count] : shown)
+      if (count > kShownFailures)
+        document_.add(Paragraph{"And " + std::to_string(count - kShownFailures) + " more of " + what.first +
+                                ": " + what.second});
+  }
+
+  static std::string kind_of(const Outcome& outcome) {
+    const std::string failure = name_of(outcome.failure);
+    const std::string ending = name_of(outcome.ending);
+    return failure.empty() || failure == ending ? ending : ending + ", " + failure;
+  }
+
+  [[nodiscard]] std::optional<Run> find(const Row& row) const {
+    const auto variant = std::ranges::find(experiment_.variants, row.variant, &Variant::name);
+    const auto world = std::ranges::find(experiment_.worlds, row.world, &World::name);
+    if (variant == experiment_.variants.end() || world == experiment_.worlds.end()) return std::nullopt;
+    return Run{static_cast<std::size_t>(variant - experiment_.variants.begin()),
+               static_cast<std::size_t>(world - experiment_.worlds.begin()), row.seed};
+  }
+
+  const Experiment& experiment_;
+  const Store& store_;
+  const std::vector<Row>& rows_;
+  const BatchResult& result_;
+  Document document_;
+};
+
+// A word of a shell's command.
+std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+}  // namespace
+
+std::string replay_command(const Experiment& experiment, const Run& run) {
+  std::string text = "deployer " + shell_word(experiment.variants[run.variant].graph) +
+                     " --clock virtual --seed " + std::to_string(run.seed) + " --until " +
+                     shell_word(xml::number_text(to_seconds(experiment.until)) + " s");
+  for (const std::string& setting : experiment.settings_of(run)) text += " --set " + shell_word(setting);
+  return text;
+}
+
+Result<Report> make_report(const Experiment& experiment, const Store& store) {
+  std::vector<Row> rows;
+  if (const Status read = store.for_each([&](const Row& row) { rows.push_back(row); }); !read.ok())
+    return read.error();
+  if (rows.empty()) return fail(Code::failed_precondition, "there are no results yet");
+  const Result<BatchResult> result = compare(rows, experiment.metrics);
+  if (!result) return result.error();
+  const Document document = Writer(experiment, store, rows, *result).write();
+  std::string summary;
+  for (const VariantResult& variant : result->variants) summary += line_of(variant) + "\n";
+  for (const Difference& difference : result->differences) summary += line_of(difference) + "\n";
+  return Report{to_html(document), to_markdown(document), std::move(summary)};
+}
+
+}  // namespace orca::batch

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "metric.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace orca::batch {
+namespace {
+
+constexpr std::array kBetterWhenMore{"success", "spl", "barn_score", "clearance", "clearance_p5"};
+// What an unfinished run has of these cannot be compared with that of a finished one.
+constexpr std::array kOfSuccesses{"time", "way", "way_ratio", "jerk", "reversals"};
+
+bool is_among(const auto& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+Metric metric(const char* name, const char* unit, const char* text,
+              std::optional<double> Measures::*measure = nullptr) {
+  return {name, unit, text, is_among(kBetterWhenMore, name), is_among(kOfSuccesses, name), measure};
+}
+
+std::vector<Metric> listed_metrics() {
+  std::vector<Metric> metrics{
+      metric("success", "", "Share of the runs that reached all goals and touched nothing."),
+      metric("time", "s", "Simulated time until the last goal was reached.")};
+  for (const Measure& one : all_measures())
+    metrics.push_back(metric(one.name, one.unit, one.text, one.value));
+  return metrics;
+}
+
+}  // namespace
+
+std::optional<double> Metric::of(const Outcome& outcome) const {
+  const bool succeeded = outcome.ending == Ending::success;
+  if (is_success()) return succeeded ? 1.0 : 0.0;
+  if (of_successes && !succeeded) return std::nullopt;
+  return measure == nullptr ? outcome.time : outcome.measures.*measure;
+}
+
+const std::vector<Metric>& all_metrics() {
+  static const std::vector<Metric> metrics = listed_metrics();
+  return metrics;
+}
+
+const Metric* find_metric(std::string_view name) {
+  const auto found = std::ranges::find(all_metrics(), name, &Metric::name);
+  return found == all_metrics().end() ? nullptr : &*found;
+}
+
+}  // namespace orca::batch

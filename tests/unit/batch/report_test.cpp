@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a report says of results whose truth is known.
+#include "orca/batch/report.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "orca/batch/statistics/rate.hpp"
+#include "orca/batch/statistics/wilcoxon.hpp"
+#include "orca/xml/document.hpp"
+#include "report/comparison.hpp"
+#include "report/document.hpp"
+#include "report/numbers.hpp"
+#include "report/plots.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca;
+using namespace orca::batch;
+using Catch::Contains;
+using orca::test::TempFolder;
+
+namespace {
+
+// Twenty worlds with one seed each; the first `failures` of them fail, and the others take `time` and more.
+void add(std::vector<Row>& rows, const std::string& variant, int failures, double time = 60.0) {
+  for (int world = 10; world < 30; ++world) {
+    Row row{variant, "w" + std::to_string(world), 1, {}, {}};
+    const bool fails = world - 10 < failures;
+    row.outcome.ending = fails ? Ending::time_out : Ending::success;
+    row.outcome.failure = fails ? Failure::trap : Failure::none;
+    row.outcome.time = fails ? 200.0 : time + 0.1 * world;
+    row.outcome.measures.way = 30.0;
+    row.outcome.measures.clearance = 0.2;
+    row.outcome.track = "0.00 0.00,1.00 0.50";
+    rows.push_back(row);
+  }
+}
+
+Experiment experiment() {
+  xml::Diagnostics diagnostics;
+  std::string worlds;
+  for (int world = 10; world < 30; ++world) worlds += "<world name=\"w" + std::to_string(world) + "\"/>";
+  const auto read = read_experiment(
+      R"(<experiment name="e" graph="g.xml" seeds="1" until="200 s"><variant name="bad"><set arg="a" value="it's &lt;1&gt;"/></variant><variant name="good"/>)" +
+          worlds + "</experiment>",
+      "/top/e.xml", diagnostics);
+  REQUIRE(read);
+  return *read;
+}
+
+Report report_on(const std::vector<Row>& rows) {
+  const TempFolder folder;
+  const auto store = Store::open(folder.file("r.sqlite"), "1").value();
+  for (const Row& row : rows) REQUIRE(store->add(row).ok());
+  const auto made = make_report(experiment(), *store);
+  REQUIRE(made);
+  return *made;
+}
+
+const Difference& in(const BatchResult& result, const std::string& metric) {
+  for (const Difference& one : result.differences)
+    if (one.metric == metric) return one;
+  FAIL("no difference in " << metric);
+  return result.differences.front();
+}
+
+}  // namespace
+
+TEST_CASE("a clear difference between two variants is called established", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 15);
+  add(rows, "good", 0);
+  const Report report = report_on(rows);
+  CHECK_THAT(report.summary, Contains("bad: 20 runs, 25.0 % (") && Contains(", 15 time_out"));
+  CHECK_THAT(report.summary, Contains("good: 20 runs, 100.0 %"));
+  CHECK_THAT(report.summary,
+             Contains("bad - good, success: -75.0 % (") && Contains("), difference established"));
+}
+
+TEST_CASE("equal variants, and ones with few runs, are not told apart", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 3);
+  add(rows, "good", 3);
+  CHECK_THAT(report_on(rows).summary,
+             Contains("bad - good, success: 0.0 %") && Contains("not established: "));
+  CHECK_THAT(report_on({rows[5], rows[25]}).summary, Contains("not established: "));
+}
+
+TEST_CASE("one variant alone is compared with nothing, and no runs give no report", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "good", 3);
+  CHECK(report_on(rows).summary.find(" - ") == std::string::npos);
+  const TempFolder folder;
+  const auto made = make_report(experiment(), *Store::open(folder.file("r.sqlite"), "1").value());
+  REQUIRE_FALSE(made);
+  CHECK_THAT(made.error().message, Contains("no results yet"));
+}
+
+TEST_CASE("times are compared where both succeed, by the means of worlds", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "fast", 2, 50.0);
+  add(rows, "slow", 5, 60.0);
+  const auto result = compare(rows, {"success", "time"});
+  REQUIRE(result);
+  const Difference& time = in(*result, "time");
+  CHECK(time.pairs == 15);
+  CHECK(time.by_worlds);
+  CHECK(time.difference.value == Approx(-10.0));
+  CHECK(time.improvement == 1.0);
+  CHECK(time.verdict.established());
+  const std::vector<double> differences(15, -10.0);
+  CHECK(time.p == Approx(2.0 * wilcoxon(differences)->p));  // the smaller of two tests, by Holm
+  CHECK(result->variants[0].success_rate == wilson_interval(18, 20).value());
+  CHECK(result->variants[0].metrics.at("time").runs == 18);
+  CHECK(result->matrix.at({"slow", "w12"}) == std::pair<std::size_t, std::size_t>(0, 1));
+}
+
+TEST_CASE("with few worlds runs are compared, and the report says so", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 0, 50.0);
+  add(rows, "good", 0, 60.0);
+  for (Row& row : rows) {
+    row.seed = std::stoull(row.world.substr(1));
+    row.world = "w10";
+  }
+  const auto result = compare(rows, {"time"});
+  REQUIRE(result);
+  CHECK_FALSE(in(*result, "time").by_worlds);
+  CHECK_THAT(report_on(rows).markdown, Contains("(runs)") && !Contains("(worlds)"));
+}
+
+TEST_CASE("a metric that there is not is refused", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "a", 0);
+  CHECK_FALSE(compare(rows, {"beauty"}));
+  xml::Diagnostics diagnostics;
+  CHECK_FALSE(
+      read_experiment(R"(<experiment name="e" graph="g.xml" seeds="1" until="1 s" metrics="success tme">
+    <variant name="a"/><world name="w"/></experiment>)",
+                      "e.xml", diagnostics));
+  CHECK_THAT(diagnostics.text(),
+             Contains("there is no metric \"tme\"") && Contains("did you mean \"time\"?"));
+}
+
+TEST_CASE("a failed run is shown with its kind and the command that makes it again", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 5);
+  add(rows, "good", 0);
+  const std::string page = report_on(rows).markdown;
+  CHECK_THAT(page, Contains("bad in w10, seed 1: time_out, trap"));
+  CHECK_THAT(
+      page,
+      Contains("deployer '/top/g.xml' --clock virtual --seed 1 --until '200 s' --set 'a=it'\\''s <1>'"));
+  CHECK_THAT(page, Contains("And 2 more of bad: time_out, trap"));
+}
+
+TEST_CASE("the HTML of a report is well-formed, whatever the names are, and needs nothing else",
+          "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 5);
+  add(rows, "good", 0);
+  const std::string page = report_on(rows).html;
+  xml::Diagnostics diagnostics;
+  CHECK(xml::read_text(page.substr(page.find("<html")), "report.html", diagnostics));
+  INFO(diagnostics.text());
+  CHECK_FALSE(diagnostics.has_errors());
+  CHECK_THAT(page,
+             Contains("a=it's &lt;1&gt;") && Contains("<svg") && !Contains("src=") && !Contains("href="));
+}
+
+TEST_CASE("a table of Markdown survives bars and line ends", "[batch][report]") {
+  Document document;
+  document.title = "t";
+  document.add(Table{{"a", "b"}, {{"x|y", "two\nlines"}}});
+  CHECK(to_markdown(document) == "# t\n\n| a | b |\n| --- | --- |\n| x\\|y | two lines |\n\n");
+}
+
+TEST_CASE("tracks are read as they were written, and what is no place is left out", "[batch][report]") {
+  const auto tracks = read_tracks("0.00 1.25,-0.10 2.00;3.00 4.00");
+  REQUIRE(tracks.size() == 2);
+  CHECK(tracks[0] == std::vector<Vec2>{{0.0, 1.25}, {-0.1, 2.0}});
+  CHECK(tracks[1] == std::vector<Vec2>{{3.0, 4.0}});
+  CHECK(read_tracks("").at(0).empty());
+  CHECK(read_tracks("1.00 1.00,far").at(0).size() == 1);
+}
+
+TEST_CASE("small p-values are not rounded to 0", "[batch][report]") {
+  CHECK(p_text(0.0123) == "0.0123");
+  CHECK(p_text(1e-7) == "< 0.0001");
+}
