@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LaserServer, LaserAvoid and VfhPlus in a whole system, and the graph that ships with them. What happens on its course
+// LaserServer, LaserAvoid, VfhPlus, Dwa and PotentialField in a whole system, and the graph that ships with them. What happens on its course
 // without any avoid behaviour is in ablation_test.cpp.
 #include <catch2/catch.hpp>
 
@@ -73,6 +73,7 @@ void check_three_goals(const Words& more) {
 }
 
 const Words kVfhPlus{"--set", "avoid=orca.VfhPlus"};
+const Words kDwa{"--set", "avoid=orca.Dwa"};
 
 // Returns what a component says of its ports.
 std::string ports_of(const std::string& type) {
@@ -197,4 +198,28 @@ TEST_CASE("the same run with VfhPlus has the same trace", "[system][laser][vfh]"
   const Run first = run_deployer(run);
   REQUIRE(first.trace_hash().has_value());
   CHECK(first.trace_hash() == run_deployer(run).trace_hash());
+}
+
+TEST_CASE("Dwa and PotentialField have exactly the ports of LaserAvoid", "[system][laser][dwa]") {
+  CHECK(ports_of("orca.Dwa") == ports_of("orca.LaserAvoid"));
+  CHECK(ports_of("orca.PotentialField") == ports_of("orca.LaserAvoid"));
+}
+
+TEST_CASE("with Dwa the Pioneer reaches its goals and touches nothing, for ten seeds, at harsh realism too",
+          "[system][laser][pioneer][dwa]") {
+  check_three_goals(kDwa);
+  check_three_goals(kDwa + Words{"--set", "realism=harsh"});
+}
+
+TEST_CASE("the same run with Dwa or PotentialField has the same trace, whatever executor runs it",
+          "[system][laser][dwa]") {
+  for (const Words& avoid : {kDwa, Words{"--set", "avoid=orca.PotentialField"}}) {
+    const Words run =
+        Words{source_file("graphs/pioneer_laser_goto.xml"), "--until", "60 s"} + virtual_clock() + avoid;
+    const Run first = run_deployer(run);
+    REQUIRE(first.trace_hash().has_value());
+    CHECK(first.trace_hash() == run_deployer(run).trace_hash());
+    for (const char* executor : {"fiber", "baton"})
+      CHECK(first.trace_hash() == run_deployer(run + Words{"--executor", executor}).trace_hash());
+  }
 }

@@ -137,7 +137,9 @@ Status Avoider::load_state(StateReader& state) {
 }
 
 std::vector<StateTag> Avoider::accepted_states() const {
-  return {{"orca.LaserAvoid", kStateVersion},
+  return {{"orca.Dwa", kStateVersion},
+          {"orca.LaserAvoid", kStateVersion},
+          {"orca.PotentialField", kStateVersion},
           {"orca.SonarAvoid", kStateVersion},
           {"orca.VfhPlus", kStateVersion}};
 }
@@ -173,10 +175,13 @@ void Avoider::advise() {
   }
   const Advice advised = advice(memory_, situation(), limits());
   last_direction_ = advised.direction;
-  if (advised.needed) {
-    motion_.push(head(advised.direction, advised.speed, *weight_ * insistence(advised.urgency)));
-  } else {
+  const double weight = *weight_ * insistence(advised.urgency);
+  if (!advised.needed) {
     motion_.push(dont_care());
+  } else if (advised.turn_rate) {
+    motion_.push(turn(*advised.turn_rate, advised.speed, weight));
+  } else {
+    motion_.push(head(advised.direction, advised.speed, weight));
   }
 }
 
@@ -207,9 +212,13 @@ Situation Avoider::situation() const {
   situation.turning = twist_.turn_rate * *reaction_time_;
   situation.heading = pose_.yaw;
   situation.speed = twist_.forward;
+  situation.turn_rate = twist_.turn_rate;
   if (const auto goal = goal_place()) {
     situation.goal = portable::atan2(goal->y, goal->x);
     situation.goal_distance = norm(*goal);
+    const auto point = present_goal();
+    situation.goal_reach = point->reach_radius().distance();
+    situation.passes_goal = point->via();
   }
   return situation;
 }

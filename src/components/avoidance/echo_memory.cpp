@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "orca/base/portable_math.hpp"
 
@@ -10,7 +11,7 @@ namespace orca::avoid {
 namespace {
 
 constexpr std::size_t kMostEchoes = 256;
-constexpr double kNoNews = 0.04;  // [m] An echo this near to a known one moves it instead of adding another.
+constexpr double kFarOff = std::numeric_limits<double>::infinity();
 
 double distance(Vec2 one, Vec2 other) { return portable::hypot(one.x - other.x, one.y - other.y); }
 
@@ -40,11 +41,11 @@ void EchoMemory::hear(Vec2 echo, const Limits& limits) {
   for (std::size_t i = 0; i < echoes_.size(); ++i)
     if (nearest == echoes_.size() || distance(echo, echoes_[i]) < distance(echo, echoes_[nearest]))
       nearest = i;
-  const double off = nearest < echoes_.size() ? distance(echo, echoes_[nearest]) : limits.same_place;
+  const double off = nearest < echoes_.size() ? distance(echo, echoes_[nearest]) : kFarOff;
   const bool near = portable::hypot(echo.x, echo.y) < limits.range;
   const Trace trace{0.0, near && off < limits.same_place};
   if (trace.confirmed) traces_[nearest].confirmed = true;
-  if (off < kNoNews) {
+  if (off < limits.no_news) {
     echoes_[nearest] = echo;
     traces_[nearest] = trace;
     return;

@@ -11,12 +11,15 @@ namespace orca::avoid {
 namespace {
 
 constexpr double kEchoTime = 4.0;  // [s] A laser invents no echoes, so one that it saw once is kept as well.
+// [m] Echoes as near to each other as that are one, if those beside what is seen must not be drawn into it.
+constexpr double kErrorOfReading = 0.01;
 constexpr double kSector = std::numbers::pi / 36;
 
 }  // namespace
 
-LaserAvoider::LaserAvoider(ComponentHost& host)
+LaserAvoider::LaserAvoider(ComponentHost& host, bool keeps_hidden)
     : Avoider(host, kEchoTime),
+      keeps_hidden_(keeps_hidden),
       squeeze_(
           *this, "squeeze", true,
           {.text =
@@ -30,10 +33,14 @@ LaserAvoider::LaserAvoider(ComponentHost& host)
                "Length of a robot that is longer than wide, unless the base says it; 0: the circle is all."}),
       robot_width_(*this, "robot_width", 0.0, {.unit = "m", .min = 0.0, .text = "Its width."}) {}
 
+std::optional<Rectangle> LaserAvoider::body() const {
+  if (!*squeeze_) return std::nullopt;
+  const std::optional<Rectangle> described = described_body();
+  return described ? described : rectangle(*robot_length_, *robot_width_);
+}
+
 Limits LaserAvoider::with_body(const EchoMemory& memory, const Situation& situation, Limits limits) const {
-  if (!*squeeze_) return limits;
-  limits.body = described_body();
-  if (!limits.body) limits.body = rectangle(*robot_length_, *robot_width_);
+  limits.body = body();
   limits.squeezes = limits.body && should_squeeze(memory.echoes(), situation, limits);
   return limits;
 }
@@ -49,7 +56,10 @@ void LaserAvoider::listen(EchoMemory& memory) {
   const double yaw = mount.yaw - turned_since(age);
   const Scan scan{readings->ranges(),      readings->min_range(),       readings->max_range(),
                   readings->angle_start(), readings->angle_increment(), {place.x, place.y, yaw}};
-  see(scan, kSector, farthest(), keep(), memory);
+  EchoMemory::Limits kept = keep();
+  kept.hidden = keeps_hidden_;
+  if (keeps_hidden_) kept.no_news = kErrorOfReading;
+  see(scan, kSector, farthest(), kept, memory);
 }
 
 }  // namespace orca::avoid

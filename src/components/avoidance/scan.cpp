@@ -10,6 +10,8 @@
 namespace orca::avoid {
 namespace {
 
+constexpr double kBehind = 0.02;  // [m] An echo that much behind a reading is another one, hidden by it.
+
 // Returns where a beam ends; nothing if it met nothing.
 std::optional<Vec2> place_of(const Scan& scan, std::size_t i) {
   const double yaw = scan.X_RS.yaw + scan.angle_start + scan.angle_increment * static_cast<double>(i);
@@ -18,19 +20,30 @@ std::optional<Vec2> place_of(const Scan& scan, std::size_t i) {
 
 double distance(Vec2 echo) { return portable::hypot(echo.x, echo.y); }
 
-bool in_view(const Scan& scan, Vec2 echo) {
+// Whether a beam beside a place ends before it. `along` is its angle from the first beam.
+bool is_hidden(const Scan& scan, double along, double away) {
+  const auto last = static_cast<long>(scan.ranges.size()) - 1;
+  const long beam = std::lround(along / scan.angle_increment);
+  for (long i = std::max(0L, beam - 1); i <= std::min(last, beam + 1); ++i)
+    if (scan.ranges[static_cast<std::size_t>(i)] + kBehind < away) return true;
+  return false;
+}
+
+bool is_replaced(const Scan& scan, Vec2 echo, bool keeps_hidden) {
   const Vec2 seen = seen_from(scan.X_RS, echo);
   const double width = scan.angle_increment * static_cast<double>(scan.ranges.size() - 1);
   const double middle = scan.angle_start + 0.5 * width;
   const double off = wrapped(portable::atan2(seen.y, seen.x) - middle);
-  return distance(seen) < scan.max_range && std::abs(off) <= 0.5 * std::abs(width);
+  const double away = distance(seen);
+  if (away >= scan.max_range || std::abs(off) > 0.5 * std::abs(width)) return false;
+  return !keeps_hidden || !is_hidden(scan, off + 0.5 * width, away);
 }
 
 }  // namespace
 
 void see(const Scan& scan, double sector, double range, const EchoMemory::Limits& keep, EchoMemory& memory) {
   if (scan.ranges.empty()) return;
-  memory.forget_if([&](Vec2 echo) { return in_view(scan, echo); });
+  memory.forget_if([&](Vec2 echo) { return is_replaced(scan, echo, keep.hidden); });
   const double beams = sector / std::max(std::abs(scan.angle_increment), 1e-9);
   const auto step = static_cast<std::size_t>(std::clamp(beams, 1.0, static_cast<double>(scan.ranges.size())));
   for (std::size_t first = 0; first < scan.ranges.size(); first += step) {

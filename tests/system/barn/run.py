@@ -8,8 +8,13 @@ FILE holds numbered worlds: by default the 200 worlds of the BARN benchmark, loo
 ../shared/data beside the tree. It may also be a world with a <generate>, whose seed is the number. A run succeeds if the robot
 comes within 1 m of the goal in 100 s and touches nothing. The clock starts with the run, not 0.1 m later as in BARN.
 
+The worlds.csv beside FILE may hold the length of a reference path of each world. Then the BARN score is printed as well: the mean over
+all runs of success * OT / clip(AT, 2 OT, 8 OT), AT the run's time and OT that of the reference path at 2 m/s; at most 0.5. BARN
+itself takes its scores in Gazebo, so a score from here is not comparable to them.
+
 The seed of each run is the number of its world, so two calls with the same binaries print the same.
-Exit status: 0 if every run ended, whatever its result; 1 if one crashed or hung; 77 if the file is missing.
+Exit status: 0 if every run ended, whatever its result; 1 if one crashed or hung; 2 if it is not said which worlds; 77 if the file
+is missing.
 """
 import argparse
 import concurrent.futures
@@ -24,6 +29,8 @@ from dataclasses import dataclass
 TREE = pathlib.Path(__file__).resolve().parents[3]
 DATA = pathlib.Path(os.environ.get("ORCA_DATA", TREE.parent / "shared" / "data"))
 BROKEN = ("crash", "hang")
+BARN_SPEED = 2.0  # [m/s] at which the benchmark's best robot drives the reference path
+LENGTH = "path_len_start_m2.25"  # of the reference path from the place start of barn_goto.xml [m]
 
 
 @dataclass(frozen=True)
@@ -71,22 +78,23 @@ def wilson(successes, count):
     return middle - half, middle + half
 
 
-def references(args):
-    """Returns the length of the reference path of each world [m]; nothing if the file has none."""
-    table = args.file.parent / "worlds.csv"
-    if not args.file.name.startswith("cylinders") or not table.exists():
-        return {}
-    with open(table, newline="", encoding="utf-8") as rows:
-        return {int(row["world"]): float(row["path_len_start_m2.25"]) for row in csv.DictReader(rows)}
-
-
 def score(outcome, length):
-    """Returns the BARN score of a run: its time is compared with that of a robot which drives the reference at 2 m/s."""
-    ideal = length / 2.0
-    return ideal / min(max(outcome.time, 2.0 * ideal), 8.0 * ideal) if outcome.result == "success" else 0.0
+    """Returns the BARN score of a run in a world with a reference path of that length [m]."""
+    optimal = length / BARN_SPEED
+    return (outcome.result == "success") * optimal / min(max(outcome.time, 2 * optimal), 8 * optimal)
 
 
-def report(outcomes, lengths):
+def report_score(outcomes, lengths):
+    scores = [score(o, lengths[o.number]) for o in outcomes if o.number in lengths]
+    if not scores:
+        print("no BARN score: no worlds.csv beside the worlds gives the lengths of their reference paths")
+        return
+    missing = len(outcomes) - len(scores)
+    print(f"BARN score {sum(scores) / len(scores):.4f}"
+          + (f" (without {missing} runs in worlds of no reference length)" if missing else ""))
+
+
+def report(outcomes):
     by_result = {}
     for outcome in outcomes:
         by_result.setdefault(outcome.result, []).append(outcome)
@@ -95,9 +103,6 @@ def report(outcomes, lengths):
     print(f"success {len(good)} of {len(outcomes)} = {100 * len(good) / len(outcomes):.1f} % "
           f"(95 %: {100 * low:.1f} to {100 * high:.1f} %)"
           + (f", median time {good[len(good) // 2]:.1f} s" if good else ""))
-    scores = [score(o, lengths[o.number]) for o in outcomes if o.number in lengths]
-    if scores:
-        print(f"BARN score {sum(scores) / len(scores):.3f}")
     for result in sorted(by_result.keys() - {"success"}):
         print(f"{result} {len(by_result[result])}")
 
@@ -109,11 +114,21 @@ def numbers_of(text):
         yield from range(int(first), int(last or first) + 1)
 
 
-def numbers(args):
-    if args.numbers:
-        return list(numbers_of(args.numbers))
-    with open(args.file.parent / "worlds.csv", newline="", encoding="utf-8") as table:
-        return [int(row["world"]) for row in csv.DictReader(table)]
+def table_of_worlds(args):
+    """Returns the rows of the worlds.csv beside the worlds; none if there is no such file."""
+    path = args.file.parent / "worlds.csv"
+    if not path.exists():
+        return []
+    with open(path, newline="", encoding="utf-8") as table:
+        return list(csv.DictReader(table))
+
+
+def numbers(args, worlds):
+    return list(numbers_of(args.numbers)) if args.numbers else [int(row["world"]) for row in worlds]
+
+
+def reference_lengths(worlds):
+    return {int(row["world"]): float(row[LENGTH]) for row in worlds if row.get(LENGTH)}
 
 
 def options():
@@ -134,13 +149,18 @@ def main():
     if not args.file.exists():
         print(f"SKIPPED: there is no {args.file}; set ORCA_DATA to the folder that holds barn/")
         return 77
+    worlds = table_of_worlds(args)
+    if not args.numbers and not worlds:
+        print(f"there is no worlds.csv beside {args.file}; say --numbers")
+        return 2
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         outcomes = []
-        for outcome in pool.map(lambda number: run(args, number), numbers(args)):
+        for outcome in pool.map(lambda number: run(args, number), numbers(args, worlds)):
             outcomes.append(outcome)
             print(f"world {outcome.number:4}  {outcome.result:9}  {outcome.time:6.2f} s  {outcome.detail}".rstrip(),
                   flush=True)
-    report(outcomes, references(args))
+    report(outcomes)
+    report_score(outcomes, reference_lengths(worlds))
     return 1 if any(o.result in BROKEN for o in outcomes) else 0
 
 

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <numbers>
+#include <utility>
 
 using namespace orca::avoid;
 using orca::Pose2;
@@ -78,4 +79,17 @@ TEST_CASE("where echoes are not kept at all, those of this moment are certain", 
   CHECK(memory.certainty(0, kNone) == 1.0);
   memory.advance(kStill, 0.01, kNone);
   CHECK(memory.echoes().empty());
+}
+
+TEST_CASE("how near two echoes must be to be one is a limit of the memory", "[avoidance][memory]") {
+  for (const auto& [no_news, count] : {std::pair{0.04, 1U}, {0.01, 2U}}) {
+    EchoMemory::Limits limits;
+    limits.single_time = 1.0;
+    limits.no_news = no_news;
+    EchoMemory memory;
+    memory.hear({0.5, 0.2}, limits);
+    memory.hear({0.5, 0.22}, limits);
+    CHECK(memory.echoes().size() == count);
+    CHECK(memory.echoes().back() == orca::Vec2{0.5, 0.22});
+  }
 }

@@ -2,6 +2,7 @@
 // A laser scan becomes echoes: the scan replaces the remembered echoes in its field of view.
 #include "orca/avoidance/scan.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -125,4 +126,24 @@ TEST_CASE("in front of a wall that a scan sees the robot slows down and turns aw
   }
   CHECK(avoid(memory_of(scan_of_wall(0.6, 0.4)).echoes(), {.last_direction = 0.1}, kLimits).direction > 0.3);
   CHECK(last_speed == 0.0);
+}
+
+TEST_CASE("a memory of hidden echoes loses those that the beams reach, and keeps those behind what they meet",
+          "[avoidance][laser]") {
+  EchoMemory::Limits keep = kKeep;
+  keep.hidden = true;
+  std::vector<double> ranges = nothing();
+  for (std::size_t i = 85; i <= 95; ++i) ranges[i] = 1.0;
+  EchoMemory memory;
+  const orca::Vec2 behind{1.3, 0.0};
+  memory.hear(behind, keep);
+  memory.hear({0.7, 0.7}, keep);
+  see(scan_of(ranges), kSector, 2.0, keep, memory);
+  const auto remembers = [&](orca::Vec2 place) {
+    return std::ranges::any_of(memory.echoes(), [&](orca::Vec2 echo) { return norm(echo - place) < 0.01; });
+  };
+  CHECK(remembers(behind));
+  CHECK_FALSE(remembers({0.7, 0.7}));
+  see(scan_of(nothing()), kSector, 2.0, keep, memory);
+  CHECK(memory.echoes().empty());
 }

@@ -48,16 +48,21 @@ struct Situation {
   std::optional<double> goal = {};
   /// [rad] where the robot points, in a frame that does not turn with it; 0 if it does not know.
   double heading = 0.0;
-  double speed = 0.0;  ///< [m/s] at which it drives, forward positive; 0 if it does not know.
+  double speed = 0.0;      ///< [m/s] at which it drives, forward positive; 0 if it does not know.
+  double turn_rate = 0.0;  ///< [rad/s] at which it turns, positive to the left; 0 if it does not know.
   double goal_distance = std::numeric_limits<double>::infinity();  ///< [m] to the goal, if known.
+  double goal_reach = 0.0;   ///< [m] from the goal at which it counts as reached, if known.
+  bool passes_goal = false;  ///< Whether the goal is a point on the way, where the robot does not stop.
 };
 
-/// What the robot should do: nothing, or drive in a direction.
+/// What the robot should do: nothing, or drive in a direction or along an arc.
 struct Advice {
   bool needed = false;
   double direction = 0.0;  ///< [rad] robot frame, counter-clockwise positive.
   double speed = 0.0;      ///< [m/s]
   double urgency = 0.0;    ///< [0, 1] 0 at safe_distance, 1 at stop_distance.
+  /// [rad/s] if given, the robot turns at this rate; the direction only tells the side.
+  std::optional<double> turn_rate = {};
 };
 
 /// Returns how far [m] the robot can go straight in a direction before its body, with margin, touches an

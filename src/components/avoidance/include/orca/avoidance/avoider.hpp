@@ -60,6 +60,8 @@ class Avoider : public Component {
   [[nodiscard]] EchoMemory::Limits keep() const;
   /// Returns the rectangle that holds the robot, if the base has described one.
   [[nodiscard]] std::optional<Rectangle> described_body() const;
+  /// Returns the time [s] from an echo until the robot follows the advice.
+  [[nodiscard]] double reaction_time() const { return *reaction_time_; }
   /// Returns the distance [m] from the robot's centre beyond which nothing changes any advice.
   [[nodiscard]] double farthest() const;
 

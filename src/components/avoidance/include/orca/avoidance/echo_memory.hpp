@@ -32,6 +32,8 @@ class EchoMemory {
     double same_place = 0.0;      ///< [m] echoes nearer to each other than this confirm each other.
     double range = 0.0;           ///< [m] from the robot's centre; where an echo from farther away came from
                                   ///< is too uncertain to keep it for longer.
+    double no_news = 0.04;        ///< [m] an echo this near to a known one moves it, and adds none.
+    bool hidden = false;          ///< Whether a scan leaves echoes that lie behind what it sees.
   };
 
   EchoMemory();

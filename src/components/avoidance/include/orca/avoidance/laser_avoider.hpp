@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "orca/avoidance/avoider.hpp"
 
 namespace orca::avoid {
@@ -11,7 +13,13 @@ namespace orca::avoid {
 /// Thread contract: as every component.
 class LaserAvoider : public Avoider {
  protected:
-  explicit LaserAvoider(ComponentHost& host);
+  /// @param keeps_hidden  whether echoes are remembered that a scan cannot see because they lie behind others; whoever
+  ///                      turns a body among them may touch the back of what it sees.
+  explicit LaserAvoider(ComponentHost& host, bool keeps_hidden = false);
+
+  /// Returns the body that counts as it is, instead of its circle: none, unless the robot is to squeeze through; that which
+  /// the base describes; without one, that of the parameters.
+  [[nodiscard]] std::optional<Rectangle> body() const;
 
   /// Returns the limits with the body that counts, if the robot is to squeeze through and its circle finds no way: that which
   /// the base describes; without one, that of the parameters.
@@ -22,6 +30,7 @@ class LaserAvoider : public Avoider {
   [[nodiscard]] const ObjectType& sensed() const override;
   void listen(EchoMemory& memory) override;
 
+  bool keeps_hidden_;
   Param<bool> squeeze_;
   Param<double> robot_length_;
   Param<double> robot_width_;

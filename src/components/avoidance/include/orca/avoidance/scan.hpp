@@ -18,7 +18,7 @@ struct Scan {
 };
 
 /// Replaces the echoes remembered in the scan's field of view by those in the scan, which misses nothing
-/// there.
+/// there. With `keep.hidden` it replaces only those that its beams reach.
 ///
 /// Of the beams in each `sector` [rad] only the nearest reading is kept, and only if it is nearer to the
 /// robot's centre than `range` [m]. A scan of many beams then costs no more than a ring of sonars.

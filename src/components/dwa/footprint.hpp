@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "orca/geometry/twist2.hpp"
+#include "orca/geometry/vec2.hpp"
+
+namespace orca::dwa {
+
+/// The outline of the robot around the origin of its frame, x forward.
+struct Footprint {
+  double radius = 0.0;       ///< [m] of the circle that holds the body.
+  double half_length = 0.0;  ///< [m] of the rectangle that holds the body, along x; 0: the circle is all.
+  double half_width = 0.0;   ///< [m] of that rectangle, across.
+
+  [[nodiscard]] bool is_circle() const { return half_length <= 0.0 || half_width <= 0.0; }
+  /// Returns the distance [m] of its farthest point from the origin.
+  [[nodiscard]] double reach() const;
+};
+
+/// Returns the outline with `margin` [m] more on all sides. The corners stay corners, so these keep up to 1.4 times as much.
+[[nodiscard]] Footprint grown(const Footprint& body, double margin);
+
+/// Returns the margin [m] with which the outline just touches the point; negative if the point lies within it.
+[[nodiscard]] double gap(Vec2 point, const Footprint& body);
+
+/// Returns how fast [m/s] the gap to a point outside the outline grows while the robot moves; negative: it gets smaller.
+[[nodiscard]] double gap_rate(Vec2 point, const Twist2& motion, const Footprint& body);
+
+/// Returns how long [s] the robot can move before its outline touches the point; infinity if it never does.
+///
+/// Exact: at a constant twist the point moves on a circle in the robot's frame, and it touches where this circle first
+/// meets the outline.
+/// @param point   [m] robot frame, outside the outline.
+/// @param motion  forward or at rest, without a sideways part.
+[[nodiscard]] double time_to_touch(Vec2 point, const Twist2& motion, const Footprint& body);
+
+}  // namespace orca::dwa
