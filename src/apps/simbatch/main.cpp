@@ -3,13 +3,13 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <utility>
 
 #include "common/arithmetic.hpp"
 #include "options.hpp"
 #include "orca/base/log.hpp"
+#include "orca/base/output_file.hpp"
 #include "orca/base/text.hpp"
 #include "orca/batch/report.hpp"
 #include "orca/batch/store.hpp"
@@ -55,10 +55,10 @@ std::vector<std::size_t> missing(const batch::Experiment& experiment, const batc
 }
 
 Status write_file(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  return out ? ok() : fail(Code::unavailable, file.string() + " cannot be written");
+  OutputFile out("the report");
+  if (const Status opened = out.open(file.string()); !opened.ok()) return opened;
+  out.write(text);
+  return out.close();
 }
 
 // Writes the report beside the results, and says the most important on stdout.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "motion.hpp"
+#include "orca/batch/statistics/summary.hpp"
 #include "orca/hw/scene.hpp"
 
 namespace orca::batch {
@@ -97,8 +98,8 @@ Measures measure(const Scene& scene, const RunEnd& end) {
     if (!stretches.empty()) add_jerks(stretches, to_seconds(steps[kStretch].time - steps[0].time), jerks);
   }
   measures.way = way;
-  measures.clearance = quantile(clearances, 0.0);
-  measures.clearance_p5 = quantile(clearances, 0.05);
+  measures.clearance = std::ranges::min(clearances);
+  measures.clearance_p5 = quantile(clearances, 0.05).value();
   if (!jerks.empty()) measures.jerk = root_mean_square(jerks);
   if (way > kHasMoved) measures.reversals = static_cast<double>(reversals) / way;
   if (end.first_contact)

@@ -92,12 +92,6 @@ double speed_before(std::span<const Scene::Step> steps, TimePoint time) {
   return norm(Vec2{velocity.forward, velocity.left});
 }
 
-double quantile(std::vector<double>& values, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, values.begin() + rank);
-  return values[static_cast<std::size_t>(rank)];
-}
-
 double root_mean_square(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value * value;

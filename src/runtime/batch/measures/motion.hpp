@@ -38,9 +38,7 @@ void add_jerks(std::span<const Stretch> stretches, double period, std::vector<do
 /// Returns the speed [m/s] in the last step before a time; 0 if there is none.
 [[nodiscard]] double speed_before(std::span<const Scene::Step> steps, TimePoint time);
 
-/// Returns the value that a share of the values does not exceed, the nearest rank below; reorders them. @pre  there are some.
-[[nodiscard]] double quantile(std::vector<double>& values, double share);
-/// @pre  there are some.
+/// Returns the root of the mean of the squares. @pre  there are some.
 [[nodiscard]] double root_mean_square(const std::vector<double>& values);
 
 }  // namespace orca::batch

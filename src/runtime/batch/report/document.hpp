@@ -45,7 +45,4 @@ struct Document {
 [[nodiscard]] std::string to_html(const Document& document);
 [[nodiscard]] std::string to_markdown(const Document& document);
 
-/// Returns a text with the characters that HTML gives a meaning written as references.
-[[nodiscard]] std::string escaped(const std::string& text);
-
 }  // namespace orca::batch

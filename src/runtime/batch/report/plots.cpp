@@ -7,10 +7,12 @@
 #include <cstdio>
 #include <limits>
 
-#include "document.hpp"
+#include "orca/xml/document.hpp"
 
 namespace orca::batch {
 namespace {
+
+using xml::escaped;
 
 // Colours that people with any colour vision tell apart (M. Okabe and K. Ito, "Color universal design", 2008).
 constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};

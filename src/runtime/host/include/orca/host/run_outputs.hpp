@@ -15,7 +15,6 @@ struct RunOutputs {
   bool trace_values = false;  ///< The trace shows each object that is delivered.
   std::vector<RecordingOptions> recordings;
   PictureOptions picture;
-  bool keeps_motion = false;  ///< The result has a Scene with the true motion of simulated robots.
   bool looks_on = false;  ///< The listener is offered a RunView, and the result has the ways of the robots.
 };
 

@@ -25,7 +25,8 @@ struct RunOptions : RunOutputs {
   std::optional<Duration> until;                 ///< Time limit [s of the run's clock]; none: no limit.
   std::vector<PlannedFailure> planned_failures;  ///< What is to fail on purpose, in components of the graph.
   std::vector<TimedChange> changes;              ///< What becomes of the graph meanwhile, sorted by time.
-  std::string log_name = "orca";                 ///< Name in the log for what concerns the run as a whole.
+  bool keeps_motion = false;      ///< The result has a Scene with the true motion of simulated robots.
+  std::string log_name = "orca";  ///< Name in the log for what concerns the run as a whole.
 };
 
 /// Runs a checked graph in this process: brings everything up, watches it, stops the robot and takes
