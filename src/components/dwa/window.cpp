@@ -59,7 +59,7 @@ double time_before(Vec2 echo, const Twist2& motion, double margin, const Footpri
   return time_to_touch(echo, motion, grown(body, there - kTouching));
 }
 
-// The fastest at which the robot still comes to rest within that way: equation 14 read for the goal.
+// The fastest at which the robot still comes to rest within that way: the condition of V_a, read for the goal.
 double speed_to_stop(std::optional<double> way, const Abilities& robot) {
   return way ? std::min(robot.max_speed, std::sqrt(2.0 * robot.acceleration * std::max(0.0, *way)))
              : robot.max_speed;
@@ -101,7 +101,7 @@ class Grid {
   }
 
  private:
-  // The sigma of equation 13: the mean with the neighbours, of which those that are not admissible count as 0. This keeps the
+  // The sigma of the objective function: the mean with the neighbours, of which those that are not admissible count as 0. This keeps the
   // robot off velocities next to such that touch something.
   [[nodiscard]] double smoothed(std::size_t i) const {
     const std::size_t row = i / columns_;

@@ -11,7 +11,7 @@
 
 /// The Dynamic Window Approach as pure functions of any thread: which of the velocities that the robot can reach is best.
 ///
-/// Equations and their numbers are those of D. Fox, W. Burgard and S. Thrun, "The Dynamic Window Approach to Collision
+/// Sets of velocities and terms have the names of D. Fox, W. Burgard and S. Thrun, "The Dynamic Window Approach to Collision
 /// Avoidance", IEEE Robotics & Automation Magazine 4(1), 1997. Places are in the robot's frame [m], x forward.
 namespace orca::dwa {
 
@@ -23,7 +23,7 @@ struct Abilities {
   double turn_acceleration = 0.0;  ///< [rad/s2] above 0; also of braking.
 };
 
-/// The weights of the objective function, equation 13.
+/// The weights of the objective function G.
 struct Weights {
   double heading = 0.0;   ///< alpha
   double distance = 0.0;  ///< beta
@@ -62,7 +62,7 @@ struct Room {
       0.0;  ///< [m] the way of the point of the body that is farthest from its centre until then.
 };
 
-/// Returns the velocities that the robot can reach from the present one within the interval: V_s and V_d, equation 15, as a
+/// Returns the velocities that the robot can reach from the present one within the interval: V_s and V_d, as a
 /// grid. If the turn rate 0 is among them, it is on the grid.
 [[nodiscard]] Window window_around(const Twist2& now, double max_speed, const Settings& settings);
 
@@ -70,16 +70,16 @@ struct Room {
 /// nearer already keeps the robot from coming nearer still.
 [[nodiscard]] Room room_on(const Twist2& motion, std::span<const Vec2> echoes, const Settings& settings);
 
-/// Returns whether the robot can stop before it touches anything: equation 14, v <= sqrt(2 dist a), and likewise the turn rate
+/// Returns whether the robot can stop before it touches anything: the condition of V_a, v <= sqrt(2 dist a), and likewise the turn rate
 /// by the angle that it turns on the way.
 [[nodiscard]] bool is_admissible(const Twist2& motion, const Room& room, const Abilities& robot);
 
 /// Returns how well the robot points to the target, in [0, 1], when it brakes with all its might after the next interval: the term
-/// `heading` of equation 13, 1 - theta / pi.
+/// `heading` of the objective function, 1 - theta / pi.
 [[nodiscard]] double heading(const Twist2& motion, Vec2 target, const Settings& settings);
 
-/// Returns the best velocity: of those that the robot can reach (equation 15) and stop from (14), altogether V_r of equation 16,
-/// that with the largest value of the smoothed objective function (13). Returns nothing if it can stop from none.
+/// Returns the best velocity: of those that the robot can reach (V_d) and stop from (V_a), altogether V_r,
+/// that with the largest value of the smoothed objective function. Returns nothing if it can stop from none.
 ///
 /// Standing is no candidate: its way would always be free.
 /// @param now  the present velocity, forward or at rest.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The choice of a velocity by equations 13 to 16 of the paper (see window.hpp).
+// The choice of a velocity by the sets and the objective function of the paper (see window.hpp).
 #include "dwa/window.hpp"
 
 #include <catch2/catch.hpp>
