@@ -198,14 +198,6 @@ ObjectPtr<idl::GoalPoint> Avoider::present_goal() const {
   return fresh ? goal : ObjectPtr<idl::GoalPoint>{};
 }
 
-std::optional<Vec2> Avoider::goal_place() const {
-  const auto goal = present_goal();
-  const std::optional<Pose2> here = goal ? pose() : std::nullopt;
-  if (!here) return std::nullopt;
-  const auto& place = goal->coordinate().point();
-  return seen_from(*here, Vec2{place.x(), place.y()});
-}
-
 Situation Avoider::situation() const {
   Situation situation;
   situation.last_direction = last_direction_;
@@ -213,14 +205,21 @@ Situation Avoider::situation() const {
   situation.heading = pose_.yaw;
   situation.speed = twist_.forward;
   situation.turn_rate = twist_.turn_rate;
-  if (const auto goal = goal_place()) {
-    situation.goal = portable::atan2(goal->y, goal->x);
-    situation.goal_distance = norm(*goal);
-    const auto point = present_goal();
-    situation.goal_reach = point->reach_radius().distance();
-    situation.passes_goal = point->via();
-  }
+  add_goal(situation);
   return situation;
+}
+
+// The goal is asked for once: it may become too old at any time.
+void Avoider::add_goal(Situation& situation) const {
+  const auto goal = present_goal();
+  const std::optional<Pose2> here = goal ? pose() : std::nullopt;
+  if (!here) return;
+  const auto& point = goal->coordinate().point();
+  const Vec2 place = seen_from(*here, Vec2{point.x(), point.y()});
+  situation.goal = portable::atan2(place.y, place.x);
+  situation.goal_distance = norm(place);
+  situation.goal_reach = goal->reach_radius().distance();
+  situation.passes_goal = goal->via();
 }
 
 EchoMemory::Limits Avoider::keep() const {

@@ -22,6 +22,7 @@ double distance(Vec2 echo) { return portable::hypot(echo.x, echo.y); }
 
 // Whether a beam beside a place ends before it. `along` is its angle from the first beam.
 bool is_hidden(const Scan& scan, double along, double away) {
+  if (scan.angle_increment == 0.0) return false;  // no beam is beside another
   const auto last = static_cast<long>(scan.ranges.size()) - 1;
   const long beam = std::lround(along / scan.angle_increment);
   for (long i = std::max(0L, beam - 1); i <= std::min(last, beam + 1); ++i)

@@ -147,3 +147,14 @@ TEST_CASE("a memory of hidden echoes loses those that the beams reach, and keeps
   see(scan_of(nothing()), kSector, 2.0, keep, memory);
   CHECK(memory.echoes().empty());
 }
+
+TEST_CASE("where all beams point one way, none is beside another that could hide an echo",
+          "[avoidance][laser]") {
+  EchoMemory::Limits keep = kKeep;
+  keep.hidden = true;
+  EchoMemory memory;
+  memory.hear({1.3, 0.0}, keep);
+  const std::vector<double> ranges{1.0, 1.0};
+  see({ranges, 0.05, kMaxRange, 0.0, 0.0, {}}, kSector, 2.0, keep, memory);
+  CHECK(std::ranges::none_of(memory.echoes(), [](orca::Vec2 echo) { return echo.x > 1.1; }));
+}

@@ -93,8 +93,8 @@ class Avoider : public Component {
   [[nodiscard]] double deaf_after() const;
   /// Returns the goal that the robot drives to now; null if there is none, or if nobody has said so lately.
   [[nodiscard]] ObjectPtr<idl::GoalPoint> present_goal() const;
-  /// Returns where the goal is, robot frame; nothing if there is none or the robot does not know where it is.
-  [[nodiscard]] std::optional<Vec2> goal_place() const;
+  /// Adds what is known of the goal, if there is one and the robot knows where it is itself.
+  void add_goal(Situation& situation) const;
   [[nodiscard]] Situation situation() const;
   [[nodiscard]] std::optional<Pose2> pose() const;
 
