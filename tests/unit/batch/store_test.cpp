@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <sqlite3.h>
+
 #include <csignal>
 #include <vector>
 
@@ -77,6 +79,19 @@ TEST_CASE("results of another experiment are not mixed with these", "[batch]") {
   CHECK_THAT(other.error().message,
              Catch::Contains("results of another experiment") && Catch::Contains("--out"));
   CHECK(rows_of(*opened(folder.file("r.sqlite"), "")).size() == 1);
+}
+
+TEST_CASE("results of another version are refused, not read into the wrong columns", "[batch]") {
+  const TempFolder folder;
+  REQUIRE(opened(folder.file("r.sqlite"))->add(row("a", "w", 1)).ok());
+  CHECK(Store::open(folder.file("r.sqlite"), {}));
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open(folder.file("r.sqlite").c_str(), &database) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(database, "PRAGMA user_version = 0", nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(database);
+  const auto older = Store::open(folder.file("r.sqlite"), {});
+  REQUIRE_FALSE(older);
+  CHECK_THAT(older.error().message, Contains("was made by another version of simbatch"));
 }
 
 TEST_CASE("a file that is no database, and a folder that is not there, are refused with the reason",

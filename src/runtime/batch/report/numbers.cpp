@@ -36,9 +36,9 @@ std::string title_of(const Metric& metric) {
 
 std::string line_of(const VariantResult& variant) {
   const Metric& success = *find_metric("success");
-  std::string text = variant.name + ": " + std::to_string(variant.runs) + " runs, " +
-                     estimate_text(variant.metrics.at("success").mean, success) +
-                     " succeed (95 % over worlds and seeds)";
+  std::string text =
+      variant.name + ": " + std::to_string(variant.runs) + (variant.runs == 1 ? " run, " : " runs, ") +
+      estimate_text(variant.metrics.at("success").mean, success) + " succeed (95 % over worlds and seeds)";
   for (const auto& [ending, count] : variant.endings)
     if (ending != Ending::success) text += ", " + std::to_string(count) + " " + name_of(ending);
   return text;

@@ -27,13 +27,17 @@ constexpr const char* kSchema = R"(
     PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
 )";
 
+// Changes with each change of the tables.
+constexpr std::uint32_t kLayout = 2;
+
 // Returns the schema, with a column for each measure.
 std::string schema() {
   std::string columns;
   for (const Measure& measure : all_measures())
     columns += (columns.empty() ? " " : ", ") + std::string(measure.name) + " REAL";
   std::string text = kSchema;
-  return text.replace(text.find('@'), 1, columns + ",");
+  text.replace(text.find('@'), 1, columns + ",");
+  return text + "PRAGMA user_version = " + std::to_string(kLayout) + ";";
 }
 
 // Returns "?, ?, ?".
@@ -110,6 +114,7 @@ class SqliteStore final : public Store {
   SqliteStore(std::string file, Database database) : file_(std::move(file)), database_(std::move(database)) {}
 
   Status prepare(const std::string& identity) {
+    if (Status known = check_layout(); !known.ok()) return known;
     if (sqlite3_exec(database_.get(), schema().c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
       return fault();
     if (identity.empty()) return ok();
@@ -165,6 +170,20 @@ class SqliteStore final : public Store {
  private:
   [[nodiscard]] Status fault() const {
     return fail(Code::unavailable, file_ + ": " + sqlite3_errmsg(database_.get()));
+  }
+
+  // A file of another layout would be read column by column into the wrong places.
+  [[nodiscard]] Status check_layout() {
+    Statement tables(database_.get(), "SELECT 1 FROM sqlite_master WHERE name = 'runs'");
+    const int found = tables.step();
+    if (found != SQLITE_ROW && found != SQLITE_DONE) return fault();
+    Statement layout(database_.get(), "PRAGMA user_version");
+    if (layout.step() != SQLITE_ROW) return fault();
+    if (found == SQLITE_DONE || layout.count(0) == kLayout) return ok();
+    return fail(Code::failed_precondition,
+                file_ +
+                    " was made by another version of simbatch, with other columns; make the runs again, in "
+                    "another folder (--out)");
   }
 
   [[nodiscard]] Status check(const std::string& known, const std::string& identity) const {

@@ -28,7 +28,7 @@ class Store {
  public:
   /// Opens a file, or makes it.
   /// @param identity  of the experiment: results of another one are not mixed with these. Empty: whatever the file holds.
-  /// @errors  failed_precondition if the file holds results of another experiment; unavailable with the reason if it cannot be
+  /// @errors  failed_precondition if the file holds results of another experiment, or was made by another version; unavailable with the reason if it cannot be
   ///          opened, or is no database.
   static Result<std::unique_ptr<Store>> open(const std::string& file, const std::string& identity);
   virtual ~Store() = default;
