@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t kSpeeds = 9;
 constexpr std::size_t kTurnRates = 21;
-constexpr double kTouching = 1e-3;  // [m] left to an echo that is nearer than the margin.
 constexpr double kFree = std::numeric_limits<double>::infinity();
 constexpr double kRest = 1e-9;  // [m/s], [rad/s] a slower velocity is none.
 
@@ -42,21 +41,6 @@ void include_zero(std::vector<double>& values) {
 double margin_at(double speed, const Settings& settings) {
   const double share = std::min(1.0, speed / settings.robot.max_speed);
   return std::lerp(std::min(settings.least_margin, settings.margin), settings.margin, share);
-}
-
-// Whether an echo comes from so far within the body that it can only be the robot itself, or an error.
-bool is_within(double gap, const Footprint& body) {
-  return gap <= -(body.is_circle() ? body.radius : std::min(body.half_length, body.half_width));
-}
-
-// An echo within the margin is judged by the motion, not by how near it is: errors of the laser would otherwise let the robot
-// come nearer bit by bit.
-double time_before(Vec2 echo, const Twist2& motion, double margin, const Footprint& body) {
-  const double there = gap(echo, body);
-  if (there >= margin) return time_to_touch(echo, motion, grown(body, margin));
-  if (is_within(there - kTouching, body)) return kFree;
-  if (gap_rate(echo, motion, body) < 0.0) return 0.0;
-  return time_to_touch(echo, motion, grown(body, there - kTouching));
 }
 
 // The fastest at which the robot still comes to rest within that way: the condition of V_a, read for the goal.
@@ -144,7 +128,7 @@ Window window_around(const Twist2& now, double max_speed, const Settings& settin
 Room room_on(const Twist2& motion, std::span<const Vec2> echoes, const Settings& settings) {
   const double margin = margin_at(motion.forward, settings);
   double time = kFree;
-  for (const Vec2 echo : echoes) time = std::min(time, time_before(echo, motion, margin, settings.body));
+  for (const Vec2 echo : echoes) time = std::min(time, time_to_margin(echo, motion, margin, settings.body));
   const double way = time * portable::hypot(motion.forward, motion.turn_rate * settings.body.reach());
   return {std::max(0.0, time - settings.reaction), way};
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "footprint.hpp"
+#include "orca/avoidance/footprint.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/geometry/vec2.hpp"
 
@@ -14,6 +14,8 @@
 /// Sets of velocities and terms have the names of D. Fox, W. Burgard and S. Thrun, "The Dynamic Window Approach to Collision
 /// Avoidance", IEEE Robotics & Automation Magazine 4(1), 1997. Places are in the robot's frame [m], x forward.
 namespace orca::dwa {
+
+using avoid::Footprint;
 
 /// What the robot can do.
 struct Abilities {

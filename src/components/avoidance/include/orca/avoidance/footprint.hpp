@@ -4,7 +4,7 @@
 #include "orca/geometry/twist2.hpp"
 #include "orca/geometry/vec2.hpp"
 
-namespace orca::dwa {
+namespace orca::avoid {
 
 /// The outline of the robot around the origin of its frame, x forward.
 struct Footprint {
@@ -34,4 +34,10 @@ struct Footprint {
 /// @param motion  forward or at rest, without a sideways part.
 [[nodiscard]] double time_to_touch(Vec2 point, const Twist2& motion, const Footprint& body);
 
-}  // namespace orca::dwa
+/// Returns how long [s] the robot can move before an echo is nearer than the margin [m]; infinity if none ever is.
+///
+/// An echo that is nearer already is judged by the motion, not by how near it is: 0 if it comes nearer. Errors of the laser would
+/// otherwise let the robot come nearer bit by bit. An echo from deep within the body is an error, or the robot itself.
+[[nodiscard]] double time_to_margin(Vec2 echo, const Twist2& motion, double margin, const Footprint& body);
+
+}  // namespace orca::avoid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "footprint.hpp"
+#include "orca/avoidance/footprint.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,12 @@
 
 #include "orca/base/portable_math.hpp"
 
-namespace orca::dwa {
+namespace orca::avoid {
 namespace {
 
 constexpr double kNoContact = std::numeric_limits<double>::infinity();
 constexpr double kCentre = 1e-9;    // [m] A point nearer to the centre has no direction.
+constexpr double kTouching = 1e-3;  // [m] left to an echo that is nearer than the margin.
 constexpr double kStraight = 1e-6;  // [rad/s] a slower turn bends no arc by as much as a rounding error.
 
 // The circle on which a point moves, clockwise, seen from a robot that turns to the left.
@@ -69,6 +70,11 @@ double angle_to_rectangle(const Orbit& orbit, const Footprint& body) {
   return nearest;
 }
 
+// Whether an echo comes from so far within the body that it can only be the robot itself, or an error.
+bool is_within(double gap, const Footprint& body) {
+  return gap <= -(body.is_circle() ? body.radius : std::min(body.half_length, body.half_width));
+}
+
 }  // namespace
 
 double Footprint::reach() const { return is_circle() ? radius : portable::hypot(half_length, half_width); }
@@ -101,4 +107,12 @@ double time_to_touch(Vec2 point, const Twist2& motion, const Footprint& body) {
   return angle / rate;
 }
 
-}  // namespace orca::dwa
+double time_to_margin(Vec2 echo, const Twist2& motion, double margin, const Footprint& body) {
+  const double there = gap(echo, body);
+  if (there >= margin) return time_to_touch(echo, motion, grown(body, margin));
+  if (is_within(there - kTouching, body)) return kNoContact;
+  if (gap_rate(echo, motion, body) < 0.0) return 0.0;
+  return time_to_touch(echo, motion, grown(body, there - kTouching));
+}
+
+}  // namespace orca::avoid
