@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LaserServer, LaserAvoid, VfhPlus, Dwa and PotentialField in a whole system, and the graph that ships with them. What happens on its course
+// LaserServer, LaserAvoid, VfhPlus, Dwa, NdPlus and PotentialField in a whole system, and the graph that ships with them. What happens on its course
 // without any avoid behaviour is in ablation_test.cpp.
 #include <catch2/catch.hpp>
 
@@ -74,6 +74,7 @@ void check_three_goals(const Words& more) {
 
 const Words kVfhPlus{"--set", "avoid=orca.VfhPlus"};
 const Words kDwa{"--set", "avoid=orca.Dwa"};
+const Words kNdPlus{"--set", "avoid=orca.NdPlus"};
 
 // Returns what a component says of its ports.
 std::string ports_of(const std::string& type) {
@@ -200,9 +201,9 @@ TEST_CASE("the same run with VfhPlus has the same trace", "[system][laser][vfh]"
   CHECK(first.trace_hash() == run_deployer(run).trace_hash());
 }
 
-TEST_CASE("Dwa and PotentialField have exactly the ports of LaserAvoid", "[system][laser][dwa]") {
-  CHECK(ports_of("orca.Dwa") == ports_of("orca.LaserAvoid"));
-  CHECK(ports_of("orca.PotentialField") == ports_of("orca.LaserAvoid"));
+TEST_CASE("Dwa, NdPlus and PotentialField have exactly the ports of LaserAvoid", "[system][laser][dwa][nd]") {
+  for (const char* type : {"orca.Dwa", "orca.NdPlus", "orca.PotentialField"})
+    CHECK(ports_of(type) == ports_of("orca.LaserAvoid"));
 }
 
 TEST_CASE("with Dwa the Pioneer reaches its goals and touches nothing, for ten seeds, at harsh realism too",
@@ -211,9 +212,16 @@ TEST_CASE("with Dwa the Pioneer reaches its goals and touches nothing, for ten s
   check_three_goals(kDwa + Words{"--set", "realism=harsh"});
 }
 
-TEST_CASE("the same run with Dwa or PotentialField has the same trace, whatever executor runs it",
-          "[system][laser][dwa]") {
-  for (const Words& avoid : {kDwa, Words{"--set", "avoid=orca.PotentialField"}}) {
+TEST_CASE(
+    "with NdPlus the Pioneer reaches its goals and touches nothing, for ten seeds, at harsh realism too",
+    "[system][laser][pioneer][nd]") {
+  check_three_goals(kNdPlus);
+  check_three_goals(kNdPlus + Words{"--set", "realism=harsh"});
+}
+
+TEST_CASE("the same run with Dwa, NdPlus or PotentialField has the same trace, whatever executor runs it",
+          "[system][laser][dwa][nd]") {
+  for (const Words& avoid : {kDwa, kNdPlus, Words{"--set", "avoid=orca.PotentialField"}}) {
     const Words run =
         Words{source_file("graphs/pioneer_laser_goto.xml"), "--until", "60 s"} + virtual_clock() + avoid;
     const Run first = run_deployer(run);

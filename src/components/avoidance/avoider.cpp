@@ -18,7 +18,7 @@ double insistence(double urgency) { return urgency / (1.001 - urgency); }
 
 }  // namespace
 
-Avoider::Avoider(ComponentHost& host, double echo_time)
+Avoider::Avoider(ComponentHost& host, double echo_time, double memory_time)
     : Component(host),
       odometry_(*this, "odometry",
                 {.text = "Motion of the robot; with it recent echoes are remembered and carried along.",
@@ -53,7 +53,7 @@ Avoider::Avoider(ComponentHost& host, double echo_time)
       reaction_time_(
           *this, "reaction_time", 0.25,
           {.unit = "s", .min = 0.0, .text = "Time from an echo until the robot follows the advice."}),
-      memory_time_(*this, "memory_time", 4.0,
+      memory_time_(*this, "memory_time", memory_time,
                    {.unit = "s", .min = 0.0, .text = "Time for which an echo heard at least twice is kept."}),
       echo_time_(*this, "echo_time", echo_time,
                  {.unit = "s", .min = 0.0, .text = "Time for which an echo heard once is kept."}),
@@ -137,11 +137,9 @@ Status Avoider::load_state(StateReader& state) {
 }
 
 std::vector<StateTag> Avoider::accepted_states() const {
-  return {{"orca.Dwa", kStateVersion},
-          {"orca.LaserAvoid", kStateVersion},
-          {"orca.PotentialField", kStateVersion},
-          {"orca.SonarAvoid", kStateVersion},
-          {"orca.VfhPlus", kStateVersion}};
+  return {{"orca.Dwa", kStateVersion},        {"orca.LaserAvoid", kStateVersion},
+          {"orca.NdPlus", kStateVersion},     {"orca.PotentialField", kStateVersion},
+          {"orca.SonarAvoid", kStateVersion}, {"orca.VfhPlus", kStateVersion}};
 }
 
 Outcome Avoider::work() {

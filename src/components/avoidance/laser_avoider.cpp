@@ -10,15 +10,14 @@
 namespace orca::avoid {
 namespace {
 
-constexpr double kEchoTime = 4.0;  // [s] A laser invents no echoes, so one that it saw once is kept as well.
 // [m] Echoes as near to each other as that are one, if those beside what is seen must not be drawn into it.
 constexpr double kErrorOfReading = 0.01;
 constexpr double kSector = std::numbers::pi / 36;
 
 }  // namespace
 
-LaserAvoider::LaserAvoider(ComponentHost& host, bool keeps_hidden)
-    : Avoider(host, kEchoTime),
+LaserAvoider::LaserAvoider(ComponentHost& host, bool keeps_hidden, double memory_time)
+    : Avoider(host, memory_time, memory_time),
       keeps_hidden_(keeps_hidden),
       squeeze_(
           *this, "squeeze", true,

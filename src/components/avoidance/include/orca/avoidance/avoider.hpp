@@ -35,7 +35,8 @@ namespace orca::avoid {
 class Avoider : public Component {
  protected:
   /// @param echo_time  [s] the sensor's default: how long an echo counts that was heard once.
-  Avoider(ComponentHost& host, double echo_time);
+  /// @param memory_time  [s] the default for one that was heard at least twice.
+  Avoider(ComponentHost& host, double echo_time, double memory_time = 4.0);
 
   /// Returns the port of the sensor.
   [[nodiscard]] virtual PushProxyHandle& sensor() = 0;

@@ -15,7 +15,9 @@ class LaserAvoider : public Avoider {
  protected:
   /// @param keeps_hidden  whether echoes are remembered that a scan cannot see because they lie behind others; whoever
   ///                      turns a body among them may touch the back of what it sees.
-  explicit LaserAvoider(ComponentHost& host, bool keeps_hidden = false);
+  /// @param memory_time   [s] the default: how long echoes are remembered. A laser invents none, so one that it saw once counts for as
+  ///                      long as others.
+  explicit LaserAvoider(ComponentHost& host, bool keeps_hidden = false, double memory_time = 4.0);
 
   /// Returns the body that counts as it is, instead of its circle: none, unless the robot is to squeeze through; that which
   /// the base describes; without one, that of the parameters.
