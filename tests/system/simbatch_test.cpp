@@ -228,11 +228,14 @@ TEST_CASE("everything that is wrong with an experiment and its graphs is said be
   CHECK(run_simbatch({folder.file("none.xml")}).exit_code() == 2);
 }
 
-TEST_CASE("the shipped experiment has no errors", "[system][batch]") {
-  const Run run = run_simbatch({source_file("sim/experiments/avoid_office.xml"), "--check"});
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-  CHECK(run.says("2 variants, 3 worlds, 20 seeds: 120 runs"));
+TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
+  for (const auto& [name, size] : {std::pair{"avoid_office", "4 variants, 3 worlds, 20 seeds: 240 runs"},
+                                   std::pair{"dead_ends", "5 variants, 40 worlds, 1 seeds: 200 runs"}}) {
+    const Run run = run_simbatch({source_file("sim/experiments/" + std::string(name) + ".xml"), "--check"});
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.says(size));
+  }
 }
 
 TEST_CASE("wrong words are refused with what there is", "[system][batch]") {

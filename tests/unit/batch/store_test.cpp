@@ -10,6 +10,7 @@
 #include <sqlite3.h>
 
 #include <csignal>
+#include <filesystem>
 #include <vector>
 
 #include "temp_folder.hpp"
@@ -69,6 +70,22 @@ TEST_CASE("a run that is there already is not added again", "[batch]") {
   CHECK(rows_of(*store).at(0).outcome.goals == 3);
   CHECK(store->has("a", "w", 1));
   CHECK_FALSE(store->has("a", "w", 2));
+}
+
+TEST_CASE("what is drawn of a run is kept with it, and a map that many runs share is kept once", "[batch]") {
+  const TempFolder folder;
+  auto store = opened(folder.file("r.sqlite"));
+  const std::string map(100'000, '1');
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    Row one = row("a", "w", seed);
+    one.outcome.sketch = {"0.00 1.00," + std::to_string(seed), "0.50 0.50", seed == 50 ? map + "2" : map};
+    REQUIRE(store->add(one).ok());
+  }
+  CHECK(store->sketch("a", "w", 7) == Sketch{"0.00 1.00,7", "0.50 0.50", map});
+  CHECK(store->sketch("a", "w", 50).walls == map + "2");
+  CHECK(store->sketch("b", "w", 7) == Sketch{});
+  store.reset();  // brings what the write-ahead log holds into the file
+  CHECK(std::filesystem::file_size(folder.file("r.sqlite")) < 1'000'000);
 }
 
 TEST_CASE("results of another experiment are not mixed with these", "[batch]") {

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "orca/base/hash.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::batch {
@@ -20,15 +21,16 @@ constexpr const char* kSchema = R"(
     failure TEXT NOT NULL, trace_hash TEXT NOT NULL,@
     PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
   CREATE TABLE IF NOT EXISTS tracks (
-    variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, places TEXT NOT NULL,
-    PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+    variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, places TEXT NOT NULL, contacts TEXT NOT NULL,
+    map TEXT NOT NULL, PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS maps (hash TEXT PRIMARY KEY, walls TEXT NOT NULL) WITHOUT ROWID;
   CREATE TABLE IF NOT EXISTS timing (
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, wall REAL NOT NULL, cpu REAL NOT NULL,
     PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
 )";
 
 // Changes with each change of the tables.
-constexpr std::uint32_t kLayout = 2;
+constexpr std::uint32_t kLayout = 3;
 
 // Returns the schema, with a column for each measure.
 std::string schema() {
@@ -109,6 +111,13 @@ std::string padded(std::uint64_t seed) {
   return std::string(kDigits - digits.size(), '0') + digits;
 }
 
+// Most runs of a world leave the same map, which is kept once.
+std::string hash_of(const std::string& walls) {
+  Fnv1a hash;
+  hash.add_text(walls);
+  return padded(hash.value());
+}
+
 class SqliteStore final : public Store {
  public:
   SqliteStore(std::string file, Database database) : file_(std::move(file)), database_(std::move(database)) {}
@@ -136,11 +145,14 @@ class SqliteStore final : public Store {
     run << row.variant << row.world << seed << std::string(name_of(o.ending)) << o.reason << o.time << o.goals
         << o.failed_goals << o.contacts << std::string(name_of(o.failure)) << o.trace_hash;
     for (const Measure& measure : all_measures()) run << o.measures.*measure.value;
-    Statement track(database_.get(), "INSERT OR IGNORE INTO tracks VALUES (?, ?, ?, ?)");
-    track << row.variant << row.world << seed << o.track;
+    Statement track(database_.get(), "INSERT OR IGNORE INTO tracks VALUES (?, ?, ?, ?, ?, ?)");
+    const std::string map = hash_of(o.sketch.walls);
+    track << row.variant << row.world << seed << o.sketch.tracks << o.sketch.contacts << map;
+    Statement walls(database_.get(), "INSERT OR IGNORE INTO maps VALUES (?, ?)");
+    walls << map << o.sketch.walls;
     Statement timing(database_.get(), "INSERT OR IGNORE INTO timing VALUES (?, ?, ?, ?, ?)");
     timing << row.variant << row.world << seed << row.cost.wall << row.cost.cpu;
-    for (Statement* const statement : {&run, &track, &timing})
+    for (Statement* const statement : {&run, &track, &walls, &timing})
       if (statement->step() != SQLITE_DONE) return fault();
     return sqlite3_exec(database_.get(), "COMMIT", nullptr, nullptr, nullptr) == SQLITE_OK ? ok() : fault();
   }
@@ -151,11 +163,13 @@ class SqliteStore final : public Store {
     return (found << variant << world << padded(seed)).step() == SQLITE_ROW;
   }
 
-  [[nodiscard]] std::string track(const std::string& variant, const std::string& world,
-                                  std::uint64_t seed) const override {
+  [[nodiscard]] Sketch sketch(const std::string& variant, const std::string& world,
+                              std::uint64_t seed) const override {
     Statement found(database_.get(),
-                    "SELECT places FROM tracks WHERE variant = ? AND world = ? AND seed = ?");
-    return (found << variant << world << padded(seed)).step() == SQLITE_ROW ? found.text(0) : "";
+                    "SELECT places, contacts, walls FROM tracks JOIN maps ON map = hash "
+                    "WHERE variant = ? AND world = ? AND seed = ?");
+    if ((found << variant << world << padded(seed)).step() != SQLITE_ROW) return {};
+    return {found.text(0), found.text(1), found.text(2)};
   }
 
   Status for_each(const std::function<void(const Row&)>& take) const override {

@@ -59,7 +59,7 @@ Outcome outcome_of(const host::RunResult& result, const std::optional<double>& r
   if (result.scene) {
     outcome.measures = measure(*result.scene, end);
     if (outcome.ending < Ending::failed) outcome.failure = failure_in(*result.scene, end);
-    outcome.track = track_text(*result.scene);
+    outcome.sketch = sketch_of(*result.scene);
   }
   if (result.trace_hash) outcome.trace_hash = hexadecimal(*result.trace_hash);
   return outcome;

@@ -37,7 +37,7 @@ struct Outcome {
   Failure failure = Failure::none;
   Measures measures{};
   std::string trace_hash{};  ///< 16 hexadecimal digits; empty: the run did not come so far.
-  std::string track{};       ///< Where the robots went, as track_text() says it.
+  Sketch sketch{};
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 

@@ -39,10 +39,10 @@ class Store {
   /// Returns whether the run is there.
   [[nodiscard]] virtual bool has(const std::string& variant, const std::string& world,
                                  std::uint64_t seed) const = 0;
-  /// Returns Outcome::track of a run; empty if it is not there.
-  [[nodiscard]] virtual std::string track(const std::string& variant, const std::string& world,
-                                          std::uint64_t seed) const = 0;
-  /// Hands out all runs without their tracks, ordered by variant, world and seed.
+  /// Returns Outcome::sketch of a run; empty if it is not there.
+  [[nodiscard]] virtual Sketch sketch(const std::string& variant, const std::string& world,
+                                      std::uint64_t seed) const = 0;
+  /// Hands out all runs without their sketches, ordered by variant, world and seed.
   virtual Status for_each(const std::function<void(const Row&)>& take) const = 0;
 };
 
