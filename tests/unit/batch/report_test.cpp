@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "approval.hpp"
 #include "orca/batch/statistics/rate.hpp"
 #include "orca/batch/statistics/wilcoxon.hpp"
 #include "orca/xml/document.hpp"
@@ -166,6 +167,38 @@ TEST_CASE("the HTML of a report is well-formed, whatever the names are, and need
   CHECK_FALSE(diagnostics.has_errors());
   CHECK_THAT(page,
              Contains("a=it's &lt;1&gt;") && Contains("<svg") && !Contains("src=") && !Contains("href="));
+}
+
+TEST_CASE("the report of nine runs of each variant is the approved one, in Markdown and in HTML",
+          "[batch][report][approval]") {
+  std::vector<Row> rows;
+  for (int run = 0; run < 9; ++run) {
+    const std::uint64_t seed = 1U + static_cast<std::uint64_t>(run) % 3U;
+    const std::string world = "w1" + std::to_string(run / 3);
+    for (const bool good : {false, true}) {
+      Row row{good ? "good" : "bad", world, seed, {}, {}};
+      row.outcome.time = 40.0 + (good ? 2.0 : 3.0) * run;
+      row.outcome.ending = good || run > 4 ? Ending::success : run > 2 ? Ending::failed : Ending::time_out;
+      if (row.outcome.ending == Ending::time_out) row.outcome.failure = Failure::trap;
+      if (row.outcome.ending == Ending::failed) row.outcome.reason = "avoid: it threw";
+      row.outcome.measures = {.way = 20.0 + 0.5 * run, .clearance = 0.25 + 0.125 * run};
+      row.outcome.track = "0.00 0.00,1.50 " + std::to_string(run) + ".25;3.00 -1.00";
+      rows.push_back(row);
+    }
+  }
+  const Report report = report_on(rows);
+  const std::filesystem::path folder = std::filesystem::path(ORCA_SOURCE_DIR) / "tests/data/reports";
+  test::check_approved(folder / "two_variants.markdown", report.markdown);
+  test::check_approved(folder / "two_variants.html", report.html);
+}
+
+TEST_CASE("the curve of a distribution rises at each value, by the share of all runs", "[batch][report]") {
+  const std::string plot = distribution_plot("x", {{"a", {1.0, 3.0}, 4}});
+  const std::size_t begin = plot.find("points=\"") + 8;
+  const std::string points = plot.substr(begin, plot.find('"', begin) - begin);
+  // 438 pixels for 0.9 to 3.1, 268 pixels for 0 to 1; two of four runs have a value.
+  CHECK(points == "52.0,280.0 71.9,280.0 71.9,213.0 470.1,213.0 470.1,146.0 490.0,146.0 ");
+  CHECK_THAT(plot, Contains(">0 %</text>") && Contains(">100 %</text>") && Contains(">a</text>"));
 }
 
 TEST_CASE("a table of Markdown survives bars and line ends", "[batch][report]") {

@@ -54,10 +54,10 @@ class QueryServerEndpoint final : public Endpoint {
  private:
   class Edge;
   struct Question {
-    Edge* edge = nullptr;
+    Edge* edge;
     ObjectRef request;
-    QueryReplySink* reply_to = nullptr;
-    QueryId id = 0;
+    QueryReplySink* reply_to;
+    QueryId id;
   };
 
   std::optional<Question> next(std::shared_ptr<const Handler>& handler);
