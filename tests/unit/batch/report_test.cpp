@@ -182,7 +182,7 @@ TEST_CASE("the report of nine runs of each variant is the approved one, in Markd
       if (row.outcome.ending == Ending::time_out) row.outcome.failure = Failure::trap;
       if (row.outcome.ending == Ending::failed) row.outcome.reason = "avoid: it threw";
       row.outcome.measures = {.way = 20.0 + 0.5 * run, .clearance = 0.25 + 0.125 * run};
-      row.outcome.track = "0.00 0.00,1.50 " + std::to_string(run) + ".25;3.00 -1.00";
+      row.outcome.sketch.tracks = "0.00 0.00,1.50 " + std::to_string(run) + ".25;3.00 -1.00";
       rows.push_back(row);
     }
   }

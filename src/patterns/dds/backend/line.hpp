@@ -56,8 +56,8 @@ class Line {
   using Write = std::function<void(std::vector<std::byte> message, By by)>;
 
   struct Settings {
-    std::uint64_t own_id;  ///< Hash of this process's name.
-    Duration liveliness;   ///< Without a sign of life for this long [s] the peer is lost.
+    std::uint64_t own_id = 0;    ///< Hash of this process's name.
+    Duration liveliness{300ms};  ///< Without a sign of life for this long [s] the peer is lost.
   };
 
   /// How often tick() is to be called [s].

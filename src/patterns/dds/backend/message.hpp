@@ -15,11 +15,11 @@ constexpr std::size_t kHeadroom = 4 * sizeof(std::uint64_t);
 /// A message between two processes. On the wire it is its size without this number, its five numbers, 64 bits each, and the
 /// parcel. A sample of DDS holds one message or several.
 struct Message {
-  std::uint64_t from;      ///< Identifies the sender by the hash of its name.
-  std::uint64_t own;       ///< The number by which the sender takes part at present.
-  std::uint64_t peer;      ///< The receiver's such number, as far as the sender knows it; 0: not yet.
-  std::uint64_t sequence;  ///< Of the parcel, from 1 in each session; 0: there is none.
-  std::uint64_t received;  ///< Sequence number of the last parcel that the sender has received in order.
+  std::uint64_t from = 0;      ///< Identifies the sender by the hash of its name.
+  std::uint64_t own = 0;       ///< The number by which the sender takes part at present.
+  std::uint64_t peer = 0;      ///< The receiver's such number, as far as the sender knows it; 0: not yet.
+  std::uint64_t sequence = 0;  ///< Of the parcel, from 1 in each session; 0: there is none.
+  std::uint64_t received = 0;  ///< Sequence number of the last parcel that the sender has received in order.
   std::span<const std::byte> parcel{};
 };
 

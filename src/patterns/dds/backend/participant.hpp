@@ -20,9 +20,9 @@ namespace orca::dds {
 /// What accompanies an object on its topic. It travels as the sample's related identity, which readers that do not ask
 /// for it do not see.
 struct Label {
-  std::uint64_t layout_hash;  ///< Of the object's type, which may be derived from that of the topic.
-  std::uint64_t edges;        ///< A bit for each edge for which the object is due; below 2^62.
-  std::uint32_t epoch;        ///< Grows with each subscription that begins to use the topic.
+  std::uint64_t layout_hash = 0;  ///< Of the object's type, which may be derived from that of the topic.
+  std::uint64_t edges = 0;        ///< A bit for each edge for which the object is due; below 2^62.
+  std::uint32_t epoch = 0;        ///< Grows with each subscription that begins to use the topic.
 };
 
 /// What a reader has received.
@@ -30,7 +30,7 @@ struct Sample {
   std::vector<std::byte> bytes;  ///< kHeadroom bytes, then the contents.
   Label label;                   ///< Of objects.
   Origin origin;
-  std::uint64_t sequence;  ///< Of the writer; a gap means that samples were lost.
+  std::uint64_t sequence = 0;  ///< Of the writer; a gap means that samples were lost.
 
   /// Returns the object's XCDR1, or a message.
   [[nodiscard]] std::span<const std::byte> contents() const { return std::span(bytes).subspan(kHeadroom); }
@@ -59,8 +59,8 @@ class TopicReader {
 /// A topic, and what its writer or reader does.
 struct TopicOptions {
   std::string name;
-  std::string type;    ///< IDL name with its modules.
-  std::int32_t depth;  ///< The number of samples that are kept.
+  std::string type;        ///< IDL name with its modules.
+  std::int32_t depth = 1;  ///< The number of samples that are kept.
   /// Is called when a reader or writer at the other side was found. It must not block.
   /// @thread  one of DDS.
   std::function<void()> found{};

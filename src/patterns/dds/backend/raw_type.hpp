@@ -14,9 +14,9 @@ namespace orca::dds {
 
 /// What a writer is given: an object, or bytes that are to be a sequence<octet>.
 struct Outgoing {
-  const ObjectRef* object;  ///< Null: the bytes.
-  std::span<const std::byte> bytes;
-  std::size_t size;  ///< As it is written, without encapsulation [bytes].
+  const ObjectRef* object = nullptr;  ///< Null: the bytes.
+  std::span<const std::byte> bytes{};
+  std::size_t size = 0;  ///< As it is written, without encapsulation [bytes].
 };
 
 /// A type of DDS whose samples Orca encodes and decodes itself. A writer takes Outgoing, a reader fills a

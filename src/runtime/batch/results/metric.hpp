@@ -15,9 +15,9 @@ struct Metric {
   std::string name;
   std::string unit;
   std::string text;
-  bool more_is_better;
-  bool of_successes;  ///< Runs without success have it not: their time and way are those of a part.
-  std::optional<double> Measures::*measure;  ///< Null: success or time.
+  bool more_is_better = false;
+  bool of_successes = false;  ///< Runs without success have it not: their time and way are those of a part.
+  std::optional<double> Measures::*measure = nullptr;  ///< Null: success or time.
 
   [[nodiscard]] bool is_success() const { return name == "success"; }
   /// Returns the value of a run, if it has one.

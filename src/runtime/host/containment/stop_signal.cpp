@@ -168,7 +168,7 @@ StopSignal::Wake StopSignal::next() {
     if (left <= 0ms) return Wake::timeout;
     pollfd fds[] = {{signal_fd_, POLLIN, 0}, {g_wake_fd.load(), POLLIN, 0}};
     poll(fds, 2, deadline_ == Clock::time_point::max() ? -1 : static_cast<int>(left.count()));
-    std::uint64_t count;
+    std::uint64_t count = 0;
     [[maybe_unused]] const ssize_t emptied = read(g_wake_fd.load(), &count, sizeof count);
   }
 }

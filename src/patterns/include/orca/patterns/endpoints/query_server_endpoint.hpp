@@ -54,10 +54,10 @@ class QueryServerEndpoint final : public Endpoint {
  private:
   class Edge;
   struct Question {
-    Edge* edge;
+    Edge* edge = nullptr;
     ObjectRef request;
-    QueryReplySink* reply_to;
-    QueryId id;
+    QueryReplySink* reply_to = nullptr;
+    QueryId id = 0;
   };
 
   std::optional<Question> next(std::shared_ptr<const Handler>& handler);

@@ -18,9 +18,9 @@ struct Traffic;
 
 /// The counters of the links of one ByteLinks, from its start until now. A plain value.
 struct ByteLinkCounters {
-  std::uint64_t frames_received;
-  std::uint64_t objects_lost;   ///< Pushed objects for which the link had no room.
-  std::uint64_t peers_cut_off;  ///< Ends whose peer sent what cannot be, or did not read.
+  std::uint64_t frames_received = 0;
+  std::uint64_t objects_lost = 0;   ///< Pushed objects for which the link had no room.
+  std::uint64_t peers_cut_off = 0;  ///< Ends whose peer sent what cannot be, or did not read.
 };
 
 /// Links between ports of one process that share nothing but bytes. Every object is written as CDR, passes

@@ -29,9 +29,9 @@ namespace orca {
 
 /// The counters of one end, from its start until now. A plain value.
 struct ShmCounters {
-  std::uint64_t frames_received;
-  std::uint64_t objects_lost;   ///< Pushed objects for which the ring had no room.
-  std::uint64_t peers_cut_off;  ///< How often the peer wrote what cannot be, or did not read.
+  std::uint64_t frames_received = 0;
+  std::uint64_t objects_lost = 0;   ///< Pushed objects for which the ring had no room.
+  std::uint64_t peers_cut_off = 0;  ///< How often the peer wrote what cannot be, or did not read.
 };
 
 /// The port at the other end of an edge, in another process.
