@@ -354,38 +354,6 @@ TEST_CASE("components that need another process, or are there on demand, need a 
   CHECK(plan.removed == std::vector<std::string>{"spare"});
 }
 
-TEST_CASE("a component that is there on demand, on one of several machines, or chooses from others cannot go",
-          "[graph][apply]") {
-  const auto plan_without_spare = [](const graph::Graph& running) {
-    graph::Graph wanted = running;
-    wanted.components.pop_back();
-    return plan_of(running, wanted, contracts(), PlanMeans{false, {}});
-  };
-  CHECK(plan_without_spare(running_robot()).is_possible());
-  graph::Graph on_demand = running_robot();
-  on_demand.components.back().on_demand = true;
-  CHECK_FALSE(plan_without_spare(on_demand).is_possible());
-  graph::Graph several_machines = running_robot();
-  for (const std::string name : {"here", "there"}) several_machines.machines.push_back({.name = name});
-  CHECK_FALSE(plan_without_spare(several_machines).is_possible());
-  graph::Graph choosing = running_robot();
-  choosing.components.back().ports["pose"].candidates = {{"a", "b"}};
-  CHECK_FALSE(plan_without_spare(choosing).is_possible());
-}
-
-TEST_CASE("each effort says what stops meanwhile", "[graph][apply]") {
-  const std::vector<std::pair<Effort, std::string>> said{
-      {Effort::none, "at once; nothing runs otherwise"},
-      {Effort::set, "between two laps; nothing stops"},
-      {Effort::rewire, "between two laps; no other connection notices"},
-      {Effort::add, "comes up beside the others; nothing stops"},
-      {Effort::remove, "ends when its connections are gone; nothing else stops"},
-      {Effort::exchange, "tried for 1 s, then exchanged between two laps; nothing stops"},
-      {Effort::renew, "its process is started again; what runs there stops meanwhile"},
-      {Effort::restart, "only when the system is started again"}};
-  for (const auto& [effort, text] : said) CHECK(to_string(effort) == text);
-}
-
 TEST_CASE("a connection is made, removed, or gets another policy", "[graph][apply]") {
   const GraphPlan removed = plan_after([](graph::Graph& g) { g.edges.clear(); });
   CHECK(removed.is_possible());
