@@ -16,9 +16,16 @@ namespace {
 // other wish must move the robot on.
 double insistence(double urgency) { return urgency / (1.001 - urgency); }
 
+// Slower than this a robot stands, as far as its odometry and what it remembers are concerned.
+bool stands(const Twist2& twist) {
+  constexpr double kSlow = 0.005;     // [m/s]
+  constexpr double kSlowTurn = 0.01;  // [rad/s]
+  return std::abs(twist.forward) < kSlow && std::abs(twist.turn_rate) < kSlowTurn;
+}
+
 }  // namespace
 
-Avoider::Avoider(ComponentHost& host, double echo_time)
+Avoider::Avoider(ComponentHost& host, double echo_time, double standing_pace)
     : Component(host),
       odometry_(*this, "odometry",
                 {.text = "Motion of the robot; with it recent echoes are remembered and carried along.",
@@ -30,6 +37,7 @@ Avoider::Avoider(ComponentHost& host, double echo_time)
                   .optional = true}),
       motion_(*this, "motion",
               {.text = "One command per odometry object (if not connected, per sensor object)."}),
+      standing_pace_(standing_pace),
       robot_radius_(*this, "robot_radius", 0.205,
                     {.unit = "m",
                      .min = 0.0,
@@ -160,7 +168,8 @@ Outcome Avoider::work() {
 void Avoider::follow(const idl::Odometry& odometry) {
   const TimePoint stamp = to_time_point(odometry.stamp());
   const Pose2 pose = plane_pose(odometry);
-  if (moved_at_) memory_.advance(seen_from(pose_, pose), to_seconds(stamp - *moved_at_), keep());
+  const double pace = stands(twist_) ? standing_pace_ : 1.0;
+  if (moved_at_) memory_.advance(seen_from(pose_, pose), pace * to_seconds(stamp - *moved_at_), keep());
   moved_at_ = stamp;
   pose_ = pose;
   twist_ = {.forward = odometry.translational_velocity(), .turn_rate = odometry.steering_velocity()};

@@ -8,7 +8,7 @@ namespace {
 /// README.md.
 class LaserAvoid final : public orca::avoid::LaserAvoider {
  public:
-  explicit LaserAvoid(orca::ComponentHost& host) : LaserAvoider(host) {}
+  explicit LaserAvoid(orca::ComponentHost& host) : LaserAvoider(host, {.shapes = true}) {}
 
  private:
   orca::avoid::Advice advice(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,

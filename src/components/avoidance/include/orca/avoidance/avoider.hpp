@@ -34,8 +34,9 @@ namespace orca::avoid {
 /// Thread contract: as every component.
 class Avoider : public Component {
  protected:
-  /// @param echo_time  [s] the sensor's default: how long an echo counts that was heard once.
-  Avoider(ComponentHost& host, double echo_time);
+  /// @param echo_time      [s] the sensor's default: how long an echo counts that was heard once.
+  /// @param standing_pace  how fast echoes age while the robot stands, 1: as ever.
+  Avoider(ComponentHost& host, double echo_time, double standing_pace = 1.0);
 
   /// Returns the port of the sensor.
   [[nodiscard]] virtual PushProxyHandle& sensor() = 0;
@@ -108,6 +109,7 @@ class Avoider : public Component {
       {.text = "Base that is asked how large the robot is and how often the sensor measures.",
        .optional = true}};
 
+  const double standing_pace_;
   Param<double> robot_radius_;
   Param<double> margin_;
   Param<double> safe_distance_;
