@@ -65,8 +65,12 @@ TEST_CASE("each variant meets each world and seed once, and pairs stand together
     const Run run = experiment.run(i);
     all.insert({run.variant, run.world, run.seed});
     CHECK(run.variant == i % 2);
+    CHECK(experiment.number_of(experiment.variants[run.variant].name, experiment.worlds[run.world].name,
+                               run.seed) == i);
   }
   CHECK(all.size() == 24);
+  CHECK_FALSE(experiment.number_of("a", "w", 4));
+  CHECK_FALSE(experiment.number_of("c", "w", 1));
 }
 
 TEST_CASE("the settings of a variant have the last word", "[batch]") {

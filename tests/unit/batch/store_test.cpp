@@ -71,6 +71,36 @@ TEST_CASE("a run that is there already is not added again", "[batch]") {
   CHECK_FALSE(store->has("a", "w", 2));
 }
 
+TEST_CASE("what came of making a run twice is kept, and where the results come from", "[batch]") {
+  const TempFolder folder;
+  {
+    const auto store =
+        Store::open(folder.file("r.sqlite"), "1", Origin{"/top/e.xml", {"/plugins/a", "/plugins/b c"}})
+            .value();
+    REQUIRE(store->add(RepeatRow{"v", "w", 18446744073709551615U, {"00", "11", "delivery 3, ..."}}).ok());
+    REQUIRE(store->add(RepeatRow{"a", "w", 2, {"22", "22"}}).ok());
+  }
+  const auto store = opened(folder.file("r.sqlite"), "");
+  const std::vector<RepeatRow> rows = store->repeats();
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].variant == "a");
+  CHECK(rows[0].repeat == Repeat{"22", "22", ""});
+  CHECK(rows[1].seed == 18446744073709551615U);
+  CHECK(rows[1].repeat == Repeat{"00", "11", "delivery 3, ..."});
+  CHECK(store->identity() == "1");
+  CHECK(store->origin().file == "/top/e.xml");
+  CHECK(store->origin().plugins == std::vector<std::string>{"/plugins/a", "/plugins/b c"});
+}
+
+TEST_CASE("a run is found by its names", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("r.sqlite"));
+  REQUIRE(store->add(row("a", "w", 7)).ok());
+  REQUIRE(store->find("a", "w", 7));
+  CHECK(store->find("a", "w", 7)->outcome == row("", "", 0).outcome);
+  CHECK_FALSE(store->find("a", "w", 8));
+}
+
 TEST_CASE("results of another experiment are not mixed with these", "[batch]") {
   const TempFolder folder;
   REQUIRE(opened(folder.file("r.sqlite"), "1")->add(row("a", "w", 1)).ok());

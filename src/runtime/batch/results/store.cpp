@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <sstream>
 #include <utility>
 
 #include "orca/base/text.hpp"
@@ -13,7 +14,7 @@ namespace {
 constexpr const char* kSchema = R"(
   PRAGMA journal_mode = WAL;
   PRAGMA synchronous = NORMAL;
-  CREATE TABLE IF NOT EXISTS experiment (identity TEXT NOT NULL);
+  CREATE TABLE IF NOT EXISTS experiment (identity TEXT NOT NULL, file TEXT NOT NULL, plugins TEXT NOT NULL);
   CREATE TABLE IF NOT EXISTS runs (
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, ending TEXT NOT NULL, reason TEXT NOT NULL,
     time REAL NOT NULL, goals INTEGER NOT NULL, failed_goals INTEGER NOT NULL, contacts INTEGER NOT NULL,
@@ -25,10 +26,16 @@ constexpr const char* kSchema = R"(
   CREATE TABLE IF NOT EXISTS timing (
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, wall REAL NOT NULL, cpu REAL NOT NULL,
     PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS repeats (
+    variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL,
+    first TEXT NOT NULL, second TEXT NOT NULL, difference TEXT NOT NULL,
+    PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
 )";
 
+constexpr const char* kBetweenFolders = "\n";
+
 // Changes with each change of the tables.
-constexpr std::uint32_t kLayout = 2;
+constexpr std::uint32_t kLayout = 3;
 
 // Returns the schema, with a column for each measure.
 std::string schema() {
@@ -113,42 +120,35 @@ class SqliteStore final : public Store {
  public:
   SqliteStore(std::string file, Database database) : file_(std::move(file)), database_(std::move(database)) {}
 
-  Status prepare(const std::string& identity) {
+  Status prepare(const std::string& identity, const Origin& origin) {
     if (Status known = check_layout(); !known.ok()) return known;
     if (sqlite3_exec(database_.get(), schema().c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
       return fault();
     if (identity.empty()) return ok();
-    Statement known(database_.get(), "SELECT identity FROM experiment");
-    const int found = known.step();
-    if (found == SQLITE_ROW) return check(known.text(0), identity);
-    if (found != SQLITE_DONE) return fault();
-    Statement note(database_.get(), "INSERT INTO experiment VALUES (?)");
-    return (note << identity).step() == SQLITE_DONE ? ok() : fault();
+    if (const std::string known = this->identity(); !known.empty()) return check(known, identity);
+    Statement note(database_.get(), "INSERT INTO experiment VALUES (?, ?, ?)");
+    note << identity << origin.file << joined(origin.plugins, kBetweenFolders);
+    return note.step() == SQLITE_DONE ? ok() : fault();
   }
 
   Status add(const Row& row) override {
     const std::string seed = padded(row.seed);
-    const Outcome& o = row.outcome;
-    if (sqlite3_exec(database_.get(), "BEGIN", nullptr, nullptr, nullptr) != SQLITE_OK) return fault();
-    Statement run(database_.get(),
-                  "INSERT OR IGNORE INTO runs VALUES (" +
-                      marks(static_cast<std::size_t>(kFirstMeasure) + all_measures().size()) + ")");
-    run << row.variant << row.world << seed << std::string(name_of(o.ending)) << o.reason << o.time << o.goals
-        << o.failed_goals << o.contacts << std::string(name_of(o.failure)) << o.trace_hash;
-    for (const Measure& measure : all_measures()) run << o.measures.*measure.value;
-    Statement track(database_.get(), "INSERT OR IGNORE INTO tracks VALUES (?, ?, ?, ?)");
-    track << row.variant << row.world << seed << o.track;
-    Statement timing(database_.get(), "INSERT OR IGNORE INTO timing VALUES (?, ?, ?, ?, ?)");
-    timing << row.variant << row.world << seed << row.cost.wall << row.cost.cpu;
-    for (Statement* const statement : {&run, &track, &timing})
-      if (statement->step() != SQLITE_DONE) return fault();
-    return sqlite3_exec(database_.get(), "COMMIT", nullptr, nullptr, nullptr) == SQLITE_OK ? ok() : fault();
+    return in_transaction([&] { return add_parts(row, seed); });
   }
 
   [[nodiscard]] bool has(const std::string& variant, const std::string& world,
                          std::uint64_t seed) const override {
     Statement found(database_.get(), "SELECT 1 FROM runs WHERE variant = ? AND world = ? AND seed = ?");
     return (found << variant << world << padded(seed)).step() == SQLITE_ROW;
+  }
+
+  [[nodiscard]] std::optional<Row> find(const std::string& variant, const std::string& world,
+                                        std::uint64_t seed) const override {
+    Statement found(database_.get(),
+                    "SELECT * FROM runs JOIN timing USING (variant, world, seed) "
+                    "WHERE variant = ? AND world = ? AND seed = ?");
+    if ((found << variant << world << padded(seed)).step() != SQLITE_ROW) return std::nullopt;
+    return row_of(found);
   }
 
   [[nodiscard]] std::string track(const std::string& variant, const std::string& world,
@@ -167,9 +167,70 @@ class SqliteStore final : public Store {
     return found == SQLITE_DONE ? ok() : fault();
   }
 
+  Status add(const RepeatRow& row) override {
+    Statement note(database_.get(), "INSERT OR IGNORE INTO repeats VALUES (?, ?, ?, ?, ?, ?)");
+    note << row.variant << row.world << padded(row.seed) << row.repeat.first << row.repeat.second
+         << row.repeat.difference;
+    return note.step() == SQLITE_DONE ? ok() : fault();
+  }
+
+  [[nodiscard]] std::vector<RepeatRow> repeats() const override {
+    Statement all(database_.get(), "SELECT * FROM repeats ORDER BY variant, world, seed");
+    std::vector<RepeatRow> rows;
+    while (all.step() == SQLITE_ROW)
+      rows.push_back(
+          {all.text(0), all.text(1), std::stoull(all.text(2)), {all.text(3), all.text(4), all.text(5)}});
+    return rows;
+  }
+
+  [[nodiscard]] std::string identity() const override {
+    Statement known(database_.get(), "SELECT identity FROM experiment");
+    return known.step() == SQLITE_ROW ? known.text(0) : "";
+  }
+
+  [[nodiscard]] Origin origin() const override {
+    Statement known(database_.get(), "SELECT file, plugins FROM experiment");
+    if (known.step() != SQLITE_ROW) return {};
+    Origin origin{known.text(0), {}};
+    std::istringstream folders(known.text(1));
+    for (std::string folder; std::getline(folders, folder, kBetweenFolders[0]);)
+      origin.plugins.push_back(folder);
+    return origin;
+  }
+
  private:
   [[nodiscard]] Status fault() const {
     return fail(Code::unavailable, file_ + ": " + sqlite3_errmsg(database_.get()));
+  }
+
+  Status add_parts(const Row& row, const std::string& seed) {
+    const Outcome& o = row.outcome;
+    Statement run(database_.get(),
+                  "INSERT OR IGNORE INTO runs VALUES (" +
+                      marks(static_cast<std::size_t>(kFirstMeasure) + all_measures().size()) + ")");
+    run << row.variant << row.world << seed << std::string(name_of(o.ending)) << o.reason << o.time << o.goals
+        << o.failed_goals << o.contacts << std::string(name_of(o.failure)) << o.trace_hash;
+    for (const Measure& measure : all_measures()) run << o.measures.*measure.value;
+    Statement track(database_.get(), "INSERT OR IGNORE INTO tracks VALUES (?, ?, ?, ?)");
+    track << row.variant << row.world << seed << o.track;
+    Statement timing(database_.get(), "INSERT OR IGNORE INTO timing VALUES (?, ?, ?, ?, ?)");
+    timing << row.variant << row.world << seed << row.cost.wall << row.cost.cpu;
+    for (Statement* const statement : {&run, &track, &timing})
+      if (statement->step() != SQLITE_DONE) return fault();
+    return ok();
+  }
+
+  Status execute(const char* text) {
+    return sqlite3_exec(database_.get(), text, nullptr, nullptr, nullptr) == SQLITE_OK ? ok() : fault();
+  }
+
+  // Makes all changes of `work`, or none.
+  Status in_transaction(const std::function<Status()>& work) {
+    if (Status begun = execute("BEGIN"); !begun.ok()) return begun;
+    Status worked = work();
+    if (worked.ok()) worked = execute("COMMIT");
+    if (!worked.ok()) (void)execute("ROLLBACK");
+    return worked;
   }
 
   // A file of another layout would be read column by column into the wrong places.
@@ -217,19 +278,20 @@ class SqliteStore final : public Store {
   static constexpr int kFirstMeasure = 11;  // of the columns
 
   const std::string file_;
-  const Database database_;
+  Database database_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Store>> Store::open(const std::string& file, const std::string& identity) {
+Result<std::unique_ptr<Store>> Store::open(const std::string& file, const std::string& identity,
+                                           const Origin& origin) {
   sqlite3* opened = nullptr;
   const int result = sqlite3_open(file.c_str(), &opened);
   Database database(opened);
   if (result != SQLITE_OK)
     return fail(Code::unavailable, file + " cannot be opened: " + sqlite3_errmsg(opened));
   auto store = std::make_unique<SqliteStore>(file, std::move(database));
-  if (Status prepared = store->prepare(identity); !prepared.ok()) return prepared.error();
+  if (Status prepared = store->prepare(identity, origin); !prepared.ok()) return prepared.error();
   return std::unique_ptr<Store>(std::move(store));
 }
 

@@ -64,6 +64,9 @@ struct Experiment {
   /// compared in pairs.
   /// @pre  number < run_count().
   [[nodiscard]] Run run(std::size_t number) const;
+  /// Returns the number of a run; nothing if the experiment has none of these names.
+  [[nodiscard]] std::optional<std::size_t> number_of(const std::string& variant, const std::string& world,
+                                                     std::uint64_t seed) const;
   /// Returns the settings of a run, the more special ones last: of all, of the world, of the variant.
   [[nodiscard]] std::vector<std::string> settings_of(const Run& run) const;
 };
