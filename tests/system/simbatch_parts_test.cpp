@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Batches on machines that are overloaded, and of plugins that are not fit for them.
+// Batches on machines that are overloaded, of plugins and files that are fit and unchanged, or not.
 #include <catch2/catch.hpp>
 
 #include <sched.h>
@@ -41,6 +41,61 @@ TEST_CASE(
   CHECK(run.says("uses rand, which draws random numbers that the run's seed does not decide"));
   CHECK(run.says("(variant bad, world here)"));
   CHECK_FALSE(std::filesystem::exists(folder.file("out")));
+}
+
+namespace {
+
+// Returns why a batch cannot go on.
+std::string refusal(const std::string& experiment, const std::string& out) {
+  const Run run = run_simbatch({experiment, "--out", out, "--resume"});
+  CHECK(run.exit_code() == 2);
+  return run.err;
+}
+
+}  // namespace
+
+TEST_CASE("--resume refuses results of another plugin or reference, and names it", "[system][batch]") {
+  const TempFolder folder;
+  const std::string plugins = folder.file("plugins");
+  std::filesystem::create_directory(plugins);
+  for (const char* name : {"test_dependent", "test_components"})
+    for (const char* end : {".so", ".types"})
+      std::filesystem::copy(std::string(ORCA_BINARY_DIR "/tests/plugins/") + name + end, plugins);
+  const auto write = [&](const std::string& reference) {
+    return folder.write("e.xml", "<experiment name=\"e\" seeds=\"1-2\" until=\"10 s\" graph=\"" +
+                                     system_graph("dependent.xml") + "\"><set arg=\"plugins\" value=\"" +
+                                     plugins + "\"/><variant name=\"v\"/><world name=\"w\" reference=\"" +
+                                     reference + "\"/></experiment>");
+  };
+  const std::string experiment = write("3 m");
+  (void)batch(experiment, folder.file("out"));
+  (void)batch(experiment, folder.file("out"), {"--resume"});
+  write("4 m");
+  CHECK_THAT(refusal(experiment, folder.file("out")),
+             Contains("since results were made, these were changed: world w;"));
+  write("3 m");
+  std::ofstream(plugins + "/test_dependent.so", std::ios::app) << "a byte";
+  CHECK_THAT(refusal(experiment, folder.file("out")),
+             Contains("these were changed: plugin test_dependent.so;") && Contains("--out"));
+}
+
+TEST_CASE("--resume refuses results of another world file, and takes more worlds", "[system][batch]") {
+  const TempFolder folder;
+  const std::string world = folder.write("office.xml", text_in(source_file("sim/worlds/office.xml")));
+  const auto write = [&](const std::string& more) {
+    return folder.write(
+        "e.xml",
+        "<experiment name=\"e\" seeds=\"1\" until=\"2 s\" graph=\"" +
+            source_file("graphs/pioneer_laser_goto.xml") +
+            "\"><variant name=\"v\"/><world name=\"w\"><set arg=\"world\" file=\"office.xml\"/></world>" +
+            more + "</experiment>");
+  };
+  const std::string experiment = write("");
+  (void)batch(experiment, folder.file("out"));
+  write("<world name=\"x\"/>");
+  CHECK(split_lines(batch(experiment, folder.file("out"), {"--resume"})).size() == 3);
+  std::ofstream(world, std::ios::app) << "<!-- another world -->";
+  CHECK_THAT(refusal(experiment, folder.file("out")), Contains("these were changed: file office.xml;"));
 }
 
 TEST_CASE("while many graphs are checked, a terminal shows how far it is, and nothing else does",

@@ -101,6 +101,16 @@ void say_counts(const batch::ResultsDifference& found, const Side& one, const Si
     if (count > 0) std::printf("%zu runs are in %s only\n", count, name.c_str());
 }
 
+// Says which plugins, files and programs were others.
+void say_inputs(const Side& one, const Side& other) {
+  const batch::Inputs known = one.store->inputs();
+  std::vector<std::string> names;
+  for (const auto& [name, content] : other.store->inputs())
+    if (const auto found = known.find(name); found != known.end() && found->second != content)
+      names.push_back(name);
+  if (!names.empty()) std::printf("not the same for both: %s\n", listed(names).c_str());
+}
+
 void say_first(const Options& options, const std::pair<batch::Row, batch::Row>& rows, Side& one,
                Side& other) {
   const auto& [a, b] = rows;
@@ -135,6 +145,7 @@ ExitCode diff(const Options& options) {
     return ExitCode::done;
   }
   say_counts(*found, *one, *other);
+  say_inputs(*one, *other);
   if (found->first) say_first(options, *found->first, *one, *other);
   return ExitCode::different;
 }

@@ -16,6 +16,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
 #include "orca/base/text.hpp"
+#include "orca/batch/inputs.hpp"
 #include "orca/batch/missing_runs.hpp"
 #include "orca/batch/report.hpp"
 #include "orca/batch/store.hpp"
@@ -126,6 +127,8 @@ ExitCode run(const Options& options) {
       results_in(folder).string(), batch::identity_of(*experiment),
       {std::filesystem::absolute(options.subject).lexically_normal().string(), options.plugins});
   if (!store) return refuse(store.error());
+  if (const Status kept = (*store)->keep(batch::inputs_of(*experiment)); !kept.ok())
+    return refuse(kept.error());
   if (const std::string fault = make_runs(options, *experiment, **store); !fault.empty()) {
     std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n", fault.c_str());
     return ExitCode::could_not_finish;

@@ -141,7 +141,7 @@ machine's load are.
 
 The first run of each variant is made twice, the second time with other addresses, environment, process and folder. If the two
 differ, a warning names the first delivery that does, and the batch goes on. A run that an overloaded machine does not let end
-is no result: it is made again.
+is no result: it is made again. --resume refuses results of other plugins, files or programs.
 
 diff makes the first run that differs again, as both batches did, and watches all that its components receive: it names the
 time, the component, the port and the values that differ.

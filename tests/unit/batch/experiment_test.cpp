@@ -115,6 +115,17 @@ TEST_CASE("more runs than anybody waits for are refused", "[batch]") {
       Contains("E011: the experiment has more than 10,000,000 runs"));
 }
 
+TEST_CASE("results are known by the same text wherever the experiment's folder lies", "[batch]") {
+  Experiment here = good();
+  here.settings.push_back({"world", "/top/sim/worlds/x.xml", {}});
+  Experiment there = good();
+  there.file = "/elsewhere/sim/e.xml";
+  there.settings.push_back({"world", "/elsewhere/sim/worlds/x.xml", {}});
+  CHECK(identity_of(here) == identity_of(there));
+  there.settings.back().value = "/elsewhere/sim/worlds/y.xml";
+  CHECK(identity_of(here) != identity_of(there));
+}
+
 TEST_CASE("results are known by what may change them", "[batch]") {
   const std::string identity = identity_of(good());
   CHECK(identity == identity_of(good()));

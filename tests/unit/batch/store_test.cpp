@@ -148,3 +148,57 @@ TEST_CASE("what add() has returned is in the file when its process is killed", "
   REQUIRE(WIFSIGNALED(status));
   CHECK(rows_of(*opened(file)).size() == 50);
 }
+
+TEST_CASE("what runs depend on must not change between them; more may come", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("r.sqlite"));
+  REQUIRE(store->keep({{"plugin a.so", "1"}, {"world w", "2"}}).ok());
+  CHECK(store->keep({{"plugin a.so", "1"}, {"world x", "3"}}).ok());
+  const Status changed = store->keep({{"plugin a.so", "4"}, {"plugin b.so", "1"}, {"world w", "5"}});
+  REQUIRE_FALSE(changed.ok());
+  CHECK_THAT(changed.error().message, Catch::Contains("these were changed: plugin a.so, world w;"));
+  CHECK(store->inputs() == Inputs{{"plugin a.so", "1"}, {"world w", "2"}, {"world x", "3"}});
+}
+
+namespace {
+
+// A file with one run of variant "a" for each seed.
+std::string part(const TempFolder& folder, const std::string& name, const std::vector<std::uint64_t>& seeds,
+                 const std::string& identity = "1") {
+  const auto store = opened(folder.file(name), identity);
+  for (const std::uint64_t seed : seeds) REQUIRE(store->add(row("a", "w", seed)).ok());
+  return folder.file(name);
+}
+
+}  // namespace
+
+TEST_CASE("results of several files are put together, with runs that are in both once", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("all"));
+  REQUIRE(store->take_over(part(folder, "one", {1, 2})).ok());
+  REQUIRE(store->take_over(part(folder, "two", {2, 3})).ok());
+  const std::vector<Row> rows = rows_of(*store);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[2].outcome == row("", "", 0).outcome);
+  CHECK(rows[2].cost.wall == 1.5);
+}
+
+TEST_CASE("results that do not fit are not put together, and nothing of them is taken", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("all"));
+  REQUIRE(store->take_over(part(folder, "one", {1, 2})).ok());
+  CHECK_THAT(store->take_over(part(folder, "other", {3}, "2")).error().message,
+             Catch::Contains("results of another experiment"));
+  {
+    const auto two = opened(folder.file("two"));
+    Row changed = row("a", "w", 2);
+    changed.outcome.time = 7.0;
+    for (const Row& one : {row("a", "w", 3), changed}) REQUIRE(two->add(one).ok());
+  }
+  CHECK_THAT(store->take_over(folder.file("two")).error().message,
+             Catch::Contains("has another outcome of variant a, world w, seed 2 than a folder before it"));
+  REQUIRE(store->keep({{"plugin p.so", "1"}}).ok());
+  REQUIRE(opened(part(folder, "three", {3}))->keep({{"plugin p.so", "2"}}).ok());
+  CHECK_THAT(store->take_over(folder.file("three")).error().message, Catch::Contains("plugin p.so"));
+  CHECK(rows_of(*store).size() == 2);
+}

@@ -30,6 +30,7 @@ constexpr const char* kSchema = R"(
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL,
     first TEXT NOT NULL, second TEXT NOT NULL, difference TEXT NOT NULL,
     PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS inputs (name TEXT PRIMARY KEY NOT NULL, content TEXT NOT NULL) WITHOUT ROWID;
 )";
 
 constexpr const char* kBetweenFolders = "\n";
@@ -183,6 +184,36 @@ class SqliteStore final : public Store {
     return rows;
   }
 
+  Status keep(const Inputs& inputs) override {
+    if (Status same = check(inputs); !same.ok()) return same;
+    return in_transaction([&] {
+      for (const auto& [name, content] : inputs) {
+        Statement note(database_.get(), "INSERT OR IGNORE INTO inputs VALUES (?, ?)");
+        if ((note << name << content).step() != SQLITE_DONE) return fault();
+      }
+      return ok();
+    });
+  }
+
+  [[nodiscard]] Inputs inputs() const override {
+    Statement all(database_.get(), "SELECT name, content FROM inputs");
+    Inputs inputs;
+    while (all.step() == SQLITE_ROW) inputs[all.text(0)] = all.text(1);
+    return inputs;
+  }
+
+  Status take_over(const std::string& other) override {
+    const Result<std::unique_ptr<Store>> store = Store::open(other, identity());
+    if (!store) return store.error();
+    if (Status same = check((*store)->inputs()); !same.ok())
+      return fail(same.error().code, other + ": " + same.error().message);
+    Statement attach(database_.get(), "ATTACH ? AS other");
+    if ((attach << other).step() != SQLITE_DONE) return fault();
+    const Status taken = in_transaction([&] { return take_attached(other); });
+    Statement detach(database_.get(), "DETACH other");
+    return detach.step() == SQLITE_DONE || !taken.ok() ? taken : fault();
+  }
+
   [[nodiscard]] std::string identity() const override {
     Statement known(database_.get(), "SELECT identity FROM experiment");
     return known.step() == SQLITE_ROW ? known.text(0) : "";
@@ -231,6 +262,39 @@ class SqliteStore final : public Store {
     if (worked.ok()) worked = execute("COMMIT");
     if (!worked.ok()) (void)execute("ROLLBACK");
     return worked;
+  }
+
+  Status take_attached(const std::string& other) {
+    Statement conflict(database_.get(),
+                       "SELECT * FROM other.runs WHERE (variant, world, seed) IN "
+                       "(SELECT variant, world, seed FROM main.runs) EXCEPT SELECT * FROM main.runs LIMIT 1");
+    const int found = conflict.step();
+    if (found == SQLITE_ROW)
+      return fail(Code::failed_precondition,
+                  other + " has another outcome of variant " + conflict.text(0) + ", world " +
+                      conflict.text(1) + ", seed " + std::to_string(std::stoull(conflict.text(2))) +
+                      " than a folder before it; simbatch diff shows what differs");
+    if (found != SQLITE_DONE) return fault();
+    return execute(R"(
+      INSERT OR IGNORE INTO main.runs SELECT * FROM other.runs;
+      INSERT OR IGNORE INTO main.tracks SELECT * FROM other.tracks;
+      INSERT OR IGNORE INTO main.timing SELECT * FROM other.timing;
+      INSERT OR IGNORE INTO main.repeats SELECT * FROM other.repeats;
+      INSERT OR IGNORE INTO main.inputs SELECT * FROM other.inputs;)");
+  }
+
+  // Inputs that are not known yet are those of more worlds.
+  [[nodiscard]] Status check(const Inputs& inputs) const {
+    const Inputs known = this->inputs();
+    std::vector<std::string> others;
+    for (const auto& [name, content] : inputs)
+      if (const auto found = known.find(name); found != known.end() && found->second != content)
+        others.push_back(name);
+    if (others.empty()) return ok();
+    return fail(Code::failed_precondition,
+                "since results were made, these were changed: " + listed(others) +
+                    "; runs before and after a change cannot be compared, so make all runs again, in another "
+                    "folder (--out)");
   }
 
   // A file of another layout would be read column by column into the wrong places.

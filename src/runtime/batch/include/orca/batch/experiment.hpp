@@ -21,6 +21,8 @@ struct Setting {
 
   /// Returns "NAME=VALUE".
   [[nodiscard]] std::string text() const { return name + "=" + value; }
+  /// Returns the same with an absolute path written from a folder on, so that it is the same wherever the folder lies.
+  [[nodiscard]] std::string text_from(const std::string& folder) const;
 };
 
 /// One of the things that are compared: a graph, and what is set in it.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,9 @@ struct Origin {
   std::string file;                  ///< The experiment's path, absolute.
   std::vector<std::string> plugins;  ///< Folders of plugins besides Orca's own.
 };
+
+/// What runs depend on: names and hashes of their content.
+using Inputs = std::map<std::string, std::string>;
 
 /// A run that was made twice, by the names of the experiment.
 struct RepeatRow {
@@ -71,6 +75,18 @@ class Store {
   virtual Status add(const RepeatRow& row) = 0;
   /// Returns the runs that were made twice, ordered by variant, world and seed. There are a few of each variant.
   [[nodiscard]] virtual std::vector<RepeatRow> repeats() const = 0;
+
+  /// Keeps what the runs depend on that are to be added.
+  /// @errors  failed_precondition with the names of those that were others for runs that are there already; unavailable, with the
+  ///          reason. Then nothing is kept.
+  virtual Status keep(const Inputs& inputs) = 0;
+  /// Returns all that the runs depend on.
+  [[nodiscard]] virtual Inputs inputs() const = 0;
+
+  /// Adds everything of another file of results. Runs that are in both must be the same.
+  /// @errors  failed_precondition if it is of another experiment, or of other inputs, or another outcome of the same run is
+  ///          there; those of open(). Then nothing is added.
+  virtual Status take_over(const std::string& other) = 0;
 
   /// Returns the identity of the experiment; empty if the file holds no results yet.
   [[nodiscard]] virtual std::string identity() const = 0;
