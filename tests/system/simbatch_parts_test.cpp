@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Batches on machines that are overloaded, of plugins and files that are fit and unchanged, or not.
+// Batches in several parts, on machines that are overloaded, of plugins and files that are fit and unchanged, or not.
 #include <catch2/catch.hpp>
 
 #include <sched.h>
@@ -41,6 +41,51 @@ TEST_CASE(
   CHECK(run.says("uses rand, which draws random numbers that the run's seed does not decide"));
   CHECK(run.says("(variant bad, world here)"));
   CHECK_FALSE(std::filesystem::exists(folder.file("out")));
+}
+
+TEST_CASE("seven parts that are joined are the whole, byte for byte, in any order", "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment = dependents(folder, "e.xml", {"nothing", "nothing_more"}, "1-20");
+  const std::string whole = batch(experiment, folder.file("whole"));
+  Words parts;
+  for (int i = 7; i >= 1; --i) {
+    const std::string out = folder.file("part" + std::to_string(i));
+    const Run run = run_simbatch({experiment, "--out", out, "--shard", std::to_string(i) + "/7"});
+    INFO(run.err);
+    REQUIRE(run.exit_code() == 0);
+    CHECK(run.says("part " + std::to_string(i) + " of 7 is in " + out));
+    parts.push_back(out);
+  }
+  const std::string all = folder.file("all");
+  const Run joined = run_simbatch(Words{"join"} + parts + Words{"--out", all});
+  INFO(joined.err);
+  CHECK(joined.exit_code() == 0);
+  CHECK(exported(all) == whole);
+  CHECK(run_simbatch({"diff", folder.file("whole"), all}).exit_code() == 0);
+}
+
+TEST_CASE("parts that are not whole are joined, and what is missing can be made then", "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment = dependents(folder, "e.xml", {"nothing"});
+  const std::string whole = batch(experiment, folder.file("whole"));
+  REQUIRE(run_simbatch({experiment, "--out", folder.file("part"), "--shard", "2/2"}).exit_code() == 0);
+  const Run joined = run_simbatch({"join", folder.file("part"), "--out", folder.file("all")});
+  INFO(joined.err);
+  CHECK(joined.exit_code() == 0);
+  CHECK(joined.says("1 of 2 runs are missing; --resume makes them"));
+  CHECK(batch(experiment, folder.file("all"), {"--resume"}) == whole);
+}
+
+TEST_CASE("results of another experiment are not joined, and nothing is left of the attempt",
+          "[system][batch]") {
+  const TempFolder folder;
+  (void)batch(dependents(folder, "a.xml", {"nothing"}), folder.file("a"));
+  (void)batch(dependents(folder, "b.xml", {"hashes"}), folder.file("b"));
+  const Run run = run_simbatch({"join", folder.file("a"), folder.file("b"), "--out", folder.file("all")});
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says(folder.file("b")));
+  CHECK(run.says("holds results of another experiment"));
+  CHECK_FALSE(std::filesystem::exists(folder.file("all") + "/results.sqlite"));
 }
 
 namespace {

@@ -203,6 +203,9 @@ TEST_CASE("wrong words are refused with what there is", "[system][batch]") {
   CHECK(run_simbatch({"e.xml", "--jobs", "0"}).says("--jobs takes a number from 1 to 1024"));
   CHECK(run_simbatch({"e.xml", "--jobs"}).says("--jobs needs a value after it"));
   CHECK(run_simbatch({"export", "."}).says("holds no results of a batch"));
+  for (const char* shard : {"0/2", "3/2", "2", "1/x", "1/2/3", ""})
+    CHECK(run_simbatch({"e.xml", "--shard", shard}).says("--shard takes I/N, part I of N parts"));
+  CHECK(run_simbatch({"join", "a"}).says("join needs folders of results and one for all of them"));
   CHECK(run_simbatch({"diff", "."}).says("diff needs the folders of two results"));
   CHECK(run_simbatch({"diff", ".", "."}).exit_code() == 2);
   CHECK(run_simbatch({"diff", "a", "b", "c"}).says("\"c\" is one word too many after \"b\""));

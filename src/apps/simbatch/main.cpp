@@ -78,8 +78,14 @@ ExitCode report(const batch::Experiment& experiment, const batch::Store& store,
   return ExitCode::done;
 }
 
+std::string shard_text(const batch::Shard& shard, const char* between) {
+  return std::to_string(shard.number) + between + std::to_string(shard.count);
+}
+
 std::filesystem::path folder_of(const Options& options, const batch::Experiment& experiment) {
-  return options.out.empty() ? experiment.name + ".batch" : options.out;
+  if (!options.out.empty()) return options.out;
+  return experiment.name + (options.shard.count > 1 ? "." + shard_text(options.shard, "-of-") : "") +
+         ".batch";
 }
 
 // Makes the report on results that are there, however many of the runs they are.
@@ -98,7 +104,7 @@ ExitCode report_again(const Options& options) {
 
 // Makes the runs that are missing. Returns why it could not make all; empty: it did.
 std::string make_runs(const Options& options, const batch::Experiment& experiment, batch::Store& store) {
-  batch::MissingRuns missing(experiment, store, {});
+  batch::MissingRuns missing(experiment, store, options.shard);
   Progress progress(experiment, store, missing.count());
   const Result<batch::BatchEnd> end = batch::run_batch(
       experiment, {missing.not_repeated(), [&] { return missing.next(); }}, options.batch, progress);
@@ -133,7 +139,63 @@ ExitCode run(const Options& options) {
     std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n", fault.c_str());
     return ExitCode::could_not_finish;
   }
-  return report(*experiment, **store, folder);
+  if (options.shard.count == 1) return report(*experiment, **store, folder);
+  std::fprintf(stderr, "part %s is in %s; simbatch join puts the parts together\n",
+               shard_text(options.shard, " of ").c_str(), folder.c_str());
+  return ExitCode::done;
+}
+
+// Returns the experiment of a store, if it is still as it was.
+std::optional<batch::Experiment> experiment_of(const batch::Store& store) {
+  xml::Diagnostics unused;
+  std::optional<batch::Experiment> experiment = batch::read_experiment(store.origin().file, unused);
+  if (!experiment || batch::identity_of(*experiment) != store.identity()) return std::nullopt;
+  return experiment;
+}
+
+ExitCode report_joined(const Options& options, const batch::Store& store) {
+  if (const std::optional<batch::Experiment> experiment = experiment_of(store)) {
+    const std::size_t missing = batch::MissingRuns(*experiment, store, {}).count();
+    if (missing > 0)
+      std::fprintf(stderr, "%zu of %zu runs are missing; --resume makes them\n", missing,
+                   experiment->run_count());
+    return report(*experiment, store, options.out);
+  }
+  std::fprintf(
+      stderr,
+      "the experiment is not here as it was; simbatch report EXPERIMENT.xml --out %s makes the report\n",
+      options.out.c_str());
+  return ExitCode::done;
+}
+
+Status take_all(batch::Store& store, const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders) {
+    if (!std::filesystem::exists(results_in(folder)))
+      return fail(Code::not_found, in_quotes(folder) + " holds no results of a batch");
+    if (Status taken = store.take_over(results_in(folder).string()); !taken.ok()) return taken;
+  }
+  return ok();
+}
+
+// Puts results together in a file that is there only when all went well.
+ExitCode join(const Options& options) {
+  const std::filesystem::path file = results_in(options.out);
+  if (std::filesystem::exists(file))
+    return refuse(fail(Code::already_exists,
+                       in_quotes(options.out) + " holds results already; --out DIR takes another folder"));
+  const Result<std::unique_ptr<batch::Store>> first = open_results(options.subject);
+  if (!first) return refuse(first.error());
+  std::filesystem::create_directories(options.out);
+  Result<std::unique_ptr<batch::Store>> all =
+      batch::Store::open(file.string(), (*first)->identity(), (*first)->origin());
+  if (!all) return refuse(all.error());
+  std::vector<std::string> folders{options.subject};
+  folders.insert(folders.end(), options.others.begin(), options.others.end());
+  const Status taken = take_all(**all, folders);
+  if (taken.ok()) return report_joined(options, **all);
+  all->reset();
+  for (const char* const end : {"", "-wal", "-shm"}) std::filesystem::remove(file.string() + end);
+  return refuse(taken.error());
 }
 
 std::string quoted(const std::string& text) {
@@ -171,6 +233,7 @@ ExitCode act(const Options& options) {
     case Options::Action::table: return table(options);
     case Options::Action::report: return report_again(options);
     case Options::Action::diff: return diff(options);
+    case Options::Action::join: return join(options);
     case Options::Action::run: return run(options);
   }
   return ExitCode::bad_input;

@@ -7,6 +7,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/batch/batch.hpp"
+#include "orca/batch/missing_runs.hpp"
 
 namespace orca::simbatch {
 
@@ -15,13 +16,14 @@ enum class ExitCode { done = 0, could_not_finish = 1, different = 1, bad_input =
 
 /// The requests of a command line.
 struct Options {
-  enum class Action { run, check, table, report, diff, help, version };
+  enum class Action { run, check, table, report, diff, join, help, version };
   Action action = Action::run;
   std::string subject;               ///< The experiment, or the folder of results.
   std::vector<std::string> others;   ///< More folders of results.
   std::vector<std::string> plugins;  ///< Folders that the command line names, absolute.
   std::string out;                   ///< Folder for the results; empty: named after the experiment.
   bool resume = false;               ///< Make what is missing in the folder.
+  batch::Shard shard;                ///< Which part of the experiment to run.
   batch::BatchOptions batch;
 };
 
