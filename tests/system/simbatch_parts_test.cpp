@@ -175,7 +175,7 @@ pid_t worker_of(Subprocess& program) {
 
 // A walk that takes a process some seconds.
 std::string long_walk(const TempFolder& folder, const std::string& limit = "100 s") {
-  return folder.write("walk.xml", "<experiment name=\"walk\" seeds=\"1-3\" until=\"300 s\" limit=\"" + limit +
+  return folder.write("walk.xml", "<experiment name=\"walk\" seeds=\"1-3\" until=\"200 s\" limit=\"" + limit +
                                       "\" graph=\"" + source_file("graphs/random_walk.xml") +
                                       "\"><variant name=\"v\"/><world name=\"w\"/></experiment>");
 }
@@ -229,14 +229,15 @@ class BusyProcessor {
 TEST_CASE("a run that waits for a processor longer than it may run is no result, and is made again",
           "[system][batch]") {
   const TempFolder folder;
-  const std::string experiment = long_walk(folder, "4 s");
-  const std::string undisturbed = batch(experiment, folder.file("undisturbed"));
+  const std::string undisturbed = batch(long_walk(folder), folder.file("undisturbed"));
+  const std::string experiment = long_walk(folder, kSanitized ? "80 s" : "4 s");
   Subprocess program(simbatch({experiment, "--out", folder.file("out"), "--jobs", "1"}));
   {
     const BusyProcessor busy;
     busy.add(worker_of(program));
     REQUIRE(program.wait_for_output(
-        "it waited longer for a processor than the limit allows it to run; it is made again", Seconds(60)));
+        "it waited longer for a processor than the limit allows it to run; it is made again",
+        Seconds(kSanitized ? 400 : 60)));
   }
   const Run run = finish(program, Seconds(120));
   INFO(run.err);

@@ -71,12 +71,13 @@ class Batch {
                                           });
     if (!began) return began.error();
     if (!*began) return BatchEnd::stopped;
-    if (Status compared =
-            twice.for_each([this](std::size_t number, const Outcome& first, const Outcome& second) {
-              return listener_.repeated(number, compared_runs(number, first, second));
-            });
-        !compared.ok())
-      return compared.error();
+    const Status compared =
+        twice.for_each([this](std::size_t number, const Outcome& first, const Outcome& second) {
+          const Repeat repeat = compared_runs(number, first, second);
+          // A search that was stopped says nothing.
+          return requests_.any() ? ok() : listener_.repeated(number, repeat);
+        });
+    if (!compared.ok()) return compared.error();
     return run_others();
   }
 
