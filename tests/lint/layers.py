@@ -117,7 +117,7 @@ LAYERS = (
           module=BATCH),
     Layer("batch_report", (f"{BATCH}/report",), ("orca/batch/report.hpp",),
           ("batch_statistics", "batch_results", "batch_measures", "batch_experiment", "xml", "geometry", "base"), module=BATCH),
-    Layer("batch_running", (f"{BATCH}/running", f"{BATCH}/checking", BATCH), ("orca/batch/",),
+    Layer("batch_running", (f"{BATCH}/running", f"{BATCH}/checking", f"{BATCH}/comparing", BATCH), ("orca/batch/",),
           ("batch_results", "batch_measures", "batch_experiment", "host_run", "host_containment", "graph", "plugin", "xml", *DEVICE), module=BATCH),
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),
     Layer("apps", ("src/apps",), (),

@@ -65,8 +65,12 @@ TEST_CASE("each variant meets each world and seed once, and pairs stand together
     const Run run = experiment.run(i);
     all.insert({run.variant, run.world, run.seed});
     CHECK(run.variant == i % 2);
+    CHECK(experiment.number_of(experiment.variants[run.variant].name, experiment.worlds[run.world].name,
+                               run.seed) == i);
   }
   CHECK(all.size() == 24);
+  CHECK_FALSE(experiment.number_of("a", "w", 4));
+  CHECK_FALSE(experiment.number_of("c", "w", 1));
 }
 
 TEST_CASE("the settings of a variant have the last word", "[batch]") {
@@ -145,6 +149,17 @@ TEST_CASE("more runs than anybody waits for are refused", "[batch]") {
       faults_of(with("graph=\"g.xml\" seeds=\"1-1000000\" until=\"1 s\"",
                      "<variant name=\"a\"/><worlds name=\"n\" arg=\"w\" file=\"f\" numbers=\"1-11\"/>")),
       Contains("E011: the experiment has more than 10,000,000 runs"));
+}
+
+TEST_CASE("results are known by the same text wherever the experiment's folder lies", "[batch]") {
+  Experiment here = good();
+  here.settings.push_back({"world", "/top/sim/worlds/x.xml", {}});
+  Experiment there = good();
+  there.file = "/elsewhere/sim/e.xml";
+  there.settings.push_back({"world", "/elsewhere/sim/worlds/x.xml", {}});
+  CHECK(identity_of(here) == identity_of(there));
+  there.settings.back().value = "/elsewhere/sim/worlds/y.xml";
+  CHECK(identity_of(here) != identity_of(there));
 }
 
 TEST_CASE("results are known by what may change them", "[batch]") {

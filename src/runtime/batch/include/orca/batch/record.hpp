@@ -47,6 +47,15 @@ struct Cost {
   double cpu = 0.0;   ///< [s] of all its threads.
 };
 
+/// What came of making a run twice, the second time with another memory layout, process, environment and folder. A plain value.
+struct Repeat {
+  std::string first;   ///< Trace hash, or the name of the ending if there is none.
+  std::string second;  ///< Likewise, of the second time.
+  std::string
+      difference{};  ///< Empty: all is the same. Otherwise what differs, for people: the first differing delivery.
+  friend bool operator==(const Repeat&, const Repeat&) = default;
+};
+
 /// Writes an outcome as text, one line for each part.
 [[nodiscard]] std::string to_text(const Outcome& outcome);
 /// Reads such a text; nothing if it is not whole.
