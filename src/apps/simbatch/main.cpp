@@ -22,6 +22,7 @@
 #include "orca/batch/store.hpp"
 #include "orca/xml/number.hpp"
 #include "progress.hpp"
+#include "submission.hpp"
 
 namespace orca::simbatch {
 namespace {
@@ -234,6 +235,10 @@ ExitCode act(const Options& options) {
     case Options::Action::report: return report_again(options);
     case Options::Action::diff: return diff(options);
     case Options::Action::join: return join(options);
+    case Options::Action::submit: {
+      const std::optional<batch::Experiment> experiment = checked(options);
+      return experiment ? submit(options, *experiment) : ExitCode::bad_input;
+    }
     case Options::Action::run: return run(options);
   }
   return ExitCode::bad_input;

@@ -41,6 +41,14 @@ Status set_shard(Options& options, const std::string& value) {
   return ok();
 }
 
+Status set_shards(Options& options, const std::string& value) {
+  const Result<std::int64_t> shards = xml::parse_integer(value);
+  if (!shards || *shards < 1 || *shards > 1000)
+    return fail(Code::invalid_argument, "--shards takes a number from 1 to 1000, found " + in_quotes(value));
+  options.shards = static_cast<std::size_t>(*shards);
+  return ok();
+}
+
 using WithValue = std::function<Status(Options&, const std::string&)>;
 
 const std::map<std::string, WithValue>& options_with_value() {
@@ -48,6 +56,7 @@ const std::map<std::string, WithValue>& options_with_value() {
       {"--jobs", set_jobs},
       {"--executor", set_executor},
       {"--shard", set_shard},
+      {"--shards", set_shards},
       {"--out",
        [](Options& options, const std::string& value) {
          options.out = value;
@@ -64,6 +73,7 @@ const std::map<std::string, std::function<void(Options&)>>& flags() {
   using Action = Options::Action;
   static const std::map<std::string, std::function<void(Options&)>> all{
       {"--resume", [](Options& options) { options.resume = true; }},
+      {"--slurm", [](Options& options) { options.slurm = true; }},
       {"--check", [](Options& options) { options.action = Action::check; }},
       {"--help", [](Options& options) { options.action = Action::help; }},
       {"-h", [](Options& options) { options.action = Action::help; }},
@@ -111,8 +121,11 @@ Status take(Options& options, const std::vector<std::string>& words, std::size_t
 
 const std::map<std::string, Options::Action>& commands() {
   using Action = Options::Action;
-  static const std::map<std::string, Action> all{
-      {"export", Action::table}, {"report", Action::report}, {"diff", Action::diff}, {"join", Action::join}};
+  static const std::map<std::string, Action> all{{"export", Action::table},
+                                                 {"report", Action::report},
+                                                 {"diff", Action::diff},
+                                                 {"join", Action::join},
+                                                 {"submit", Action::submit}};
   return all;
 }
 
@@ -127,6 +140,8 @@ Status check_subjects(const Options& options) {
         Code::invalid_argument,
         "join needs folders of results and one for all of them, e.g. join 1-of-2.batch 2-of-2.batch --out "
         "all.batch");
+  if (options.action == Action::submit && !options.slurm)
+    return fail(Code::invalid_argument, "submit needs --slurm: there is no other kind of cluster yet");
   if (!options.subject.empty()) return ok();
   return fail(Code::invalid_argument, options.action == Action::table
                                           ? "export needs the folder of the results"
@@ -157,6 +172,7 @@ const char* help_text() {
   simbatch export avoid_office.batch                     one line for each run as CSV, in a fixed order
   simbatch sim/experiments/avoid_office.xml --shard 2/7  the second of seven parts, into avoid_office.2-of-7.batch
   simbatch join avoid_office.*-of-7.batch --out all      the parts together, as if one machine had made all
+  simbatch submit sim/experiments/barn.xml --slurm       the parts as jobs of a Slurm cluster, and their join
   simbatch diff before.batch after.batch                 the first run that differs, and the first delivery in it that does
 
 Each run is made in a process of its own, so one that crashes, hangs or takes too much memory costs no other; it is a result,
@@ -170,10 +186,15 @@ is no result: it is made again. --resume and join refuse results of other plugin
 diff makes the first run that differs again, as both batches did, and watches all that its components receive: it names the
 time, the component, the port and the values that differ.
 
+submit queues an array with a part of the experiment in each task, and a job that joins them when all have ended, and shows how far
+they are. A task that is cut off goes on where it was. Ctrl-C ends the looking on; with --resume it queues what is missing. sbatch
+reads its own settings, such as SBATCH_PARTITION; programs, experiment and folder must be at the same place on all nodes.
+
   --out DIR             folder for results.sqlite, report.html and report.md (default: the experiment's name with .batch)
   --jobs N              runs at a time (default: as many as processors)
   --resume              go on with the results that DIR holds
   --shard I/N           only part I of N, for instance on N machines; every part has all variants of its worlds and seeds
+  --slurm, --shards N   of submit: the kind of cluster, and the number of parts (default 16)
   --executor KIND       fiber (default) or baton
   --plugins FOLDER      look for plugins here too, after Orca's own; may be repeated
   --help, --version

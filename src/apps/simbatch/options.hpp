@@ -16,13 +16,15 @@ enum class ExitCode { done = 0, could_not_finish = 1, different = 1, bad_input =
 
 /// The requests of a command line.
 struct Options {
-  enum class Action { run, check, table, report, diff, join, help, version };
+  enum class Action { run, check, table, report, diff, join, submit, help, version };
   Action action = Action::run;
   std::string subject;               ///< The experiment, or the folder of results.
   std::vector<std::string> others;   ///< More folders of results.
   std::vector<std::string> plugins;  ///< Folders that the command line names, absolute.
   std::string out;                   ///< Folder for the results; empty: named after the experiment.
   bool resume = false;               ///< Make what is missing in the folder.
+  std::size_t shards = 16;           ///< Number of parts that a cluster gets.
+  bool slurm = false;                ///< The cluster is one of Slurm.
   batch::Shard shard;                ///< Which part of the experiment to run.
   batch::BatchOptions batch;
 };

@@ -9,6 +9,7 @@
 #include "comparison.hpp"
 #include "document.hpp"
 #include "numbers.hpp"
+#include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
 #include "plots.hpp"
 
@@ -55,6 +56,12 @@ class Writer {
     for (const Variant& variant : experiment_.variants)
       table.rows.push_back({variant.name, variant.graph, settings_text(variant.settings)});
     document_.add(std::move(table));
+    for (const RepeatRow& row : store_.repeats())
+      if (!row.repeat.difference.empty())
+        document_.add(Paragraph{
+            "Variant " + row.variant + " depends on more than world and seed: made twice, its run in " +
+            row.world + " with seed " + std::to_string(row.seed) +
+            " differed. Its figures are those of this machine and this time. " + row.repeat.difference});
     if (!experiment_.settings.empty())
       document_.add(Paragraph{"Settings of all runs: " + settings_text(experiment_.settings)});
   }
@@ -294,20 +301,13 @@ class Writer {
   Document document_;
 };
 
-// A word of a shell's command.
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 }  // namespace
 
 std::string replay_command(const Experiment& experiment, const Run& run) {
-  std::string text = "deployer " + shell_word(experiment.variants[run.variant].graph) +
+  std::string text = "deployer " + in_shell_quotes(experiment.variants[run.variant].graph) +
                      " --clock virtual --seed " + std::to_string(run.seed) + " --until " +
-                     shell_word(xml::number_text(to_seconds(experiment.until)) + " s");
-  for (const std::string& setting : experiment.settings_of(run)) text += " --set " + shell_word(setting);
+                     in_shell_quotes(xml::number_text(to_seconds(experiment.until)) + " s");
+  for (const std::string& setting : experiment.settings_of(run)) text += " --set " + in_shell_quotes(setting);
   return text;
 }
 
