@@ -88,7 +88,7 @@ TEST_CASE("the first run of each variant in a part is to be made twice, unless o
   CHECK(MissingRuns(experiment, *store, {}).not_repeated() == std::vector<std::size_t>{1});
 }
 
-TEST_CASE("a list of 100,000 runs takes no memory", "[batch]") {
+TEST_CASE("a list of a hundred thousand runs takes no memory", "[batch]") {
   const TempFolder folder;
   const auto store = Store::open(folder.file("r.sqlite"), "1").value();
   const Experiment experiment = large("1-25000");
