@@ -13,6 +13,8 @@ namespace {
 constexpr double kEchoTime = 4.0;  // [s] A laser invents no echoes, so one that it saw once is kept as well.
 // While the robot stands, what it has seen beside its back stays true but for what moves: turning must not begin to look free.
 constexpr double kStandingPace = 0.1;
+// With a thousandth of another's wish to drive on, a robot that has centimetres to its sides creeps into them within half a minute.
+constexpr double kHardlyYields = 1e-5;
 // [m] Echoes as near to each other as that are one, if those beside what is seen must not be drawn into it.
 constexpr double kErrorOfReading = 0.01;
 constexpr double kSector = std::numbers::pi / 36;
@@ -24,7 +26,9 @@ constexpr double kFineSector = std::numbers::pi / 120;
 }  // namespace
 
 LaserAvoider::LaserAvoider(ComponentHost& host, Memory memory)
-    : Avoider(host, kEchoTime, memory.shapes ? kStandingPace : 1.0),
+    : Avoider(host, {.echo_time = kEchoTime,
+                     .standing_pace = memory.shapes ? kStandingPace : Manner().standing_pace,
+                     .yields = memory.shapes ? kHardlyYields : Manner().yields}),
       remembers_(memory),
       squeeze_(
           *this, "squeeze", true,

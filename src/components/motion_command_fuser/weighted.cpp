@@ -14,10 +14,6 @@ namespace {
 // rounding, not a direction.
 constexpr double kCancelled = 1e-9;
 
-// [m/s] Where one wishes to stand, a mean below this is rest: its weight is large, but a little of the others' speeds is left, and
-// in half a minute a creep of a quarter of a millimetre a second drives a robot into what it keeps away from.
-constexpr double kCreep = 1e-3;
-
 struct Sums {
   double weight = 0.0;
   double speed = 0.0;
@@ -49,12 +45,6 @@ Sums sums_of(std::span<const Wish> wishes, double steer_gain) {
   return sums;
 }
 
-double mean_speed(std::span<const Wish> wishes, const Sums& sums) {
-  const double speed = sums.speed / sums.weight;
-  const bool one_stands = std::ranges::any_of(wishes, [](const Wish& wish) { return wish.speed == 0.0; });
-  return one_stands && std::fabs(speed) < kCreep ? 0.0 : speed;
-}
-
 std::vector<double> shares_of(std::span<const Wish> wishes, double weight) {
   std::vector<double> shares;
   for (const Wish& wish : wishes) shares.push_back(wish.weight / weight);
@@ -73,7 +63,7 @@ Wish along(const Sums& sums, double speed) {
 Fused fuse_weighted(std::span<const Wish> wishes, double steer_gain) {
   const auto turns = [](const Wish& wish) { return wish.kind == Wish::Kind::turn_rate; };
   const Sums sums = sums_of(wishes, steer_gain);
-  const double speed = mean_speed(wishes, sums);
+  const double speed = sums.speed / sums.weight;
   const bool by_rate = std::any_of(wishes.begin(), wishes.end(), turns);
   return {
       by_rate ? Wish{Wish::Kind::turn_rate, sums.rate / sums.weight, speed, sums.weight} : along(sums, speed),
@@ -83,7 +73,7 @@ Fused fuse_weighted(std::span<const Wish> wishes, double steer_gain) {
 Fused sum_vectors(std::span<const Wish> wishes, double steer_gain) {
   const Sums sums = sums_of(wishes, steer_gain);
   const double agreement = std::min(1.0, portable::hypot(sums.forward, sums.left) / sums.weight);
-  return {along(sums, agreement * mean_speed(wishes, sums)), shares_of(wishes, sums.weight)};
+  return {along(sums, agreement * sums.speed / sums.weight), shares_of(wishes, sums.weight)};
 }
 
 }  // namespace orca::fuse

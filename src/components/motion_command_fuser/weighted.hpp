@@ -9,8 +9,7 @@ namespace orca::fuse {
 
 /// Fuses wishes by their weights (thesis 11.1): directions as the weighted sum of unit vectors, turn rates
 /// and speeds as weighted means. If some wish is a turn rate, directions count as rates of `steer_gain` times
-/// the direction. If the directions cancel out, the robot stands, and so it does where
-/// one wishes to stand and the mean is below 1 mm/s.
+/// the direction. If the directions cancel out, the robot stands.
 ///
 /// @param wishes      at least one, each with a weight above 0.
 /// @param steer_gain  [1/s]

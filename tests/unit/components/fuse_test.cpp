@@ -243,17 +243,6 @@ TEST_CASE("the robot stands if opposite directions of equal weight cancel out", 
   }
 }
 
-TEST_CASE("where one wishes to stand with a large weight, the robot stands and does not creep",
-          "[components][fuser]") {
-  const Blend blend = GENERATE(kWeighted, kVectorSum);
-  CAPTURE(blend.name);
-  const auto speed = [&](const std::vector<Wish>& wishes) { return blend.fuse(wishes).command.speed; };
-  CHECK(speed({heading(0.0, 0.0, 2000.0), heading(0.0, 0.5, 1.0)}) == 0.0);
-  CHECK(speed({heading(0.0, 0.0, 100.0), heading(0.0, 0.5, 1.0)}) == Approx(0.5 / 101.0));
-  CHECK(speed({heading(0.0, 0.0, 2000.0), heading(0.0, -0.5, 1.0)}) == 0.0);
-  CHECK(speed({heading(0.0, 0.0005, 1.0)}) == 0.0005);  // who is alone is obeyed
-}
-
 TEST_CASE("the sum of vectors is slower the less they agree, and the weighted mean keeps its speed",
           "[components][fuser]") {
   double last = 0.5;
