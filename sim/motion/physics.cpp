@@ -403,6 +403,8 @@ void Physics::remove_mover(std::size_t mover) {
 Pose2 Physics::mover_pose(std::size_t mover) const { return impl_->movers[mover].body.pose; }
 double Physics::mover_progress(std::size_t mover) const { return impl_->movers[mover].progress; }
 
+void Physics::place_robot(std::size_t robot, const Pose2& X_WB) { impl_->robots[robot].body.pose = X_WB; }
+
 void Physics::drive(std::size_t robot, const Drift& drift) { impl_->robots[robot].wanted = drift; }
 
 void Physics::step(double seconds) {

@@ -67,6 +67,8 @@ class Physics {
   [[nodiscard]] double mover_progress(std::size_t mover) const;
 
   void drive(std::size_t robot, const Drift& drift);
+  // Puts the robot at a pose at once.
+  void place_robot(std::size_t robot, const Pose2& X_WB);
   void step(double seconds);
   [[nodiscard]] Pose2 pose(std::size_t robot) const;
 

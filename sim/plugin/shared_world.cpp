@@ -93,6 +93,7 @@ void SharedWorld::catch_up(TimePoint now) {
 
 void SharedWorld::step() {
   world_.step();
+  for (const std::string& event : world_.happened()) members_.front().inbox.happened.push_back(event);
   for (Member& member : members_) collect(member);
 }
 

@@ -47,6 +47,7 @@ class SharedWorld {
       Pose2 robot;  ///< Pose of the robot in the world at that time.
     };
     std::vector<Contact> contacts;
+    std::vector<std::string> happened;  ///< In the world, in words; only the robot that came first is told.
   };
 
   /// Returns the world of that key, made by `make` if nobody holds it yet. The key names the run and the

@@ -244,6 +244,8 @@ class SimHardware final : public orca::hw::HardwareContainer, private orca::hw::
   Status poll() override {
     const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
     for (const auto& contact : inbox.contacts) report(contact);
+    for (const std::string& event : inbox.happened)
+      host().write_log(orca::log::Level::info, "in the world: " + event);
     if (guard_) guard_->look(inbox);
     if (keeps_moments_) moments_->add(inbox);
     if (state() == orca::hw::HardwareState::active) {

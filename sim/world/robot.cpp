@@ -61,6 +61,17 @@ void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
   if (trail_) trail_->add({now, pose});
 }
 
+void Robot::put(const Pose2& X_WB, TimePoint now) {
+  body = X_WB;
+  pose = {X_WB.x, X_WB.y, steers() ? wrapped(X_WB.yaw + steer_) : X_WB.yaw};
+  velocity = {};
+  drive.held_to({});
+  on_body_ = {now, now, body, body, pose, pose};
+  on_turret_ = on_body_;
+  if (turret_) on_turret_.X_from = on_turret_.X_to = turret_pose(X_WB);
+  if (trail_) trail_->add({now, pose});
+}
+
 void Robot::reckon(const Travel2& rolled, TimePoint now) {
   odometry_model_.add(rolled, to_seconds(tick_));
   odometry.reset();

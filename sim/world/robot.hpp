@@ -47,6 +47,8 @@ class Robot {
   // Reports that the body has moved to `X_WB` in the tick that ended at `now`. `blocked` is true if something
   // was in its way.
   void moved(const Pose2& X_WB, TimePoint now, bool blocked);
+  // Puts the body at `X_WB` at the time `now`, at rest. Wheels, odometry and turret notice nothing.
+  void put(const Pose2& X_WB, TimePoint now);
   // Lets the sonars fire. @pre  moved() was called for all robots.
   void fire(const Caster& caster, std::size_t own_body);
   // Puts the chirps that the sonars have fired into the air.

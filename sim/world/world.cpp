@@ -13,6 +13,7 @@
 #include "orca/geometry/arc.hpp"
 #include "robot.hpp"
 #include "robot_solids.hpp"
+#include "schedule.hpp"
 
 namespace orca::sim {
 namespace {
@@ -60,6 +61,7 @@ struct World::Impl {
         caster(model),
         physics(model, errors),
         movers(model, o.seed, caster, physics),
+        schedule(model.events),
         team(o.threads) {}
 
   WorldModel model;
@@ -69,6 +71,7 @@ struct World::Impl {
   detail::Physics physics;
   detail::ContactLog contact_log;
   detail::Movers movers;
+  detail::Schedule schedule;
   std::deque<detail::Robot> robots;       // Robots do not move in memory. Their numbers are those in physics.
   std::vector<std::size_t> bodies;        // The robots' numbers in the caster.
   std::vector<detail::RobotSolids> seen;  // What sensors see of the robots.
@@ -76,10 +79,13 @@ struct World::Impl {
   detail::SonarAir air;
   Team team;  // Each robot senses for itself.
   std::vector<ContactEvent> contacts;
+  std::vector<std::string> notes;  // Of what happened in the last tick.
   TimePoint now{};
 
   [[nodiscard]] detail::Robot& robot(RobotId id) { return robots.at(index(id)); }
+  [[nodiscard]] const detail::Robot& robot(RobotId id) const { return robots.at(index(id)); }
   [[nodiscard]] Status check_birth(const std::string& name, const RobotModel& model, const Pose2& X_WB) const;
+  [[nodiscard]] Status check_stand(const std::string& name, const RobotModel& model, const Pose2& X_WB) const;
   [[nodiscard]] Status check_room(const std::string& name, const Body& body, const Pose2& X_WO) const;
   [[nodiscard]] const std::string& name_of(const detail::Pair& pair) const;
   void show(const detail::Robot& robot);
@@ -87,23 +93,33 @@ struct World::Impl {
   void report_contacts();
   void move();
   void sense();
+  // Returns what a sensor has read, nothing while it is out.
+  template <class Reading>
+  [[nodiscard]] const std::optional<Reading>& unless_out(RobotId id, SensorKind sensor,
+                                                         const std::optional<Reading>& reading) const {
+    static const std::optional<Reading> nothing;
+    return schedule.is_out(robot(id).name, sensor, now) ? nothing : reading;
+  }
 };
 
 Status World::Impl::check_birth(const std::string& name, const RobotModel& robot_model,
                                 const Pose2& X_WB) const {
   if (name.empty()) return fail(Code::invalid_argument, "a robot needs a name");
+  if (std::ranges::find(robots, name, &detail::Robot::name) != robots.end())
+    return fail(Code::already_exists, "there is a robot '" + name + "' already; choose another name");
+  return check_stand(name, robot_model, X_WB);
+}
+
+Status World::Impl::check_stand(const std::string& name, const RobotModel& robot_model,
+                                const Pose2& X_WB) const {
   const std::string who = "robot '" + name + "'";
-  if (!is_near(X_WB))
-    return fail(Code::invalid_argument, who + ": its start pose is not finite or beyond 100 km");
-  const std::string there = who + " cannot start at " + text(X_WB) + ": it would stand in ";
+  if (!is_near(X_WB)) return fail(Code::invalid_argument, who + ": its pose is not finite or beyond 100 km");
+  const std::string there = who + " cannot stand at " + text(X_WB) + ": it would stand in ";
   const std::string remedy = "; choose a free place";
   const Shape body = placed(robot_model.footprint, X_WB);
-  for (const detail::Robot& other : robots) {
-    if (other.name == name)
-      return fail(Code::already_exists, "there is a " + who + " already; choose another name");
-    if (overlap(body, placed(other.model.footprint, other.body)))
+  for (const detail::Robot& other : robots)
+    if (other.name != name && overlap(body, placed(other.model.footprint, other.body)))
       return fail(Code::failed_precondition, there + "robot '" + other.name + "'" + remedy);
-  }
   if (const Obstacle* o = model.obstacle_at(body, robot_model.bottom, robot_model.top))
     return fail(Code::failed_precondition,
                 there + "obstacle '" + o->name + "' of world '" + model.name + "'" + remedy);
@@ -229,6 +245,15 @@ Status World::remove_obstacle(ObstacleId obstacle) {
   return ok();
 }
 
+Status World::place_robot(RobotId robot, const Pose2& X_WB) {
+  detail::Robot& moved = impl_->robot(robot);
+  if (const Status s = impl_->check_stand(moved.name, moved.model, X_WB); !s) return s;
+  impl_->physics.place_robot(index(robot), X_WB);
+  moved.put(X_WB, impl_->now);
+  impl_->caster.move_solids(impl_->bodies[index(robot)], impl_->seen[index(robot)].at(moved.body));
+  return ok();
+}
+
 std::optional<RobotId> World::find(std::string_view name) const {
   const auto found = std::ranges::find(impl_->robots, name, &detail::Robot::name);
   if (found == impl_->robots.end()) return std::nullopt;
@@ -265,6 +290,8 @@ Status World::set_turret_command(RobotId robot, double angle) {
 }
 
 void World::step() {
+  impl_->notes.clear();
+  impl_->schedule.run(*this, impl_->notes);
   impl_->drive();
   impl_->report_contacts();
   impl_->move();
@@ -280,20 +307,21 @@ double World::clearance(RobotId robot, double limit) const {
   return impl_->physics.clearance(index(robot), limit);
 }
 const std::vector<ContactEvent>& World::contacts() const { return impl_->contacts; }
+const std::vector<std::string>& World::happened() const { return impl_->notes; }
 const std::optional<SonarScan>& World::sonar(RobotId robot, std::size_t ring) const {
-  return impl_->robot(robot).sonars.at(ring).completed();
+  return impl_->unless_out(robot, SensorKind::sonar, impl_->robot(robot).sonars.at(ring).completed());
 }
 const std::optional<LaserScan>& World::laser(RobotId robot, std::size_t laser) const {
-  return impl_->robot(robot).lasers.at(laser).completed();
+  return impl_->unless_out(robot, SensorKind::laser, impl_->robot(robot).lasers.at(laser).completed());
 }
 const std::optional<InfraredScan>& World::infrared(RobotId robot, std::size_t ring) const {
-  return impl_->robot(robot).infrareds.at(ring).completed();
+  return impl_->unless_out(robot, SensorKind::infrared, impl_->robot(robot).infrareds.at(ring).completed());
 }
 const std::optional<BumperReading>& World::bumper(RobotId robot, std::size_t ring) const {
-  return impl_->robot(robot).bumpers.at(ring).completed();
+  return impl_->unless_out(robot, SensorKind::bumper, impl_->robot(robot).bumpers.at(ring).completed());
 }
 const std::optional<OdometryReading>& World::odometry(RobotId robot) const {
-  return impl_->robot(robot).odometry;
+  return impl_->unless_out(robot, SensorKind::odometry, impl_->robot(robot).odometry);
 }
 const WorldModel& World::model() const { return impl_->model; }
 const RobotModel& World::robot_model(RobotId robot) const { return impl_->robot(robot).model; }

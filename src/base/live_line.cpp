@@ -38,7 +38,8 @@ bool takes_output(int terminal) {
 }
 
 void write_to(int terminal, std::string_view text) noexcept {
-  if (write(terminal, text.data(), text.size()) < 0) return;  // the next line may get through
+  // If it fails, the next line may get through.
+  [[maybe_unused]] const ssize_t written = write(terminal, text.data(), text.size());
 }
 
 void erase_shown() noexcept {

@@ -104,6 +104,12 @@ std::string fitting(std::string_view text, std::size_t columns) {
   return std::string(text);
 }
 
+std::string in_shell_quotes(std::string_view text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMost = 300;
   return "\"" + shortened(text, kMost) + "\"";

@@ -79,7 +79,7 @@ LAYERS = (
     Layer("components", ("src/components",), (), ("avoidance", "goals", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
     Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
-        "figures", "floor", "guesses", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "sensors", "shape", "snapshot", "walker", "world_model")),
+        "event", "figures", "floor", "guesses", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "sensors", "shape", "snapshot", "walker", "world_model")),
           SIM_MODEL, ("eigen", "fmt"), module="sim"),
     Layer("sim_rays", ("sim/rays",), ("orca/sim/caster.hpp",), SIM_RAYS, ("eigen", "fmt"), module="sim"),
     Layer("sim_generators", ("sim/generators",), ("orca/sim/generate.hpp",), SIM_RAYS, ("fmt",), module="sim"),
@@ -117,7 +117,7 @@ LAYERS = (
           module=BATCH),
     Layer("batch_report", (f"{BATCH}/report",), ("orca/batch/report.hpp",),
           ("batch_statistics", "batch_results", "batch_measures", "batch_experiment", "xml", "geometry", "base"), module=BATCH),
-    Layer("batch_running", (f"{BATCH}/running", f"{BATCH}/checking", BATCH), ("orca/batch/",),
+    Layer("batch_running", (f"{BATCH}/running", f"{BATCH}/checking", f"{BATCH}/comparing", BATCH), ("orca/batch/",),
           ("batch_results", "batch_measures", "batch_experiment", "host_run", "host_containment", "graph", "plugin", "xml", *DEVICE), module=BATCH),
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),
     Layer("apps", ("src/apps",), (),

@@ -4,11 +4,10 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 
+#include "batches.hpp"
 #include "deployer.hpp"
 #include "temp_folder.hpp"
 
@@ -16,24 +15,6 @@ using namespace orca::test;
 using Catch::Contains;
 
 namespace {
-
-Words simbatch(const Words& words) { return Words{ORCA_BINARY_DIR "/bin/simbatch"} + words; }
-
-Run run_simbatch(const Words& words, Seconds limit = Seconds(120)) {
-  Subprocess program(simbatch(words));
-  return finish(program, limit);
-}
-
-// A short drive of two variants through two worlds, twice.
-std::string drive(const TempFolder& folder) {
-  return folder.write("drive.xml", R"(<experiment name="drive" seeds="1 7" until="12 s" graph=")" +
-                                       source_file("graphs/pioneer_laser_goto.xml") + R"(">
-  <variant name="LaserAvoid"><set arg="avoid" value="orca.LaserAvoid"/></variant>
-  <variant name="VfhPlus"><set arg="avoid" value="orca.VfhPlus"/></variant>
-  <world name="ideal"><set arg="realism" value="ideal"/></world>
-  <world name="harsh"><set arg="realism" value="harsh"/></world>
-</experiment>)");
-}
 
 // Components that misbehave, each in a run of its own.
 std::string misdeeds(const TempFolder& folder, const std::string& limit = "60 s") {
@@ -43,32 +24,11 @@ std::string misdeeds(const TempFolder& folder, const std::string& limit = "60 s"
   for (const std::string& deed : deeds)
     variants += "<variant name=\"" + deed + "\"><set arg=\"deed\" value=\"" + deed + "\"/></variant>";
   return folder.write("misdeeds.xml",
-                      "<experiment name=\"misdeeds\" seeds=\"1\" until=\"10 s\" memory=\"2 GB\" limit=\"" +
+                      "<experiment name=\"misdeeds\" seeds=\"1\" until=\"10 s\" memory=\"1 GB\" limit=\"" +
                           limit + "\" graph=\"" + system_graph("hooligan.xml") +
                           "\"><set arg=\"plugins\" value=\"" + std::string(ORCA_BINARY_DIR "/tests/plugins") +
                           "\"/><set arg=\"where\" value=\"later\"/>" + variants +
                           "<world name=\"here\"/></experiment>");
-}
-
-std::string text_in(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  REQUIRE_FALSE(text.empty());
-  return text;
-}
-
-std::string exported(const std::string& folder) {
-  const Run run = run_simbatch({"export", folder});
-  INFO(run.err);
-  REQUIRE(run.exit_code() == 0);
-  return run.out;
-}
-
-std::string batch(const std::string& experiment, const std::string& out, const Words& more = {}) {
-  const Run run = run_simbatch(Words{experiment, "--out", out} + more);
-  INFO(run.err);
-  REQUIRE(run.exit_code() == 0);
-  return exported(out);
 }
 
 // The ending of each variant's only run.
@@ -228,11 +188,14 @@ TEST_CASE("everything that is wrong with an experiment and its graphs is said be
   CHECK(run_simbatch({folder.file("none.xml")}).exit_code() == 2);
 }
 
-TEST_CASE("the shipped experiment has no errors", "[system][batch]") {
-  const Run run = run_simbatch({source_file("sim/experiments/avoid_office.xml"), "--check"});
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-  CHECK(run.says("2 variants, 3 worlds, 20 seeds: 120 runs"));
+TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
+  for (const auto& [name, size] : {std::pair{"avoid_office", "4 variants, 3 worlds, 20 seeds: 240 runs"},
+                                   std::pair{"dead_ends", "5 variants, 40 worlds, 1 seeds: 200 runs"}}) {
+    const Run run = run_simbatch({source_file("sim/experiments/" + std::string(name) + ".xml"), "--check"});
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.says(size));
+  }
 }
 
 TEST_CASE("wrong words are refused with what there is", "[system][batch]") {
@@ -243,6 +206,12 @@ TEST_CASE("wrong words are refused with what there is", "[system][batch]") {
   CHECK(run_simbatch({"e.xml", "--jobs", "0"}).says("--jobs takes a number from 1 to 1024"));
   CHECK(run_simbatch({"e.xml", "--jobs"}).says("--jobs needs a value after it"));
   CHECK(run_simbatch({"export", "."}).says("holds no results of a batch"));
+  for (const char* shard : {"0/2", "3/2", "2", "1/x", "1/2/3", ""})
+    CHECK(run_simbatch({"e.xml", "--shard", shard}).says("--shard takes I/N, part I of N parts"));
+  CHECK(run_simbatch({"join", "a"}).says("join needs folders of results and one for all of them"));
+  CHECK(run_simbatch({"diff", "."}).says("diff needs the folders of two results"));
+  CHECK(run_simbatch({"diff", ".", "."}).exit_code() == 2);
+  CHECK(run_simbatch({"diff", "a", "b", "c"}).says("\"c\" is one word too many after \"b\""));
   const Run help = run_simbatch({"--help"});
   CHECK(help.exit_code() == 0);
   CHECK_THAT(help.out, Contains("--resume"));

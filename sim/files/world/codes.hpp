@@ -27,5 +27,6 @@ inline constexpr const char* kBadWalker = "W019";
 inline constexpr const char* kUnreadableMesh = "W021";
 inline constexpr const char* kBottomAboveTop = "W022";
 inline constexpr const char* kScaleOfPicture = "W023";
+inline constexpr const char* kBadEvent = "W024";
 
 }  // namespace orca::sim::detail::world_codes

@@ -66,11 +66,12 @@ std::optional<Opening> opening_of(const xml::Attributes& door) {
 constexpr std::size_t kMaxObstacles = 100'000;
 constexpr std::size_t kMaxPlaces = 1000;
 constexpr std::size_t kMaxWalkers = 200;
+constexpr std::size_t kMaxEvents = 1000;
 constexpr double kPoint = 1e-3;  // [m] As large as a place is.
 
 }  // namespace
 
-constexpr std::array<WorldReader::Reader, 12> WorldReader::kReaders{{{&kWallRule, &WorldReader::wall},
+constexpr std::array<WorldReader::Reader, 15> WorldReader::kReaders{{{&kWallRule, &WorldReader::wall},
                                                                      {&kRoomRule, &WorldReader::room},
                                                                      {&kBoxRule, &WorldReader::box},
                                                                      {&kCylinderRule, &WorldReader::cylinder},
@@ -81,7 +82,10 @@ constexpr std::array<WorldReader::Reader, 12> WorldReader::kReaders{{{&kWallRule
                                                                      {&kGenerateRule, &WorldReader::generate},
                                                                      {&kWalkerRule, &WorldReader::walker},
                                                                      {&kSillRule, &WorldReader::sill},
-                                                                     {&kWetRule, &WorldReader::wet}}};
+                                                                     {&kWetRule, &WorldReader::wet},
+                                                                     {&kMoveRule, &WorldReader::move},
+                                                                     {&kKidnapRule, &WorldReader::kidnap},
+                                                                     {&kOutageRule, &WorldReader::outage}}};
 
 WorldModel WorldReader::read(const xml::Element& root) {
   const Attributes world = attributes_of(root, kWorldRule);
@@ -96,6 +100,7 @@ WorldModel WorldReader::read(const xml::Element& root) {
   check_seed();
   check_places();
   check_walkers();
+  world_.events = events_.take();
   return std::move(world_);
 }
 
@@ -126,7 +131,9 @@ bool WorldReader::within_limits(const Attributes& world, const Elements& element
   const bool obstacles = too_many(elements.size() - count(kPlaceRule), "obstacles", kMaxObstacles);
   const bool places = too_many(count(kPlaceRule), "places", kMaxPlaces);
   const bool walkers = too_many(count(kWalkerRule), "walkers", kMaxWalkers);
-  return !obstacles && !places && !walkers;
+  const bool events = too_many(count(kMoveRule) + count(kKidnapRule) + count(kOutageRule),
+                               "moves, kidnaps and outages", kMaxEvents);
+  return !obstacles && !places && !walkers && !events;
 }
 
 std::optional<double> WorldReader::height(const Attributes& element) const {
@@ -154,6 +161,12 @@ void WorldReader::add(const Attributes& element, Shape shape, double obstacle_he
     return element.error_at("bottom", world_codes::kBottomAboveTop,
                             "the bottom must lie below the height, which is that of the top");
   if (bottom) world_.obstacles.push_back({own_name(element), std::move(shape), obstacle_height, *bottom});
+}
+
+void WorldReader::add_visitor(const Attributes& element, Shape shape, const Pose2& X_WO,
+                              double obstacle_height) {
+  if (element.has("name")) (void)own_name(element);
+  events_.visitor(element, std::move(shape), X_WO, obstacle_height);
 }
 
 void WorldReader::add_wall(const Attributes& element, WallPlan plan) {
@@ -215,8 +228,10 @@ void WorldReader::box(const Attributes& element) {
   const auto length = element.number("length");
   const auto width = element.number("width");
   const auto tall = height(element);
-  if (x && y && yaw && length && width && tall)
-    add(element, Box{{*x, *y, *yaw}, {0.5 * *length, 0.5 * *width}}, *tall);
+  if (!x || !y || !yaw || !length || !width || !tall) return;
+  const Vec2 half{0.5 * *length, 0.5 * *width};
+  if (EventReader::is_visitor(element)) return add_visitor(element, Box{{}, half}, {*x, *y, *yaw}, *tall);
+  add(element, Box{{*x, *y, *yaw}, half}, *tall);
 }
 
 void WorldReader::cylinder(const Attributes& element) {
@@ -224,7 +239,10 @@ void WorldReader::cylinder(const Attributes& element) {
   const auto y = element.number("y");
   const auto radius = element.number("radius");
   const auto tall = height(element);
-  if (x && y && radius && tall) add(element, Circle{{*x, *y}, *radius}, *tall);
+  if (!x || !y || !radius || !tall) return;
+  if (EventReader::is_visitor(element))
+    return add_visitor(element, Circle{{}, *radius}, {*x, *y, 0.0}, *tall);
+  add(element, Circle{{*x, *y}, *radius}, *tall);
 }
 
 void WorldReader::polygon(const Attributes& element) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "event_reader.hpp"
 #include "model/walls.hpp"
 #include "orca/sim/world_model.hpp"
 #include "orca/xml/attributes.hpp"
@@ -32,7 +33,7 @@ class WorldReader {
     const xml::ElementRule* rule;
     void (WorldReader::*read)(const Attributes&);
   };
-  static const std::array<Reader, 12> kReaders;
+  static const std::array<Reader, 15> kReaders;
 
   void header(const Attributes& world);
   bool within_limits(const Attributes& world, const Elements& elements) const;
@@ -48,9 +49,13 @@ class WorldReader {
   void walker(const Attributes& element);
   void sill(const Attributes& element);
   void wet(const Attributes& element);
+  void move(const Attributes& element) { events_.move(element); }
+  void kidnap(const Attributes& element) { events_.kidnap(element); }
+  void outage(const Attributes& element) { events_.outage(element); }
 
   void add_wall(const Attributes& element, WallPlan plan);
   void add(const Attributes& element, Shape shape, double height);
+  void add_visitor(const Attributes& element, Shape shape, const Pose2& X_WO, double height);
   void add_place(const Attributes& element, Place place);
   [[nodiscard]] Attributes attributes_of(const xml::Element& element, const xml::ElementRule& rule);
   [[nodiscard]] std::optional<double> height(const Attributes& element) const;
@@ -65,6 +70,7 @@ class WorldReader {
   std::optional<std::uint64_t> seed_;
   xml::Reporter reporter_;
   WorldModel world_;
+  EventReader events_{reporter_};
   std::map<std::string, xml::Position> taken_;  // Places of the elements by kind and name.
   std::vector<xml::Position> place_positions_;
   std::vector<xml::Position> walker_positions_;

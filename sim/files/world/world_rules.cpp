@@ -5,6 +5,7 @@
 
 #include "codes.hpp"
 #include "files/formats/values.hpp"
+#include "orca/sim/event.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -27,10 +28,12 @@ constexpr std::array kRoomDoor{required("side", one_of(kSides)), required("at", 
 constexpr std::array kBox{optional("name", kName),     required("x", kCoordinate),
                           required("y", kCoordinate),  optional("yaw", kAngle),
                           required("length", kLength), required("width", kLength),
-                          optional("height", kLength), optional("bottom", kLengthOrZero)};
+                          optional("height", kLength), optional("bottom", kLengthOrZero),
+                          optional("comes", kTime),    optional("goes", kTime)};
 constexpr std::array kCylinder{optional("name", kName),     required("x", kCoordinate),
                                required("y", kCoordinate),  required("radius", kLength),
-                               optional("height", kLength), optional("bottom", kLengthOrZero)};
+                               optional("height", kLength), optional("bottom", kLengthOrZero),
+                               optional("comes", kTime),    optional("goes", kTime)};
 constexpr std::array kPolygon{optional("name", kName), required("points", kText), optional("height", kLength),
                               optional("bottom", kLengthOrZero)};
 constexpr std::array kBitmap{optional("name", kName), required("file", kText), optional("width", kLength),
@@ -72,6 +75,13 @@ constexpr std::array kWet{
     optional("slip", {.form = ValueRule::Form::number, .unit = "", .min = 1.0, .max = 100.0}),
     optional("grip", positive("", 1.0))};
 
+constexpr std::array kMove{required("of", kName), required("at", kTime), required("x", kCoordinate),
+                           required("y", kCoordinate), optional("yaw", kAngle)};
+constexpr std::array kKidnap{required("robot", kText), required("at", kTime), required("x", kCoordinate),
+                             required("y", kCoordinate), optional("yaw", kAngle)};
+constexpr std::array kOutage{required("robot", kText), required("sensor", one_of(kSensorKinds)),
+                             required("at", kTime), optional("until", kTime)};
+
 constexpr ElementRule kDoorRule{.name = "door", .attributes = kDoor};
 constexpr ElementRule kRoomDoorRule{.name = "door", .attributes = kRoomDoor};
 constexpr std::array kInWall{&kDoorRule};
@@ -91,12 +101,15 @@ constexpr ElementRule kGenerateRule{.name = "generate", .attributes = kGenerate}
 constexpr ElementRule kWalkerRule{.name = "walker", .attributes = kWalker};
 constexpr ElementRule kSillRule{.name = "sill", .attributes = kSill};
 constexpr ElementRule kWetRule{.name = "wet", .attributes = kWet};
+constexpr ElementRule kMoveRule{.name = "move", .attributes = kMove};
+constexpr ElementRule kKidnapRule{.name = "kidnap", .attributes = kKidnap};
+constexpr ElementRule kOutageRule{.name = "outage", .attributes = kOutage};
 
 namespace {
 
-constexpr std::array kInWorld{&kWallRule,     &kRoomRule,   &kBoxRule,  &kCylinderRule,
-                              &kPolygonRule,  &kBitmapRule, &kMeshRule, &kPlaceRule,
-                              &kGenerateRule, &kWalkerRule, &kSillRule, &kWetRule};
+constexpr std::array kInWorld{&kWallRule,   &kRoomRule, &kBoxRule,   &kCylinderRule, &kPolygonRule,
+                              &kBitmapRule, &kMeshRule, &kPlaceRule, &kGenerateRule, &kWalkerRule,
+                              &kSillRule,   &kWetRule,  &kMoveRule,  &kKidnapRule,   &kOutageRule};
 
 }  // namespace
 
@@ -106,7 +119,8 @@ namespace {
 
 constexpr std::array kWorldElements{&kWorldRule,    &kWallRule,    &kRoomRule,   &kDoorRule, &kBoxRule,
                                     &kCylinderRule, &kPolygonRule, &kBitmapRule, &kMeshRule, &kPlaceRule,
-                                    &kGenerateRule, &kWalkerRule,  &kSillRule,   &kWetRule};
+                                    &kGenerateRule, &kWalkerRule,  &kSillRule,   &kWetRule,  &kMoveRule,
+                                    &kKidnapRule,   &kOutageRule};
 
 }  // namespace
 

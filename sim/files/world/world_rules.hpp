@@ -20,6 +20,9 @@ extern const xml::ElementRule kGenerateRule;
 extern const xml::ElementRule kWalkerRule;
 extern const xml::ElementRule kSillRule;
 extern const xml::ElementRule kWetRule;
+extern const xml::ElementRule kMoveRule;
+extern const xml::ElementRule kKidnapRule;
+extern const xml::ElementRule kOutageRule;
 
 extern const xml::FileRules kWorldFile;
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
+#include <unistd.h>
+
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
@@ -7,30 +9,39 @@
 #include <utility>
 
 #include "common/arithmetic.hpp"
+#include "difference.hpp"
+#include "folders.hpp"
 #include "options.hpp"
+#include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
 #include "orca/base/text.hpp"
+#include "orca/batch/inputs.hpp"
+#include "orca/batch/missing_runs.hpp"
 #include "orca/batch/report.hpp"
 #include "orca/batch/store.hpp"
 #include "orca/xml/number.hpp"
 #include "progress.hpp"
+#include "submission.hpp"
 
 namespace orca::simbatch {
 namespace {
 
-ExitCode refuse(const Error& error) {
-  std::fprintf(stderr, "error: %s\n", error.text().c_str());
-  return ExitCode::bad_input;
+// Returns what shows on a terminal how far the check is; nothing elsewhere.
+std::function<void(std::size_t, std::size_t)> check_watch() {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  return [](std::size_t done, std::size_t all) {
+    LiveLine::show(STDERR_FILENO,
+                   "checking graph " + std::to_string(done + 1) + " of " + std::to_string(all));
+  };
 }
-
-std::filesystem::path results_in(const std::filesystem::path& folder) { return folder / "results.sqlite"; }
 
 // Returns the experiment if it and its graphs have no fault; otherwise says all that is wrong.
 std::optional<batch::Experiment> checked(const Options& options) {
   xml::Diagnostics diagnostics;
   std::optional<batch::Experiment> experiment = batch::read_experiment(options.subject, diagnostics);
-  if (experiment) batch::check_graphs(*experiment, options.batch, diagnostics);
+  if (experiment) batch::check_graphs(*experiment, options.batch, diagnostics, check_watch());
+  LiveLine::erase();
   std::fputs(diagnostics.text().c_str(), stderr);
   return diagnostics.has_errors() ? std::nullopt : std::move(experiment);
 }
@@ -42,16 +53,6 @@ ExitCode check(const Options& options) {
                options.subject.c_str(), experiment->variants.size(), experiment->worlds.size(),
                experiment->seeds.size(), experiment->run_count());
   return ExitCode::done;
-}
-
-std::vector<std::size_t> missing(const batch::Experiment& experiment, const batch::Store& store) {
-  std::vector<std::size_t> wanted;
-  for (std::size_t i = 0; i < experiment.run_count(); ++i) {
-    const batch::Run run = experiment.run(i);
-    if (!store.has(experiment.variants[run.variant].name, experiment.worlds[run.world].name, run.seed))
-      wanted.push_back(i);
-  }
-  return wanted;
 }
 
 Status write_file(const std::filesystem::path& file, const std::string& text) {
@@ -78,8 +79,14 @@ ExitCode report(const batch::Experiment& experiment, const batch::Store& store,
   return ExitCode::done;
 }
 
+std::string shard_text(const batch::Shard& shard, const char* between) {
+  return std::to_string(shard.number) + between + std::to_string(shard.count);
+}
+
 std::filesystem::path folder_of(const Options& options, const batch::Experiment& experiment) {
-  return options.out.empty() ? experiment.name + ".batch" : options.out;
+  if (!options.out.empty()) return options.out;
+  return experiment.name + (options.shard.count > 1 ? "." + shard_text(options.shard, "-of-") : "") +
+         ".batch";
 }
 
 // Makes the report on results that are there, however many of the runs they are.
@@ -96,6 +103,22 @@ ExitCode report_again(const Options& options) {
   return store ? report(*experiment, **store, folder) : refuse(store.error());
 }
 
+// Makes the runs that are missing. Returns why it could not make all; empty: it did.
+std::string make_runs(const Options& options, const batch::Experiment& experiment, batch::Store& store) {
+  batch::MissingRuns missing(experiment, store, options.shard);
+  Progress progress(experiment, store, missing.count());
+  const Result<batch::BatchEnd> end = batch::run_batch(
+      experiment, {missing.not_repeated(), [&] { return missing.next(); }}, options.batch, progress);
+  progress.end();
+  if (!end) return end.error().text();
+  switch (*end) {
+    case batch::BatchEnd::complete: return "";
+    case batch::BatchEnd::stopped: return "stopped";
+    case batch::BatchEnd::overloaded: return "the machine was overloaded, and some runs are missing";
+  }
+  return "";
+}
+
 ExitCode run(const Options& options) {
   const std::optional<batch::Experiment> experiment = checked(options);
   if (!experiment) return ExitCode::bad_input;
@@ -107,19 +130,73 @@ ExitCode run(const Options& options) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return refuse(fail(Code::unavailable, folder.string() + ": " + error.message()));
-  Result<std::unique_ptr<batch::Store>> store =
-      batch::Store::open(results_in(folder).string(), batch::identity_of(*experiment));
+  Result<std::unique_ptr<batch::Store>> store = batch::Store::open(
+      results_in(folder).string(), batch::identity_of(*experiment),
+      {std::filesystem::absolute(options.subject).lexically_normal().string(), options.plugins});
   if (!store) return refuse(store.error());
-  const std::vector<std::size_t> wanted = missing(*experiment, **store);
-  Progress progress(*experiment, **store, wanted.size());
-  const Result<bool> finished = batch::run_batch(*experiment, wanted, options.batch, progress);
-  progress.end();
-  if (!finished || !*finished) {
-    std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n",
-                 finished ? "stopped" : finished.error().text().c_str());
+  if (const Status kept = (*store)->keep(batch::inputs_of(*experiment)); !kept.ok())
+    return refuse(kept.error());
+  if (const std::string fault = make_runs(options, *experiment, **store); !fault.empty()) {
+    std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n", fault.c_str());
     return ExitCode::could_not_finish;
   }
-  return report(*experiment, **store, folder);
+  if (options.shard.count == 1) return report(*experiment, **store, folder);
+  std::fprintf(stderr, "part %s is in %s; simbatch join puts the parts together\n",
+               shard_text(options.shard, " of ").c_str(), folder.c_str());
+  return ExitCode::done;
+}
+
+// Returns the experiment of a store, if it is still as it was.
+std::optional<batch::Experiment> experiment_of(const batch::Store& store) {
+  xml::Diagnostics unused;
+  std::optional<batch::Experiment> experiment = batch::read_experiment(store.origin().file, unused);
+  if (!experiment || batch::identity_of(*experiment) != store.identity()) return std::nullopt;
+  return experiment;
+}
+
+ExitCode report_joined(const Options& options, const batch::Store& store) {
+  if (const std::optional<batch::Experiment> experiment = experiment_of(store)) {
+    const std::size_t missing = batch::MissingRuns(*experiment, store, {}).count();
+    if (missing > 0)
+      std::fprintf(stderr, "%zu of %zu runs are missing; --resume makes them\n", missing,
+                   experiment->run_count());
+    return report(*experiment, store, options.out);
+  }
+  std::fprintf(
+      stderr,
+      "the experiment is not here as it was; simbatch report EXPERIMENT.xml --out %s makes the report\n",
+      options.out.c_str());
+  return ExitCode::done;
+}
+
+Status take_all(batch::Store& store, const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders) {
+    if (!std::filesystem::exists(results_in(folder)))
+      return fail(Code::not_found, in_quotes(folder) + " holds no results of a batch");
+    if (Status taken = store.take_over(results_in(folder).string()); !taken.ok()) return taken;
+  }
+  return ok();
+}
+
+// Puts results together in a file that is there only when all went well.
+ExitCode join(const Options& options) {
+  const std::filesystem::path file = results_in(options.out);
+  if (std::filesystem::exists(file))
+    return refuse(fail(Code::already_exists,
+                       in_quotes(options.out) + " holds results already; --out DIR takes another folder"));
+  const Result<std::unique_ptr<batch::Store>> first = open_results(options.subject);
+  if (!first) return refuse(first.error());
+  std::filesystem::create_directories(options.out);
+  Result<std::unique_ptr<batch::Store>> all =
+      batch::Store::open(file.string(), (*first)->identity(), (*first)->origin());
+  if (!all) return refuse(all.error());
+  std::vector<std::string> folders{options.subject};
+  folders.insert(folders.end(), options.others.begin(), options.others.end());
+  const Status taken = take_all(**all, folders);
+  if (taken.ok()) return report_joined(options, **all);
+  all->reset();
+  for (const char* const end : {"", "-wal", "-shm"}) std::filesystem::remove(file.string() + end);
+  return refuse(taken.error());
 }
 
 std::string quoted(const std::string& text) {
@@ -129,10 +206,7 @@ std::string quoted(const std::string& text) {
 }
 
 ExitCode table(const Options& options) {
-  const std::filesystem::path file = results_in(options.subject);
-  if (!std::filesystem::exists(file))
-    return refuse(fail(Code::not_found, in_quotes(options.subject) + " holds no results of a batch"));
-  Result<std::unique_ptr<batch::Store>> store = batch::Store::open(file.string(), {});
+  const Result<std::unique_ptr<batch::Store>> store = open_results(options.subject);
   if (!store) return refuse(store.error());
   std::string title = "variant,world,seed,ending,failure,time,goals,failed_goals,contacts";
   for (const batch::Measure& measure : batch::all_measures()) title += std::string(",") + measure.name;
@@ -159,9 +233,34 @@ ExitCode act(const Options& options) {
     case Options::Action::check: return check(options);
     case Options::Action::table: return table(options);
     case Options::Action::report: return report_again(options);
+    case Options::Action::diff: return diff(options);
+    case Options::Action::join: return join(options);
+    case Options::Action::submit: {
+      const std::optional<batch::Experiment> experiment = checked(options);
+      return experiment ? submit(options, *experiment) : ExitCode::bad_input;
+    }
     case Options::Action::run: return run(options);
   }
   return ExitCode::bad_input;
+}
+
+// The word of a command that is not for people: this program starts itself so to make one run in other circumstances.
+constexpr const char* kMakeAlone = "make-alone";
+
+// Does what BatchOptions::alone asks for.
+ExitCode make_alone(const std::vector<std::string>& words) {
+  if (words.size() < 6) return ExitCode::bad_input;
+  xml::Diagnostics unused;
+  const std::optional<batch::Experiment> experiment = batch::read_experiment(words[1], unused);
+  const Result<std::int64_t> number = xml::parse_integer(words[2]);
+  const Result<std::int64_t> to = xml::parse_integer(words[3]);
+  const Result<std::int64_t> trace = xml::parse_integer(words[4]);
+  if (!experiment || !number || !to || !trace) return ExitCode::bad_input;
+  batch::BatchOptions options;
+  options.backend = words[5] == "baton" ? Backend::baton : Backend::fiber;
+  options.plugin_folders.assign(words.begin() + 6, words.end());
+  batch::make_alone(*experiment, static_cast<std::size_t>(*number), options, static_cast<int>(*to),
+                    static_cast<int>(*trace));
 }
 
 }  // namespace
@@ -171,14 +270,15 @@ int main(int argc, char** argv) {
   using namespace orca::simbatch;
   orca::apps::choose_portable_arithmetic(argv);
   orca::log::set_level(orca::log::Level::off);
-  orca::Result<Options> options = parse_options({argv + 1, argv + argc});
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == kMakeAlone) return static_cast<int>(make_alone(words));
+  orca::Result<Options> options = parse_options(words);
   if (!options) {
     std::fprintf(stderr, "error: %s\nsimbatch --help explains what there is\n",
                  options.error().message.c_str());
     return static_cast<int>(ExitCode::bad_input);
   }
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
-  options->batch.plugin_folders.insert(options->batch.plugin_folders.begin(),
-                                       (own.parent_path().parent_path() / "plugins").string());
+  options->batch.alone = {"/proc/self/exe", kMakeAlone};
+  options->batch = with_plugins(options->batch, options->plugins);
   return static_cast<int>(act(*options));
 }

@@ -37,8 +37,8 @@ Progress::Progress(const batch::Experiment& experiment, batch::Store& store, std
 
 Status Progress::finished(std::size_t number, const batch::Outcome& outcome, const batch::Cost& cost) {
   const batch::Run run = experiment_.run(number);
-  if (Status added = store_.add({experiment_.variants[run.variant].name, experiment_.worlds[run.world].name,
-                                 run.seed, outcome, cost});
+  if (Status added = store_.add(batch::Row{experiment_.variants[run.variant].name,
+                                           experiment_.worlds[run.world].name, run.seed, outcome, cost});
       !added.ok())
     return added;
   ++done_;
@@ -46,6 +46,30 @@ Status Progress::finished(std::size_t number, const batch::Outcome& outcome, con
   if (outcome.ending == batch::Ending::success) ++of_variant_[run.variant].successes;
   if (outcome.ending >= batch::Ending::failed) ++failed_;
   return ok();
+}
+
+Status Progress::repeated(std::size_t number, const batch::Repeat& repeat) {
+  const batch::Run run = experiment_.run(number);
+  if (!repeat.difference.empty()) {
+    const LiveLine::Pause pause;
+    std::fprintf(stderr, "warning: %s depends on more than its seed; made twice, the runs part: %s\n",
+                 name_of(number).c_str(), repeat.difference.c_str());
+  }
+  return store_.add(batch::RepeatRow{experiment_.variants[run.variant].name,
+                                     experiment_.worlds[run.world].name, run.seed, repeat});
+}
+
+void Progress::overloaded(std::size_t number, const std::string& why, bool again) {
+  const LiveLine::Pause pause;
+  std::fprintf(stderr, "warning: the machine is overloaded, %s is no result: %s; %s\n",
+               name_of(number).c_str(), why.c_str(),
+               again ? "it is made again" : "it is left out after several tries");
+}
+
+std::string Progress::name_of(std::size_t number) const {
+  const batch::Run run = experiment_.run(number);
+  return "variant " + experiment_.variants[run.variant].name + " in world " +
+         experiment_.worlds[run.world].name + " with seed " + std::to_string(run.seed);
 }
 
 std::string Progress::text(std::size_t running) const {

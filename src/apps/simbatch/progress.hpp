@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "orca/batch/batch.hpp"
@@ -21,6 +22,8 @@ class Progress final : public batch::BatchListener {
   Progress(const batch::Experiment& experiment, batch::Store& store, std::size_t wanted);
 
   Status finished(std::size_t number, const batch::Outcome& outcome, const batch::Cost& cost) override;
+  Status repeated(std::size_t number, const batch::Repeat& repeat) override;
+  void overloaded(std::size_t number, const std::string& why, bool again) override;
   void tick(std::size_t running) override;
   /// Takes the line away.
   void end();
@@ -29,6 +32,7 @@ class Progress final : public batch::BatchListener {
   using Clock = std::chrono::steady_clock;
 
   [[nodiscard]] std::string text(std::size_t running) const;
+  [[nodiscard]] std::string name_of(std::size_t number) const;
 
   struct Count {
     std::size_t done = 0;

@@ -86,6 +86,8 @@ Result<std::string> read_input_file(const std::string& path, std::size_t max_byt
 
 void remember_input_file(const std::string& path) { UsedFiles::of_process().add_named(path); }
 
+std::vector<std::string> known_input_files() { return UsedFiles::of_process().inputs(); }
+
 bool has_been_read(const std::string& path) {
   struct stat file {};
   return stat(path.c_str(), &file) == 0 && UsedFiles::of_process().is_read(file);

@@ -50,6 +50,13 @@ void UsedFiles::remove_written(const std::string& path) {
   written_.erase(canonical(path));
 }
 
+std::vector<std::string> UsedFiles::inputs() const {
+  const std::lock_guard lock(mutex_);
+  std::set<std::string> all = read_;
+  all.insert(named_.begin(), named_.end());
+  return {all.begin(), all.end()};
+}
+
 bool UsedFiles::is_read(const struct stat& file) const {
   const std::lock_guard lock(mutex_);
   return any_leads_to(read_, file);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace orca {
 
@@ -23,6 +24,8 @@ class UsedFiles {
   void add_written(const std::string& path, const std::string& what);
   void remove_written(const std::string& path);
 
+  /// Returns the files that are read or named.
+  [[nodiscard]] std::vector<std::string> inputs() const;
   [[nodiscard]] bool is_read(const struct stat& file) const;
   /// Returns the use of a file for people: "a file that has been read", "a file that the graph names", or what is
   /// written there, such as "the trace"; empty: not in use.

@@ -18,20 +18,18 @@ constexpr double kOtherSidePenalty = 0.8;        // [rad] for changing the side 
 constexpr double kGoalShare = 0.8;               // of the angle off the goal; the rest: off the robot's axis
 constexpr double kBlockedPenalty = 4.0;          // [rad] for no free way at all: more than any turn costs
 
-constexpr double kTurnMargin = 0.03;   // [m] kept free of the corners of a body that turns
 constexpr double kTurnUrgency = 0.95;  // of not turning where a corner would touch something
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // A body that squeezes has a round nose that much farther ahead: a rectangle would fit between two posts only if
 // it points exactly that way.
-double way_to_point(Vec2 echo, double direction, const Limits& limits) {
+double way_to_point(Vec2 echo, Vec2 ahead, const Limits& limits) {
   const bool squeezes = limits.squeezes && limits.body;
   const double reach = (squeezes ? limits.body->half_width : limits.robot_radius) + limits.margin;
   const double nose = squeezes ? limits.body->half_length - limits.body->half_width : 0.0;
-  const auto [cosine, sine] = portable::cos_sin(direction);
-  const double along = cosine * echo.x + sine * echo.y;
-  const double aside = std::abs(cosine * echo.y - sine * echo.x);
+  const double along = dot(ahead, echo);
+  const double aside = std::abs(cross(ahead, echo));
   return along <= 0.0 || aside >= reach ? kNever : along - nose - std::sqrt(reach * reach - aside * aside);
 }
 
@@ -41,10 +39,11 @@ double angle_up(double angle) {
   return within < 0.0 ? within + 2.0 * std::numbers::pi : within;
 }
 
-double way_to_wall(Vec2 echo, double direction, const Limits& limits) {
-  const double gap = portable::hypot(echo.x, echo.y) - limits.robot_radius;
+double way_to_wall(Vec2 echo, Vec2 ahead, const Limits& limits) {
+  const double distance = norm(echo);
+  const double gap = distance - limits.robot_radius;
   if (gap >= limits.side_distance) return kNever;
-  const double closing = portable::cos(direction - portable::atan2(echo.y, echo.x));
+  const double closing = distance > 0.0 ? dot(ahead, echo) / distance : 1.0;
   return closing < 0.05 ? kNever : (gap - limits.margin) / closing;
 }
 
@@ -107,7 +106,8 @@ std::optional<Rectangle> rectangle(double length, double width) {
 TurnRoom turn_room(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
   TurnRoom room;
   if (!limits.body) return room;
-  const Rectangle wide{limits.body->half_length + kTurnMargin, limits.body->half_width + kTurnMargin};
+  const Rectangle wide{limits.body->half_length + limits.turn_margin,
+                       limits.body->half_width + limits.turn_margin};
   const double reach = portable::hypot(wide.half_length, wide.half_width);
   for (const Vec2 echo : echoes) {
     const double distance = portable::hypot(echo.x, echo.y);
@@ -121,8 +121,9 @@ TurnRoom turn_room(std::span<const Vec2> echoes, const Situation& situation, con
 
 double free_way(std::span<const Vec2> echoes, double direction, const Limits& limits) {
   double way = limits.safe_distance;
+  const Vec2 ahead = orca::direction(direction);
   for (Vec2 echo : echoes)
-    way = std::min({way, way_to_point(echo, direction, limits), way_to_wall(echo, direction, limits)});
+    way = std::min({way, way_to_point(echo, ahead, limits), way_to_wall(echo, ahead, limits)});
   return std::max(0.0, way);
 }
 

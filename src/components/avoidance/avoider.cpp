@@ -12,13 +12,20 @@
 namespace orca::avoid {
 namespace {
 
-// Returns the weight of the advice: 0 where the way is free, 1 half way, 1000 at the stop distance, where no
-// other wish must move the robot on.
-double insistence(double urgency) { return urgency / (1.001 - urgency); }
+// Returns the weight of the advice: 0 where the way is free, 1 half way, and at the stop distance, where no other wish must move
+// the robot on, so much that others have the share `yields`.
+double insistence(double urgency, double yields) { return urgency / (1.0 + yields - urgency); }
+
+// Slower than this a robot stands, as far as its odometry and what it remembers are concerned.
+bool stands(const Twist2& twist) {
+  constexpr double kSlow = 0.005;     // [m/s]
+  constexpr double kSlowTurn = 0.01;  // [rad/s]
+  return std::abs(twist.forward) < kSlow && std::abs(twist.turn_rate) < kSlowTurn;
+}
 
 }  // namespace
 
-Avoider::Avoider(ComponentHost& host, double echo_time, double memory_time)
+Avoider::Avoider(ComponentHost& host, const Manner& manner)
     : Component(host),
       odometry_(*this, "odometry",
                 {.text = "Motion of the robot; with it recent echoes are remembered and carried along.",
@@ -30,6 +37,7 @@ Avoider::Avoider(ComponentHost& host, double echo_time, double memory_time)
                   .optional = true}),
       motion_(*this, "motion",
               {.text = "One command per odometry object (if not connected, per sensor object)."}),
+      manner_(manner),
       robot_radius_(*this, "robot_radius", 0.205,
                     {.unit = "m",
                      .min = 0.0,
@@ -49,13 +57,14 @@ Avoider::Avoider(ComponentHost& host, double echo_time, double memory_time)
           {.min = 0.0,
            .text =
                "Weight of its wishes half way between safe_distance (weight 0) and stop_distance (1000 times "
-               "this); 0: they never count."}),
+               "this, and 100,000 times where a laser shows the shape of what is near); 0: they never "
+               "count."}),
       reaction_time_(
           *this, "reaction_time", 0.25,
           {.unit = "s", .min = 0.0, .text = "Time from an echo until the robot follows the advice."}),
-      memory_time_(*this, "memory_time", memory_time,
+      memory_time_(*this, "memory_time", manner.memory_time,
                    {.unit = "s", .min = 0.0, .text = "Time for which an echo heard at least twice is kept."}),
-      echo_time_(*this, "echo_time", echo_time,
+      echo_time_(*this, "echo_time", manner.echo_time,
                  {.unit = "s", .min = 0.0, .text = "Time for which an echo heard once is kept."}),
       same_place_(
           *this, "same_place", 0.15,
@@ -158,7 +167,8 @@ Outcome Avoider::work() {
 void Avoider::follow(const idl::Odometry& odometry) {
   const TimePoint stamp = to_time_point(odometry.stamp());
   const Pose2 pose = plane_pose(odometry);
-  if (moved_at_) memory_.advance(seen_from(pose_, pose), to_seconds(stamp - *moved_at_), keep());
+  const double pace = stands(twist_) ? manner_.standing_pace : 1.0;
+  if (moved_at_) memory_.advance(seen_from(pose_, pose), pace * to_seconds(stamp - *moved_at_), keep());
   moved_at_ = stamp;
   pose_ = pose;
   twist_ = {.forward = odometry.translational_velocity(), .turn_rate = odometry.steering_velocity()};
@@ -173,7 +183,7 @@ void Avoider::advise() {
   }
   const Advice advised = advice(memory_, situation(), limits());
   last_direction_ = advised.direction;
-  const double weight = *weight_ * insistence(advised.urgency);
+  const double weight = *weight_ * insistence(advised.urgency, manner_.yields);
   if (!advised.needed) {
     motion_.push(dont_care());
   } else if (advised.turn_rate) {

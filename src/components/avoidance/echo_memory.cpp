@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMostEchoes = 256;
 constexpr double kFarOff = std::numeric_limits<double>::infinity();
 
-double distance(Vec2 one, Vec2 other) { return portable::hypot(one.x - other.x, one.y - other.y); }
+double squared_distance(Vec2 one, Vec2 other) { return dot(one - other, one - other); }
 
 }  // namespace
 
@@ -38,10 +38,14 @@ void EchoMemory::advance(const Pose2& X_RN, double time, const Limits& limits) {
 
 void EchoMemory::hear(Vec2 echo, const Limits& limits) {
   std::size_t nearest = echoes_.size();
-  for (std::size_t i = 0; i < echoes_.size(); ++i)
-    if (nearest == echoes_.size() || distance(echo, echoes_[i]) < distance(echo, echoes_[nearest]))
+  double least = kFarOff;
+  for (std::size_t i = 0; i < echoes_.size(); ++i) {
+    if (const double here = squared_distance(echo, echoes_[i]); here < least) {
       nearest = i;
-  const double off = nearest < echoes_.size() ? distance(echo, echoes_[nearest]) : kFarOff;
+      least = here;
+    }
+  }
+  const double off = std::sqrt(least);
   const bool near = portable::hypot(echo.x, echo.y) < limits.range;
   const Trace trace{0.0, near && off < limits.same_place};
   if (trace.confirmed) traces_[nearest].confirmed = true;

@@ -10,15 +10,26 @@
 namespace orca::avoid {
 namespace {
 
+// While the robot stands, what it has seen beside its back stays true but for what moves: turning must not begin to look free.
+constexpr double kStandingPace = 0.1;
+// With a thousandth of another's wish to drive on, a robot that has centimetres to its sides creeps into them within half a minute.
+constexpr double kHardlyYields = 1e-5;
 // [m] Echoes as near to each other as that are one, if those beside what is seen must not be drawn into it.
 constexpr double kErrorOfReading = 0.01;
 constexpr double kSector = std::numbers::pi / 36;
+// So much beside the circle a body may come to within a few readings, and its corners must know the shape of what is there: to a
+// centimetre, as well as a reading tells it.
+constexpr double kBesideBody = 0.25;  // [m]
+constexpr double kFineSector = std::numbers::pi / 120;
 
 }  // namespace
 
-LaserAvoider::LaserAvoider(ComponentHost& host, bool keeps_hidden, double memory_time)
-    : Avoider(host, memory_time, memory_time),
-      keeps_hidden_(keeps_hidden),
+LaserAvoider::LaserAvoider(ComponentHost& host, Memory memory)
+    : Avoider(host, {.echo_time = memory.time,
+                     .memory_time = memory.time,
+                     .standing_pace = memory.shapes ? kStandingPace : Manner().standing_pace,
+                     .yields = memory.shapes ? kHardlyYields : Manner().yields}),
+      remembers_(memory),
       squeeze_(
           *this, "squeeze", true,
           {.text =
@@ -56,9 +67,11 @@ void LaserAvoider::listen(EchoMemory& memory) {
   const Scan scan{readings->ranges(),      readings->min_range(),       readings->max_range(),
                   readings->angle_start(), readings->angle_increment(), {place.x, place.y, yaw}};
   EchoMemory::Limits kept = keep();
-  kept.hidden = keeps_hidden_;
-  if (keeps_hidden_) kept.no_news = kErrorOfReading;
-  see(scan, kSector, farthest(), kept, memory);
+  kept.hidden = remembers_.hidden;
+  if (remembers_.hidden || remembers_.shapes) kept.no_news = kErrorOfReading;
+  const auto corners = remembers_.shapes ? body() : std::nullopt;
+  const double near = corners ? norm({corners->half_length, corners->half_width}) + kBesideBody : 0.0;
+  see(scan, {.sector = kSector, .range = farthest(), .near = near, .fine = kFineSector}, kept, memory);
 }
 
 }  // namespace orca::avoid

@@ -40,20 +40,39 @@ bool is_replaced(const Scan& scan, Vec2 echo, bool keeps_hidden) {
   return !keeps_hidden || !is_hidden(scan, off + 0.5 * width, away);
 }
 
+std::size_t beams_in(double sector, const Scan& scan) {
+  const double beams = sector / std::max(std::abs(scan.angle_increment), 1e-9);
+  return static_cast<std::size_t>(std::clamp(beams, 1.0, static_cast<double>(scan.ranges.size())));
+}
+
+// Returns the reading of those beams that is nearest to the robot's centre.
+std::optional<Vec2> nearest_of(const Scan& scan, std::size_t first, std::size_t end) {
+  std::optional<Vec2> nearest;
+  for (std::size_t i = first; i < std::min(end, scan.ranges.size()); ++i) {
+    const std::optional<Vec2> place = place_of(scan, i);
+    if (place && (!nearest || distance(*place) < distance(*nearest))) nearest = place;
+  }
+  return nearest;
+}
+
 }  // namespace
 
-void see(const Scan& scan, double sector, double range, const EchoMemory::Limits& keep, EchoMemory& memory) {
+void see(const Scan& scan, const Detail& detail, const EchoMemory::Limits& keep, EchoMemory& memory) {
   if (scan.ranges.empty()) return;
   memory.forget_if([&](Vec2 echo) { return is_replaced(scan, echo, keep.hidden); });
-  const double beams = sector / std::max(std::abs(scan.angle_increment), 1e-9);
-  const auto step = static_cast<std::size_t>(std::clamp(beams, 1.0, static_cast<double>(scan.ranges.size())));
+  const std::size_t step = beams_in(detail.sector, scan);
+  const std::size_t fine = beams_in(detail.fine, scan);
   for (std::size_t first = 0; first < scan.ranges.size(); first += step) {
-    std::optional<Vec2> nearest;
-    for (std::size_t i = first; i < std::min(first + step, scan.ranges.size()); ++i) {
-      const std::optional<Vec2> place = place_of(scan, i);
-      if (place && (!nearest || distance(*place) < distance(*nearest))) nearest = place;
+    const std::optional<Vec2> nearest = nearest_of(scan, first, first + step);
+    if (!nearest || distance(*nearest) >= detail.range) continue;
+    if (distance(*nearest) >= detail.near) {
+      memory.hear(*nearest, keep);
+      continue;
     }
-    if (nearest && distance(*nearest) < range) memory.hear(*nearest, keep);
+    for (std::size_t part = first; part < first + step; part += fine)
+      if (const auto place = nearest_of(scan, part, std::min(part + fine, first + step));
+          place && distance(*place) < detail.range)
+        memory.hear(*place, keep);
   }
 }
 

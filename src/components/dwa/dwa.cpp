@@ -12,7 +12,7 @@ namespace {
 /// Thrun, 1997). See README.md.
 class Dwa final : public orca::avoid::LaserAvoider {
  public:
-  explicit Dwa(orca::ComponentHost& host) : LaserAvoider(host, true) {}
+  explicit Dwa(orca::ComponentHost& host) : LaserAvoider(host, {.hidden = true}) {}
 
  private:
   orca::Status start() override {

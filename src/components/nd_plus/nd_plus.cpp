@@ -15,7 +15,7 @@ namespace {
 /// README.md.
 class NdPlus final : public orca::avoid::LaserAvoider {
  public:
-  explicit NdPlus(orca::ComponentHost& host) : LaserAvoider(host, true, kMemoryTime) {}
+  explicit NdPlus(orca::ComponentHost& host) : LaserAvoider(host, {.hidden = true, .time = kMemoryTime}) {}
 
  private:
   orca::Status start() override {

@@ -12,7 +12,7 @@ namespace {
 /// README.md.
 class SonarAvoid final : public orca::avoid::Avoider {
  public:
-  explicit SonarAvoid(orca::ComponentHost& host) : Avoider(host, 0.25) {}
+  explicit SonarAvoid(orca::ComponentHost& host) : Avoider(host, {.echo_time = 0.25}) {}
 
  private:
   orca::PushProxyHandle& sensor() override { return sonar_; }

@@ -379,8 +379,8 @@ EdgeCounters PushEdge::counters() const {
   counted.dropped = counted.dropped_oldest + counted.dropped_newest + counted.dropped_blocked +
                     counted.dropped_by_link + counted.unmatched + counted.left_behind;
   const std::uint64_t drops = drops_;
-  if (const std::int64_t limit = accepted_drops_; limit >= 0 && drops > static_cast<std::uint64_t>(limit))
-    counted.over_limit = drops - static_cast<std::uint64_t>(limit);
+  if (const std::int64_t limit = accepted_drops_; limit >= 0)
+    counted.over_limit = drops - std::min(drops, static_cast<std::uint64_t>(limit));
   counted.waits = counts_.waits;
   const bool due = deadline_ > 0 && subscribed();
   counted.missed_deadlines = due ? missed_until(now()) : std::uint64_t{counts_.missed_deadlines};

@@ -103,7 +103,7 @@ void PushSourceOverFrames::change(const UpdateRate& rate) {
 
 void PushSourceOverFrames::room() {
   const std::lock_guard lock(mutex_);
-  if (sink_ == nullptr || !held_) return;
+  if (!held_) return;
   Held held = std::move(*held_);
   held_.reset();
   deliver(std::move(held.object), held.ticket);

@@ -59,7 +59,7 @@ class PushSourceOverFrames final : public PushSource, public LinkEnd {
   std::uint64_t subscription_ = 0;  // a count, so that objects of an earlier one are discarded
   UpdateRate rate_;                 // that was asked for last
   Duration base_period_;
-  std::optional<Held> held_;
+  std::optional<Held> held_;  // only while subscribed
 
   const std::unique_ptr<FrameEnd> end_;  // the last member: its handlers use the others
 };

@@ -59,7 +59,7 @@ std::optional<RingWriter::Room> RingWriter::room_at_front(std::size_t free) cons
 }
 
 std::span<std::byte> RingWriter::place(const Room& room) const {
-  return room.size == 0 ? std::span<std::byte>{} : ring_.data.subspan(offset(room.at) + kHead, room.size);
+  return ring_.data.subspan(offset(room.at) + kHead, room.size);
 }
 
 Written RingWriter::commit(const Room& room, std::size_t size) {

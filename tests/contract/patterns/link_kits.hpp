@@ -69,7 +69,9 @@ struct ByteKit : Kit<ByteLinks> {
   // Virtual time does not wait for the thread that carries the bytes.
   static std::vector<ExecutiveOptions> executives() { return steady_executives(); }
 
-  explicit ByteKit(Executive& used) : Kit(used, used) {}
+  static constexpr std::size_t kCapacity = std::size_t{1} << 20;  // [bytes]
+
+  explicit ByteKit(Executive& used) : Kit(used, used, kCapacity) {}
 };
 
 /// The links through shared memory, with both ends in this process.

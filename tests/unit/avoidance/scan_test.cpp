@@ -46,7 +46,7 @@ std::vector<double> scan_of_wall(double ahead, double half_width) {
 
 EchoMemory memory_of(const std::vector<double>& ranges, const orca::Pose2& mount = {}) {
   EchoMemory memory;
-  see(scan_of(ranges, mount), kSector, 2.0, kKeep, memory);
+  see(scan_of(ranges, mount), {.sector = kSector, .range = 2.0}, kKeep, memory);
   return memory;
 }
 
@@ -106,11 +106,38 @@ TEST_CASE("only the nearest reading in a sector is kept, so a scan costs no more
   }
 }
 
+TEST_CASE("of what is near the body the sides are kept, too, and of what is far only the nearest points",
+          "[avoidance][laser]") {
+  // A post of 15 cm beside the robot's way; its right side is 23 mm to the right of its nearest point in that sector.
+  const auto post_at = [](double away) {
+    std::vector<double> ranges = nothing();
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const double angle = -pi / 2 + static_cast<double>(i) * pi / 180;
+      const double aside = away * std::sin(angle);
+      if (std::cos(angle) > 0.0 && std::abs(aside) < 0.075)
+        ranges[i] = away * std::cos(angle) - std::sqrt(0.075 * 0.075 - aside * aside);
+    }
+    return ranges;
+  };
+  const auto farthest_right = [&](const std::vector<double>& ranges, double near) {
+    EchoMemory memory;
+    EchoMemory::Limits keep = kKeep;
+    keep.no_news = 0.01;
+    see(scan_of(ranges), {.sector = kSector, .range = 2.0, .near = near, .fine = pi / 120}, keep, memory);
+    double right = 0.0;
+    for (const orca::Vec2& echo : memory.echoes()) right = std::min(right, echo.y);
+    return right;
+  };
+  CHECK(farthest_right(post_at(0.4), 0.5) == Approx(-0.068).margin(0.005));
+  CHECK(farthest_right(post_at(0.4), 0.0) > farthest_right(post_at(0.4), 0.5) + 0.01);
+  CHECK(farthest_right(post_at(1.0), 0.5) == farthest_right(post_at(1.0), 0.0));
+}
+
 TEST_CASE("a scan forgets echoes that it no longer sees in its field of view, and keeps those behind",
           "[avoidance][laser]") {
   EchoMemory memory = memory_of(scan_of_wall(0.6, 0.3));
   memory.hear({-0.5, 0.0}, kKeep);
-  see(scan_of(nothing()), kSector, 2.0, kKeep, memory);
+  see(scan_of(nothing()), {.sector = kSector, .range = 2.0}, kKeep, memory);
   REQUIRE(memory.echoes().size() == 1);
   CHECK(memory.echoes()[0].x == Approx(-0.5));
 }
@@ -138,13 +165,13 @@ TEST_CASE("a memory of hidden echoes loses those that the beams reach, and keeps
   const orca::Vec2 behind{1.3, 0.0};
   memory.hear(behind, keep);
   memory.hear({0.7, 0.7}, keep);
-  see(scan_of(ranges), kSector, 2.0, keep, memory);
+  see(scan_of(ranges), {.sector = kSector, .range = 2.0}, keep, memory);
   const auto remembers = [&](orca::Vec2 place) {
     return std::ranges::any_of(memory.echoes(), [&](orca::Vec2 echo) { return norm(echo - place) < 0.01; });
   };
   CHECK(remembers(behind));
   CHECK_FALSE(remembers({0.7, 0.7}));
-  see(scan_of(nothing()), kSector, 2.0, keep, memory);
+  see(scan_of(nothing()), {.sector = kSector, .range = 2.0}, keep, memory);
   CHECK(memory.echoes().empty());
 }
 
@@ -155,6 +182,6 @@ TEST_CASE("where all beams point one way, none is beside another that could hide
   EchoMemory memory;
   memory.hear({1.3, 0.0}, keep);
   const std::vector<double> ranges{1.0, 1.0};
-  see({ranges, 0.05, kMaxRange, 0.0, 0.0, {}}, kSector, 2.0, keep, memory);
+  see({ranges, 0.05, kMaxRange, 0.0, 0.0, {}}, {.sector = kSector, .range = 2.0}, keep, memory);
   CHECK(std::ranges::none_of(memory.echoes(), [](orca::Vec2 echo) { return echo.x > 1.1; }));
 }

@@ -4,13 +4,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "orca/base/input_file.hpp"
 #include "orca/base/output_file.hpp"
@@ -215,6 +218,20 @@ TEST_CASE("a file that will be read later is no output either", "[base][files]")
   remember_input_file(folder.file("later"));
   CHECK_THAT(refusal(folder.file("later")), Contains("would overwrite a file that the graph names"));
   CHECK_FALSE(has_been_read(folder.file("later")));
+}
+
+TEST_CASE("what was read and what will be read are known inputs, each once and without links",
+          "[base][files]") {
+  const TempFolder folder;
+  put(folder.file("input"), "x");
+  std::filesystem::create_symlink("input", folder.file("link"));
+  for (const char* name : {"link", "input"}) REQUIRE(read_input_file(folder.file(name), kPlenty));
+  remember_input_file(folder.file("later"));
+  const std::vector<std::string> known = known_input_files();
+  CHECK(std::ranges::count(known, std::filesystem::canonical(folder.file("input")).string()) == 1);
+  CHECK(std::ranges::count(known, (std::filesystem::canonical(folder.path()) / "later").string()) == 1);
+  CHECK(std::ranges::count(known, folder.file("link")) == 0);
+  CHECK(std::ranges::is_sorted(known));
 }
 
 TEST_CASE("an input that was replaced stays protected, the old one's place on the disk does not",

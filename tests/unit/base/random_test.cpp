@@ -30,6 +30,21 @@ TEST_CASE("a random stream is xoshiro256++, seeded by SplitMix64 from the hash o
     CHECK(stream() == expected);
 }
 
+TEST_CASE("all 64 bits of a random stream are random, and it says so to the standard library",
+          "[base][random]") {
+  CHECK(RandomStream::min() == 0);
+  CHECK(RandomStream::max() == ~std::uint64_t{0});
+  RandomStream stream(3, "test", "bits");
+  std::uint64_t set = 0, always_set = RandomStream::max();
+  for (int i = 0; i < 200; ++i) {
+    const std::uint64_t number = stream();
+    set |= number;
+    always_set &= number;
+  }
+  CHECK(set == RandomStream::max());
+  CHECK(always_set == 0);
+}
+
 TEST_CASE("uniform stays in its interval and normal has the asked mean and deviation", "[base][random]") {
   RandomStream stream(7, "test", "moments");
   double sum = 0.0;

@@ -65,8 +65,12 @@ TEST_CASE("each variant meets each world and seed once, and pairs stand together
     const Run run = experiment.run(i);
     all.insert({run.variant, run.world, run.seed});
     CHECK(run.variant == i % 2);
+    CHECK(experiment.number_of(experiment.variants[run.variant].name, experiment.worlds[run.world].name,
+                               run.seed) == i);
   }
   CHECK(all.size() == 24);
+  CHECK_FALSE(experiment.number_of("a", "w", 4));
+  CHECK_FALSE(experiment.number_of("c", "w", 1));
 }
 
 TEST_CASE("the settings of a variant have the last word", "[batch]") {
@@ -98,6 +102,42 @@ TEST_CASE("an experiment needs a variant, a world, seeds and a limit of time", "
   CHECK_THAT(faults_of(with("graph=\"g.xml\"", kVariantAndWorld)), Contains("seeds") && Contains("until"));
 }
 
+TEST_CASE("what each element must say is missed by its name, and the rest may be left out", "[batch]") {
+  const std::string faults = faults_of(
+      "<experiment><set value=\"1\"/><variant graph=\"g.xml\"/><world reference=\"2 "
+      "m\"/><worlds/></experiment>");
+  const auto misses = [&](const std::string& element, const std::string& attribute) {
+    return Contains("<" + element + "> needs the attribute \"" + attribute + "\"");
+  };
+  for (const char* const attribute : {"name", "seeds", "until"})
+    CHECK_THAT(faults, misses("experiment", attribute));
+  CHECK_THAT(faults, misses("set", "arg"));
+  CHECK_THAT(faults, misses("variant", "name"));
+  CHECK_THAT(faults, misses("world", "name"));
+  for (const char* const attribute : {"name", "arg", "file"}) CHECK_THAT(faults, misses("worlds", attribute));
+  for (const char* const attribute :
+       {"version", "metrics", "limit", "memory", "column", "numbers", "references"})
+    CHECK_THAT(faults, !Contains("needs the attribute \"" + std::string(attribute) + "\""));
+}
+
+TEST_CASE(
+    "a run may take 300 s and 8 GB, and is judged by success and time, unless the experiment says otherwise",
+    "[batch]") {
+  const Experiment experiment = good();
+  CHECK(experiment.limit == 300s);
+  CHECK(experiment.memory_limit == 8'000'000'000);
+  CHECK(experiment.metrics == std::vector<std::string>{"success", "time"});
+  xml::Diagnostics diagnostics;
+  const auto other = read_experiment(
+      with(std::string(kEnough) + " limit=\"2 s\" memory=\"2 GB\" metrics=\"way jerk\"", kVariantAndWorld),
+      "e.xml", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(other);
+  CHECK(other->limit == 2s);
+  CHECK(other->memory_limit == 2'000'000'000);
+  CHECK(other->metrics == std::vector<std::string>{"way", "jerk"});
+}
+
 TEST_CASE("a graph is no experiment, and one of another version is not read", "[batch]") {
   CHECK_THAT(faults_of("<graph name=\"g\"/>"), Contains("E001: this is <graph>, not <experiment>"));
   CHECK_THAT(faults_of(with(std::string(kEnough) + " version=\"2\"", kVariantAndWorld)),
@@ -109,6 +149,17 @@ TEST_CASE("more runs than anybody waits for are refused", "[batch]") {
       faults_of(with("graph=\"g.xml\" seeds=\"1-1000000\" until=\"1 s\"",
                      "<variant name=\"a\"/><worlds name=\"n\" arg=\"w\" file=\"f\" numbers=\"1-11\"/>")),
       Contains("E011: the experiment has more than 10,000,000 runs"));
+}
+
+TEST_CASE("results are known by the same text wherever the experiment's folder lies", "[batch]") {
+  Experiment here = good();
+  here.settings.push_back({"world", "/top/sim/worlds/x.xml", {}});
+  Experiment there = good();
+  there.file = "/elsewhere/sim/e.xml";
+  there.settings.push_back({"world", "/elsewhere/sim/worlds/x.xml", {}});
+  CHECK(identity_of(here) == identity_of(there));
+  there.settings.back().value = "/elsewhere/sim/worlds/y.xml";
+  CHECK(identity_of(here) != identity_of(there));
 }
 
 TEST_CASE("results are known by what may change them", "[batch]") {

@@ -141,10 +141,20 @@ TEST_CASE("a run without a simulated robot has no measures", "[batch][measures]"
 TEST_CASE("a track has at most 129 places, the first and the last among them", "[batch][measures]") {
   Scene scene = straight(100.0, 0.5);
   scene.robots.push_back(straight(0.2, 1.0).robots.front());
-  const std::string text = track_text(scene);
+  const std::string text = sketch_of(scene).tracks;
   CHECK(text.starts_with("0.00 0.00,"));
   CHECK(text.ends_with(",50.00 0.00;0.00 0.00,0.10 0.00,0.20 0.00"));
   CHECK(std::count(text.begin(), text.end(), ',') <= 128 + 2);
+}
+
+TEST_CASE("walls that join are one line, and the first eight contacts are kept", "[batch][measures]") {
+  Scene scene;
+  scene.walls = {{{0.0, 0.0}, {1.0, 0.0}}, {{1.0, 0.0}, {1.0, 2.0}}, {{5.0, 5.0}, {6.0, 5.0}}};
+  CHECK(sketch_of(scene).walls == "0.00 0.00,1.00 0.00,1.00 2.00;5.00 5.00,6.00 5.00");
+  scene.contacts.assign(20, {.label = "wall", .position = {0.5, 0.004}, .time = at(1.0)});
+  const std::string contacts = sketch_of(scene).contacts;
+  CHECK(contacts.starts_with("0.50 0.00;0.50 0.00;"));
+  CHECK(std::count(contacts.begin(), contacts.end(), ';') == 7);
 }
 
 TEST_CASE("each measure has a name of its own", "[batch][measures]") {

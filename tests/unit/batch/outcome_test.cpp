@@ -7,16 +7,17 @@ using namespace orca::batch;
 
 namespace {
 
-const Outcome kSome{.ending = Ending::failed,
-                    .reason = "avoid: it threw",
-                    .time = 0.1 + 0.2,
-                    .goals = 2,
-                    .failed_goals = 1,
-                    .contacts = 3,
-                    .failure = Failure::trap,
-                    .measures = {.way = 1.0 / 3.0, .spl = 0.0, .impact_speed = 0.25},
-                    .trace_hash = "0123456789abcdef",
-                    .track = "0.00 1.25,0.10 1.25"};
+const Outcome kSome{
+    .ending = Ending::failed,
+    .reason = "avoid: it threw",
+    .time = 0.1 + 0.2,
+    .goals = 2,
+    .failed_goals = 1,
+    .contacts = 3,
+    .failure = Failure::trap,
+    .measures = {.way = 1.0 / 3.0, .spl = 0.0, .impact_speed = 0.25},
+    .trace_hash = "0123456789abcdef",
+    .sketch = {"0.00 1.25,0.10 1.25", "0.10 1.25", "0.00 0.00,4.00 0.00;1.00 1.00,2.00 1.00"}};
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "approval.hpp"
 #include "orca/batch/statistics/rate.hpp"
 #include "orca/batch/statistics/wilcoxon.hpp"
 #include "orca/xml/document.hpp"
@@ -30,7 +31,8 @@ void add(std::vector<Row>& rows, const std::string& variant, int failures, doubl
     row.outcome.time = fails ? 200.0 : time + 0.1 * world;
     row.outcome.measures.way = 30.0;
     row.outcome.measures.clearance = 0.2;
-    row.outcome.track = "0.00 0.00,1.00 0.50";
+    row.outcome.sketch = {"0.00 0.00,1.00 0.50", fails ? "0.50 0.25" : "",
+                          "-1.00 -1.00,3.00 -1.00,3.00 2.00"};
     rows.push_back(row);
   }
 }
@@ -167,6 +169,38 @@ TEST_CASE("the HTML of a report is well-formed, whatever the names are, and need
              Contains("a=it's &lt;1&gt;") && Contains("<svg") && !Contains("src=") && !Contains("href="));
 }
 
+TEST_CASE("the report of nine runs of each variant is the approved one, in Markdown and in HTML",
+          "[batch][report][approval]") {
+  std::vector<Row> rows;
+  for (int run = 0; run < 9; ++run) {
+    const std::uint64_t seed = 1U + static_cast<std::uint64_t>(run) % 3U;
+    const std::string world = "w1" + std::to_string(run / 3);
+    for (const bool good : {false, true}) {
+      Row row{good ? "good" : "bad", world, seed, {}, {}};
+      row.outcome.time = 40.0 + (good ? 2.0 : 3.0) * run;
+      row.outcome.ending = good || run > 4 ? Ending::success : run > 2 ? Ending::failed : Ending::time_out;
+      if (row.outcome.ending == Ending::time_out) row.outcome.failure = Failure::trap;
+      if (row.outcome.ending == Ending::failed) row.outcome.reason = "avoid: it threw";
+      row.outcome.measures = {.way = 20.0 + 0.5 * run, .clearance = 0.25 + 0.125 * run};
+      row.outcome.sketch.tracks = "0.00 0.00,1.50 " + std::to_string(run) + ".25;3.00 -1.00";
+      rows.push_back(row);
+    }
+  }
+  const Report report = report_on(rows);
+  const std::filesystem::path folder = std::filesystem::path(ORCA_SOURCE_DIR) / "tests/data/reports";
+  test::check_approved(folder / "two_variants.markdown", report.markdown);
+  test::check_approved(folder / "two_variants.html", report.html);
+}
+
+TEST_CASE("the curve of a distribution rises at each value, by the share of all runs", "[batch][report]") {
+  const std::string plot = distribution_plot("x", {{"a", {1.0, 3.0}, 4}});
+  const std::size_t begin = plot.find("points=\"") + 8;
+  const std::string points = plot.substr(begin, plot.find('"', begin) - begin);
+  // 438 pixels for 0.9 to 3.1, 268 pixels for 0 to 1; two of four runs have a value.
+  CHECK(points == "52.0,280.0 71.9,280.0 71.9,213.0 470.1,213.0 470.1,146.0 490.0,146.0 ");
+  CHECK_THAT(plot, Contains(">0 %</text>") && Contains(">100 %</text>") && Contains(">a</text>"));
+}
+
 TEST_CASE("a table of Markdown survives bars and line ends", "[batch][report]") {
   Document document;
   document.title = "t";
@@ -174,13 +208,48 @@ TEST_CASE("a table of Markdown survives bars and line ends", "[batch][report]") 
   CHECK(to_markdown(document) == "# t\n\n| a | b |\n| --- | --- |\n| x\\|y | two lines |\n\n");
 }
 
-TEST_CASE("tracks are read as they were written, and what is no place is left out", "[batch][report]") {
-  const auto tracks = read_tracks("0.00 1.25,-0.10 2.00;3.00 4.00");
-  REQUIRE(tracks.size() == 2);
-  CHECK(tracks[0] == std::vector<Vec2>{{0.0, 1.25}, {-0.1, 2.0}});
-  CHECK(tracks[1] == std::vector<Vec2>{{3.0, 4.0}});
-  CHECK(read_tracks("").at(0).empty());
-  CHECK(read_tracks("1.00 1.00,far").at(0).size() == 1);
+TEST_CASE("lines are read as they were written, and what is no place is left out", "[batch][report]") {
+  const auto lines = read_lines("0.00 1.25,-0.10 2.00;3.00 4.00");
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0] == Places{{0.0, 1.25}, {-0.1, 2.0}});
+  CHECK(lines[1] == Places{{3.0, 4.0}});
+  CHECK(read_lines("").empty());
+  CHECK(read_lines("1.00 1.00,far").at(0).size() == 1);
+}
+
+TEST_CASE("a map has a line for each wall and track, and a cross at each contact, to scale",
+          "[batch][report]") {
+  Map map{.walls = {{{0.0, 0.0}, {4.0, 0.0}, {4.0, 2.0}}}, .tracks = {{{{1.0, 1.0}, {3.0, 1.0}}, 0, true}}};
+  const std::string without_contact = map_plot(map);
+  CHECK_THAT(without_contact, Contains("width=\"420\" height=\"237\""));  // 4.6 m by 2.6 m with the margins
+  CHECK_THAT(without_contact, Contains("d=\"M27.4 210.0L392.6 210.0L392.6 27.4\""));
+  CHECK_THAT(without_contact, Contains("points=\"118.7,118.7 301.3,118.7 \""));
+  CHECK_THAT(without_contact, Contains("<circle cx=\"301.3\" cy=\"118.7\"") && !Contains("<line"));
+  map.contacts = {{4.0, 1.0}};
+  CHECK_THAT(map_plot(map), Contains("<line x1=\"387.6\" y1=\"113.7\" x2=\"397.6\" y2=\"123.7\""));
+}
+
+TEST_CASE("each failure that is shown has a picture with the walls and the contacts", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 2);
+  const std::string page = report_on(rows).html;
+  const std::string failures = page.substr(page.find("<h2>Runs without success"));
+  for (const char* const part : {"<path", "<polyline", "a cross marks each of the first contacts"})
+    CHECK_THAT(failures, Contains(part));
+  CHECK_THAT(page.substr(0, page.find("<h2>Runs without success")),
+             Contains("<path") && !Contains("a cross marks"));
+}
+
+TEST_CASE("where there are few worlds each shows how far its seeds are apart", "[batch][report]") {
+  CHECK(spread_text({20.0, 30.0, 40.0}, *find_metric("time")) == "30.0 (20.0 to 40.0)");
+  CHECK(spread_text({}, *find_metric("time")).empty());
+  std::vector<Row> rows;
+  add(rows, "bad", 0, 20.0);
+  CHECK_THAT(report_on(rows).markdown, !Contains("world: time"));  // twenty worlds
+  for (Row& row : rows) row.seed = std::stoull(row.world.substr(1));
+  for (Row& row : rows) row.world = "w10";
+  CHECK_THAT(report_on(rows).markdown,
+             Contains("| world: time [s] | bad |\n| --- | --- |\n| w10 | 21.9 (21.0 to 22.9) |"));
 }
 
 TEST_CASE("small p-values are not rounded to 0", "[batch][report]") {

@@ -10,6 +10,7 @@
 #include <sqlite3.h>
 
 #include <csignal>
+#include <filesystem>
 #include <vector>
 
 #include "temp_folder.hpp"
@@ -71,6 +72,52 @@ TEST_CASE("a run that is there already is not added again", "[batch]") {
   CHECK_FALSE(store->has("a", "w", 2));
 }
 
+TEST_CASE("what is drawn of a run is kept with it, and a map that many runs share is kept once", "[batch]") {
+  const TempFolder folder;
+  auto store = opened(folder.file("r.sqlite"));
+  const std::string map(100'000, '1');
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    Row one = row("a", "w", seed);
+    one.outcome.sketch = {"0.00 1.00," + std::to_string(seed), "0.50 0.50", seed == 50 ? map + "2" : map};
+    REQUIRE(store->add(one).ok());
+  }
+  CHECK(store->sketch("a", "w", 7) == Sketch{"0.00 1.00,7", "0.50 0.50", map});
+  CHECK(store->sketch("a", "w", 50).walls == map + "2");
+  CHECK(store->sketch("b", "w", 7) == Sketch{});
+  store.reset();  // brings what the write-ahead log holds into the file
+  CHECK(std::filesystem::file_size(folder.file("r.sqlite")) < 1'000'000);
+}
+
+TEST_CASE("what came of making a run twice is kept, and where the results come from", "[batch]") {
+  const TempFolder folder;
+  {
+    const auto store =
+        Store::open(folder.file("r.sqlite"), "1", Origin{"/top/e.xml", {"/plugins/a", "/plugins/b c"}})
+            .value();
+    REQUIRE(store->add(RepeatRow{"v", "w", 18446744073709551615U, {"00", "11", "delivery 3, ..."}}).ok());
+    REQUIRE(store->add(RepeatRow{"a", "w", 2, {"22", "22"}}).ok());
+  }
+  const auto store = opened(folder.file("r.sqlite"), "");
+  const std::vector<RepeatRow> rows = store->repeats();
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].variant == "a");
+  CHECK(rows[0].repeat == Repeat{"22", "22", ""});
+  CHECK(rows[1].seed == 18446744073709551615U);
+  CHECK(rows[1].repeat == Repeat{"00", "11", "delivery 3, ..."});
+  CHECK(store->identity() == "1");
+  CHECK(store->origin().file == "/top/e.xml");
+  CHECK(store->origin().plugins == std::vector<std::string>{"/plugins/a", "/plugins/b c"});
+}
+
+TEST_CASE("a run is found by its names", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("r.sqlite"));
+  REQUIRE(store->add(row("a", "w", 7)).ok());
+  REQUIRE(store->find("a", "w", 7));
+  CHECK(store->find("a", "w", 7)->outcome == row("", "", 0).outcome);
+  CHECK_FALSE(store->find("a", "w", 8));
+}
+
 TEST_CASE("results of another experiment are not mixed with these", "[batch]") {
   const TempFolder folder;
   REQUIRE(opened(folder.file("r.sqlite"), "1")->add(row("a", "w", 1)).ok());
@@ -117,4 +164,58 @@ TEST_CASE("what add() has returned is in the file when its process is killed", "
   REQUIRE(waitpid(writer, &status, 0) == writer);
   REQUIRE(WIFSIGNALED(status));
   CHECK(rows_of(*opened(file)).size() == 50);
+}
+
+TEST_CASE("what runs depend on must not change between them; more may come", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("r.sqlite"));
+  REQUIRE(store->keep({{"plugin a.so", "1"}, {"world w", "2"}}).ok());
+  CHECK(store->keep({{"plugin a.so", "1"}, {"world x", "3"}}).ok());
+  const Status changed = store->keep({{"plugin a.so", "4"}, {"plugin b.so", "1"}, {"world w", "5"}});
+  REQUIRE_FALSE(changed.ok());
+  CHECK_THAT(changed.error().message, Catch::Contains("these were changed: plugin a.so, world w;"));
+  CHECK(store->inputs() == Inputs{{"plugin a.so", "1"}, {"world w", "2"}, {"world x", "3"}});
+}
+
+namespace {
+
+// A file with one run of variant "a" for each seed.
+std::string part(const TempFolder& folder, const std::string& name, const std::vector<std::uint64_t>& seeds,
+                 const std::string& identity = "1") {
+  const auto store = opened(folder.file(name), identity);
+  for (const std::uint64_t seed : seeds) REQUIRE(store->add(row("a", "w", seed)).ok());
+  return folder.file(name);
+}
+
+}  // namespace
+
+TEST_CASE("results of several files are put together, with runs that are in both once", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("all"));
+  REQUIRE(store->take_over(part(folder, "one", {1, 2})).ok());
+  REQUIRE(store->take_over(part(folder, "two", {2, 3})).ok());
+  const std::vector<Row> rows = rows_of(*store);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[2].outcome == row("", "", 0).outcome);
+  CHECK(rows[2].cost.wall == 1.5);
+}
+
+TEST_CASE("results that do not fit are not put together, and nothing of them is taken", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("all"));
+  REQUIRE(store->take_over(part(folder, "one", {1, 2})).ok());
+  CHECK_THAT(store->take_over(part(folder, "other", {3}, "2")).error().message,
+             Catch::Contains("results of another experiment"));
+  {
+    const auto two = opened(folder.file("two"));
+    Row changed = row("a", "w", 2);
+    changed.outcome.time = 7.0;
+    for (const Row& one : {row("a", "w", 3), changed}) REQUIRE(two->add(one).ok());
+  }
+  CHECK_THAT(store->take_over(folder.file("two")).error().message,
+             Catch::Contains("has another outcome of variant a, world w, seed 2 than a folder before it"));
+  REQUIRE(store->keep({{"plugin p.so", "1"}}).ok());
+  REQUIRE(opened(part(folder, "three", {3}))->keep({{"plugin p.so", "2"}}).ok());
+  CHECK_THAT(store->take_over(folder.file("three")).error().message, Catch::Contains("plugin p.so"));
+  CHECK(rows_of(*store).size() == 2);
 }

@@ -106,7 +106,7 @@ class FastBackend final : public DdsBackend {
   // A port that publishes, with what its edges share.
   struct Published {
     std::weak_ptr<Publication> publication;
-    std::int32_t depth = 0;
+    std::int32_t depth = 0;  // of its writer, once there is one
   };
 
   [[nodiscard]] TopicOptions inbox_of(const std::string& process, std::int32_t depth) {

@@ -30,8 +30,7 @@ constexpr std::uint32_t kRare = 5;
 
 std::uint64_t random_number() {
   std::random_device device;
-  const std::uint64_t number = (std::uint64_t{device()} << 32) | device();
-  return number == 0 ? 1 : number;
+  return std::uniform_int_distribution<std::uint64_t>(1)(device);  // 0 is no number of a process
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ rtps::SampleIdentity to_identity(const Label& label) {
 
 // Returns the label; one without edges if the sample has none.
 Label to_label(const rtps::SampleIdentity& identity) {
-  Label label;
+  Label label{};
   const rtps::GUID_t& guid = identity.writer_guid();
   if (std::memcmp(guid.entityId.value, kMark.data(), kMark.size()) != 0) return label;
   std::memcpy(&label.layout_hash, guid.guidPrefix.value, sizeof label.layout_hash);

@@ -32,8 +32,8 @@ class PublishingEnd final : public DdsEnd {
  private:
   // What goes through the topic.
   struct Direct {
-    std::uint64_t session = 0;
-    std::uint64_t subscription = 0;
+    std::uint64_t session;
+    std::uint64_t subscription;
     friend bool operator==(const Direct&, const Direct&) = default;
   };
 
@@ -43,7 +43,7 @@ class PublishingEnd final : public DdsEnd {
   const std::shared_ptr<Publication> publication_;
   const std::uint64_t bit_;
   std::atomic<std::uint64_t> heard_in_{0};  // session of the line in which the client has heard the topic
-  Direct direct_;
+  std::optional<Direct> direct_;
 };
 
 /// The client's end of a Push edge. It passes on the objects of the topic that are due for it, in the order in which they

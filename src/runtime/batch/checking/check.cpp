@@ -8,10 +8,13 @@
 
 namespace orca::batch {
 
-void check_graphs(const Experiment& experiment, const BatchOptions& options, xml::Diagnostics& diagnostics) {
+void check_graphs(const Experiment& experiment, const BatchOptions& options, xml::Diagnostics& diagnostics,
+                  const std::function<void(std::size_t done, std::size_t all)>& watch) {
+  const std::size_t all = experiment.worlds.size() * experiment.variants.size();
   std::set<std::string> said;
   for (std::size_t world = 0; world < experiment.worlds.size(); ++world) {
     for (std::size_t variant = 0; variant < experiment.variants.size(); ++variant) {
+      if (watch) watch(world * experiment.variants.size() + variant, all);
       host::PluginCatalogue catalogue(plugin::PluginIndex(options.plugin_folders), ClockKind::virtual_time);
       graph::LoadOptions load;
       load.settings = experiment.settings_of({variant, world, experiment.seeds.front()});

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,23 +10,29 @@
 namespace orca::batch {
 namespace {
 
-void add(const std::vector<Setting>& settings, Fnv1a& hash) {
-  for (const Setting& setting : settings) hash.add_text(setting.text());
+void add_settings(const std::vector<Setting>& settings, const std::string& folder, Fnv1a& hash) {
+  for (const Setting& setting : settings) hash.add_text(setting.text_from(folder));
   hash.add_text("");
 }
 
 }  // namespace
 
+std::string Setting::text_from(const std::string& folder) const {
+  const std::filesystem::path path(value);
+  return name + "=" + (path.is_absolute() ? path.lexically_relative(folder).string() : value);
+}
+
 std::string identity_of(const Experiment& experiment) {
   Fnv1a hash;
   hash.add_text(experiment.name);
   hash.add_u64(static_cast<std::uint64_t>(experiment.until.count()));
-  add(experiment.settings, hash);
+  const std::string folder = std::filesystem::absolute(experiment.file).lexically_normal().parent_path();
+  add_settings(experiment.settings, folder, hash);
   for (const Variant& variant : experiment.variants) {
     hash.add_text(variant.name);
     const Result<std::string> graph = xml::read_bytes(variant.graph);
     hash.add_text(graph ? *graph : variant.graph);
-    add(variant.settings, hash);
+    add_settings(variant.settings, folder, hash);
   }
   return std::to_string(hash.value());
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -218,6 +219,18 @@ Run Experiment::run(std::size_t number) const {
   const std::size_t variant = number % variants.size();
   const std::size_t place = number / variants.size();
   return {variant, place / seeds.size(), seeds[place % seeds.size()]};
+}
+
+std::optional<std::size_t> Experiment::number_of(const std::string& variant, const std::string& world,
+                                                 std::uint64_t seed) const {
+  const auto its_variant = std::ranges::find(variants, variant, &Variant::name);
+  const auto its_world = std::ranges::find(worlds, world, &World::name);
+  const auto its_seed = std::ranges::find(seeds, seed);
+  if (its_variant == variants.end() || its_world == worlds.end() || its_seed == seeds.end())
+    return std::nullopt;
+  const auto place = static_cast<std::size_t>(its_world - worlds.begin()) * seeds.size() +
+                     static_cast<std::size_t>(its_seed - seeds.begin());
+  return place * variants.size() + static_cast<std::size_t>(its_variant - variants.begin());
 }
 
 std::vector<std::string> Experiment::settings_of(const Run& run) const {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "numbers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "orca/batch/statistics/summary.hpp"
 
 namespace orca::batch {
 namespace {
@@ -26,6 +29,13 @@ std::string value_text(double value, const Metric& metric) {
 
 std::string estimate_text(const Estimate& estimate, const Metric& metric) {
   return value_text(estimate.value, metric) + " (" + span_text(estimate.interval, metric) + ")";
+}
+
+std::string spread_text(const std::vector<double>& values, const Metric& metric) {
+  const Result<double> middle = mean(values);
+  if (!middle) return {};
+  const auto [low, high] = std::ranges::minmax(values);
+  return value_text(*middle, metric) + " (" + span_text({low, high}, metric) + ")";
 }
 
 std::string p_text(double p) { return p < 1e-4 ? "< 0.0001" : formatted("%.4f", p); }

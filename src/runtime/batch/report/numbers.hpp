@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "comparison.hpp"
 
@@ -11,6 +12,8 @@ namespace orca::batch {
 [[nodiscard]] std::string value_text(double value, const Metric& metric);
 /// Returns "80.4 (79.9 to 81.0)".
 [[nodiscard]] std::string estimate_text(const Estimate& estimate, const Metric& metric);
+/// Returns the mean with the smallest and the largest value, "80.4 (78.1 to 83.0)"; nothing if there are none.
+[[nodiscard]] std::string spread_text(const std::vector<double>& values, const Metric& metric);
 /// Returns "0.012", or "< 0.0001".
 [[nodiscard]] std::string p_text(double p);
 /// Returns "time [s]".

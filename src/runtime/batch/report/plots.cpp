@@ -134,13 +134,11 @@ struct MapFrame {
   }
 };
 
-MapFrame frame_of(const std::vector<Line>& walls, const std::vector<Track>& tracks) {
+MapFrame frame_of(const Map& map) {
   Area area;
-  for (const Line& wall : walls) {
-    area.add(wall.from);
-    area.add(wall.to);
-  }
-  for (const Track& track : tracks)
+  for (const Places& wall : map.walls)
+    for (const Vec2& place : wall) area.add(place);
+  for (const Track& track : map.tracks)
     for (const Vec2& place : track.places) area.add(place);
   const Vec2 size = area.high - area.low;
   return {area, std::min(kMapWidth / size.x, kMostMapHeight / size.y)};
@@ -158,6 +156,12 @@ std::string drawn(const Track& track, const MapFrame& frame) {
   return text;
 }
 
+std::string cross(Vec2 at) {
+  constexpr double kHalf = 5.0;  // [pixels]
+  return line(at.x - kHalf, at.y - kHalf, at.x + kHalf, at.y + kHalf, "#d00000") +
+         line(at.x - kHalf, at.y + kHalf, at.x + kHalf, at.y - kHalf, "#d00000");
+}
+
 }  // namespace
 
 std::string distribution_plot(const std::string& axis, const std::vector<Series>& all) {
@@ -171,16 +175,18 @@ std::string distribution_plot(const std::string& axis, const std::vector<Series>
   return svg(kWidth, kHeight, inside);
 }
 
-std::string map_plot(const std::vector<Line>& walls, const std::vector<Track>& tracks) {
-  const MapFrame frame = frame_of(walls, tracks);
+std::string map_plot(const Map& map) {
+  const MapFrame frame = frame_of(map);
   std::string path = "<path fill=\"none\" stroke=\"#444\" d=\"";
-  for (const Line& wall : walls) {
-    const Vec2 from = frame(wall.from);
-    const Vec2 to = frame(wall.to);
-    path += "M" + number(from.x) + " " + number(from.y) + "L" + number(to.x) + " " + number(to.y);
+  for (const Places& wall : map.walls) {
+    for (std::size_t i = 0; i < wall.size(); ++i) {
+      const Vec2 at = frame(wall[i]);
+      path += (i == 0 ? "M" : "L") + number(at.x) + " " + number(at.y);
+    }
   }
   std::string inside = path + "\"/>\n";
-  for (const Track& track : tracks) inside += drawn(track, frame);
+  for (const Track& track : map.tracks) inside += drawn(track, frame);
+  for (const Vec2& contact : map.contacts) inside += cross(frame(contact));
   const Vec2 size = frame.area.high - frame.area.low;
   return svg(frame.scale * size.x, frame.scale * size.y, inside);
 }
@@ -197,18 +203,19 @@ std::string legend_plot(const std::vector<std::string>& variants) {
   return svg(std::max(x, 1.0), 18.0, inside);
 }
 
-std::vector<std::vector<Vec2>> read_tracks(const std::string& text) {
-  std::vector<std::vector<Vec2>> tracks(1);
+std::vector<Places> read_lines(const std::string& text) {
+  std::vector<Places> lines(1);
   const char* at = text.c_str();
   for (Vec2 place; *at != '\0';) {
     int taken = 0;
     if (std::sscanf(at, "%lf %lf%n", &place.x, &place.y, &taken) != 2) break;
-    tracks.back().push_back(place);
+    lines.back().push_back(place);
     at += taken;
-    if (*at == ';') tracks.emplace_back();
+    if (*at == ';') lines.emplace_back();
     if (*at != '\0') ++at;
   }
-  return tracks;
+  std::erase_if(lines, [](const Places& one) { return one.empty(); });
+  return lines;
 }
 
 }  // namespace orca::batch

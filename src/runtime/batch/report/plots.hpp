@@ -20,24 +20,29 @@ struct Series {
 /// Returns the share of the runs whose value is at most x, as a stepped line for each series. @pre  one has a value.
 [[nodiscard]] std::string distribution_plot(const std::string& axis, const std::vector<Series>& all);
 
-/// A line on a map.
-struct Line {
-  Vec2 from, to;  ///< [m] in the world.
-};
+/// Places that a line joins, [m] in the world.
+using Places = std::vector<Vec2>;
 /// Where a robot went, on a map.
 struct Track {
-  std::vector<Vec2> places;  ///< [m] in the world.
-  std::size_t variant = 0;   ///< Whose colour it gets.
-  bool ends_badly = false;   ///< Marks its last place.
+  Places places;
+  std::size_t variant = 0;  ///< Whose colour it gets.
+  bool ends_badly = false;  ///< Marks its last place.
 };
 
-/// Returns a map with tracks. @pre  there is a line or a place.
-[[nodiscard]] std::string map_plot(const std::vector<Line>& walls, const std::vector<Track>& tracks);
+/// What is drawn of a world.
+struct Map {
+  std::vector<Places> walls{};
+  std::vector<Track> tracks{};
+  Places contacts{};  ///< Each gets a cross.
+};
+
+/// Returns a map. @pre  there is a wall or a track with a place.
+[[nodiscard]] std::string map_plot(const Map& map);
 
 /// Returns the names of variants with their colours, for the lines of a map.
 [[nodiscard]] std::string legend_plot(const std::vector<std::string>& variants);
 
-/// Reads what track_text() has written: the places of each robot. What is no place is left out.
-[[nodiscard]] std::vector<std::vector<Vec2>> read_tracks(const std::string& text);
+/// Reads lines of a Sketch. What is no place is left out; there is no line without a place.
+[[nodiscard]] std::vector<Places> read_lines(const std::string& text);
 
 }  // namespace orca::batch

@@ -9,6 +9,7 @@
 #include "comparison.hpp"
 #include "document.hpp"
 #include "numbers.hpp"
+#include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
 #include "plots.hpp"
 
@@ -16,6 +17,7 @@ namespace orca::batch {
 namespace {
 
 constexpr std::size_t kShownWorlds = 6;
+constexpr std::size_t kListedWorlds = 12;  // as many as a reader looks at one by one
 constexpr std::size_t kShownFailures = 3;  // of a variant and kind
 
 std::string settings_text(const std::vector<Setting>& settings) {
@@ -54,6 +56,12 @@ class Writer {
     for (const Variant& variant : experiment_.variants)
       table.rows.push_back({variant.name, variant.graph, settings_text(variant.settings)});
     document_.add(std::move(table));
+    for (const RepeatRow& row : store_.repeats())
+      if (!row.repeat.difference.empty())
+        document_.add(Paragraph{
+            "Variant " + row.variant + " depends on more than world and seed: made twice, its run in " +
+            row.world + " with seed " + std::to_string(row.seed) +
+            " differed. Its figures are those of this machine and this time. " + row.repeat.difference});
     if (!experiment_.settings.empty())
       document_.add(Paragraph{"Settings of all runs: " + settings_text(experiment_.settings)});
   }
@@ -131,20 +139,43 @@ class Writer {
   }
 
   void worlds() {
-    document_.add(Heading{"Successes by world"});
-    Table table{{"world"}, {}};
+    document_.add(Heading{"World by world"});
+    add_world_table("successes", [&](const std::string& variant, const std::string& world) {
+      const auto found = result_.matrix.find({variant, world});
+      if (found == result_.matrix.end()) return std::string();
+      return std::to_string(found->second.first) + " of " + std::to_string(found->second.second);
+    });
+    if (result_.worlds.size() > kListedWorlds) return;
+    for (const std::string& name : experiment_.metrics) {
+      const Metric& metric = *find_metric(name);
+      if (metric.is_success()) continue;
+      add_world_table(title_of(metric), [&](const std::string& variant, const std::string& world) {
+        return spread_text(values_of(metric, variant, world), metric);
+      });
+    }
+    document_.add(Paragraph{"Means over the seeds, with the smallest and the largest value."});
+  }
+
+  // Adds a table with a row for each world and a column for each variant.
+  template <class CellText>
+  void add_world_table(const std::string& what, const CellText& text_of) {
+    Table table{{"world: " + what}, {}};
     for (const VariantResult& variant : result_.variants) table.head.push_back(variant.name);
     for (const std::string& world : result_.worlds) {
       std::vector<std::string> row{world};
-      for (const VariantResult& variant : result_.variants) {
-        const auto found = result_.matrix.find({variant.name, world});
-        row.push_back(found == result_.matrix.end() ? ""
-                                                    : std::to_string(found->second.first) + " of " +
-                                                          std::to_string(found->second.second));
-      }
+      for (const VariantResult& variant : result_.variants) row.push_back(text_of(variant.name, world));
       table.rows.push_back(std::move(row));
     }
     document_.add(std::move(table));
+  }
+
+  [[nodiscard]] std::vector<double> values_of(const Metric& metric, const std::string& variant,
+                                              const std::string& world) const {
+    std::vector<double> values;
+    for (const Row& row : rows_)
+      if (row.variant == variant && row.world == world)
+        if (const std::optional<double> value = metric.of(row.outcome)) values.push_back(*value);
+    return values;
   }
 
   [[nodiscard]] std::vector<std::string> variant_names() const {
@@ -199,20 +230,27 @@ class Writer {
   void tracks() {
     bool is_first = true;
     for (const std::string& world : worlds_to_show()) {
-      std::vector<Track> tracks;
-      for (const Row& row : rows_) {
-        if (row.world != world) continue;
-        const bool ends_badly = row.outcome.ending != Ending::success;
-        for (std::vector<Vec2>& places : read_tracks(store_.track(row.variant, row.world, row.seed)))
-          if (!places.empty()) tracks.push_back({std::move(places), number_of(row.variant), ends_badly});
-      }
-      if (tracks.empty()) continue;
+      Map map;
+      for (const Row& row : rows_)
+        if (row.world == world) add(map, row);
+      map.contacts.clear();  // of many runs they say nothing: each failure has its own map
+      if (map.tracks.empty()) continue;
       if (is_first) document_.add(Heading{"Where they drove"});
       is_first = false;
       document_.add(
-          Figure{legend_plot(variant_names()) + map_plot({}, tracks),
+          Figure{legend_plot(variant_names()) + map_plot(map),
                  "World " + world + ": all seeds; a circle marks the end of a run without success."});
     }
+  }
+
+  // The walls are those of the first run: what moves is elsewhere in each.
+  void add(Map& map, const Row& row) const {
+    const Sketch sketch = store_.sketch(row.variant, row.world, row.seed);
+    if (map.walls.empty()) map.walls = read_lines(sketch.walls);
+    for (Places& places : read_lines(sketch.tracks))
+      map.tracks.push_back(
+          {std::move(places), number_of(row.variant), row.outcome.ending != Ending::success});
+    for (const Places& contact : read_lines(sketch.contacts)) map.contacts.push_back(contact.front());
   }
 
   void failures() {
@@ -226,6 +264,14 @@ class Writer {
       is_first = false;
       document_.add(Paragraph{row.variant + " in " + row.world + ", seed " + std::to_string(row.seed) + ": " +
                               kind + (row.outcome.reason.empty() ? "" : " (" + row.outcome.reason + ")")});
+      Map map;
+      add(map, row);
+      if (!map.tracks.empty())
+        document_.add(
+            Figure{map_plot(map),
+                   map.contacts.empty()
+                       ? "Where it drove, up to the circle."
+                       : "Where it drove, up to the circle; a cross marks each of the first contacts."});
       if (const auto run = find(row)) document_.add(Command{replay_command(experiment_, *run)});
     }
     for (const auto& [what, count] : shown)
@@ -255,20 +301,13 @@ class Writer {
   Document document_;
 };
 
-// A word of a shell's command.
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 }  // namespace
 
 std::string replay_command(const Experiment& experiment, const Run& run) {
-  std::string text = "deployer " + shell_word(experiment.variants[run.variant].graph) +
+  std::string text = "deployer " + in_shell_quotes(experiment.variants[run.variant].graph) +
                      " --clock virtual --seed " + std::to_string(run.seed) + " --until " +
-                     shell_word(xml::number_text(to_seconds(experiment.until)) + " s");
-  for (const std::string& setting : experiment.settings_of(run)) text += " --set " + shell_word(setting);
+                     in_shell_quotes(xml::number_text(to_seconds(experiment.until)) + " s");
+  for (const std::string& setting : experiment.settings_of(run)) text += " --set " + in_shell_quotes(setting);
   return text;
 }
 

@@ -21,7 +21,7 @@ constexpr std::array<std::pair<Ending, const char*>, 7> kEndings{{{Ending::succe
                                                                   {Ending::failed, "failed"},
                                                                   {Ending::crash, "crash"},
                                                                   {Ending::hang, "hang"}}};
-constexpr std::size_t kLinesBesideMeasures = 9;
+constexpr std::size_t kLinesBesideMeasures = 11;
 constexpr std::string_view kMissing = "-";
 
 template <class Number>
@@ -69,7 +69,8 @@ std::string to_text(const Outcome& outcome) {
   for (const std::string& line :
        {std::string(name_of(outcome.ending)), one_line(outcome.reason), xml::number_text(outcome.time),
         std::to_string(outcome.goals), std::to_string(outcome.failed_goals), std::to_string(outcome.contacts),
-        std::string(name_of(outcome.failure)), outcome.trace_hash, outcome.track})
+        std::string(name_of(outcome.failure)), outcome.trace_hash, outcome.sketch.tracks,
+        outcome.sketch.contacts, outcome.sketch.walls})
     text += line + "\n";
   for (const Measure& measure : all_measures()) {
     const std::optional<double>& value = outcome.measures.*measure.value;
@@ -92,7 +93,7 @@ std::optional<Outcome> read_outcome(std::string_view text) {
   outcome.reason = lines[1];
   outcome.failure = *failure;
   outcome.trace_hash = lines[7];
-  outcome.track = lines[8];
+  outcome.sketch = {std::string(lines[8]), std::string(lines[9]), std::string(lines[10])};
   return outcome;
 }
 

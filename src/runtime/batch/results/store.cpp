@@ -3,8 +3,10 @@
 
 #include <sqlite3.h>
 
+#include <sstream>
 #include <utility>
 
+#include "orca/base/hash.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::batch {
@@ -13,22 +15,30 @@ namespace {
 constexpr const char* kSchema = R"(
   PRAGMA journal_mode = WAL;
   PRAGMA synchronous = NORMAL;
-  CREATE TABLE IF NOT EXISTS experiment (identity TEXT NOT NULL);
+  CREATE TABLE IF NOT EXISTS experiment (identity TEXT NOT NULL, file TEXT NOT NULL, plugins TEXT NOT NULL);
   CREATE TABLE IF NOT EXISTS runs (
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, ending TEXT NOT NULL, reason TEXT NOT NULL,
     time REAL NOT NULL, goals INTEGER NOT NULL, failed_goals INTEGER NOT NULL, contacts INTEGER NOT NULL,
     failure TEXT NOT NULL, trace_hash TEXT NOT NULL,@
     PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
   CREATE TABLE IF NOT EXISTS tracks (
-    variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, places TEXT NOT NULL,
-    PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+    variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, places TEXT NOT NULL, contacts TEXT NOT NULL,
+    map TEXT NOT NULL, PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS maps (hash TEXT PRIMARY KEY, walls TEXT NOT NULL) WITHOUT ROWID;
   CREATE TABLE IF NOT EXISTS timing (
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, wall REAL NOT NULL, cpu REAL NOT NULL,
     PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS repeats (
+    variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL,
+    first TEXT NOT NULL, second TEXT NOT NULL, difference TEXT NOT NULL,
+    PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS inputs (name TEXT PRIMARY KEY NOT NULL, content TEXT NOT NULL) WITHOUT ROWID;
 )";
 
+constexpr const char* kBetweenFolders = "\n";
+
 // Changes with each change of the tables.
-constexpr std::uint32_t kLayout = 2;
+constexpr std::uint32_t kLayout = 4;
 
 // Returns the schema, with a column for each measure.
 std::string schema() {
@@ -109,40 +119,31 @@ std::string padded(std::uint64_t seed) {
   return std::string(kDigits - digits.size(), '0') + digits;
 }
 
+// Most runs of a world leave the same map, which is kept once.
+std::string hash_of(const std::string& walls) {
+  Fnv1a hash;
+  hash.add_text(walls);
+  return padded(hash.value());
+}
+
 class SqliteStore final : public Store {
  public:
   SqliteStore(std::string file, Database database) : file_(std::move(file)), database_(std::move(database)) {}
 
-  Status prepare(const std::string& identity) {
+  Status prepare(const std::string& identity, const Origin& origin) {
     if (Status known = check_layout(); !known.ok()) return known;
     if (sqlite3_exec(database_.get(), schema().c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
       return fault();
     if (identity.empty()) return ok();
-    Statement known(database_.get(), "SELECT identity FROM experiment");
-    const int found = known.step();
-    if (found == SQLITE_ROW) return check(known.text(0), identity);
-    if (found != SQLITE_DONE) return fault();
-    Statement note(database_.get(), "INSERT INTO experiment VALUES (?)");
-    return (note << identity).step() == SQLITE_DONE ? ok() : fault();
+    if (const std::string known = this->identity(); !known.empty()) return check(known, identity);
+    Statement note(database_.get(), "INSERT INTO experiment VALUES (?, ?, ?)");
+    note << identity << origin.file << joined(origin.plugins, kBetweenFolders);
+    return note.step() == SQLITE_DONE ? ok() : fault();
   }
 
   Status add(const Row& row) override {
     const std::string seed = padded(row.seed);
-    const Outcome& o = row.outcome;
-    if (sqlite3_exec(database_.get(), "BEGIN", nullptr, nullptr, nullptr) != SQLITE_OK) return fault();
-    Statement run(database_.get(),
-                  "INSERT OR IGNORE INTO runs VALUES (" +
-                      marks(static_cast<std::size_t>(kFirstMeasure) + all_measures().size()) + ")");
-    run << row.variant << row.world << seed << std::string(name_of(o.ending)) << o.reason << o.time << o.goals
-        << o.failed_goals << o.contacts << std::string(name_of(o.failure)) << o.trace_hash;
-    for (const Measure& measure : all_measures()) run << o.measures.*measure.value;
-    Statement track(database_.get(), "INSERT OR IGNORE INTO tracks VALUES (?, ?, ?, ?)");
-    track << row.variant << row.world << seed << o.track;
-    Statement timing(database_.get(), "INSERT OR IGNORE INTO timing VALUES (?, ?, ?, ?, ?)");
-    timing << row.variant << row.world << seed << row.cost.wall << row.cost.cpu;
-    for (Statement* const statement : {&run, &track, &timing})
-      if (statement->step() != SQLITE_DONE) return fault();
-    return sqlite3_exec(database_.get(), "COMMIT", nullptr, nullptr, nullptr) == SQLITE_OK ? ok() : fault();
+    return in_transaction([&] { return add_parts(row, seed); });
   }
 
   [[nodiscard]] bool has(const std::string& variant, const std::string& world,
@@ -151,11 +152,22 @@ class SqliteStore final : public Store {
     return (found << variant << world << padded(seed)).step() == SQLITE_ROW;
   }
 
-  [[nodiscard]] std::string track(const std::string& variant, const std::string& world,
-                                  std::uint64_t seed) const override {
+  [[nodiscard]] std::optional<Row> find(const std::string& variant, const std::string& world,
+                                        std::uint64_t seed) const override {
     Statement found(database_.get(),
-                    "SELECT places FROM tracks WHERE variant = ? AND world = ? AND seed = ?");
-    return (found << variant << world << padded(seed)).step() == SQLITE_ROW ? found.text(0) : "";
+                    "SELECT * FROM runs JOIN timing USING (variant, world, seed) "
+                    "WHERE variant = ? AND world = ? AND seed = ?");
+    if ((found << variant << world << padded(seed)).step() != SQLITE_ROW) return std::nullopt;
+    return row_of(found);
+  }
+
+  [[nodiscard]] Sketch sketch(const std::string& variant, const std::string& world,
+                              std::uint64_t seed) const override {
+    Statement found(database_.get(),
+                    "SELECT places, contacts, walls FROM tracks JOIN maps ON map = hash "
+                    "WHERE variant = ? AND world = ? AND seed = ?");
+    if ((found << variant << world << padded(seed)).step() != SQLITE_ROW) return {};
+    return {found.text(0), found.text(1), found.text(2)};
   }
 
   Status for_each(const std::function<void(const Row&)>& take) const override {
@@ -167,9 +179,137 @@ class SqliteStore final : public Store {
     return found == SQLITE_DONE ? ok() : fault();
   }
 
+  Status add(const RepeatRow& row) override {
+    Statement note(database_.get(), "INSERT OR IGNORE INTO repeats VALUES (?, ?, ?, ?, ?, ?)");
+    note << row.variant << row.world << padded(row.seed) << row.repeat.first << row.repeat.second
+         << row.repeat.difference;
+    return note.step() == SQLITE_DONE ? ok() : fault();
+  }
+
+  [[nodiscard]] std::vector<RepeatRow> repeats() const override {
+    Statement all(database_.get(), "SELECT * FROM repeats ORDER BY variant, world, seed");
+    std::vector<RepeatRow> rows;
+    while (all.step() == SQLITE_ROW)
+      rows.push_back(
+          {all.text(0), all.text(1), std::stoull(all.text(2)), {all.text(3), all.text(4), all.text(5)}});
+    return rows;
+  }
+
+  Status keep(const Inputs& inputs) override {
+    if (Status same = check(inputs); !same.ok()) return same;
+    return in_transaction([&] {
+      for (const auto& [name, content] : inputs) {
+        Statement note(database_.get(), "INSERT OR IGNORE INTO inputs VALUES (?, ?)");
+        if ((note << name << content).step() != SQLITE_DONE) return fault();
+      }
+      return ok();
+    });
+  }
+
+  [[nodiscard]] Inputs inputs() const override {
+    Statement all(database_.get(), "SELECT name, content FROM inputs");
+    Inputs inputs;
+    while (all.step() == SQLITE_ROW) inputs[all.text(0)] = all.text(1);
+    return inputs;
+  }
+
+  Status take_over(const std::string& other) override {
+    const Result<std::unique_ptr<Store>> store = Store::open(other, identity());
+    if (!store) return store.error();
+    if (Status same = check((*store)->inputs()); !same.ok())
+      return fail(same.error().code, other + ": " + same.error().message);
+    Statement attach(database_.get(), "ATTACH ? AS other");
+    if ((attach << other).step() != SQLITE_DONE) return fault();
+    const Status taken = in_transaction([&] { return take_attached(other); });
+    Statement detach(database_.get(), "DETACH other");
+    return detach.step() == SQLITE_DONE || !taken.ok() ? taken : fault();
+  }
+
+  [[nodiscard]] std::string identity() const override {
+    Statement known(database_.get(), "SELECT identity FROM experiment");
+    return known.step() == SQLITE_ROW ? known.text(0) : "";
+  }
+
+  [[nodiscard]] Origin origin() const override {
+    Statement known(database_.get(), "SELECT file, plugins FROM experiment");
+    if (known.step() != SQLITE_ROW) return {};
+    Origin origin{known.text(0), {}};
+    std::istringstream folders(known.text(1));
+    for (std::string folder; std::getline(folders, folder, kBetweenFolders[0]);)
+      origin.plugins.push_back(folder);
+    return origin;
+  }
+
  private:
   [[nodiscard]] Status fault() const {
     return fail(Code::unavailable, file_ + ": " + sqlite3_errmsg(database_.get()));
+  }
+
+  Status add_parts(const Row& row, const std::string& seed) {
+    const Outcome& o = row.outcome;
+    Statement run(database_.get(),
+                  "INSERT OR IGNORE INTO runs VALUES (" +
+                      marks(static_cast<std::size_t>(kFirstMeasure) + all_measures().size()) + ")");
+    run << row.variant << row.world << seed << std::string(name_of(o.ending)) << o.reason << o.time << o.goals
+        << o.failed_goals << o.contacts << std::string(name_of(o.failure)) << o.trace_hash;
+    for (const Measure& measure : all_measures()) run << o.measures.*measure.value;
+    Statement track(database_.get(), "INSERT OR IGNORE INTO tracks VALUES (?, ?, ?, ?, ?, ?)");
+    const std::string map = hash_of(o.sketch.walls);
+    track << row.variant << row.world << seed << o.sketch.tracks << o.sketch.contacts << map;
+    Statement walls(database_.get(), "INSERT OR IGNORE INTO maps VALUES (?, ?)");
+    walls << map << o.sketch.walls;
+    Statement timing(database_.get(), "INSERT OR IGNORE INTO timing VALUES (?, ?, ?, ?, ?)");
+    timing << row.variant << row.world << seed << row.cost.wall << row.cost.cpu;
+    for (Statement* const statement : {&run, &track, &walls, &timing})
+      if (statement->step() != SQLITE_DONE) return fault();
+    return ok();
+  }
+
+  Status execute(const char* text) {
+    return sqlite3_exec(database_.get(), text, nullptr, nullptr, nullptr) == SQLITE_OK ? ok() : fault();
+  }
+
+  // Makes all changes of `work`, or none.
+  Status in_transaction(const std::function<Status()>& work) {
+    if (Status begun = execute("BEGIN"); !begun.ok()) return begun;
+    Status worked = work();
+    if (worked.ok()) worked = execute("COMMIT");
+    if (!worked.ok()) (void)execute("ROLLBACK");
+    return worked;
+  }
+
+  Status take_attached(const std::string& other) {
+    Statement conflict(database_.get(),
+                       "SELECT * FROM other.runs WHERE (variant, world, seed) IN "
+                       "(SELECT variant, world, seed FROM main.runs) EXCEPT SELECT * FROM main.runs LIMIT 1");
+    const int found = conflict.step();
+    if (found == SQLITE_ROW)
+      return fail(Code::failed_precondition,
+                  other + " has another outcome of variant " + conflict.text(0) + ", world " +
+                      conflict.text(1) + ", seed " + std::to_string(std::stoull(conflict.text(2))) +
+                      " than a folder before it; simbatch diff shows what differs");
+    if (found != SQLITE_DONE) return fault();
+    return execute(R"(
+      INSERT OR IGNORE INTO main.runs SELECT * FROM other.runs;
+      INSERT OR IGNORE INTO main.tracks SELECT * FROM other.tracks;
+      INSERT OR IGNORE INTO main.maps SELECT * FROM other.maps;
+      INSERT OR IGNORE INTO main.timing SELECT * FROM other.timing;
+      INSERT OR IGNORE INTO main.repeats SELECT * FROM other.repeats;
+      INSERT OR IGNORE INTO main.inputs SELECT * FROM other.inputs;)");
+  }
+
+  // Inputs that are not known yet are those of more worlds.
+  [[nodiscard]] Status check(const Inputs& inputs) const {
+    const Inputs known = this->inputs();
+    std::vector<std::string> others;
+    for (const auto& [name, content] : inputs)
+      if (const auto found = known.find(name); found != known.end() && found->second != content)
+        others.push_back(name);
+    if (others.empty()) return ok();
+    return fail(Code::failed_precondition,
+                "since results were made, these were changed: " + listed(others) +
+                    "; runs before and after a change cannot be compared, so make all runs again, in another "
+                    "folder (--out)");
   }
 
   // A file of another layout would be read column by column into the wrong places.
@@ -217,19 +357,20 @@ class SqliteStore final : public Store {
   static constexpr int kFirstMeasure = 11;  // of the columns
 
   const std::string file_;
-  const Database database_;
+  Database database_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Store>> Store::open(const std::string& file, const std::string& identity) {
+Result<std::unique_ptr<Store>> Store::open(const std::string& file, const std::string& identity,
+                                           const Origin& origin) {
   sqlite3* opened = nullptr;
   const int result = sqlite3_open(file.c_str(), &opened);
   Database database(opened);
   if (result != SQLITE_OK)
     return fail(Code::unavailable, file + " cannot be opened: " + sqlite3_errmsg(opened));
   auto store = std::make_unique<SqliteStore>(file, std::move(database));
-  if (Status prepared = store->prepare(identity); !prepared.ok()) return prepared.error();
+  if (Status prepared = store->prepare(identity, origin); !prepared.ok()) return prepared.error();
   return std::unique_ptr<Store>(std::move(store));
 }
 

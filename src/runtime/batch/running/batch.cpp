@@ -1,122 +1,145 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/batch/batch.hpp"
 
-#include <poll.h>
-#include <sys/signalfd.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <csignal>
+#include <map>
 #include <utility>
 
-#include "process.hpp"
-#include "worker.hpp"
+#include "crew.hpp"
+#include "orca/batch/difference.hpp"
+#include "stop_requests.hpp"
 
 namespace orca::batch {
 namespace {
 
-constexpr auto kTick = std::chrono::milliseconds(200);
+// What depends on addresses may come out the same by chance.
+constexpr int kMostPairs = 5;
 
-// Takes SIGINT and SIGTERM as news instead of an end, as long as it exists.
-class StopRequests {
+// The runs that are made twice.
+class RunsTwice {
  public:
-  StopRequests() {
-    sigset_t wanted;
-    sigemptyset(&wanted);
-    sigaddset(&wanted, SIGINT);
-    sigaddset(&wanted, SIGTERM);
-    sigprocmask(SIG_BLOCK, &wanted, &before_);
-    descriptor_ = signalfd(-1, &wanted, SFD_CLOEXEC | SFD_NONBLOCK);
+  explicit RunsTwice(const std::vector<std::size_t>& numbers) {
+    for (const std::size_t number : numbers)
+      for (const bool elsewhere : {false, true}) tasks_.push_back({number, elsewhere});
   }
-  ~StopRequests() {
-    signalfd_siginfo taken{};
-    while (::read(descriptor_, &taken, sizeof taken) > 0) continue;
-    close(descriptor_);
-    sigprocmask(SIG_SETMASK, &before_, nullptr);
+
+  std::optional<Task> next() {
+    return next_ < tasks_.size() ? std::optional<Task>(tasks_[next_++]) : std::nullopt;
   }
-  StopRequests(const StopRequests&) = delete;
-  StopRequests& operator=(const StopRequests&) = delete;
-  [[nodiscard]] int descriptor() const { return descriptor_; }
+  void take(const Task& task, const Outcome& outcome) {
+    (task.elsewhere ? second_ : first_)[task.number] = outcome;
+  }
+  // Calls `compare` for each run that was made both times.
+  Status for_each(const std::function<Status(std::size_t, const Outcome&, const Outcome&)>& compare) const {
+    for (const auto& [number, first] : first_) {
+      const auto second = second_.find(number);
+      if (second == second_.end()) continue;
+      if (Status compared = compare(number, first, second->second); !compared.ok()) return compared;
+    }
+    return ok();
+  }
 
  private:
-  sigset_t before_{};
-  int descriptor_ = -1;
+  std::vector<Task> tasks_;
+  std::size_t next_ = 0;  // of tasks_
+  std::map<std::size_t, Outcome> first_;
+  std::map<std::size_t, Outcome> second_;
 };
+
+std::string mark_of(const Outcome& outcome) {
+  return outcome.trace_hash.empty() ? name_of(outcome.ending) : outcome.trace_hash;
+}
+
+// Returns whether two outcomes are the same but for the words of the reason, which may name a process.
+bool are_same(Outcome a, const Outcome& b) {
+  a.reason = b.reason;
+  return a == b;
+}
 
 class Batch {
  public:
-  Batch(const Experiment& experiment, const std::vector<std::size_t>& wanted, const BatchOptions& options,
+  Batch(const Experiment& experiment, const BatchPlan& plan, const BatchOptions& options,
         BatchListener& listener)
-      : experiment_(experiment), wanted_(wanted), options_(options), listener_(listener) {}
+      : experiment_(experiment), plan_(plan), options_(options), listener_(listener) {}
 
-  Result<bool> run() {
-    while (next_ < wanted_.size() || !processes_.empty()) {
-      if (Status started = start_some(); !started.ok()) return started.error();
-      if (wait()) return false;
-      if (Status taken = take_finished(); !taken.ok()) return taken.error();
-      listener_.tick(processes_.size());
-    }
-    return true;
+  Result<BatchEnd> run() {
+    RunsTwice twice(plan_.twice);
+    const Result<bool> began = crew_.make([&] { return twice.next(); },
+                                          [&](const Task& task, const Outcome& outcome, const Cost& cost) {
+                                            twice.take(task, outcome);
+                                            return task.elsewhere ? ok() : finish(task, outcome, cost);
+                                          });
+    if (!began) return began.error();
+    if (!*began) return BatchEnd::stopped;
+    const Status compared =
+        twice.for_each([this](std::size_t number, const Outcome& first, const Outcome& second) {
+          const Repeat repeat = compared_runs(number, first, second);
+          // A search that was stopped says nothing.
+          return requests_.any() ? ok() : listener_.repeated(number, repeat);
+        });
+    if (!compared.ok()) return compared.error();
+    return run_others();
   }
 
  private:
-  Status start_some() {
-    while (next_ < wanted_.size() && processes_.size() < std::max<std::size_t>(options_.jobs, 1)) {
-      const std::size_t number = wanted_[next_];
-      Result<RunProcess> process = RunProcess::start(
-          number, [&](int to) { work(experiment_, experiment_.run(number), options_, to); },
-          to_seconds(experiment_.limit));
-      if (!process) return process.error();
-      processes_.push_back({std::move(process).value(), false});
-      ++next_;
-    }
-    return ok();
+  Result<BatchEnd> run_others() {
+    if (requests_.any()) return BatchEnd::stopped;
+    const auto next = [this]() -> std::optional<Task> {
+      const std::optional<std::size_t> number = plan_.next ? plan_.next() : std::nullopt;
+      return number ? std::optional<Task>(Task{*number}) : std::nullopt;
+    };
+    const Result<bool> finished =
+        crew_.make(next, [this](const Task& task, const Outcome& outcome, const Cost& cost) {
+          return finish(task, outcome, cost);
+        });
+    if (!finished) return finished.error();
+    if (!*finished) return BatchEnd::stopped;
+    return crew_.left_out() == 0 ? BatchEnd::complete : BatchEnd::overloaded;
   }
 
-  // Waits for news of a run. Returns whether a stop was requested.
-  bool wait() {
-    std::vector<pollfd> news{{requests_.descriptor(), POLLIN, 0}};
-    for (const Running& one : processes_) news.push_back({one.process.descriptor(), POLLIN, 0});
-    (void)poll(news.data(), news.size(), kTick.count());
-    for (std::size_t i = 0; i < processes_.size(); ++i)
-      if (news[i + 1].revents != 0) processes_[i].has_ended = processes_[i].process.read();
-    return news[0].revents != 0;
+  Status finish(const Task& task, const Outcome& outcome, const Cost& cost) {
+    return listener_.finished(task.number, outcome, cost);
   }
 
-  Status take_finished() {
-    const auto now = RunProcess::Clock::now();
-    for (auto one = processes_.begin(); one != processes_.end();) {
-      if (!one->has_ended && now < one->process.deadline()) {
-        ++one;
-        continue;
+  Repeat compared_runs(std::size_t number, const Outcome& first, const Outcome& second) {
+    Repeat repeat{mark_of(first), mark_of(second)};
+    if (!are_same(first, second)) find_difference(number, first, second, repeat);
+    return repeat;
+  }
+
+  // Makes the run twice more, with a look at the deliveries.
+  void find_difference(std::size_t number, const Outcome& first, const Outcome& second, Repeat& repeat) {
+    const RunAgain again{experiment_, number, options_};
+    for (int i = 0; i < kMostPairs; ++i) {
+      const Result<PairOfRuns> pair = make_both(again, again, [this] { return requests_.any(); });
+      if (!pair) break;
+      if (pair->difference) {
+        repeat.difference = pair->difference->text("the first run", "the second");
+        return;
       }
-      Cost cost;
-      const Outcome outcome = one->has_ended ? one->process.outcome(cost) : one->process.kill_late(cost);
-      if (Status stored = listener_.finished(one->process.run(), outcome, cost); !stored.ok()) return stored;
-      one = processes_.erase(one);
+      // The second one did not start, for want of the machine, and does now.
+      if (second.trace_hash.empty() && pair->second_hash == first.trace_hash) {
+        repeat.second = pair->second_hash;
+        return;
+      }
     }
-    return ok();
+    repeat.difference = "it ended as " + std::string(name_of(first.ending)) + " and then as " +
+                        name_of(second.ending) + "; while the deliveries were watched, they were the same";
   }
-
-  struct Running {
-    RunProcess process;
-    bool has_ended;
-  };
 
   const Experiment& experiment_;
-  const std::vector<std::size_t>& wanted_;
+  const BatchPlan& plan_;
   const BatchOptions& options_;
   BatchListener& listener_;
   StopRequests requests_;
-  std::vector<Running> processes_;
-  std::size_t next_ = 0;  // of wanted_
+  Crew crew_{experiment_, options_, listener_, requests_};
 };
 
 }  // namespace
 
-Result<bool> run_batch(const Experiment& experiment, const std::vector<std::size_t>& wanted,
-                       const BatchOptions& options, BatchListener& listener) {
-  return Batch(experiment, wanted, options, listener).run();
+Result<BatchEnd> run_batch(const Experiment& experiment, const BatchPlan& plan, const BatchOptions& options,
+                           BatchListener& listener) {
+  return Batch(experiment, plan, options, listener).run();
 }
 
 }  // namespace orca::batch

@@ -7,10 +7,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 #include <utility>
 
 namespace orca::batch {
@@ -18,6 +22,23 @@ namespace {
 
 double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+constexpr double kShortestOverload = 5.0;  // [s]
+
+// Returns how long the threads of a process have waited for a processor while they could run [s]; 0 where the system does not
+// say it.
+double waited_for_processor(pid_t pid) {
+  double waited = 0.0;
+  std::error_code unused;
+  for (const auto& thread :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task", unused)) {
+    std::ifstream file(thread.path() / "schedstat");
+    double ran = 0.0;
+    double waits = 0.0;
+    if (file >> ran >> waits) waited += 1e-9 * waits;
+  }
+  return waited;
 }
 
 std::string reason_of(int status) {
@@ -49,7 +70,7 @@ void be_silent() {
 
 }  // namespace
 
-Result<RunProcess> RunProcess::start(std::size_t run, const std::function<void(int)>& work, double limit) {
+Result<RunProcess> RunProcess::start(const std::function<void(int)>& work, double limit) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
     return fail(Code::unavailable, std::string("there is no pipe for a run: ") + std::strerror(errno));
@@ -65,24 +86,25 @@ Result<RunProcess> RunProcess::start(std::size_t run, const std::function<void(i
     close(ends[0]);
     return fail(Code::unavailable, std::string("no process can be started: ") + std::strerror(reason));
   }
-  const auto time = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit));
-  return RunProcess(run, pid, ends[0], Clock::now() + time);
+  return RunProcess(pid, ends[0], limit);
 }
 
 RunProcess::RunProcess(RunProcess&& other) noexcept
-    : run_(other.run_),
-      pid_(std::exchange(other.pid_, 0)),
+    : pid_(std::exchange(other.pid_, 0)),
       from_(std::exchange(other.from_, -1)),
-      deadline_(other.deadline_),
+      limit_(other.limit_),
       started_(other.started_),
+      waited_(other.waited_),
+      was_killed_(other.was_killed_),
       text_(std::move(other.text_)) {}
 
 RunProcess& RunProcess::operator=(RunProcess&& other) noexcept {
-  std::swap(run_, other.run_);
   std::swap(pid_, other.pid_);
   std::swap(from_, other.from_);
-  std::swap(deadline_, other.deadline_);
+  std::swap(limit_, other.limit_);
   std::swap(started_, other.started_);
+  std::swap(waited_, other.waited_);
+  std::swap(was_killed_, other.was_killed_);
   text_.swap(other.text_);
   return *this;
 }
@@ -111,14 +133,22 @@ int RunProcess::wait(Cost& cost) {
   return status;
 }
 
-Outcome RunProcess::kill_late(Cost& cost) {
+RunProcess::Lateness RunProcess::lateness() {
+  const double taken = std::chrono::duration<double>(Clock::now() - started_).count();
+  if (taken < limit_) return Lateness::none;
+  waited_ = std::max(waited_, waited_for_processor(pid_));  // a thread that ends takes its time with it
+  if (taken - waited_ >= limit_) return Lateness::hang;
+  return waited_ >= std::max(limit_, kShortestOverload) ? Lateness::overload : Lateness::none;
+}
+
+void RunProcess::kill_late(Cost& cost) {
   kill(pid_, SIGKILL);
   (void)wait(cost);
-  return {.ending = Ending::hang, .reason = "it did not end within the limit of the experiment"};
 }
 
 Outcome RunProcess::outcome(Cost& cost) {
   const int status = wait(cost);
+  was_killed_ = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
   std::optional<Outcome> read = read_outcome(text_);
   const bool is_good = read && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS;
   return is_good ? *std::move(read) : Outcome{.ending = Ending::crash, .reason = reason_of(status)};

@@ -4,9 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
-#include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "orca/base/result.hpp"
@@ -25,34 +23,45 @@ class RunProcess {
   /// @param work   is called in it with the descriptor for its outcome, and does not return.
   /// @param limit  [s] after which it is killed.
   /// @errors  unavailable, with the reason.
-  static Result<RunProcess> start(std::size_t run, const std::function<void(int)>& work, double limit);
+  static Result<RunProcess> start(const std::function<void(int)>& work, double limit);
 
   RunProcess(RunProcess&& other) noexcept;
   RunProcess& operator=(RunProcess&& other) noexcept;
   ~RunProcess();
 
-  [[nodiscard]] std::size_t run() const { return run_; }
   /// The descriptor that becomes readable when there is news.
   [[nodiscard]] int descriptor() const { return from_; }
-  [[nodiscard]] Clock::time_point deadline() const { return deadline_; }
 
   /// Reads what there is. Returns whether that was all.
   [[nodiscard]] bool read();
-  /// Kills it, because it is late.
-  [[nodiscard]] Outcome kill_late(Cost& cost);
+
+  /// Whether it takes too long.
+  enum class Lateness {
+    none,
+    hang,     ///< It had the whole limit for itself.
+    overload  ///< It has waited for a processor for longer than the limit, and for at least 5 s.
+  };
+  /// Compares its time with the limit. Time in which it waits for a processor does not count, so that the load of the machine
+  /// makes no hang.
+  [[nodiscard]] Lateness lateness();
+
+  /// Kills it.
+  void kill_late(Cost& cost);
   /// Waits for its end, after read() has returned true.
   [[nodiscard]] Outcome outcome(Cost& cost);
+  /// Returns whether somebody else has killed it, such as a machine without memory. @pre  outcome() was called.
+  [[nodiscard]] bool was_killed() const { return was_killed_; }
 
  private:
-  RunProcess(std::size_t run, pid_t pid, int from, Clock::time_point deadline)
-      : run_(run), pid_(pid), from_(from), deadline_(deadline) {}
+  RunProcess(pid_t pid, int from, double limit) : pid_(pid), from_(from), limit_(limit) {}
   int wait(Cost& cost);  // Returns its status.
 
-  std::size_t run_;
-  pid_t pid_;  // 0: it has gone
-  int from_;   // -1: closed
-  Clock::time_point deadline_;
+  pid_t pid_;     // 0: it has gone
+  int from_;      // -1: closed
+  double limit_;  // [s]
   Clock::time_point started_ = Clock::now();
+  double waited_ = 0.0;  // [s] for a processor, as far as it was asked
+  bool was_killed_ = false;
   std::string text_;
 };
 

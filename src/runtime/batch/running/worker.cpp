@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "worker.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
 #include <cinttypes>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "circumstances.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/run_system.hpp"
@@ -59,7 +65,7 @@ Outcome outcome_of(const host::RunResult& result, const std::optional<double>& r
   if (result.scene) {
     outcome.measures = measure(*result.scene, end);
     if (outcome.ending < Ending::failed) outcome.failure = failure_in(*result.scene, end);
-    outcome.track = track_text(*result.scene);
+    outcome.sketch = sketch_of(*result.scene);
   }
   if (result.trace_hash) outcome.trace_hash = hexadecimal(*result.trace_hash);
   return outcome;
@@ -95,9 +101,26 @@ void limit_memory(std::uint64_t bytes) {
   if (kMayLimitMemory) (void)setrlimit(RLIMIT_AS, &limit);
 }
 
+void go_elsewhere() {
+  if (chdir("/") != 0) _exit(EXIT_FAILURE);
+  scramble_heap();
+}
+
+host::RunOptions run_options(const Experiment& experiment, const Run& run, const BatchOptions& options,
+                             const WorkPlan& plan) {
+  host::RunOptions wanted;
+  wanted.executive = {ClockKind::virtual_time, options.backend};
+  wanted.seed = run.seed;
+  wanted.until = experiment.until;
+  wanted.keeps_motion = true;
+  if (plan.trace >= 0) wanted.trace_file = "/proc/self/fd/" + std::to_string(plan.trace);
+  wanted.trace_values = true;
+  return wanted;
+}
+
 }  // namespace
 
-void work(const Experiment& experiment, const Run& run, const BatchOptions& options, int to) {
+void work(const Experiment& experiment, const Run& run, const BatchOptions& options, const WorkPlan& plan) {
   limit_memory(experiment.memory_limit);
   host::StopSignal stop(EXIT_SUCCESS, EXIT_FAILURE, host::StopSignal::Terminal::ignored);
   host::PluginCatalogue catalogue(plugin::PluginIndex(options.plugin_folders), ClockKind::virtual_time);
@@ -109,17 +132,34 @@ void work(const Experiment& experiment, const Run& run, const BatchOptions& opti
       graph::load_file(experiment.variants[run.variant].graph, load, catalogue, diagnostics);
   if (!graph) {
     Outcome outcome{.ending = Ending::failed, .reason = diagnostics.text()};
-    write_all(to, to_text(outcome));
+    write_all(plan.to, to_text(outcome));
     _exit(EXIT_SUCCESS);
   }
-  host::RunOptions run_options;
-  run_options.executive = {ClockKind::virtual_time, options.backend};
-  run_options.seed = run.seed;
-  run_options.until = experiment.until;
-  run_options.keeps_motion = true;
-  Reporter reporter(to, experiment.worlds[run.world].reference);
-  (void)host::run_system(*graph, catalogue, run_options, stop, reporter);
+  if (plan.elsewhere) go_elsewhere();  // not before: relative paths of the graph start at the current folder
+  Reporter reporter(plan.to, experiment.worlds[run.world].reference);
+  (void)host::run_system(*graph, catalogue, run_options(experiment, run, options, plan), stop, reporter);
   _exit(EXIT_SUCCESS);
+}
+
+void work_elsewhere(const Experiment& experiment, std::size_t number, const BatchOptions& options,
+                    const WorkPlan& plan) {
+  for (const int inherited : {plan.to, plan.trace}) (void)fcntl(inherited, F_SETFD, 0);
+  std::vector<std::string> words = options.alone;
+  words.insert(words.end(), {std::filesystem::absolute(experiment.file).string(), std::to_string(number),
+                             std::to_string(plan.to), std::to_string(plan.trace),
+                             options.backend == Backend::baton ? "baton" : "fiber"});
+  words.insert(words.end(), options.plugin_folders.begin(), options.plugin_folders.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  change_environment();
+  execv(arguments[0], arguments.data());
+  _exit(EXIT_FAILURE);
+}
+
+void make_alone(const Experiment& experiment, std::size_t number, const BatchOptions& options, int to,
+                int trace) {
+  work(experiment, experiment.run(number), options, {.to = to, .trace = trace, .elsewhere = true});
 }
 
 }  // namespace orca::batch

@@ -62,7 +62,8 @@ class Line {
   void write() {
     *this << "\n";
     LiveLine::erase_for_good();
-    if (::write(g_stderr, text_.data(), size_) < 0) return;  // there is nothing left to do about it
+    // If it fails, there is nothing left to do about it.
+    [[maybe_unused]] const ssize_t written = ::write(g_stderr, text_.data(), size_);
   }
 
  private:

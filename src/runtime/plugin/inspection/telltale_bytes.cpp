@@ -34,9 +34,19 @@ bool is_shift_by_32(std::string_view code, std::size_t place) {
 }
 
 // cmovc, jc, setc and their opposites: the carry flag says whether there was a number.
-bool asks_for_carry(std::string_view code, std::size_t place) {
+bool jumps_or_moves_by_carry(std::string_view code, std::size_t place) {
   const std::uint8_t second = at(code, place + 1) & 0xfe;
   return at(code, place) == 0x0f && (second == 0x42 || second == 0x82 || second == 0x92);
+}
+
+// adc REGISTER, 0 and sbb REGISTER, 0: the flag as a number, added or subtracted.
+bool adds_carry(std::string_view code, std::size_t place) {
+  return at(code, place) == 0x83 && (at(code, place + 1) & 0xf0) == 0xd0 && place + 2 < code.size() &&
+         at(code, place + 2) == 0;
+}
+
+bool asks_for_carry(std::string_view code, std::size_t place) {
+  return jumps_or_moves_by_carry(code, place) || adds_carry(code, place);
 }
 
 template <class Follows>

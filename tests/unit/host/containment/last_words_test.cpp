@@ -10,9 +10,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <functional>
 #include <new>
+#include <string>
 #include <thread>
 
 #include "containment/environment.hpp"
@@ -79,7 +83,54 @@ void begin_anew() {
   _exit(0);
 }
 
+// What a process says that ends in a deed of a component, as its last line on stderr.
+std::string said_of(const std::function<void()>& deed) {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const pid_t copy = fork();
+  if (copy == 0) {
+    begin_anew();
+    dup2(ends[1], STDERR_FILENO);
+    const LastWords words(EXIT_FAILURE, 3);
+    const Activity activity("bad", Hook::work, nullptr);
+    deed();
+    _exit(0);
+  }
+  close(ends[1]);
+  std::string said;
+  std::array<char, 512> portion;
+  for (ssize_t count; (count = read(ends[0], portion.data(), portion.size())) > 0;)
+    said.append(portion.data(), static_cast<std::size_t>(count));
+  close(ends[0]);
+  int status = 0;
+  REQUIRE(waitpid(copy, &status, 0) == copy);
+  CHECK(WIFSIGNALED(status));
+  return said;
+}
+
+// Reads a page of a file that has become shorter.
+void read_behind_the_end() {
+  const int file = memfd_create("short", MFD_CLOEXEC);
+  if (ftruncate(file, 4096) != 0) _exit(0);
+  const auto* const page = static_cast<volatile char*>(mmap(nullptr, 4096, PROT_READ, MAP_SHARED, file, 0));
+  if (ftruncate(file, 0) != 0) _exit(0);
+  static_cast<void>(*page);
+}
+
 }  // namespace
+
+TEST_CASE("a process that dies of a signal says which one it was, and why if the signal shows that",
+          "[host][last_words]") {
+  const std::string begin = "error: bad: work() ended the process with the signal ";
+  CHECK(said_of([] { *g_nowhere = 1; }) == begin + "SIGSEGV (it used memory that is not there, at 0x0)\n");
+  CHECK_THAT(said_of(read_behind_the_end),
+             Catch::StartsWith(begin + "SIGBUS (it used memory that is not there, at 0x"));
+  CHECK(said_of([] { std::abort(); }) == begin + "SIGABRT (it called abort(), or the C++ library did)\n");
+  CHECK(said_of([] { raise(SIGBUS); }) == begin + "SIGBUS (somebody sent it)\n");
+#if defined(__x86_64__)
+  CHECK(said_of([] { asm volatile("ud2"); }) == begin + "SIGILL\n");
+#endif
+}
 
 TEST_CASE("a process that dies of a signal raises no alarm about the handler of that signal",
           "[host][last_words]") {

@@ -283,11 +283,17 @@ TEST_CASE("the row below the picture explains the colours of what there is, and 
   Scene driving = drive(1.0);
   driving.robots[0].moments.back().speed = 1.0;
   for (const IsColour& colour : {kYellow, kBlue, kRed}) {
-    CHECK(in_legend(sensing(), colour) > 100);
+    CHECK(in_legend(sensing(), colour) == 12 * 12);  // a square
     CHECK(in_legend(drive(1.0), colour) == 0);
   }
   CHECK(in_legend(turning, kRed) > 100);
   CHECK(in_legend(driving, kRed) > 100);
+}
+
+TEST_CASE("the squares of the row have the middle of the bar beside them", "[host][picture]") {
+  const Pixels view(sensing(), {"", View::robot, {}});
+  const int middle = view.width() + 26 + 12;  // where the bar is
+  CHECK(view.count(kYellow, 0, middle - 6, view.width(), middle + 6) == 12 * 12);
 }
 
 TEST_CASE("a bar below the picture shows a round length at its scale", "[host][picture]") {
@@ -309,6 +315,10 @@ TEST_CASE("a film shows start, arrivals, contacts and end in order, with moments
   CHECK(reasons(scene) == std::vector<std::string>{"start", "", "at kitchen", "", "contact of Dewey", "end"});
   scene.arrivals.push_back({"hall", {10.0, 0.0}, TimePoint(10s)});
   CHECK(reasons(scene).back() == "at hall, end");
+}
+
+TEST_CASE("a film has six moments if nothing happens, and the robot has as many", "[host][picture]") {
+  CHECK(reasons(drive(1.0)) == std::vector<std::string>{"start", "", "", "", "", "end"});
 }
 
 TEST_CASE("a film of a robot with few moments shows each of them once", "[host][picture]") {

@@ -95,6 +95,7 @@ class Teller final : public orca::Component {
   orca::Status start() override {
     if (TELLER_FAULT == kStart) throw std::runtime_error("no start today");
     if (*tells_) log_debug("start " + version());
+    if (*forgets_) count_ = last_poke_ = 0;
     return orca::ok();
   }
   void stop() override { log_debug("stop " + version()); }
@@ -169,6 +170,7 @@ class Teller final : public orca::Component {
   orca::PushServer<orca::idl::GoalPoint> out_{*this, "out"};
   orca::SendServer<orca::idl::GoalPoint> poke_{*this, "poke", &Teller::on_poke};
   orca::Param<bool> tells_{*this, "tells", true, {.text = "Whether to log its start."}};
+  orca::Param<bool> forgets_{*this, "forgets", false, {.text = "Whether start() begins to count anew."}};
   orca::Param<std::int64_t> step_{*this, "step", 1, {.min = 1, .max = 10}};
 
   std::int64_t count_ = 0;

@@ -15,8 +15,9 @@ std::string silent_life(const std::string& name, const std::string& attributes =
   return "<component name=\"" + name + R"(" type="test.Life" )" + attributes + "/>";
 }
 
-std::string user_between(const std::string& from, const std::string& until) {
-  return R"(<component name="user" type="test.User"><param name="from" value=")" + from +
+std::string user_between(const std::string& from, const std::string& until,
+                         const std::string& name = "user") {
+  return "<component name=\"" + name + R"(" type="test.User"><param name="from" value=")" + from +
          R"("/><param name="until" value=")" + until + R"("/></component>)";
 }
 
@@ -58,6 +59,18 @@ TEST_CASE("a component that was only asked has done something", "[host][idleness
   CHECK(warnings_of(silent_life("life") + user_between("1", "2") + kListens +
                     R"(<connect from="user.query" to="life.ask"/>)")
             .empty());
+}
+
+TEST_CASE("a component that was asked has done something, and that counts for no other one",
+          "[host][idleness]") {
+  const std::string asked = silent_life("life") + user_between("9", "10") + kListens +
+                            R"(<connect from="asker.query" to="life.ask"/>)";
+  CHECK(warnings_of(asked + user_between("1", "2", "asker")).empty());
+  CHECK(warnings_of(asked + user_between("1", "2", "asker") + silent_life("other") +
+                    user_between("9", "10", "second") + R"(<connect from="other.out" to="second.push"/>)") ==
+        Lines{"other: has never worked in this run: none of those that it is connected to has subscribed: "
+              "second"});
+  CHECK(warnings_of(asked + user_between("9", "10", "asker")).size() == 2);  // it was never asked
 }
 
 TEST_CASE("a run that was too short for everybody to begin says nothing", "[host][idleness]") {

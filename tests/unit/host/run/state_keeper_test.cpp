@@ -247,6 +247,50 @@ TEST_CASE("a state of another type or version is left unread, and the log says s
   }
 }
 
+TEST_CASE("a state of up to 1 MiB is kept, and the log says so when one is larger", "[host][state]") {
+  constexpr std::size_t kMebibyte = 1'048'576;
+  const auto state_of = [](std::size_t bytes) {
+    StateWriter writer;
+    writer.write(std::int64_t{1000}, std::string(bytes - poked(1000).bytes.size(), 'x'));
+    REQUIRE(writer.bytes().size() == bytes);
+    return KeptState{{"test.Talker", 1}, writer.bytes()};
+  };
+  const auto kept = talk("last", {{"talker", state_of(kMebibyte)}}, for_a_second);
+  REQUIRE_FALSE(kept->handed.empty());
+  CHECK(pokes_in(kept->handed.back().state) > 1000);
+  const auto too_large = talk("last", {{"talker", state_of(kMebibyte + 1)}}, for_a_second);
+  CHECK(too_large->handed.empty());
+  CHECK(too_large->says(
+      "talker: its state is not kept from now on: it takes 1048577 bytes, more than 1048576"));
+}
+
+TEST_CASE("an object that was given its state early, and that start() makes anew, has it at work again",
+          "[host][state]") {
+  StateWriter writer;
+  writer.write(std::int64_t{1000}, std::uint64_t{0}, std::int64_t{0});
+  const auto heard = talk(
+      "none", {{"teller", {{"test.Teller", 1}, writer.bytes()}}},
+      [](Talking& run) {
+        CHECK(run.ask({Kind::configure, "teller"}).ok());
+        run.run_for(1s);  // it is poked, which needs its state
+        CHECK(run.ask({Kind::configure, "listener"}).ok());
+        run.run_for(1s);  // it works for somebody
+      },
+      true,
+      R"(<component name="teller" type="test.Teller"><param name="forgets" value="true"/></component>
+         <component name="listener" type="test.Napper"/>
+         <connect from="talker.out" to="teller.in"/><connect from="talker.poke" to="teller.poke"/>
+         <connect from="teller.out" to="listener.back"/>)");
+  REQUIRE(heard->others.contains("teller"));
+  const KeptState& last = heard->others.at("teller");
+  StateReader reader(last.tag, last.bytes);
+  std::int64_t count = 0, poke = 0;
+  std::uint64_t object = 0;
+  REQUIRE(reader.read(count, object, poke).ok());
+  CHECK(count > 1050);
+  CHECK(poke > 150);
+}
+
 TEST_CASE("an object that cannot read its state fails with the reason", "[host][state]") {
   KeptState torn = poked(1000);
   torn.bytes.pop_back();

@@ -323,7 +323,7 @@ TEST_CASE("an object larger than the link's queues still arrives", "[patterns][b
 
 TEST_CASE("a publisher notices that its subscriber's end has gone", "[patterns][bytes]") {
   run_on_each(steady_executives(), [](Executive& executive) {
-    ByteLinks links(executive);
+    ByteLinks links(executive, 4096);
     Source source(executive);
     {
       Listener listener(executive);

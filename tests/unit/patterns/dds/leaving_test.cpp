@@ -103,7 +103,7 @@ class Talker {
 
  private:
   void talk() {
-    const std::vector<std::byte> greeting = orca::dds::encode({name_hash("talker"), 7});
+    const std::vector<std::byte> greeting = orca::dds::encode({name_hash("talker"), 7, 0, 0, 0});
     std::vector<std::byte> greetings;
     for (int i = 0; i < kGreetings; ++i) greetings.insert(greetings.end(), greeting.begin(), greeting.end());
     while (!ending_) writer_->write(&greetings);

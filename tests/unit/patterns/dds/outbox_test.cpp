@@ -28,6 +28,7 @@ class Notes final : public TopicWriter {
     }
     const std::lock_guard lock(mutex_);
     for (const std::byte message : messages) written_.push_back(std::to_integer<int>(message));
+    sizes_.push_back(messages.size());
     by_ = std::this_thread::get_id();
     return true;
   }
@@ -35,6 +36,11 @@ class Notes final : public TopicWriter {
   [[nodiscard]] std::vector<int> written() const {
     const std::lock_guard lock(mutex_);
     return written_;
+  }
+  // Returns how many bytes each write had.
+  [[nodiscard]] std::vector<std::size_t> sizes() const {
+    const std::lock_guard lock(mutex_);
+    return sizes_;
   }
   [[nodiscard]] bool is_by_this_thread() const {
     const std::lock_guard lock(mutex_);
@@ -46,6 +52,7 @@ class Notes final : public TopicWriter {
  private:
   mutable std::mutex mutex_;
   std::vector<int> written_;
+  std::vector<std::size_t> sizes_;
   std::thread::id by_;
 };
 
@@ -74,6 +81,40 @@ TEST_CASE("much is left to the outbox's thread", "[patterns][dds]") {
   }  // writes what waits
   CHECK(notes->written().size() == kMuch);
   CHECK_FALSE(notes->is_by_this_thread());
+}
+
+TEST_CASE("up to 4,000 bytes are a few, all that wait together", "[patterns][dds]") {
+  for (const std::size_t last : {2000U, 2001U}) {
+    const auto notes = std::make_shared<Notes>();
+    bool was_here = false;
+    {
+      Outbox outbox([] {});
+      outbox.post(letter(notes, std::byte{1}, 2000), By::caller);
+      outbox.post(letter(notes, std::byte{2}, last), By::caller);
+      outbox.write_here();
+      was_here = last == 2000 && notes->is_by_this_thread();
+    }
+    CHECK(was_here == (last == 2000));
+    CHECK(notes->is_by_this_thread() == (last == 2000));
+    CHECK(notes->written().size() == 2000 + last);
+  }
+}
+
+TEST_CASE("messages to one reader go together as far as one packet carries them", "[patterns][dds]") {
+  const auto notes = std::make_shared<Notes>();
+  const auto other = std::make_shared<Notes>();
+  {
+    Outbox outbox([] {});
+    outbox.post(letter(notes, Notes::kHeld));
+    notes->holding.get_future().wait();
+    for (const std::size_t size : {20'000U, 20'000U, 20'000U, 30'000U, 30'001U, 50'000U})
+      outbox.post(letter(notes, std::byte{1}, size));
+    outbox.post(letter(other, std::byte{2}, 5));
+    outbox.post(letter(notes, std::byte{3}, 7));
+    notes->let_go.set_value();
+  }
+  CHECK(notes->sizes() == std::vector<std::size_t>{1, 60'000, 30'000, 30'001, 50'000, 7});
+  CHECK(other->sizes() == std::vector<std::size_t>{5});
 }
 
 TEST_CASE("who would have to wait for another writer leaves its bytes to the outbox's thread",

@@ -18,8 +18,10 @@ std::vector<std::byte> bytes(const std::string& text) {
 }
 
 const std::string kNothing(8, '\x90');
-const std::string kShift("\x48\xc1\xe2\x20", 4);  // shl rdx, 32
-const std::string kSetCarry("\x0f\x92\xc0", 3);   // setc al
+const std::string kShift("\x48\xc1\xe2\x20", 4);      // shl rdx, 32
+const std::string kSetCarry("\x0f\x92\xc0", 3);       // setc al
+const std::string kAddCarry("\x48\x83\xd0\x00", 4);   // adc rax, 0
+const std::string kSubtractCarry("\x83\xdf\x00", 3);  // sbb edi, 0
 
 }  // namespace
 
@@ -35,6 +37,8 @@ TEST_CASE("an instruction that reads a clock or draws a number is found with wha
   CHECK(found(clock_in_order + kShift) == Found{"rdtscp"});
   CHECK(found(number + kNothing + kSetCarry) == Found{"rdrand"});
   CHECK(found(seed + kSetCarry) == Found{"rdseed"});
+  CHECK(found(seed + kAddCarry) == Found{"rdseed"});
+  CHECK(found(number + kNothing + kSubtractCarry) == Found{"rdrand"});
   CHECK(found(clock + kShift + seed + kSetCarry + clock + kShift) == Found{"rdtsc", "rdseed"});
 }
 
@@ -46,7 +50,11 @@ TEST_CASE("bytes that look like such an instruction by chance are not taken for 
   CHECK(found(clock + kNothing + kNothing + kNothing + kNothing + kShift).empty());
   CHECK(found(clock + std::string("\x48\xc1\xe2\x21", 4)).empty());  // a shift by 33
   CHECK(found(std::string("\x0f\xc7\x08", 3) + kSetCarry).empty());  // cmpxchg8b
-  CHECK(found(std::string("\x0f\x01\xf8", 3) + kShift).empty());     // swapgs
+  const std::string seed("\x0f\xc7\xf9", 3);
+  CHECK(found(seed + std::string("\x83\xd0\x01", 3)).empty());    // adc eax, 1
+  CHECK(found(seed + std::string("\x83\xc0\x00", 3)).empty());    // add eax, 0
+  CHECK(found(seed + std::string("\x83\xd0", 2)).empty());        // cut off
+  CHECK(found(std::string("\x0f\x01\xf8", 3) + kShift).empty());  // swapgs
 }
 #endif
 

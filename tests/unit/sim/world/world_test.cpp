@@ -252,7 +252,7 @@ TEST_CASE("a robot is not set down in a wall, in another robot, without a name o
   };
   CHECK(
       error("huey", {4.9, 1.0, 0.0}) ==
-      "robot 'huey' cannot start at (4.90, 1.00) m: it would stand in obstacle 'east' of world 'test room'; "
+      "robot 'huey' cannot stand at (4.90, 1.00) m: it would stand in obstacle 'east' of world 'test room'; "
       "choose a free place");
   CHECK_THAT(error("huey", {3.0, 0.1, 0.0}), Catch::Contains("obstacle 'post'"));
   CHECK_THAT(error("huey", {0.3, 0.0, 0.0}), Catch::Contains("would stand in robot 'dewey'"));

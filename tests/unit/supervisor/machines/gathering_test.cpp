@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Several machines that come up, are lost, come back and end together, over a network that loses, delays and parts them.
 #include "machines/gathering.hpp"
+#include "machines/neighbours.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -316,4 +317,13 @@ TEST_CASE("a machine on which nothing runs is not waited for", "[supervisor][mac
   graph::Graph graph = chain();
   graph.machines.push_back({.name = "spare"});
   CHECK(Gathering(graph, "base", 1).missing() == Words{"brain", "eye"});
+}
+
+TEST_CASE("a run ends here in the way that another machine says", "[supervisor][machines]") {
+  using host::RunOutcome;
+  CHECK(outcome_of(idl::MACHINE_FINISHED) == RunOutcome::finished);
+  CHECK(outcome_of(idl::MACHINE_TIME_IS_UP) == RunOutcome::time_is_up);
+  CHECK(outcome_of(idl::MACHINE_STOPPED) == RunOutcome::stopped);
+  CHECK(outcome_of(idl::MACHINE_NOT_STARTED) == RunOutcome::not_started);
+  CHECK(outcome_of(idl::MACHINE_FAILED) == RunOutcome::failed);
 }

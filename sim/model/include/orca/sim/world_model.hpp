@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
+#include "orca/sim/event.hpp"
 #include "orca/sim/floor.hpp"
 #include "orca/sim/mesh.hpp"
 #include "orca/sim/walker.hpp"
@@ -39,7 +40,7 @@ struct Place {
   Pose2 pose;
 };
 
-/// A world without robots: a plan with heights (2.5-D), named places, and people who walk about. A plain
+/// A world without robots: a plan with heights (2.5-D), named places, people who walk about, and what happens in it. A plain
 /// value.
 struct WorldModel {
   std::string name;
@@ -47,6 +48,7 @@ struct WorldModel {
   std::vector<Place> places;
   std::vector<Walker> walkers{};
   Floor floor{};
+  Events events{};
 
   /// Returns the place of that name, or null.
   [[nodiscard]] const Place* place(std::string_view name) const;

@@ -79,6 +79,10 @@ class World {
   /// Removes such an obstacle. @errors  not_found: it was removed already.
   Status remove_obstacle(ObstacleId obstacle);
 
+  /// Puts a robot elsewhere at once, at rest. Its odometry does not notice; its command stays.
+  /// @errors  invalid_argument: the pose is not finite. failed_precondition: something stands there; the text says what.
+  Status place_robot(RobotId robot, const Pose2& X_WB);
+
   /// Sets the velocity that the base drives from now on; the drive's limits, lag and dead time apply.
   ///
   /// @param forward [m/s]  along the robot's x axis.
@@ -125,6 +129,9 @@ class World {
   /// Returns the contacts that began in the last tick. A touch is reported once, until the two have come
   /// apart again. If two robots collide, both report it.
   [[nodiscard]] const std::vector<ContactEvent>& contacts() const;
+
+  /// Returns what happened in the last tick of the model's events, in words.
+  [[nodiscard]] const std::vector<std::string>& happened() const;
 
   /// Returns the round that the robot's sonar ring number `ring` completed in the last tick, if it did.
   [[nodiscard]] const std::optional<SonarScan>& sonar(RobotId robot, std::size_t ring = 0) const;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "orca/base/result.hpp"
 
@@ -27,5 +28,10 @@ void remember_input_file(const std::string& path);
 /// Returns whether `path` leads to a file that read_input_file() has read, also by another name.
 /// @thread  any.
 [[nodiscard]] bool has_been_read(const std::string& path);
+
+/// Returns the files that read_input_file() has read and remember_input_file() was given, each once, by their paths without
+/// links, sorted.
+/// @thread  any.
+[[nodiscard]] std::vector<std::string> known_input_files();
 
 }  // namespace orca

@@ -24,6 +24,8 @@ namespace orca {
 
 /// `text` between double quotes, as messages show what they found; shortened to 300 bytes. Nothing is escaped.
 [[nodiscard]] std::string in_quotes(std::string_view text);
+/// Returns the text as one word of a shell's command.
+[[nodiscard]] std::string in_shell_quotes(std::string_view text);
 
 /// The parts one after the other, with `separator` between them.
 [[nodiscard]] std::string joined(std::span<const std::string> parts, std::string_view separator);

@@ -29,6 +29,7 @@ struct Limits {
   double max_speed = 0.0;      ///< [m/s] with a free way of safe_distance.
   /// If given, the robot does not turn its corners into anything.
   std::optional<Rectangle> body = {};
+  double turn_margin = 0.03;  ///< [m] kept free of those corners.
   /// Whether it passes wherever half the body's width, with margin, finds room.
   bool squeezes = false;
   /// Whether the way to the goal counts as well as the way ahead. A behaviour that has turned the robot away and falls silent,

@@ -34,9 +34,15 @@ namespace orca::avoid {
 /// Thread contract: as every component.
 class Avoider : public Component {
  protected:
-  /// @param echo_time  [s] the sensor's default: how long an echo counts that was heard once.
-  /// @param memory_time  [s] the default for one that was heard at least twice.
-  Avoider(ComponentHost& host, double echo_time, double memory_time = 4.0);
+  /// How behaviours with different sensors differ.
+  struct Manner {
+    double echo_time = 0.0;      ///< [s] The default: how long an echo counts that was heard once.
+    double memory_time = 4.0;    ///< [s] The same for one that was heard at least twice.
+    double standing_pace = 1.0;  ///< How fast echoes age while the robot stands; 1: as ever.
+    double yields =
+        1e-3;  ///< Weight of others' wishes where the robot must not drive on, relative to its own.
+  };
+  Avoider(ComponentHost& host, const Manner& manner);
 
   /// Returns the port of the sensor.
   [[nodiscard]] virtual PushProxyHandle& sensor() = 0;
@@ -109,6 +115,7 @@ class Avoider : public Component {
       {.text = "Base that is asked how large the robot is and how often the sensor measures.",
        .optional = true}};
 
+  const Manner manner_;
   Param<double> robot_radius_;
   Param<double> margin_;
   Param<double> safe_distance_;

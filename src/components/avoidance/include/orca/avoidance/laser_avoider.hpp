@@ -13,11 +13,17 @@ namespace orca::avoid {
 /// Thread contract: as every component.
 class LaserAvoider : public Avoider {
  protected:
-  /// @param keeps_hidden  whether echoes are remembered that a scan cannot see because they lie behind others; whoever
-  ///                      turns a body among them may touch the back of what it sees.
-  /// @param memory_time   [s] the default: how long echoes are remembered. A laser invents none, so one that it saw once counts for as
-  ///                      long as others.
-  explicit LaserAvoider(ComponentHost& host, bool keeps_hidden = false, double memory_time = 4.0);
+  /// What is remembered of scans.
+  struct Memory {
+    bool hidden =
+        false;  ///< What a scan cannot see because it lies behind something else: a body that turns may touch it.
+    bool shapes =
+        false;  ///< The shape of what is near, not only its nearest points: a body turns its corners past it.
+    double time =
+        4.0;  ///< [s] The default for how long. A laser invents no echoes: one that it saw once counts for as long as others.
+  };
+  explicit LaserAvoider(ComponentHost& host) : LaserAvoider(host, Memory()) {}
+  LaserAvoider(ComponentHost& host, Memory memory);
 
   /// Returns the body that counts as it is, instead of its circle: none, unless the robot is to squeeze through; that which
   /// the base describes; without one, that of the parameters.
@@ -32,7 +38,7 @@ class LaserAvoider : public Avoider {
   [[nodiscard]] const ObjectType& sensed() const override;
   void listen(EchoMemory& memory) override;
 
-  bool keeps_hidden_;
+  Memory remembers_;
   Param<bool> squeeze_;
   Param<double> robot_length_;
   Param<double> robot_width_;

@@ -17,11 +17,18 @@ struct Scan {
   Pose2 X_RS;                      ///< Of the sensor, robot frame.
 };
 
+/// How much of a scan is kept. A plain value.
+struct Detail {
+  double sector = 0.0;  ///< [rad] Of the beams in each sector only the nearest reading is kept,
+  double range = 0.0;   ///< [m] and only if it is nearer to the robot's centre than this.
+  double near = 0.0;    ///< [m] Of a sector with a reading nearer than this more is kept: the nearest of
+  double fine = 0.0;    ///< [rad] each such part.
+};
+
 /// Replaces the echoes remembered in the scan's field of view by those in the scan, which misses nothing
 /// there. With `keep.hidden` it replaces only those that its beams reach.
 ///
-/// Of the beams in each `sector` [rad] only the nearest reading is kept, and only if it is nearer to the
-/// robot's centre than `range` [m]. A scan of many beams then costs no more than a ring of sonars.
-void see(const Scan& scan, double sector, double range, const EchoMemory::Limits& keep, EchoMemory& memory);
+/// A scan of many beams costs no more than a ring of sonars where nothing is near.
+void see(const Scan& scan, const Detail& detail, const EchoMemory::Limits& keep, EchoMemory& memory);
 
 }  // namespace orca::avoid

@@ -21,6 +21,8 @@ struct Setting {
 
   /// Returns "NAME=VALUE".
   [[nodiscard]] std::string text() const { return name + "=" + value; }
+  /// Returns the same with an absolute path written from a folder on, so that it is the same wherever the folder lies.
+  [[nodiscard]] std::string text_from(const std::string& folder) const;
 };
 
 /// One of the things that are compared: a graph, and what is set in it.
@@ -64,6 +66,9 @@ struct Experiment {
   /// compared in pairs.
   /// @pre  number < run_count().
   [[nodiscard]] Run run(std::size_t number) const;
+  /// Returns the number of a run; nothing if the experiment has none of these names.
+  [[nodiscard]] std::optional<std::size_t> number_of(const std::string& variant, const std::string& world,
+                                                     std::uint64_t seed) const;
   /// Returns the settings of a run, the more special ones last: of all, of the world, of the variant.
   [[nodiscard]] std::vector<std::string> settings_of(const Run& run) const;
 };

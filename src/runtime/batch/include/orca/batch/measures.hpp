@@ -69,8 +69,15 @@ struct RunEnd {
 /// Returns why a run that was not ended by a fault did not succeed.
 [[nodiscard]] Failure failure_in(const Scene& scene, const RunEnd& end);
 
-/// Returns where the robots went, as "x y" [m] with commas between the places and semicolons between the robots: at most 129
-/// evenly spaced places of each, to 1 cm.
-[[nodiscard]] std::string track_text(const Scene& scene);
+/// What a report draws of a run: lists of lines, each the places that it joins, as "x y" [m] to 1 cm, with commas between the
+/// places and semicolons between the lines. A plain value.
+struct Sketch {
+  std::string tracks{};    ///< Where each robot went: at most 129 evenly spaced places.
+  std::string contacts{};  ///< Where robots touched something, each a line of one place: the first 8.
+  std::string walls{};     ///< Of the world, as it was at the end.
+  friend bool operator==(const Sketch&, const Sketch&) = default;
+};
+
+[[nodiscard]] Sketch sketch_of(const Scene& scene);
 
 }  // namespace orca::batch

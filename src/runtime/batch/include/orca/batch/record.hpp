@@ -37,7 +37,7 @@ struct Outcome {
   Failure failure = Failure::none;
   Measures measures{};
   std::string trace_hash{};  ///< 16 hexadecimal digits; empty: the run did not come so far.
-  std::string track{};       ///< Where the robots went, as track_text() says it.
+  Sketch sketch{};
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
@@ -45,6 +45,15 @@ struct Outcome {
 struct Cost {
   double wall = 0.0;  ///< [s]
   double cpu = 0.0;   ///< [s] of all its threads.
+};
+
+/// What came of making a run twice, the second time with another memory layout, process, environment and folder. A plain value.
+struct Repeat {
+  std::string first;   ///< Trace hash, or the name of the ending if there is none.
+  std::string second;  ///< Likewise, of the second time.
+  std::string
+      difference{};  ///< Empty: all is the same. Otherwise what differs, for people: the first differing delivery.
+  friend bool operator==(const Repeat&, const Repeat&) = default;
 };
 
 /// Writes an outcome as text, one line for each part.

@@ -33,7 +33,7 @@ struct ByteLinkCounters {
 class ByteLinks final : public Links {
  public:
   /// @param capacity [bytes] of each queue; an edge has two in each direction.
-  explicit ByteLinks(Executive& executive, std::size_t capacity = std::size_t{1} << 20);
+  ByteLinks(Executive& executive, std::size_t capacity);
   ~ByteLinks() override;
 
   /// @thread  any.

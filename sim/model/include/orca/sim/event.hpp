@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/base/time.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/sim/shape.hpp"
+
+namespace orca::sim {
+
+/// A kind of sensors of a robot.
+enum class SensorKind { sonar, laser, infrared, bumper, odometry };
+/// Their names, in the same order.
+inline constexpr std::array<std::string_view, 5> kSensorKinds{"sonar", "laser", "infrared", "bumper",
+                                                              "odometry"};
+
+/// An obstacle that stands in the world for a part of the time.
+struct Visitor {
+  std::string name;     ///< Name that contacts report; no other visitor and no walker has it.
+  Shape shape;          ///< Its plan, in its own frame.
+  double height = 0.0;  ///< [m] Its top above the floor.
+  Pose2 X_WO;           ///< Where it comes to.
+  Duration comes{0};
+  std::optional<Duration> goes{};
+};
+
+/// A visitor is moved, at once.
+struct Move {
+  std::string visitor;
+  Duration at{0};
+  Pose2 X_WO;
+};
+
+/// A robot is carried off and put down elsewhere, at rest. Its odometry notices nothing.
+struct Kidnap {
+  std::string robot;
+  Duration at{0};
+  Pose2 X_WB;
+};
+
+/// All sensors of a kind of a robot are silent.
+struct Outage {
+  std::string robot;
+  SensorKind sensor = SensorKind::laser;
+  Duration from{0};
+  std::optional<Duration> until{};
+};
+
+/// What happens in a world while it runs, besides people who walk about; times count from its start. What a robot is in the way of
+/// happens as soon as it is gone. Plain values.
+struct Events {
+  std::vector<Visitor> visitors{};
+  std::vector<Move> moves{};
+  std::vector<Kidnap> kidnaps{};
+  std::vector<Outage> outages{};
+};
+
+}  // namespace orca::sim

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orca/sim/event.hpp"
+#include "orca/sim/world.hpp"
+
+namespace orca::sim::detail {
+
+// The events of a running world.
+class Schedule {
+ public:
+  explicit Schedule(const Events& events);
+
+  // Does what is due, in the order of its times, and notes it in words.
+  void run(World& world, std::vector<std::string>& notes);
+
+  // Returns whether those sensors are silent at a time of the world's clock.
+  [[nodiscard]] bool is_out(std::string_view robot, SensorKind sensor, TimePoint now) const;
+
+ private:
+  struct Step {
+    Duration at;
+    std::string text;
+    std::function<Status(World&)> act;
+    bool waits = false;
+  };
+
+  void add(const Visitor& visitor);
+  void add(const Move& move);
+  void add(const Kidnap& kidnap);
+  void add(const Outage& outage);
+  [[nodiscard]] Status with(const std::string& visitor, const std::function<Status(ObstacleId)>& act) const;
+  // Returns whether it is over and done with.
+  static bool take(Step& step, World& world, std::vector<std::string>& notes);
+
+  std::vector<Step> steps_;  // Those that are not done, by time.
+  std::vector<Outage> outages_;
+  std::map<std::string, ObstacleId> there_;  // The visitors that have come.
+};
+
+}  // namespace orca::sim::detail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "folders.hpp"
+
+#include <cstdio>
+
+#include "orca/base/text.hpp"
+
+namespace orca::simbatch {
+
+std::filesystem::path results_in(const std::filesystem::path& folder) {
+  return std::filesystem::is_regular_file(folder) ? folder : folder / "results.sqlite";
+}
+
+Result<std::unique_ptr<batch::Store>> open_results(const std::string& folder) {
+  const std::filesystem::path file = results_in(folder);
+  if (!std::filesystem::exists(file))
+    return fail(Code::not_found, in_quotes(folder) + " holds no results of a batch");
+  return batch::Store::open(file.string(), {});
+}
+
+batch::BatchOptions with_plugins(batch::BatchOptions options, const std::vector<std::string>& folders) {
+  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
+  options.plugin_folders = {(own.parent_path().parent_path() / "plugins").string()};
+  options.plugin_folders.insert(options.plugin_folders.end(), folders.begin(), folders.end());
+  return options;
+}
+
+ExitCode refuse(const Error& error) {
+  std::fprintf(stderr, "error: %s\n", error.text().c_str());
+  return ExitCode::bad_input;
+}
+
+}  // namespace orca::simbatch

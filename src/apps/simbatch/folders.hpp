@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+#include "orca/batch/store.hpp"
+
+namespace orca::simbatch {
+
+/// Returns the file of the results in a folder. A path that is a file is that file.
+[[nodiscard]] std::filesystem::path results_in(const std::filesystem::path& folder);
+
+/// Opens results that are there, whatever experiment they are of.
+/// @errors  not_found if there are none; those of Store::open().
+[[nodiscard]] Result<std::unique_ptr<batch::Store>> open_results(const std::string& folder);
+
+/// Returns the options for runs that look for plugins in Orca's own folder and then in these.
+[[nodiscard]] batch::BatchOptions with_plugins(batch::BatchOptions options,
+                                               const std::vector<std::string>& folders);
+
+/// Says an error on stderr.
+ExitCode refuse(const Error& error);
+
+}  // namespace orca::simbatch

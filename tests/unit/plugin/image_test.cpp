@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The copy of a plugin's file that is loaded in its place.
+#include "orca/plugin/image.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "temp_folder.hpp"
+
+using namespace orca;
+using orca::plugin::PluginImage;
+using orca::test::TempFolder;
+
+namespace {
+
+std::string contents_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Code refusal_of(const std::string& file) {
+  const Result<PluginImage> copied = PluginImage::copy(file);
+  REQUIRE_FALSE(copied);
+  CHECK(copied.error().where == file);
+  return copied.error().code;
+}
+
+}  // namespace
+
+TEST_CASE("an image has the bytes of its file, whatever becomes of the file, and nobody can change them",
+          "[plugin][image]") {
+  const TempFolder folder;
+  const std::string bytes = "begin" + std::string(3'000'000, 'x') + "end";
+  const std::string file = folder.write("some.so", bytes);
+  Result<PluginImage> image = PluginImage::copy(file);
+  REQUIRE(image);
+  (void)folder.write("some.so", "another");
+  CHECK(contents_of(image->path()) == bytes);
+  CHECK(image->origin() == file);
+  const Descriptor taken = std::move(*image).take_bytes();
+  CHECK(write(taken.number(), "y", 1) < 0);
+  CHECK(ftruncate(taken.number(), 0) != 0);
+  CHECK(ftruncate(taken.number(), 4'000'000) != 0);
+}
+
+TEST_CASE("each image has a name of its own, which contains that of its file", "[plugin][image]") {
+  const TempFolder folder;
+  const std::string file = folder.write("some.so", "bytes");
+  const Result<PluginImage> first = PluginImage::copy(file), second = PluginImage::copy(file);
+  REQUIRE(first);
+  REQUIRE(second);
+  CHECK_THAT(first->mapped_name(), Catch::Contains("orca:some.so#"));
+  CHECK(first->mapped_name() != second->mapped_name());
+  const std::string long_name(250, 'n');
+  CHECK(PluginImage::copy(folder.write(long_name, "bytes")));
+}
+
+TEST_CASE("a file that is not there, is none, or cannot be read has no image", "[plugin][image]") {
+  const TempFolder folder;
+  CHECK(refusal_of(folder.file("none.so")) == Code::not_found);
+  CHECK(refusal_of(folder.path().string()) == Code::not_found);
+  const std::string pipe = folder.file("pipe");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(refusal_of(pipe) == Code::not_found);
+  CHECK(refusal_of(folder.write("file", "") + "/below.so") == Code::unavailable);
+  CHECK(refusal_of("/proc/self/mem") == Code::unavailable);  // nothing is mapped where it begins
+}
