@@ -190,7 +190,9 @@ TEST_CASE("everything that is wrong with an experiment and its graphs is said be
 
 TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
   for (const auto& [name, size] : {std::pair{"avoid_office", "4 variants, 3 worlds, 20 seeds: 240 runs"},
-                                   std::pair{"dead_ends", "5 variants, 40 worlds, 1 seeds: 200 runs"}}) {
+                                   std::pair{"dead_ends", "5 variants, 40 worlds, 1 seeds: 200 runs"},
+                                   std::pair{"sonar_physics", "4 variants, 3 worlds, 20 seeds: 240 runs"},
+                                   std::pair{"surprises", "4 variants, 2 worlds, 20 seeds: 160 runs"}}) {
     const Run run = run_simbatch({source_file("sim/experiments/" + std::string(name) + ".xml"), "--check"});
     INFO(run.err);
     CHECK(run.exit_code() == 0);

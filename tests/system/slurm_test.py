@@ -176,6 +176,10 @@ class Submit(unittest.TestCase):
         _, said = again.communicate(timeout=LIMIT)
         self.assertEqual(again.returncode, 2)
         self.assertIn("holds parts already; --resume makes what is missing", said)
+        resumed = self.submit(file, "--resume")
+        _, said = resumed.communicate(timeout=LIMIT)
+        self.assertEqual(resumed.returncode, 0, said)
+        self.assertEqual(export(self.folder / "out"), export(self.folder / "whole"))
 
     def test_what_a_lost_node_was_doing_is_done_by_another(self):
         file = self.experiment(40)

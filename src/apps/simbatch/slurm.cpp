@@ -31,7 +31,7 @@ std::string shard_command(const SlurmBatch& batch) {
 
 // What was joined before is made anew: the parts hold all of it.
 std::string join_command(const SlurmBatch& batch) {
-  return "rm -f " + in_shell_quotes((batch.folder / "results.sqlite").string()) + "\n" + "exec " +
+  return "rm -f " + in_shell_quotes((batch.folder / "results.sqlite").string()) + "*\n" + "exec " +
          in_shell_quotes(batch.program.string()) + " join " +
          in_shell_quotes((batch.folder / "shard_").string()) + "* --out " +
          in_shell_quotes(batch.folder.string());
