@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -22,6 +24,15 @@ double number_of(const std::string& text) {
   return 0.001 * (sum % 1000);
 }
 
+// Two orders of the same numbers hardly ever give the same one.
+template <class Things>
+double number_of_order(const Things& things) {
+  std::uint64_t sum = 0;
+  for (const Thing* const thing : things)
+    sum = sum * 6364136223846793005U + std::llround(1000.0 * thing->number);
+  return 0.001 * static_cast<double>((sum >> 32U) % 1000);
+}
+
 void* volatile g_block = nullptr;
 
 // What memory holds that was never set.
@@ -32,7 +43,7 @@ double garbage() {
   return found;
 }
 
-/// Says numbers, one each lap, that depend on something that no run may depend on: faults that no look at the plugin's symbols can
+/// Says a number each lap that depends on something that no run may depend on: faults that no look at the plugin's symbols can
 /// find.
 class Dependent final : public orca::Component {
  public:
@@ -48,10 +59,10 @@ class Dependent final : public orca::Component {
     for (int i = 0; i < kThings; ++i) things_.push_back(std::make_unique<Thing>(Thing{0.001 * i}));
     if (*on_ == "addresses" || *on_ == "hashes") return say_things();
     const char* const user = std::getenv("USER");
-    if (*on_ == "nothing") said_ = {0.5};
-    if (*on_ == "environment") said_ = {number_of(user == nullptr ? "" : user)};
-    if (*on_ == "folder") said_ = {number_of(std::filesystem::current_path().string())};
-    if (*on_ == "garbage") said_ = {garbage()};
+    if (*on_ == "nothing") said_ = 0.5;
+    if (*on_ == "environment") said_ = number_of(user == nullptr ? "" : user);
+    if (*on_ == "folder") said_ = number_of(std::filesystem::current_path().string());
+    if (*on_ == "garbage") said_ = garbage();
     return orca::ok();
   }
 
@@ -62,15 +73,12 @@ class Dependent final : public orca::Component {
       by_address.insert(thing.get());
       by_hash.insert(thing.get());
     }
-    if (*on_ == "addresses")
-      for (const Thing* const thing : by_address) said_.push_back(thing->number);
-    if (*on_ == "hashes")
-      for (const Thing* const thing : by_hash) said_.push_back(thing->number);
+    said_ = *on_ == "addresses" ? number_of_order(by_address) : number_of_order(by_hash);
     return orca::ok();
   }
 
   orca::Outcome work() override {
-    motion_.push(orca::head(0.0, said_[next_++ % said_.size()]));
+    motion_.push(orca::head(0.0, said_));
     return orca::again();
   }
 
@@ -81,8 +89,7 @@ class Dependent final : public orca::Component {
       "nothing",
       {.choices = {"nothing", "addresses", "hashes", "environment", "folder", "garbage"}}};
   std::vector<std::unique_ptr<Thing>> things_;
-  std::vector<double> said_;
-  std::size_t next_ = 0;
+  double said_ = 0.0;
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ class RunProcess {
     overload  ///< It has waited for a processor for longer than the limit, and for at least 5 s.
   };
   /// Compares its time with the limit. Time in which it waits for a processor does not count, so that the load of the machine
-  /// makes no hang.
+  /// makes no hang. Call it several times a second, because it also looks whether the process gets on between two calls.
   [[nodiscard]] Lateness lateness();
 
   /// Kills it.
@@ -55,12 +55,15 @@ class RunProcess {
  private:
   RunProcess(pid_t pid, int from, double limit) : pid_(pid), from_(from), limit_(limit) {}
   int wait(Cost& cost);  // Returns its status.
+  void note_wait();
 
   pid_t pid_;     // 0: it has gone
   int from_;      // -1: closed
   double limit_;  // [s]
   Clock::time_point started_ = Clock::now();
-  double waited_ = 0.0;  // [s] for a processor, as far as it was asked
+  Clock::time_point last_ran_ = started_;  // or could not run
+  double ran_ = 0.0;                       // [s] at the last look
+  double waited_ = 0.0;                    // [s] for a processor, as far as it was asked
   bool was_killed_ = false;
   std::string text_;
 };
