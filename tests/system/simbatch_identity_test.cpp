@@ -20,7 +20,7 @@ using namespace orca::test;
 namespace {
 
 constexpr Seconds kLimit{600};
-constexpr std::size_t kRuns = 4 * 3 * 20;
+constexpr std::size_t kRuns = 5 * 3 * 20;
 
 // The shipped experiment, with a number of seeds.
 std::string office(const TempFolder& folder, const std::string& seeds) {
@@ -118,7 +118,7 @@ TEST_CASE("seeds matter at nominal and harsh; at ideal all seeds are one run", "
     ways[place].insert(cells.at(column("way")));
     hashes[place].insert(cells.at(column("trace_hash")));
   }
-  REQUIRE(ways.size() == 12);
+  REQUIRE(ways.size() == 15);
   for (const auto& [place, different] : ways) {
     CAPTURE(place);
     const bool is_ideal = place.find("ideal") != std::string::npos;
