@@ -78,7 +78,8 @@ MODULES = (
             stage("system_processes_test", "system_hosts_test", "system_orcactl_test", also=_DEPLOYER),
             stage("system_adoption_test", "system_apply_test", "system_rewire_test", "system_renew_test", also=_DEPLOYER))),
     Module("src/runtime/batch/",
-           (stage("batch_test", "batch_statistics_test"), stage("system_simbatch_test", also=_DEPLOYER))),
+           (stage("batch_test", "batch_statistics_test"), stage("system_simbatch_test", also=_DEPLOYER),
+            stage("system_simbatch_diff_test", "system_simbatch_parts_test", also=_DEPLOYER))),
 )
 
 
