@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/link/tcp_link.hpp"
 
+#include <linux/sockios.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <optional>
@@ -24,8 +27,12 @@ void set_number(int socket, int level, int option, int value) {
   (void)setsockopt(socket, level, option, &value, sizeof value);
 }
 
-// Without these, a device whose cable was pulled would be waited for for hours.
-void watch_peer(int socket) {
+constexpr int kSendBuffer = 16384;  // [bytes]
+
+// By default, the system would keep megabytes of old commands for a device that is stuck, and wait hours for one whose
+// cable was pulled.
+void keep_fresh(int socket) {
+  set_number(socket, SOL_SOCKET, SO_SNDBUF, kSendBuffer);
   set_number(socket, IPPROTO_TCP, TCP_NODELAY, 1);
   set_number(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
   set_number(socket, IPPROTO_TCP, TCP_KEEPIDLE, 2);   // [s]
@@ -139,7 +146,7 @@ Result<Opening> TcpLink::open() {
   if (socket && !*socket) return Opening::under_way;
   connecting_.reset();
   if (!socket) return fail(socket.error().code, socket.error().message, name());
-  watch_peer(socket->number());
+  keep_fresh(socket->number());
   stream_->attach(std::move(*socket));
   return Opening::done;
 }
@@ -155,7 +162,12 @@ Status TcpLink::write(std::span<const std::uint8_t> bytes) { return stream_->wri
 
 Status TcpLink::flush() { return stream_->flush(); }
 
-std::size_t TcpLink::pending() const { return stream_->pending(); }
+std::size_t TcpLink::pending() const {
+  int unsent = 0;
+  if (!stream_->is_attached() || ioctl(stream_->descriptor(), SIOCOUTQNSD, &unsent) != 0 || unsent < 0)
+    unsent = 0;
+  return stream_->pending() + static_cast<std::size_t>(unsent);
+}
 
 void TcpLink::discard_input() { stream_->drain(); }
 

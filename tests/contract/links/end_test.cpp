@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A link tells "nothing now" from "gone", and can be opened again.
+#include <catch2/catch.hpp>
+
+#include "link_kits.hpp"
+
+using namespace orca;
+using namespace orca::test;
+using hw::link::Opening;
+
+TEMPLATE_TEST_CASE("nothing now is not an end", "[hw][link]", ORCA_LINK_KITS) {
+  TestType kit;
+  kit.connect();
+  for (int i = 0; i < 5; ++i) {
+    CHECK(read_some(*kit.link).empty());
+    std::this_thread::sleep_for(2ms);
+  }
+  must_write(*kit.device, bytes_of("late"));
+  CHECK(text_of(read_bytes(*kit.link, 4)) == "late");
+  CHECK(read_some(*kit.link).empty());
+}
+
+TEMPLATE_TEST_CASE("that the device has gone is told to who reads, again and again", "[hw][link]",
+                   ORCA_LINK_KITS) {
+  TestType kit;
+  kit.connect();
+  kit.device->close();
+  CHECK(error_of_reading(*kit.link) == Code::unavailable);
+  Bytes bytes(8);
+  const Result<std::size_t> again = kit.link->read(bytes);
+  REQUIRE_FALSE(again.has_value());
+  CHECK(again.error().code == Code::unavailable);
+  CHECK(again.error().where == kit.link->name());
+  CHECK_FALSE(again.error().message.empty());
+}
+
+TEMPLATE_TEST_CASE("that the device has gone is told to who writes", "[hw][link]", ORCA_LINK_KITS) {
+  TestType kit;
+  kit.connect();
+  kit.device->close();
+  CHECK(error_of_writing(*kit.link) == Code::unavailable);
+}
+
+TEMPLATE_TEST_CASE("what arrived before the device went is read first where the system keeps it",
+                   "[hw][link]", ORCA_LINK_KITS) {
+  TestType kit;
+  if (!TestType::kKeepsLastWords) return;  // a line that is cut takes its bytes along
+  kit.connect();
+  must_write(*kit.device, bytes_of("last words"));
+  kit.device->close();
+  CHECK(text_of(read_bytes(*kit.link, 10)) == "last words");
+  CHECK(error_of_reading(*kit.link) == Code::unavailable);
+}
+
+TEMPLATE_TEST_CASE("a link that is not open says so, also when it is closed twice", "[hw][link]",
+                   ORCA_LINK_KITS) {
+  TestType kit;
+  check_closed(*kit.link);
+  kit.connect();
+  kit.link->close();
+  check_closed(*kit.link);
+  kit.link->close();
+  check_closed(*kit.link);
+}
+
+TEMPLATE_TEST_CASE("opening an open link changes nothing", "[hw][link]", ORCA_LINK_KITS) {
+  TestType kit;
+  kit.connect();
+  must_write(*kit.device, bytes_of("kept"));
+  const Result<Opening> again = kit.link->open();
+  REQUIRE(again.has_value());
+  CHECK(*again == Opening::done);
+  CHECK(text_of(read_bytes(*kit.link, 4)) == "kept");
+}
+
+TEMPLATE_TEST_CASE("a link that was closed can be opened again and begins anew", "[hw][link]",
+                   ORCA_LINK_KITS) {
+  TestType kit;
+  for (int round = 0; round < 3; ++round) {
+    kit.connect();
+    must_write(*kit.device, bytes_of("to the link"));
+    CHECK(text_of(read_bytes(*kit.link, 11)) == "to the link");
+    must_write(*kit.link, bytes_of("to the device"));
+    CHECK(text_of(read_bytes(*kit.device, 13)) == "to the device");
+    must_write(*kit.device, bytes_of("never read"));
+    kit.link->close();
+    kit.device->close();
+  }
+}
+
+TEMPLATE_TEST_CASE("a link is opened again after its device went and came back", "[hw][link]",
+                   ORCA_LINK_KITS) {
+  TestType kit;
+  kit.connect();
+  kit.device->close();
+  CHECK(error_of_reading(*kit.link) == Code::unavailable);
+  kit.link->close();
+  kit.connect();
+  must_write(*kit.device, bytes_of("back"));
+  CHECK(text_of(read_bytes(*kit.link, 4)) == "back");
+}
