@@ -77,9 +77,10 @@ bool OldSettings::keep(int terminal) {
 
 void OldSettings::hurry(int terminal) {
   serial_struct about{};
-  if (ioctl(terminal, TIOCGSERIAL, &about) == 0 && (about.flags & ASYNC_LOW_LATENCY) == 0) {
+  constexpr int kLowLatency = static_cast<int>(ASYNC_LOW_LATENCY);
+  if (ioctl(terminal, TIOCGSERIAL, &about) == 0 && (about.flags & kLowLatency) == 0) {
     const int before = about.flags;
-    about.flags |= ASYNC_LOW_LATENCY;
+    about.flags |= kLowLatency;
     if (ioctl(terminal, TIOCSSERIAL, &about) == 0) flags_ = before;
   }
   const int present = TIOCM_DTR | TIOCM_RTS;

@@ -52,7 +52,7 @@ Error other_end_gone(const ByteLink& link) {
 
 }  // namespace
 
-MemoryLink::MemoryLink(std::shared_ptr<MemoryCable> cable, int side, std::string name)
+MemoryLink::MemoryLink(std::shared_ptr<MemoryCable> cable, std::size_t side, std::string name)
     : cable_(std::move(cable)), side_(side), name_(std::move(name)) {}
 
 MemoryLink::~MemoryLink() { MemoryLink::close(); }

@@ -46,10 +46,10 @@ class MemoryLink final : public ByteLink {
  private:
   friend std::pair<std::unique_ptr<MemoryLink>, std::unique_ptr<MemoryLink>> make_memory_links(
       const MemoryOptions& options);
-  MemoryLink(std::shared_ptr<MemoryCable> cable, int side, std::string name);
+  MemoryLink(std::shared_ptr<MemoryCable> cable, std::size_t side, std::string name);
 
   const std::shared_ptr<MemoryCable> cable_;  // shared: either end may be destroyed first
-  const int side_;
+  const std::size_t side_;                    // 0 or 1
   const std::string name_;
 };
 
