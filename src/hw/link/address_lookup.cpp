@@ -4,22 +4,22 @@
 #include <netdb.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstring>
 #include <mutex>
+#include <thread>
 
 namespace orca::hw::link {
 
-struct AddressLookup::Request {
-  std::string host;
-  std::string port;
-  addrinfo wanted{};
-  gaicb entry{};
-  int refused = 0;  // the system did not even begin
+struct AddressLookup::Search {
+  const std::string host;
+  const std::string port;
+  std::mutex mutex;
+  bool done = false;               // protected by mutex, as what follows
+  int fault = 0;                   // of getaddrinfo()
+  std::vector<Address> addresses;  // without a fault at least one
 
-  ~Request() {
-    if (entry.ar_result != nullptr) freeaddrinfo(entry.ar_result);
-  }
+  Search(std::string name, std::string number) : host(std::move(name)), port(std::move(number)) {}
+  void run(int flags);
 };
 
 namespace {
@@ -35,15 +35,6 @@ std::vector<Address> addresses_in(const addrinfo* first) {
   return all;
 }
 
-// The system goes on writing into a search that it is busy with, so that one is kept until the process ends.
-template <class Abandoned>
-void keep_for_ever(Abandoned request) {
-  static std::mutex mutex;
-  static auto& kept = *new std::vector<Abandoned>;
-  const std::lock_guard lock(mutex);
-  kept.push_back(std::move(request));
-}
-
 Error not_resolved(const std::string& host, int fault) {
   const bool absent = fault == EAI_NONAME || fault == EAI_NODATA || fault == EAI_ADDRFAMILY;
   return fail(absent ? Code::not_found : Code::unavailable,
@@ -53,31 +44,36 @@ Error not_resolved(const std::string& host, int fault) {
 
 }  // namespace
 
+void AddressLookup::Search::run(int flags) {
+  addrinfo wanted{};
+  wanted.ai_flags = flags;
+  wanted.ai_family = AF_UNSPEC;
+  wanted.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const int result = getaddrinfo(host.c_str(), port.c_str(), &wanted, &found);
+  const std::lock_guard lock(mutex);
+  done = true;
+  fault = result;
+  if (result != 0) return;
+  addresses = addresses_in(found);
+  freeaddrinfo(found);
+}
+
 AddressLookup::AddressLookup(const std::string& host, const std::string& port)
-    : request_(std::make_unique<Request>()) {
-  request_->host = host;
-  request_->port = port;
-  request_->wanted.ai_family = AF_UNSPEC;
-  request_->wanted.ai_socktype = SOCK_STREAM;
-  request_->entry.ar_name = request_->host.c_str();
-  request_->entry.ar_service = request_->port.c_str();
-  request_->entry.ar_request = &request_->wanted;
-  gaicb* const entries[] = {&request_->entry};
-  sigevent silent{};
-  silent.sigev_notify = SIGEV_NONE;
-  request_->refused = getaddrinfo_a(GAI_NOWAIT, const_cast<gaicb**>(entries), 1, &silent);
+    : search_(std::make_shared<Search>(host, port)) {
+  search_->run(AI_NUMERICHOST);
+  if (search_->fault == 0) return;
+  search_->done = false;
+  std::thread([search = search_] { search->run(0); }).detach();
 }
 
-AddressLookup::~AddressLookup() {
-  if (request_->refused != 0) return;
-  if (gai_cancel(&request_->entry) == EAI_NOTCANCELED) keep_for_ever(std::move(request_));
-}
+AddressLookup::~AddressLookup() = default;
 
-Result<std::optional<std::vector<Address>>> AddressLookup::ask() {
-  const int state = request_->refused != 0 ? request_->refused : gai_error(&request_->entry);
-  if (state == EAI_INPROGRESS) return std::optional<std::vector<Address>>();
-  if (state != 0) return not_resolved(request_->host, state);
-  return std::optional(addresses_in(request_->entry.ar_result));
+Result<std::optional<std::vector<Address>>> AddressLookup::ask() const {
+  const std::lock_guard lock(search_->mutex);
+  if (!search_->done) return std::optional<std::vector<Address>>();
+  if (search_->fault != 0) return not_resolved(search_->host, search_->fault);
+  return std::optional(search_->addresses);
 }
 
 }  // namespace orca::hw::link

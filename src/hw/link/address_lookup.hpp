@@ -17,13 +17,13 @@ struct Address {
   socklen_t size = 0;
 };
 
-/// The search for the addresses of a host, IPv4 and IPv6, which may take a name server many seconds and is not waited for.
+/// The search for the addresses of a host, IPv4 and IPv6. A name server may take many seconds, so a name is looked up on a
+/// thread of its own, which nobody waits for. An address needs none.
 ///
 /// Thread contract: not synchronised.
 class AddressLookup {
  public:
   /// Begins the search.
-  /// @param port  as a decimal number.
   AddressLookup(const std::string& host, const std::string& port);
   /// Gives the search up.
   ~AddressLookup();
@@ -32,11 +32,11 @@ class AddressLookup {
 
   /// Returns the addresses, at least one; nothing: not yet.
   /// @errors  not_found: there is no such host; unavailable: nobody can tell now.
-  [[nodiscard]] Result<std::optional<std::vector<Address>>> ask();
+  [[nodiscard]] Result<std::optional<std::vector<Address>>> ask() const;
 
  private:
-  struct Request;
-  std::unique_ptr<Request> request_;
+  struct Search;
+  const std::shared_ptr<Search> search_;  // shared with its thread, which may end later than this
 };
 
 }  // namespace orca::hw::link
