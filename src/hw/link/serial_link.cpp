@@ -6,17 +6,23 @@
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <optional>
+#include <thread>
 
 #include "line_settings.hpp"
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/steady_clock.hpp"
 #include "serial_places.hpp"
 #include "serial_trouble.hpp"
 #include "stream.hpp"
 
 namespace orca::hw::link {
 namespace {
+
+constexpr Duration kLongestLastWords = 50ms;
+constexpr std::chrono::milliseconds kPauseInLastWords{1};
 
 // Opened as a file, some devices do things: a watchdog starts to count. So it is looked at before.
 Status check_kind(const std::string& path, const std::string& name) {
@@ -88,16 +94,30 @@ Status SerialLink::take(int terminal) {
 void SerialLink::close() {
   if (!stream_->is_attached()) return;
   const int terminal = stream_->descriptor();
-  (void)ioctl(terminal, TCFLSH, TCOFLUSH);  // or closing waits for what a stuck device does not take
+  let_last_words_out();
+  if (pending() > 0) (void)ioctl(terminal, TCFLSH, TCOFLUSH);  // or closing waits for a stuck device
   old_->restore(terminal);
   (void)ioctl(terminal, TIOCNXCL);
   stream_->detach();
   path_.clear();
 }
 
+// The last words are often "stop". What they need is known from the rate, since adapters do not tell what they still hold.
+void SerialLink::let_last_words_out() {
+  const TimePoint latest = steady_now() + kLongestLastWords;
+  while (steady_now() < latest && stream_->flush().ok() && (pending() > 0 || steady_now() < busy_until_))
+    std::this_thread::sleep_for(kPauseInLastWords);
+}
+
 Result<std::size_t> SerialLink::read(std::span<std::uint8_t> into) { return stream_->read(into); }
 
-Status SerialLink::write(std::span<const std::uint8_t> bytes) { return stream_->write(bytes); }
+Status SerialLink::write(std::span<const std::uint8_t> bytes) {
+  Status written = stream_->write(bytes);
+  if (written.ok())
+    busy_until_ =
+        std::max(busy_until_, steady_now()) + from_seconds(static_cast<double>(bytes.size()) * byte_time());
+  return written;
+}
 
 Status SerialLink::flush() { return stream_->flush(); }
 
@@ -113,6 +133,7 @@ void SerialLink::discard_input() {
 
 void SerialLink::discard_output() {
   stream_->discard_output();
+  busy_until_ = {};
   if (stream_->is_attached()) (void)ioctl(stream_->descriptor(), TCFLSH, TCOFLUSH);
 }
 

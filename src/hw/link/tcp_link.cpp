@@ -153,6 +153,7 @@ Result<Opening> TcpLink::open() {
 
 void TcpLink::close() {
   connecting_.reset();
+  stream_->drain();  // or the system cuts the connection, and the device loses what was written last
   stream_->detach();
 }
 

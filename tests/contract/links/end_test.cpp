@@ -52,6 +52,17 @@ TEMPLATE_TEST_CASE("what arrived before the device went is read first where the 
   CHECK(error_of_reading(*kit.link) == Code::unavailable);
 }
 
+TEMPLATE_TEST_CASE("what was written before the link was closed still gets to the device", "[hw][link]",
+                   ORCA_LINK_KITS) {
+  TestType kit;
+  kit.connect();
+  must_write(*kit.device, bytes_of("never read"));
+  must_write(*kit.link, bytes_of("stop"));
+  kit.link->close();
+  CHECK(text_of(read_bytes(*kit.device, 4)) == "stop");
+  CHECK(error_of_reading(*kit.device) == Code::unavailable);
+}
+
 TEMPLATE_TEST_CASE("a link that is not open says so, also when it is closed twice", "[hw][link]",
                    ORCA_LINK_KITS) {
   TestType kit;

@@ -44,6 +44,8 @@ struct SerialKit : LinkKit {
   static constexpr bool kHasDescriptor = true;
   /// Whether what the device sent just before it went can still be read.
   static constexpr bool kKeepsLastWords = false;
+  /// Whether the device gets what the link wrote just before it was closed.
+  static constexpr bool kDeliversLastWords = true;
   /// Whether the link knows what waits because the device takes nothing.
   static constexpr bool kTellsPending = true;
 
@@ -59,7 +61,8 @@ struct SerialKit : LinkKit {
 /// The device's side of a serial line; the "device" is a driver here.
 struct PtyKit : LinkKit {
   static constexpr bool kHasDescriptor = true;
-  static constexpr bool kKeepsLastWords = false;  // a driver that closes drops what is not sent yet
+  static constexpr bool kKeepsLastWords = true;
+  static constexpr bool kDeliversLastWords = false;  // a line that is cut takes its bytes along
   static constexpr bool kTellsPending = true;
 
   TempFolder folder;
@@ -80,6 +83,7 @@ template <int kFamily>
 struct TcpKit : LinkKit {
   static constexpr bool kHasDescriptor = true;
   static constexpr bool kKeepsLastWords = true;
+  static constexpr bool kDeliversLastWords = true;
   static constexpr bool kTellsPending = true;
 
   TcpKit() {
@@ -95,6 +99,7 @@ template <bool kDescriptors>
 struct MemoryKit : LinkKit {
   static constexpr bool kHasDescriptor = kDescriptors;
   static constexpr bool kKeepsLastWords = true;
+  static constexpr bool kDeliversLastWords = true;
   static constexpr bool kTellsPending = false;
 
   MemoryKit() {

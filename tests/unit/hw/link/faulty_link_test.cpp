@@ -98,6 +98,7 @@ TEST_CASE("what is counted is what arrives differently", "[hw][link][faults]") {
 
 TEST_CASE("a fault in the script befalls its byte", "[hw][link][faults]") {
   FaultyLine line(scripted({{Direction::in, 1, Fault::drop},
+                            {Direction::in, 1, Fault::flip, 0x01},
                             {Direction::in, 2, Fault::flip, 0x80},
                             {Direction::in, 3, Fault::insert, 0x55},
                             {Direction::in, 4, Fault::duplicate},
@@ -191,6 +192,20 @@ TEST_CASE("input that is delayed comes after the delay", "[hw][link][faults]") {
   line.time += 10ms;
   CHECK(read_some(*line.link) == Bytes{3});
   CHECK(line.link->count(Fault::delay) == 3);
+}
+
+TEST_CASE("bytes that are delayed are not overtaken by later ones", "[hw][link][faults]") {
+  FaultyLine line;
+  FaultModes modes;
+  modes.delay = 20ms;
+  line.set(modes);
+  must_write(*line.device, {1});
+  CHECK(read_some(*line.link).empty());
+  line.set({});
+  must_write(*line.device, {2});
+  CHECK(read_some(*line.link).empty());
+  line.time += 20ms;
+  CHECK(read_some(*line.link) == Bytes{1, 2});
 }
 
 TEST_CASE("input that is glued comes in one piece", "[hw][link][faults]") {

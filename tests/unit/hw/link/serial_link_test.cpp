@@ -173,6 +173,7 @@ TEST_CASE("a port that another program has locked is refused with that program's
   const Error refused = error_of_opening(link);
   CHECK(refused.code == Code::unavailable);
   CHECK_THAT(refused.message, Contains("(process " + std::to_string(child) + ")"));
+  CHECK_THAT(refused.message, !Contains("(process " + std::to_string(getpid()) + ")"));
   close(done[1]);
   int status = -1;
   CHECK(waitpid(child, &status, 0) == child);
@@ -196,6 +197,36 @@ TEST_CASE("other programs cannot open the port while a link has it, unless they 
     CHECK(geteuid() == 0);
     CHECK(flock(other.number(), LOCK_EX | LOCK_NB) != 0);
   }
+  link.close();
+  const Descriptor later = open_plainly(device.device());
+  REQUIRE(later);
+  int exclusive = -1;
+  CHECK(ioctl(later.number(), TIOCGEXCL, &exclusive) == 0);
+  CHECK(exclusive == 0);
+}
+
+TEST_CASE("closing waits for the last words at the line's rate, but not for a device that is stuck",
+          "[hw][link][serial]") {
+  const TempFolder folder;
+  PtyLink device;
+  must_open(device);
+  SerialLink link(serial_at(folder, device.device(), 9600));
+  const auto time_to_close = [&] {
+    const auto begin = std::chrono::steady_clock::now();
+    link.close();
+    return std::chrono::steady_clock::now() - begin;
+  };
+  must_open(link);
+  CHECK(time_to_close() < 20ms);
+  must_open(link);
+  must_write(link, Bytes(24, 0x55));
+  CHECK(time_to_close() > 20ms);  // 24 bytes of 10 bits take 25 ms at 9600 baud
+  must_open(link);
+  while (link.write(Bytes(64, 0x55)).ok()) continue;
+  CHECK(link.pending() > 0);
+  const auto stuck = time_to_close();
+  CHECK(stuck >= 50ms);
+  CHECK(stuck < 1s);
 }
 
 TEST_CASE("an adapter that is unplugged is told as gone, and found again where it comes back",

@@ -26,8 +26,8 @@ enum class Opening {
 
 /// A stream of bytes to a device and back: a serial line, a connection, a recording.
 ///
-/// No function waits for the device, so a strand may call them between two commands to the motors. The codes of errors
-/// tell the caller what to do:
+/// No function but close() waits for the device, so a strand may call them between two commands to the motors. The codes
+/// of errors tell the caller what to do:
 ///
 /// | code                | meaning                                                      | what to do            |
 /// |---------------------|--------------------------------------------------------------|-----------------------|
@@ -56,7 +56,8 @@ class ByteLink {
   ///          rate; deadline_exceeded: it does not answer. The text says what to do. The link is then closed.
   [[nodiscard]] virtual Result<Opening> open() = 0;
 
-  /// Closes the link and drops what waits in it; again if it is closed: nothing.
+  /// Closes the link and drops what waits in it; again if it is closed: nothing. It may take up to 50 ms, so that the
+  /// command that was written last still gets to the device.
   virtual void close() = 0;
 
   /// Reads what is there.

@@ -25,7 +25,8 @@ struct SerialOptions {
 /// An adapter that was unplugged is found again by its name in by-id, even if it comes back under another number. A
 /// device that has taken the old number meanwhile is not opened: commands to the motors must not go to a stranger.
 ///
-/// What is pending includes what the driver of the port still holds. close() puts the old settings back.
+/// What is pending includes what the driver of the port still holds. close() lets out what was written last, which is
+/// often a command to stop, but waits at most 50 ms for that, and puts the old settings back.
 ///
 /// Thread contract: one strand.
 class SerialLink final : public ByteLink {
@@ -52,6 +53,7 @@ class SerialLink final : public ByteLink {
  private:
   [[nodiscard]] Result<std::string> locate() const;
   [[nodiscard]] Status take(int terminal);
+  void let_last_words_out();
 
   SerialOptions options_;
   const std::unique_ptr<SerialPlaces> places_;
@@ -59,6 +61,8 @@ class SerialLink final : public ByteLink {
   const std::unique_ptr<Stream> stream_;
   std::string identity_;  // the path in by-id of the adapter that was opened first
   std::string path_;
+  TimePoint
+      busy_until_;  // with what was written, on the system's clock, if the device takes it at the line's rate
 };
 
 }  // namespace orca::hw::link
