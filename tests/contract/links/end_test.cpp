@@ -44,11 +44,10 @@ TEMPLATE_TEST_CASE("that the device has gone is told to who writes", "[hw][link]
 TEMPLATE_TEST_CASE("what arrived before the device went is read first where the system keeps it",
                    "[hw][link]", ORCA_LINK_KITS) {
   TestType kit;
-  if (!TestType::kKeepsLastWords) return;  // a line that is cut takes its bytes along
   kit.connect();
   must_write(*kit.device, bytes_of("last words"));
   kit.device->close();
-  CHECK(text_of(read_bytes(*kit.link, 10)) == "last words");
+  if (TestType::kKeepsLastWords) CHECK(text_of(read_bytes(*kit.link, 10)) == "last words");
   CHECK(error_of_reading(*kit.link) == Code::unavailable);
 }
 
@@ -59,7 +58,7 @@ TEMPLATE_TEST_CASE("what was written before the link was closed still gets to th
   must_write(*kit.device, bytes_of("never read"));
   must_write(*kit.link, bytes_of("stop"));
   kit.link->close();
-  CHECK(text_of(read_bytes(*kit.device, 4)) == "stop");
+  if (TestType::kDeliversLastWords) CHECK(text_of(read_bytes(*kit.device, 4)) == "stop");
   CHECK(error_of_reading(*kit.device) == Code::unavailable);
 }
 

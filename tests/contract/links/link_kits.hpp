@@ -42,7 +42,7 @@ struct LinkKit {
 /// A serial line; the device is the other side of a pseudo terminal.
 struct SerialKit : LinkKit {
   static constexpr bool kHasDescriptor = true;
-  /// Whether what the device sent just before it went can still be read.
+  /// Whether what the device sent just before it went can still be read. A line that is cut takes its bytes along.
   static constexpr bool kKeepsLastWords = false;
   /// Whether the device gets what the link wrote just before it was closed.
   static constexpr bool kDeliversLastWords = true;
@@ -62,7 +62,7 @@ struct SerialKit : LinkKit {
 struct PtyKit : LinkKit {
   static constexpr bool kHasDescriptor = true;
   static constexpr bool kKeepsLastWords = true;
-  static constexpr bool kDeliversLastWords = false;  // a line that is cut takes its bytes along
+  static constexpr bool kDeliversLastWords = false;
   static constexpr bool kTellsPending = true;
 
   TempFolder folder;
