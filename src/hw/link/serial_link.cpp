@@ -63,7 +63,7 @@ Result<Opening> SerialLink::open() {
   }
   if (const Status taken = take(terminal.number()); !taken.ok()) return taken.error();
   path_ = resolved(*path);
-  if (identity_.empty()) identity_ = places_->identity_of(*path);
+  if (identity_.empty() && !places_->holds(*path)) identity_ = places_->identity_of(*path);
   stream_->attach(std::move(terminal));
   return Opening::done;
 }
@@ -98,6 +98,7 @@ void SerialLink::close() {
   if (pending() > 0) (void)ioctl(terminal, TCFLSH, TCOFLUSH);  // or closing waits for a stuck device
   old_->restore(terminal);
   (void)ioctl(terminal, TIOCNXCL);
+  (void)flock(terminal, LOCK_UN);  // a copy of this process may still hold the descriptor
   stream_->detach();
   path_.clear();
 }

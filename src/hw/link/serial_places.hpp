@@ -19,6 +19,8 @@ class SerialPlaces {
   [[nodiscard]] std::string path_of(const std::string& device) const;
   /// Returns the path in by-id of the adapter that `path` leads to; empty: it has none.
   [[nodiscard]] std::string identity_of(const std::string& path) const;
+  /// Returns whether the path is one of these names, so that it leads to what its user means wherever that is now.
+  [[nodiscard]] bool holds(const std::string& path) const { return path.starts_with(folder_ + "/"); }
   /// Returns the paths in by-id of all adapters that are plugged in, sorted.
   [[nodiscard]] std::vector<std::string> adapters() const;
 

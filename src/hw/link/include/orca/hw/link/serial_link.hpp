@@ -23,7 +23,9 @@ struct SerialOptions {
 /// A serial line: raw bytes, any rate, no flow control. The port is this link's alone while it is open.
 ///
 /// An adapter that was unplugged is found again by its name in by-id, even if it comes back under another number. A
-/// device that has taken the old number meanwhile is not opened: commands to the motors must not go to a stranger.
+/// device that has taken the old number meanwhile is not opened: commands to the motors must not go to a stranger. A name
+/// in by-id or by-path is always followed. By-path is the choice for two adapters of one make without serial numbers, which
+/// have one name in by-id.
 ///
 /// What is pending includes what the driver of the port still holds. close() lets out what was written last, which is
 /// often a command to stop, but waits at most 50 ms for that, and puts the old settings back.
@@ -59,7 +61,7 @@ class SerialLink final : public ByteLink {
   const std::unique_ptr<SerialPlaces> places_;
   const std::unique_ptr<OldSettings> old_;
   const std::unique_ptr<Stream> stream_;
-  std::string identity_;  // the path in by-id of the adapter that was opened first
+  std::string identity_;  // the path in by-id of the adapter that was opened first, by another name
   std::string path_;
   TimePoint
       busy_until_;  // with what was written, on the system's clock, if the device takes it at the line's rate
