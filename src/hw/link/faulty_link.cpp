@@ -64,8 +64,7 @@ void FaultyLink::hold(const std::vector<std::uint8_t>& bytes) {
   const TimePoint now = now_();
   for (const std::uint8_t byte : bytes) {
     const bool joins = modes_.glue > Duration{0} && !held_.empty() && held_.back().due > now;
-    TimePoint due = joins ? held_.back().due : now + modes_.delay + modes_.glue;
-    if (!held_.empty()) due = std::max(due, held_.back().due);
+    const TimePoint due = joins ? held_.back().due : now + modes_.delay + modes_.glue;
     held_.push_back({byte, due});
     counter(Fault::glue) += joins;
     counter(Fault::delay) += modes_.delay > Duration{0};

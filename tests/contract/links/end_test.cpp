@@ -2,6 +2,8 @@
 // A link tells "nothing now" from "gone", and can be opened again.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "link_kits.hpp"
 
 using namespace orca;
@@ -60,6 +62,27 @@ TEMPLATE_TEST_CASE("what was written before the link was closed still gets to th
   kit.link->close();
   if (TestType::kDeliversLastWords) CHECK(text_of(read_bytes(*kit.device, 4)) == "stop");
   CHECK(error_of_reading(*kit.device) == Code::unavailable);
+}
+
+TEST_CASE("a connection that is closed with input unread still delivers what the system has taken",
+          "[hw][link]") {
+  TcpKit<AF_INET> kit;
+  kit.connect();
+  must_write(*kit.device, bytes_of("never read"));
+  std::size_t written = 0;
+  while (kit.link->write(Bytes(64)).ok()) written += 64;
+  const std::size_t held_by_system =
+      kit.link->pending() - std::min(kit.link->pending(), hw::link::kMostPending);
+  REQUIRE(held_by_system > 0);  // so that the device has not got everything
+  kit.link->close();
+  std::size_t arrived = 0;
+  Bytes bytes(4096);
+  CHECK(soon([&] {
+    const Result<std::size_t> count = kit.device->read(bytes);
+    if (count) arrived += *count;
+    return !count;
+  }));
+  CHECK(arrived >= written - hw::link::kMostPending);
 }
 
 TEMPLATE_TEST_CASE("a link that is not open says so, also when it is closed twice", "[hw][link]",

@@ -191,16 +191,18 @@ TEST_CASE("other programs cannot open the port while a link has it, unless they 
   SerialLink link(serial_at(folder, device.device()));
   must_open(link);
   const Descriptor other = open_plainly(device.device());
+  int exclusive = -1;
   if (!other) {
     CHECK(errno == EBUSY);
   } else {
     CHECK(geteuid() == 0);
+    CHECK(ioctl(other.number(), TIOCGEXCL, &exclusive) == 0);
+    CHECK(exclusive == 1);
     CHECK(flock(other.number(), LOCK_EX | LOCK_NB) != 0);
   }
   link.close();
   const Descriptor later = open_plainly(device.device());
   REQUIRE(later);
-  int exclusive = -1;
   CHECK(ioctl(later.number(), TIOCGEXCL, &exclusive) == 0);
   CHECK(exclusive == 0);
 }

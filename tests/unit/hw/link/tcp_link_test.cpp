@@ -6,6 +6,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include "address_lookup.hpp"
 #include "link_talk.hpp"
 #include "orca/base/descriptor.hpp"
 #include "orca/hw/link/tcp_link.hpp"
@@ -105,6 +106,15 @@ TEST_CASE("a search for a host can be given up at any time, and the next one beg
   }
   REQUIRE(listen(port.socket.number(), 1) == 0);
   must_open(link);
+}
+
+TEST_CASE("an address needs no search", "[hw][link][tcp]") {
+  for (const char* host : {"127.0.0.1", "::1"}) {
+    const auto found = hw::link::AddressLookup(host, "4000").ask();
+    REQUIRE(found.has_value());
+    REQUIRE(found->has_value());
+    CHECK((*found)->size() == 1);
+  }
 }
 
 TEST_CASE("an IPv6 address stands in brackets in a link's name", "[hw][link][tcp]") {

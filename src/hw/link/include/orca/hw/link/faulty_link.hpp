@@ -122,7 +122,7 @@ class FaultyLink final : public ByteLink {
   const std::unique_ptr<ByteFaults> out_;
   FaultModes modes_;
   std::array<std::uint64_t, kFaults> counts_{};
-  std::deque<Held> held_;              // input, by due time
+  std::deque<Held> held_;              // input, in the order in which it came
   std::optional<Error> failure_;       // of the inner link; told when the input before it has been read
   std::vector<std::uint8_t> waiting_;  // output that the device refuses
 };
