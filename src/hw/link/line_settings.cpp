@@ -70,9 +70,9 @@ std::optional<Line> line_of(int terminal) {
   return Line{settings.c_ospeed, (settings.c_cflag & PARENB) != 0 ? Parity::even : Parity::none};
 }
 
-bool OldSettings::keep(int terminal) {
+int OldSettings::keep(int terminal) {
   flags_.reset();
-  return ioctl(terminal, TCGETS2, &line_) == 0;
+  return ioctl(terminal, TCGETS2, &line_) == 0 ? 0 : errno;
 }
 
 void OldSettings::hurry(int terminal) {

@@ -26,8 +26,9 @@ namespace orca::hw::link {
 /// Thread contract: not synchronised.
 class OldSettings {
  public:
-  /// Reads the settings; false: this is no terminal.
-  [[nodiscard]] bool keep(int terminal);
+  /// Reads the settings.
+  /// @return 0, or errno if there are none; ENOTTY: this is no terminal.
+  [[nodiscard]] int keep(int terminal);
   /// Asks the driver to deliver bytes as they come and not in groups (which costs FTDI adapters 16 ms), and raises the
   /// lines that tell the device that somebody is there. Drivers without these features are left as they are.
   void hurry(int terminal);

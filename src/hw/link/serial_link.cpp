@@ -47,24 +47,11 @@ Result<Opening> SerialLink::open() {
   if (stream_->is_attached()) return Opening::done;
   const Result<std::string> path = locate();
   if (!path) return path.error();
-  if (const Status kind = check_kind(*path, name()); !kind.ok()) return kind.error();
-  Descriptor terminal(::open(path->c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!terminal) {
-    const int reason = errno;
-    throw_if_exhausted(reason);
-    return explain_refusal(*path, reason, *places_, name());
-  }
-  if (!old_->keep(terminal.number()))
-    return fail(Code::invalid_argument, *path + " is no serial device", name());
-  // The lock keeps out other programs of Orca and root's, which the exclusive mode lets in.
-  if (flock(terminal.number(), LOCK_EX | LOCK_NB) != 0) {
-    terminal.reset();
-    return explain_holder(*path, name());
-  }
-  if (const Status taken = take(terminal.number()); !taken.ok()) return taken.error();
+  Result<Descriptor> terminal = claim(*path);
+  if (!terminal) return terminal.error();
   path_ = resolved(*path);
   if (identity_.empty() && !places_->holds(*path)) identity_ = places_->identity_of(*path);
-  stream_->attach(std::move(terminal));
+  stream_->attach(std::move(*terminal));
   return Opening::done;
 }
 
@@ -78,6 +65,29 @@ Result<std::string> SerialLink::locate() const {
               identity_ + " is not plugged in, and " + named +
                   " is another device now; plug in the first one, or start again to use the other",
               name());
+}
+
+// Opens a device for this link alone.
+Result<Descriptor> SerialLink::claim(const std::string& path) {
+  if (const Status kind = check_kind(path, name()); !kind.ok()) return kind.error();
+  Descriptor terminal(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!terminal) {
+    const int reason = errno;
+    throw_if_exhausted(reason);
+    return explain_refusal(path, reason, *places_, name());
+  }
+  const int reason = old_->keep(terminal.number());
+  if (reason == ENOTTY || reason == EINVAL)
+    return fail(Code::invalid_argument, path + " is no serial device", name());
+  if (reason != 0)
+    return explain_refusal(path, reason, *places_, name());  // a port that its board does not have
+  // The lock keeps out other programs of Orca and root's, which the exclusive mode lets in.
+  if (flock(terminal.number(), LOCK_EX | LOCK_NB) != 0) {
+    terminal.reset();
+    return explain_holder(path, name());
+  }
+  if (const Status taken = take(terminal.number()); !taken.ok()) return taken.error();
+  return terminal;
 }
 
 Status SerialLink::take(int terminal) {

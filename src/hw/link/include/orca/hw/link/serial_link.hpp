@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "orca/base/descriptor.hpp"
 #include "orca/hw/link/byte_link.hpp"
 
 namespace orca::hw::link {
@@ -54,6 +55,7 @@ class SerialLink final : public ByteLink {
 
  private:
   [[nodiscard]] Result<std::string> locate() const;
+  [[nodiscard]] Result<Descriptor> claim(const std::string& path);
   [[nodiscard]] Status take(int terminal);
   void let_last_words_out();
 
