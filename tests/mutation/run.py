@@ -14,6 +14,7 @@ test can tell it from the original.
   --jobs N       compilers and tests at a time (default: as many as processors)
   --share P      exit status 1 if fewer than P percent are caught (default 85)
   --trust        take for granted that the unchanged sources build and pass, as a run before has shown; saves half an hour
+  --after FILE   what an earlier run printed: a mutant that it caught counts as caught, all others are tried
   --list         only list the mutants that would be tried
 
 Exit status: 0 enough were caught, 1 too few were, 2 the unchanged sources do not build or pass.
@@ -23,6 +24,7 @@ import contextlib
 import hashlib
 import itertools
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -113,6 +115,7 @@ def parse_arguments():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--share", type=float, default=85.0)
     parser.add_argument("--trust", action="store_true")
+    parser.add_argument("--after", type=Path)
     parser.add_argument("--list", action="store_true")
     return parser.parse_args()
 
@@ -247,7 +250,12 @@ def judge_unchanged(workshop, only):
                 sys.exit(2)
 
 
-def judge(workshop, mutants, count):
+def caught_in(printed):
+    """The mutants that an earlier run has caught, by their text."""
+    return set(re.findall(r"^\[\d+/\d+\] caught +\d+ s  (.*)$", printed, re.MULTILINE))
+
+
+def judge(workshop, mutants, count, caught_before=frozenset()):
     tally, equal = Tally(), known_as_equal()
     for mutant in mutants:
         if tally.judged() == count:
@@ -255,6 +263,8 @@ def judge(workshop, mutants, count):
         began = time.monotonic()
         if without_line(mutant, (ROOT / mutant.path).read_text()) in equal:
             verdict = "equal"
+        elif mutant.text() in caught_before:
+            verdict = "caught"
         else:
             verdict = workshop.try_out(mutant)
         if verdict == "not compiled":
@@ -283,7 +293,7 @@ def main():
     workshop.prepare()
     if not options.trust:
         judge_unchanged(workshop, options.only)
-    tally = judge(workshop, mutants, options.count)
+    tally = judge(workshop, mutants, options.count, caught_in(options.after.read_text()) if options.after else ())
     report(tally)
     return 0 if tally.share() >= options.share else 1
 
