@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -18,41 +17,20 @@ class ByteReader {
   explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
   [[nodiscard]] std::size_t remaining() const { return bytes_.size(); }
-  std::uint8_t u8() {
-    const auto byte = bytes(1);
-    return byte.empty() ? std::uint8_t{0} : byte[0];
-  }
-  std::uint16_t u16() {
-    const unsigned low = u8();
-    return static_cast<std::uint16_t>(low + 256U * u8());
-  }
-  std::uint32_t u32() {
-    const std::uint32_t low = u16();
-    return low + (std::uint32_t{u16()} << 16);
-  }
+  std::uint8_t u8();
+  std::uint16_t u16();
+  std::uint32_t u32();
   /// Signed numbers are in two's complement.
   std::int8_t s8() { return static_cast<std::int8_t>(u8()); }
   std::int16_t s16() { return static_cast<std::int16_t>(u16()); }
   std::int32_t s32() { return static_cast<std::int32_t>(u32()); }
 
   /// Returns the next `count` bytes, or those that are left.
-  std::span<const std::uint8_t> bytes(std::size_t count) {
-    const auto taken = bytes_.first(std::min(count, bytes_.size()));
-    bytes_ = bytes_.subspan(taken.size());
-    return taken;
-  }
+  std::span<const std::uint8_t> bytes(std::size_t count);
   /// Returns the next `count` bytes, or those that are left, as characters.
-  std::string_view text(std::size_t count) {
-    const auto taken = bytes(count);
-    return {reinterpret_cast<const char*>(taken.data()), taken.size()};
-  }
+  std::string_view text(std::size_t count);
   /// Returns the text up to the next zero byte, which is passed over, or up to the end.
-  std::string_view text_to_zero() {
-    const auto zero = std::ranges::find(bytes_, std::uint8_t{0});
-    const std::string_view found = text(static_cast<std::size_t>(zero - bytes_.begin()));
-    u8();
-    return found;
-  }
+  std::string_view text_to_zero();
 
  private:
   std::span<const std::uint8_t> bytes_;
