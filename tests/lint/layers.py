@@ -92,6 +92,7 @@ LAYERS = (
     Layer("sim_world", ("sim/world",), ("orca/sim/world.hpp",), SIM_WORLD, ("eigen", "fmt"), module="sim"),
     Layer("sim_files", ("sim/files",), ("orca/sim/bitmap.hpp", "orca/sim/robot_file.hpp", "orca/sim/world_file.hpp"),
           SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # Bullet: transforms
+    Layer("emulators", ("sim/emulators",), ("orca/emulators/",), ("hw_framing", "geometry", "base")),
     Layer("sim_plugin", ("sim/plugin",), (), ("geometry_objects", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
     Layer("host_containment", (f"{HOST}/containment",), ("orca/host/alarm.hpp", "orca/host/alarm_store.hpp", "orca/host/last_words.hpp",
                                                                 "orca/host/stop_signal.hpp"),

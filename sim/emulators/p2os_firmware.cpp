@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/emulators/p2os_firmware.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "orca/hw/framing/checksums.hpp"
+
+namespace orca::emulators {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+using hw::framing::Finding;
+
+constexpr std::size_t kLongest = 258;
+constexpr int kSonarsEachTime = 8;  // two groups fire in a cycle
+constexpr std::uint8_t kSyncLost = 0xFF;
+
+enum Number {
+  kPulse = 0,
+  kOpen = 1,
+  kClose = 2,
+  kEnable = 4,
+  kVel = 11,
+  kRvel = 21,
+  kSonar = 28,
+  kStop = 29,
+  kVel2 = 32,
+  kHostbaud = 50,
+  kEstop = 55,
+  kReset = 253
+};
+
+// Header FA FB, number of bytes that follow, body, checksum with its high byte first.
+Finding find_packet(Bytes bytes) {
+  if (bytes[0] != 0xFA) return {};
+  if (bytes.size() < 3) return {Finding::Kind::need_more};
+  const std::size_t follow = bytes[2];
+  if (bytes[1] != 0xFB || follow < 3) return {};
+  if (bytes.size() < follow + 3) return {Finding::Kind::need_more};
+  const Bytes body = bytes.subspan(3, follow - 2);
+  const unsigned sum = bytes[follow + 1] * 256U + bytes[follow + 2];
+  if (hw::framing::sum_of_words(body) != sum) return {Finding::Kind::bad_checksum};
+  return {Finding::Kind::frame, follow + 3};
+}
+
+// The argument of a command. Negative numbers come as their magnitude. What is missing is 0.
+int argument_of(Bytes body) {
+  if (body.size() < 4) return 0;
+  const int magnitude = body[2] + 256 * body[3];
+  return body[1] == 0x1B ? -magnitude : magnitude;
+}
+
+void add_word(std::vector<std::uint8_t>& body, long value) {
+  body.push_back(static_cast<std::uint8_t>(value & 0xFF));
+  body.push_back(static_cast<std::uint8_t>((value >> 8) & 0xFF));
+}
+
+void add_text(std::vector<std::uint8_t>& body, const std::string& text) {
+  body.insert(body.end(), text.begin(), text.end());
+  body.push_back(0);
+}
+
+Duration seconds(double time) { return Duration(std::llround(1e9 * time)); }
+
+}  // namespace
+
+P2osFirmware::P2osFirmware(Body& body, P2osSettings settings)
+    : body_(body),
+      settings_(std::move(settings)),
+      scanner_({.look = find_packet, .longest = kLongest}),
+      baud_(settings_.baud) {}
+
+void P2osFirmware::take(Bytes bytes, std::uint32_t baud, TimePoint now) {
+  host_baud_ = baud;
+  if (baud != 0 && baud != baud_) return;  // it sees other bits, and no packet
+  scanner_.feed(bytes, [&](const hw::framing::Frame& frame) {
+    obey(frame.bytes.subspan(3, frame.bytes.size() - 5), now);
+  });
+}
+
+void P2osFirmware::obey(Bytes body, TimePoint now) {
+  last_command_ = now;
+  fed_ = true;
+  const int number = body[0];
+  if (!open_) return shake_hands(number, now);
+  commands_.push_back(number);
+  carry_out(number, argument_of(body), now);
+}
+
+// SYNC0, SYNC1, SYNC2 are sent back, the last one with the names of the robot; then OPEN, which is 1 like SYNC1.
+void P2osFirmware::shake_hands(int number, TimePoint now) {
+  if (syncs_ == 3 && number == kOpen) {
+    open_ = true;
+    next_information_ = now + settings_.cycle;
+    return;
+  }
+  if (number == 0) syncs_ = 0;
+  if (number != syncs_ || number > 2) {
+    syncs_ = 0;
+    return send({kSyncLost}, now);
+  }
+  ++syncs_;
+  std::vector<std::uint8_t> answer{static_cast<std::uint8_t>(number)};
+  if (number == 2)
+    for (const std::string* const text : {&settings_.name, &settings_.robot_class, &settings_.subclass})
+      add_text(answer, *text);
+  send(std::move(answer), now);
+}
+
+void P2osFirmware::carry_out(int number, int value, TimePoint now) {
+  switch (number) {
+    case kPulse: return;
+    case kClose:
+      stop();
+      power_ = sonar_ = open_ = false;
+      syncs_ = 0;
+      return;
+    case kEnable: power_ = value != 0 && !button_; return drive();
+    case kVel: wanted_.forward = 0.001 * value; return drive();
+    case kRvel: wanted_.turn_rate = value * std::numbers::pi / 180.0; return drive();
+    case kVel2: {
+      const double right = 0.02 * static_cast<std::int8_t>(value & 0xFF);
+      const double left = 0.02 * static_cast<std::int8_t>((value >> 8) & 0xFF);
+      wanted_ = {0.5 * (left + right), 0.0, 0.5 * (right - left) / settings_.half_track};
+      return drive();
+    }
+    case kSonar: sonar_ = value != 0; return;
+    case kStop:
+    case kEstop: return stop();
+    case kHostbaud: {
+      constexpr std::uint32_t kRates[] = {9600, 19200, 38400, 57600, 115200};
+      if (value >= 0 && value < 5) baud_ = kRates[value];
+      return;
+    }
+    case kReset: return reset();
+    default: (void)now; return;
+  }
+}
+
+void P2osFirmware::stop() {
+  wanted_ = {};
+  drive();
+}
+
+void P2osFirmware::drive() { body_.drive(power_ ? wanted_ : Twist2{}); }
+
+void P2osFirmware::reset() {
+  stop();
+  power_ = sonar_ = open_ = false;
+  syncs_ = 0;
+  baud_ = settings_.baud;
+  line_.clear();
+}
+
+void P2osFirmware::press_button(bool pressed) {
+  button_ = pressed;
+  if (pressed) power_ = false;
+  drive();
+}
+
+std::vector<std::uint8_t> P2osFirmware::advance(TimePoint now) {
+  if (fed_ && now - last_command_ > settings_.watchdog) {
+    fed_ = false;
+    if (!(wanted_ == Twist2{})) ++watchdog_stops_;
+    stop();
+  }
+  for (; open_ && now >= next_information_; next_information_ += settings_.cycle)
+    send_information(next_information_);
+  std::vector<std::uint8_t> out;
+  for (; !line_.empty() && line_.front().leaves <= now; line_.pop_front()) out.push_back(line_.front().byte);
+  if (host_baud_ != 0 && host_baud_ != baud_)
+    for (std::uint8_t& byte : out) byte = static_cast<std::uint8_t>(byte * 37 + 11);  // as at a wrong rate
+  return out;
+}
+
+void P2osFirmware::send(std::vector<std::uint8_t> body, TimePoint now) {
+  const unsigned sum = hw::framing::sum_of_words(body);
+  std::vector<std::uint8_t> packet{0xFA, 0xFB, static_cast<std::uint8_t>(body.size() + 2)};
+  packet.insert(packet.end(), body.begin(), body.end());
+  packet.push_back(static_cast<std::uint8_t>(sum >> 8));
+  packet.push_back(static_cast<std::uint8_t>(sum & 0xFF));
+  TimePoint leaves = line_.empty() ? now : std::max(now, line_.back().leaves);
+  for (const std::uint8_t byte : packet) {
+    leaves += seconds(byte_time());
+    line_.push_back({byte, leaves});
+  }
+}
+
+void P2osFirmware::send_information(TimePoint now) {
+  const Pose2 pose = body_.odometry();
+  const Twist2 velocity = body_.velocity();
+  const double turning = velocity.turn_rate * settings_.half_track;
+  const bool moves = !(velocity == Twist2{});
+  std::vector<std::uint8_t> body{static_cast<std::uint8_t>(moves ? 0x33 : 0x32)};
+  add_word(body, std::lround(pose.x / settings_.distance_unit) & 0x7FFF);
+  add_word(body, std::lround(pose.y / settings_.distance_unit) & 0x7FFF);
+  add_word(body, std::lround(pose.yaw * 4096.0 / (2.0 * std::numbers::pi)));
+  add_word(body, std::lround(1000.0 * (velocity.forward - turning)));
+  add_word(body, std::lround(1000.0 * (velocity.forward + turning)));
+  body.push_back(127);  // 12.7 V
+  const unsigned stall = body_.is_stalled() ? 1 : 0;
+  const unsigned bumpers = body_.bumpers();
+  body.push_back(static_cast<std::uint8_t>(stall | (((bumpers >> 8) & 0x7F) << 1)));
+  body.push_back(static_cast<std::uint8_t>(stall | ((bumpers & 0x7F) << 1)));
+  add_word(body, 0);  // heading of its own control
+  add_word(body, (power_ ? 1 : 0) | (sonar_ ? 2 : 0) | (button_ ? 0x20 : 0));
+  body.push_back(0);  // no compass
+  const std::vector<std::uint8_t> heard = echoes();
+  body.insert(body.end(), heard.begin(), heard.end());
+  body.insert(body.end(), {0, 0, 0, 0, 0});  // analog port, gripper, analog, digital in and out
+  send(std::move(body), now);
+}
+
+// Returns the number of new readings, and the readings.
+std::vector<std::uint8_t> P2osFirmware::echoes() {
+  if (!sonar_) return {0};
+  const int count = std::min(kSonarsEachTime, settings_.sonars);
+  std::vector<std::uint8_t> heard{static_cast<std::uint8_t>(count)};
+  for (int i = 0; i < count; ++i) {
+    heard.push_back(static_cast<std::uint8_t>(next_sonar_));
+    add_word(heard, std::lround(body_.sonar(next_sonar_).value_or(5.0) / settings_.range_unit));
+    next_sonar_ = (next_sonar_ + 1) % settings_.sonars;
+  }
+  return heard;
+}
+
+}  // namespace orca::emulators

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/base/text.hpp"
+#include "orca/hardware.hpp"
+#include "orca/hw/link/make_link.hpp"
+#include "orca/hw/p2os/model.hpp"
+#include "senses.hpp"
+#include "session.hpp"
+
+namespace {
+
+using orca::Duration;
+using orca::Result;
+using orca::Status;
+using orca::TimePoint;
+using orca::hw::DriveSetpoint;
+using namespace orca::hw::p2os;
+using namespace std::chrono_literals;
+
+constexpr Duration kSayAgain = 250ms;  // what it is to do, and that we live; its watchdog waits 2 s
+const std::vector<std::uint32_t> kRates{9600, 38400, 19200, 115200, 57600};
+
+/// The base of a Pioneer 2, PeopleBot or later robot that speaks P2OS or ARCOS.
+///
+/// Its motors get power with the first command to move, not before, and lose it when nobody uses the base. After a fault they stay
+/// off until an operator lets the base move again.
+class P2osBase final : public orca::hw::HardwareContainer {
+ public:
+  explicit P2osBase(orca::hw::HardwareHost& host) : HardwareContainer(host) {}
+
+  std::vector<orca::HardwareFault> prepare() override {
+    std::vector<orca::HardwareFault> faults;
+    auto link = orca::hw::link::make_link(*device_, {.line = {.baud = kRates.front()}});
+    if (link) {
+      link_ = std::move(link).value();
+    } else {
+      faults.push_back({"device", link.error().message});
+    }
+    const ModelChoice choice = choose_model(*model_name_);
+    if (!choice.is_known)
+      faults.push_back({"model", orca::in_quotes(*model_name_) + " is none of " + all_models()});
+    if (!faults.empty()) return faults;
+    model_ = &choice.model;
+    declare_endpoints();
+    return faults;
+  }
+
+  [[nodiscard]] std::vector<orca::HardwareFault> conflicts_with(
+      const HardwareContainer& earlier) const override {
+    const auto& other = static_cast<const P2osBase&>(earlier);
+    if (*device_ != *other.device_) return {};
+    return {{"device", "it is that of hardware " + orca::in_quotes(other.host().name()) +
+                           ", too; each robot has a line of its own"}};
+  }
+
+  [[nodiscard]] orca::idl::Robot description() const override {
+    orca::idl::Robot robot;
+    robot.name(*name_);
+    robot.vendor("ActivMedia");
+    robot.model(std::string(model_->name));
+    robot.radius(model_->radius);
+    robot.bumper_radius(model_->radius);
+    robot.length(model_->length);
+    robot.width(model_->width);
+    orca::idl::Drive drive;
+    drive.name("wheels");
+    drive.port(*device_);
+    drive.type(orca::idl::DIFFERENTIAL);
+    drive.max_speed(motion_->limits().max_speed);
+    drive.max_steer_speed(motion_->limits().max_turn_rate);
+    drive.steer_gain(motion_->limits().steer_gain);
+    robot.drives().push_back(drive);
+    return robot;
+  }
+
+ protected:
+  Status open() override {
+    Result<orca::hw::link::Opening> opening = link_->open();
+    if (!opening) return opening.error();
+    is_open_ = *opening == orca::hw::link::Opening::done;
+    return is_open_ ? begin() : orca::ok();
+  }
+
+  Result<bool> probe() override {
+    if (!is_open_) {
+      if (Status opened = open(); !opened.ok()) return opened.error();
+      if (!is_open_) return false;
+    }
+    Result<bool> done = session_->advance(host().now());
+    if (!done || !*done) return done;
+    meet();
+    return true;
+  }
+
+  [[nodiscard]] bool recovers() const override { return true; }
+  [[nodiscard]] int descriptor() const override { return link_->descriptor(); }
+  [[nodiscard]] Duration longest_silence() const override { return 1s; }
+
+  Status start() override { return send({encode(Command::sonar, 1)}); }
+
+  void stop() override {
+    (void)send({encode(Command::stop), encode(Command::sonar, 0), encode(Command::enable, 0)});
+    powered_ = false;
+  }
+
+  void close() override {
+    if (is_open_ && session_) (void)send({encode(Command::stop), encode(Command::close)});
+    link_->close();
+    is_open_ = powered_ = false;
+    applied_ = {};
+  }
+
+  Status poll() override {
+    const TimePoint now = host().now();
+    if (Status read = session_->receive(now, [this](const Received& packet) { take(packet); }); !read.ok())
+      return read;
+    if (now < say_again_) return link_->flush();
+    return applied_.stands() ? send({encode(Command::pulse)}) : say(applied_);
+  }
+
+  [[nodiscard]] TimePoint next_poll() const override {
+    return session_ && state() != orca::hw::HardwareState::ready && state() != orca::hw::HardwareState::active
+               ? session_->next()
+               : say_again_;
+  }
+
+  Status drive(const DriveSetpoint& setpoint) override {
+    applied_ = setpoint;
+    if (!setpoint.stands() && !powered_) {
+      powered_ = true;
+      if (Status on = send({encode(Command::enable, 1)}); !on.ok()) return on;
+    }
+    return say(setpoint);
+  }
+
+ private:
+  void declare_endpoints() {
+    senses_.emplace(*model_);
+    for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
+    motion_.emplace(orca::hw::DriveLimits{.max_speed = std::min(*max_speed_, model_->max_speed),
+                                          .max_turn_rate = std::min(*max_turn_rate_, model_->max_turn_rate),
+                                          .big_turn_angle = 1.0,
+                                          .big_turn_speed = 0.1},
+                    std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*max_command_age_)));
+    set_motion(*motion_);
+    const bool is_serial = link_->byte_time() > 0.0;
+    session_.emplace(*link_, is_serial ? kRates : std::vector<std::uint32_t>{kRates.front()});
+  }
+
+  [[nodiscard]] static std::string all_models() {
+    std::string names;
+    for (const Model& model : models()) names += (names.empty() ? "" : ", ") + std::string(model.subclass);
+    return names;
+  }
+
+  Status begin() { return session_->begin(host().now()); }
+
+  // The robot has said what it is.
+  void meet() {
+    const Identity& robot = session_->identity();
+    const ModelChoice choice = choose_model(robot.subclass);
+    const auto log = [this](const std::string& text) { host().write_log(orca::log::Level::warning, text); };
+    if (!choice.is_known) {
+      log("the robot calls itself " + orca::in_quotes(robot.subclass) +
+          ", which is not known; its counts are read as those of a " + std::string(model_->name) +
+          ", so check distances before it drives on its own");
+    } else if (&choice.model != model_) {
+      log("the robot calls itself " + orca::in_quotes(robot.subclass) + "; write model=\"" +
+          std::string(choice.model.subclass) + "\", or its sonars and size are those of another robot");
+    }
+    host().write_log(orca::log::Level::info, "connected to " + orca::in_quotes(robot.name) + " (" +
+                                                 robot.robot_class + " " + robot.subclass + ") at " +
+                                                 std::to_string(session_->rate()) + " baud");
+    senses_->connect(choice.is_known ? choice.model : *model_);
+    say_again_ = host().now() + kSayAgain;
+  }
+
+  void take(const Received& packet) {
+    if (!is_sip(packet.body)) return;  // others are not asked for
+    const Result<Sip> sip = parse_sip(packet.body, senses_->units());
+    if (!sip) return;  // its checksum was good, but it is cut short
+    heard();
+    senses_->take(*sip, packet.stamp);
+    if (state() != orca::hw::HardwareState::active) return;
+    guard(*sip);
+    senses_->publish();
+  }
+
+  // Stops the base where it cannot go on. The motors lose their power with the red button, and get it back only for an operator.
+  void guard(const Sip& sip) {
+    motion_->press(senses_->pressed());
+    if (sip.left_stall || sip.right_stall) motion_->obstruct("its motors are stalled");
+    if (!sip.emergency_stop) return;
+    powered_ = false;
+    motion_->hold("its emergency button is pressed; release it, then orcactl estop --release");
+  }
+
+  Status say(const DriveSetpoint& setpoint) {
+    if (setpoint.stands() && setpoint.at_once) return send({encode(Command::estop), encode(Command::stop)});
+    return send({encode_speed(setpoint.velocity.forward), encode_turn_rate(setpoint.velocity.turn_rate)});
+  }
+
+  Status send(std::initializer_list<Packet> commands) {
+    say_again_ = host().now() + kSayAgain;
+    for (const Packet& command : commands)
+      if (Status sent = session_->send(command); !sent.ok()) return sent;
+    return orca::ok();
+  }
+
+  orca::Param<std::string> device_{
+      *this,
+      "device",
+      "/dev/ttyUSB0",
+      {.text = "Its line: a serial device, tcp:HOST:PORT, or another link (docs/hardware)."}};
+  orca::Param<std::string> model_name_{
+      *this, "model", "p2dx", {.text = "What the robot calls itself (subclass): p2dx, p2pb, p3dx, ..."}};
+  orca::Param<std::string> name_{*this, "name", "Pioneer", {.text = "Name of this robot, one word."}};
+  orca::Param<double> max_speed_{
+      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Greatest speed."}};
+  orca::Param<double> max_turn_rate_{
+      *this, "max_turn_rate", 1.5, {.unit = "rad/s", .min = 0.0, .text = "Greatest turn rate."}};
+  orca::Param<double> max_command_age_{
+      *this,
+      "max_command_age",
+      0.2,
+      {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}};
+
+  std::unique_ptr<orca::hw::link::ByteLink> link_;
+  const Model* model_ = nullptr;
+  std::optional<Senses> senses_;
+  std::optional<orca::hw::MotionHW> motion_;
+  std::optional<Session> session_;
+  bool is_open_ = false;
+  bool powered_ = false;   // the motors
+  DriveSetpoint applied_;  // what the wheels were told last
+  TimePoint say_again_{};
+};
+
+}  // namespace
+
+ORCA_HARDWARE(P2osBase, "orca.hw.P2os")

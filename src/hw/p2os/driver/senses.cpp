@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "senses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "orca/geometry/angle.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/idl/time.hpp"
+
+namespace orca::hw::p2os {
+namespace {
+
+constexpr Duration kPeriod = 100ms;                            // of packets
+constexpr double kShortestRange = 0.15;                        // [m] the ring of its own ping
+constexpr double kLongestRange = 5.0;                          // [m]
+constexpr double kHalfLobe = 12.5 * std::numbers::pi / 180.0;  // [rad] of a Polaroid transducer
+constexpr double kSonarHeight = 0.24;                          // [m] of the front ring above the floor
+
+// Bumpers lie on an arc, from the left to the right, in front, and as many behind.
+Vec2 outwards(int number, int count, bool front) {
+  const double step = std::numbers::pi / count;
+  const double ahead = 0.5 * std::numbers::pi - (number + 0.5) * step;
+  return direction(front ? ahead : wrapped(ahead + std::numbers::pi));
+}
+
+std::string bumper_name(int number, bool front) {
+  return (front ? "front " : "rear ") + std::to_string(number + 1);
+}
+
+}  // namespace
+
+Senses::Senses(const Model& model)
+    : model_(model),
+      units_(&model),
+      odometry_(kPeriod),
+      sonar_(kPeriod),
+      bumpers_(kPeriod),
+      battery_(kPeriod),
+      wheels_(model.distance_unit),
+      ranges_(model.sonar_poses.size(), kLongestRange),
+      stamps_(model.sonar_poses.size()) {}
+
+std::vector<SensorEndpoint*> Senses::endpoints() {
+  std::vector<SensorEndpoint*> all{&odometry_, &battery_};
+  if (!model_.sonar_poses.empty()) all.push_back(&sonar_);
+  if (model_.bumpers > 0) all.push_back(&bumpers_);
+  return all;
+}
+
+void Senses::connect(const Model& units) {
+  units_ = &units;
+  wheels_ = WheelOdometry(units.distance_unit);
+  heading_offset_.reset();
+  std::ranges::fill(ranges_, kLongestRange);
+}
+
+void Senses::take(const Sip& sip, TimePoint stamp) {
+  sip_ = sip;
+  stamp_ = stamp;
+  if (!heading_offset_) heading_offset_ = wrapped(pose_.yaw - sip.heading);
+  const Vec2 step = rotated(wheels_.add(sip.x, sip.y), *heading_offset_);
+  pose_ = {pose_.x + step.x, pose_.y + step.y, wrapped(sip.heading + *heading_offset_)};
+  for (const SonarEcho& echo : sip.echoes) {
+    if (echo.index >= ranges_.size()) continue;
+    ranges_[echo.index] = std::min(echo.range, kLongestRange);
+    stamps_[echo.index] = stamp;
+  }
+}
+
+void Senses::publish() {
+  publish_odometry();
+  publish_battery();
+  if (!ranges_.empty() && !sip_.echoes.empty()) publish_sonars();
+  if (model_.bumpers > 0) publish_bumpers();
+}
+
+void Senses::publish_odometry() {
+  auto object = odometry_.loan();
+  object->x(pose_.x);
+  object->y(pose_.y);
+  object->steer_angle(pose_.yaw);
+  object->translational_velocity(0.5 * (sip_.left_speed + sip_.right_speed));
+  object->steering_velocity(0.5 * (sip_.right_speed - sip_.left_speed) / units_->half_track);
+  object->stamp(to_time_value(stamp_));
+  odometry_.publish(std::move(object));
+}
+
+void Senses::publish_sonars() {
+  auto object = sonar_.loan();
+  object->ranges().assign(ranges_.begin(), ranges_.end());
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    object->poses().push_back(level_frame(model_.sonar_poses[i], kSonarHeight));
+    object->stamps().push_back(to_time_value(stamps_[i]));
+  }
+  object->min_range(kShortestRange);
+  object->max_range(kLongestRange);
+  object->half_lobe(kHalfLobe);
+  object->pose(level_pose({}, kSonarHeight, stamp_));
+  sonar_.publish(std::move(object));
+}
+
+void Senses::publish_bumpers() {
+  auto object = bumpers_.loan();
+  for (const bool front : {true, false})
+    for (int i = 0; i < model_.bumpers; ++i) {
+      const unsigned bits = front ? sip_.front_bumpers : sip_.rear_bumpers;
+      const Vec2 out = outwards(i, model_.bumpers, front);
+      object->pressed().push_back((bits >> i) & 1U);
+      object->names().push_back(bumper_name(i, front));
+      object->poses().push_back(
+          level_frame({model_.radius * out.x, model_.radius * out.y, std::atan2(out.y, out.x)}, 0.0));
+    }
+  object->stamp(to_time_value(stamp_));
+  bumpers_.publish(std::move(object));
+}
+
+void Senses::publish_battery() {
+  auto object = battery_.loan();
+  object->name("drive");
+  object->voltage(sip_.tail.real_battery_voltage.value_or(sip_.battery_voltage));
+  object->current(std::nan(""));
+  object->charge(sip_.tail.state_of_charge ? 0.01 * *sip_.tail.state_of_charge : std::nan(""));
+  const int charge = sip_.tail.charge_state.value_or(0);
+  object->charging(charge > 0 && charge < 255);
+  object->stamp(to_time_value(stamp_));
+  battery_.publish(std::move(object));
+}
+
+std::vector<Obstruction::Pressed> Senses::pressed() const {
+  std::vector<Obstruction::Pressed> all;
+  for (const bool front : {true, false})
+    for (int i = 0; i < model_.bumpers; ++i)
+      if ((((front ? sip_.front_bumpers : sip_.rear_bumpers) >> i) & 1U) != 0)
+        all.push_back({outwards(i, model_.bumpers, front), bumper_name(i, front)});
+  return all;
+}
+
+}  // namespace orca::hw::p2os

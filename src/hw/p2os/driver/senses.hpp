@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "orca/geometry/pose2.hpp"
+#include "orca/hw/endpoints.hpp"
+#include "orca/hw/p2os/model.hpp"
+#include "orca/hw/p2os/odometry.hpp"
+#include "orca/hw/p2os/sip.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/sensing.hpp"
+
+namespace orca::hw::p2os {
+
+/// What a Pioneer senses of itself and around it, as endpoints: odometry, sonars, battery, and bumpers if it has some.
+///
+/// Thread contract: not synchronised; the container's strand.
+class Senses {
+ public:
+  /// @param model  decides what there is.
+  explicit Senses(const Model& model);
+
+  [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
+
+  /// Begins anew with a robot, whose counts have units of their own. The pose goes on from where it was.
+  void connect(const Model& units);
+
+  /// Takes a packet.
+  /// @param stamp  when the robot sent it.
+  void take(const Sip& sip, TimePoint stamp);
+  /// Publishes what the last packet told. @pre  take() was called.
+  void publish();
+
+  /// Returns the bumpers that are pressed, for MotionHW::press().
+  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const;
+  /// Returns the units that connect() was given.
+  [[nodiscard]] const Model& units() const { return *units_; }
+
+ private:
+  void publish_odometry();
+  void publish_sonars();
+  void publish_bumpers();
+  void publish_battery();
+
+  const Model& model_;
+  const Model* units_;
+  SensorHW<idl::Odometry> odometry_;
+  SensorHW<idl::SonarRangeReadings> sonar_;
+  SensorHW<idl::BumperReadings> bumpers_;
+  SensorHW<idl::Battery> battery_;
+
+  WheelOdometry wheels_;
+  std::optional<double> heading_offset_;  // [rad] from the controller's heading to that of the pose
+  Pose2 pose_;                            // in the frame of the odometry
+  Sip sip_;                               // the last one
+  TimePoint stamp_{};
+  std::vector<double> ranges_;     // [m] the latest of each sonar
+  std::vector<TimePoint> stamps_;  // of each
+};
+
+}  // namespace orca::hw::p2os

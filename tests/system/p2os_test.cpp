@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The driver of Pioneers with the controller's emulation at the other end of a pseudo terminal: nothing of it is simulated.
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "deployer.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "orca/emulators/p2os_firmware.hpp"
+#include "orca/geometry/arc.hpp"
+#include "orca/hw/link/pty_link.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca;
+using namespace orca::test;
+using Catch::Contains;
+using emulators::P2osFirmware;
+using emulators::P2osSettings;
+
+namespace {
+
+// A robot in an empty plain, whose wheels do at once what they are told.
+class PlainBody final : public emulators::Body {
+ public:
+  void go_on(Duration time) { pose_ = along_arc(pose_, velocity_ * to_seconds(time)); }
+  void drive(const Twist2& velocity) override { velocity_ = velocity; }
+  [[nodiscard]] Pose2 odometry() const override { return pose_; }
+  [[nodiscard]] Twist2 velocity() const override { return velocity_; }
+  [[nodiscard]] std::optional<double> sonar(int) const override { return std::nullopt; }
+
+ private:
+  Pose2 pose_;
+  Twist2 velocity_;
+};
+
+// A Pioneer on a desk: its line is there, and its controller runs, as long as this lives.
+class Pioneer {
+ public:
+  explicit Pioneer(const std::string& device, P2osSettings settings = {})
+      : link_(device), firmware_(body_, std::move(settings)) {
+    REQUIRE(link_.open());
+    thread_ = std::thread([this] { run(); });
+  }
+  ~Pioneer() {
+    ends_ = true;
+    thread_.join();
+  }
+  Pioneer(const Pioneer&) = delete;
+  Pioneer& operator=(const Pioneer&) = delete;
+
+  /// Looks at the controller and the body, or changes them, between two of its steps.
+  template <class Look>
+  auto with(Look look) {
+    const std::lock_guard lock(mutex_);
+    return look(firmware_, body_);
+  }
+  /// Pulls the plug out, and puts it in again.
+  void unplug() {
+    const std::lock_guard lock(mutex_);
+    link_.close();
+  }
+  void plug_in() {
+    const std::lock_guard lock(mutex_);
+    REQUIRE(link_.open());
+  }
+  void fall_silent(bool silent) { silent_ = silent; }
+
+ private:
+  void run() {
+    for (TimePoint last = steady_now(); !ends_; std::this_thread::sleep_for(1ms)) {
+      const std::lock_guard lock(mutex_);
+      const TimePoint now = steady_now();
+      body_.go_on(now - last);
+      last = now;
+      exchange(now);
+    }
+  }
+  void exchange(TimePoint now) {
+    std::array<std::uint8_t, 256> bytes{};
+    if (const auto count = link_.read(bytes); count && *count > 0 && !silent_)
+      firmware_.take({bytes.data(), *count}, link_.line() ? link_.line()->baud : 0, now);
+    const std::vector<std::uint8_t> sent = firmware_.advance(now);
+    if (!sent.empty() && !silent_) (void)link_.write(sent);
+    (void)link_.flush();
+  }
+
+  hw::link::PtyLink link_;
+  PlainBody body_;
+  P2osFirmware firmware_;
+  std::mutex mutex_;
+  std::atomic<bool> silent_{false};
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+Words drive(const std::string& device, const Words& more = {}) {
+  return Words{system_graph("p2os.xml"), "--set", "device=" + device} + more;
+}
+
+Words far_goal() { return {"--set", "goals=far: 30 0"}; }
+
+bool eventually(const std::function<bool()>& condition) {
+  const TimePoint end = steady_now() + 20s * static_cast<int>(kSlowdown);
+  while (!condition()) {
+    if (steady_now() > end) return false;
+    std::this_thread::sleep_for(5ms);
+  }
+  return true;
+}
+
+bool is_moving(Pioneer& pioneer) {
+  return pioneer.with([](P2osFirmware&, PlainBody& body) { return body.velocity().forward > 0.1; });
+}
+
+bool stands(Pioneer& pioneer) {
+  return pioneer.with([](P2osFirmware&, PlainBody& body) { return body.velocity() == Twist2{}; });
+}
+
+bool has_power(Pioneer& pioneer) {
+  return pioneer.with([](P2osFirmware& firmware, PlainBody&) { return firmware.has_power(); });
+}
+
+}  // namespace
+
+TEST_CASE("a Pioneer drives to its goals over a serial line, and its motors are off before and after",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  const Run run = run_deployer(drive(device), Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  REQUIRE(run.arrivals().size() == 2);
+  CHECK(run.says("connected to \"Orca_Emu\" (Pioneer p2dx) at 9600 baud"));
+  const Pose2 end = pioneer.with([](P2osFirmware&, PlainBody& body) { return body.odometry(); });
+  CHECK(std::hypot(end.x - run.arrivals()[1].x, end.y - run.arrivals()[1].y) < 0.1);
+  CHECK(stands(pioneer));
+  CHECK_FALSE(has_power(pioneer));
+  CHECK_FALSE(pioneer.with([](P2osFirmware& firmware, PlainBody&) { return firmware.is_open(); }));
+}
+
+TEST_CASE("the rate of the line is found", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  P2osSettings settings;
+  settings.baud = 38400;
+  Pioneer pioneer(device, settings);
+  const Run run = run_deployer(drive(device), Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("at 38400 baud"));
+}
+
+TEST_CASE("without a robot on the line nothing starts, and what to look at is said", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  pioneer.fall_silent(true);
+  const Run run = run_deployer(drive(device), Seconds(60));
+  CHECK(run.exit_code() == 3);
+  CHECK_THAT(run.err, Contains("no Pioneer answers at serial:" + device +
+                               " at 9600, 38400, 19200, 115200, 57600 baud; is it switched on"));
+}
+
+TEST_CASE("a robot of another model than the graph says is told", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  P2osSettings settings;
+  settings.subclass = "p3dx";
+  settings.distance_unit = 0.000485;
+  settings.range_unit = 0.001;
+  Pioneer pioneer(device, settings);
+  const Run run = run_deployer(drive(device), Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("the robot calls itself \"p3dx\"; write model=\"p3dx\""));
+  const Pose2 end = pioneer.with([](P2osFirmware&, PlainBody& body) { return body.odometry(); });
+  CHECK(std::hypot(end.x - 0.6, end.y - 0.4) < 0.5);  // its counts were read as its own
+}
+
+TEST_CASE(
+    "a Pioneer that is unplugged while it drives stops by itself; it comes back and stands until it is let "
+    "go",
+    "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  Subprocess program(deployer(drive(device, far_goal() + Words{"--trace", "/tmp/p2os.trace"})));
+  REQUIRE(eventually([&] { return is_moving(pioneer); }));
+  pioneer.unplug();
+  REQUIRE(eventually([&] { return stands(pioneer); }));  // its own watchdog
+  CHECK(pioneer.with([](P2osFirmware& firmware, PlainBody&) { return firmware.watchdog_stops(); }) == 1);
+  CHECK(program.wait_for_output("the device has gone: was it unplugged or switched off?",
+                                Seconds(20 * kSlowdown)));
+  pioneer.plug_in();
+  const bool back = program.wait_for_output("it works again", Seconds(30));
+  INFO(program.err());
+  REQUIRE(back);
+  std::this_thread::sleep_for(500ms);
+  CHECK(stands(pioneer));
+  CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);
+  CHECK(eventually([&] { return is_moving(pioneer); }));
+  program.send(SIGINT);
+  CHECK(finish(program, Seconds(20)).exit_code() == 0);
+}
+
+TEST_CASE("a controller that is switched off and on in mid-motion is found again, and the robot stands",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  Subprocess program(deployer(drive(device, far_goal())));
+  REQUIRE(eventually([&] { return is_moving(pioneer); }));
+  pioneer.with([](P2osFirmware& firmware, PlainBody&) { firmware.reset(); });
+  CHECK(stands(pioneer));
+  REQUIRE(program.wait_for_output("is it still connected and switched on?", Seconds(20 * kSlowdown)));
+  REQUIRE(program.wait_for_output("it works again", Seconds(30 * kSlowdown)));
+  CHECK(stands(pioneer));
+  CHECK_FALSE(has_power(pioneer));
+}
+
+TEST_CASE("kill -9 of the whole system: the controller's watchdog stops the wheels", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  Subprocess program(deployer(drive(device, far_goal() + Words{"--in-process"})));
+  REQUIRE(eventually([&] { return is_moving(pioneer); }));
+  program.send(SIGKILL);
+  CHECK(eventually([&] { return stands(pioneer); }));
+  CHECK(pioneer.with([](P2osFirmware& firmware, PlainBody&) { return firmware.watchdog_stops(); }) == 1);
+}
+
+TEST_CASE("the red button takes the motors' power, and only an operator gives it back",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  Subprocess program(deployer(drive(device, far_goal())));
+  REQUIRE(eventually([&] { return is_moving(pioneer); }));
+  pioneer.with([](P2osFirmware& firmware, PlainBody&) { firmware.press_button(true); });
+  CHECK(program.wait_for_output("its emergency button is pressed", Seconds(20 * kSlowdown)));
+  pioneer.with([](P2osFirmware& firmware, PlainBody&) { firmware.press_button(false); });
+  std::this_thread::sleep_for(500ms);
+  CHECK(stands(pioneer));
+  CHECK_FALSE(has_power(pioneer));
+  CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);
+  CHECK(eventually([&] { return is_moving(pioneer); }));
+}
