@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "orca/base/portable_math.hpp"
 
@@ -139,9 +140,9 @@ void MotionHW::hold(const std::string& reason) {
   stand();
 }
 
-void MotionHW::let_go() {
+bool MotionHW::let_go() {
   const std::lock_guard lock(mutex_);
-  held_.reset();
+  return std::exchange(held_, std::nullopt).has_value();
 }
 
 // @pre  mutex_ is held.

@@ -148,6 +148,7 @@ TimePoint HardwareLoop::silence_ends() const {
 
 TimePoint HardwareLoop::next_turn() const {
   if (life_.state() == HardwareState::backoff) return retry_at_.value_or(host_.now());
+  if (life_.state() == HardwareState::fault && life_.reopens()) return host_.now();
   if (!is_open()) return kForever;
   TimePoint next = container_.next_poll();
   if (container_.descriptor() >= 0 && !hears_input_) next = std::min(next, host_.now() + kInputPeriod);

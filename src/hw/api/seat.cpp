@@ -110,10 +110,11 @@ void HardwareSeat::hold(const std::string& reason) {
   if (!pause_) stop_motors(reason);
 }
 
-void HardwareSeat::let_go() {
+bool HardwareSeat::let_go() {
   const std::lock_guard lock(mutex_);
-  held_.reset();
-  if (!pause_ && driver_->motion() != nullptr) driver_->motion()->let_go();
+  const bool was_held = std::exchange(held_, std::nullopt).has_value();
+  if (pause_ || driver_->motion() == nullptr) return was_held;
+  return driver_->motion()->let_go() || was_held;
 }
 
 void HardwareSeat::pause(const std::string& reason) {
@@ -128,7 +129,10 @@ void HardwareSeat::resume(HardwareContainer& driver, const idl::Robot& descripti
   pause_.reset();
   if (&driver != driver_) take_over(driver);
   description_ = description;
-  if (MotionHW* const motion = driver.motion()) held_ ? motion->hold(*held_) : motion->let_go();
+  if (MotionHW* const motion = driver.motion()) {
+    (void)motion->let_go();
+    if (held_) motion->hold(*held_);
+  }
   for (int user = 0; user < users_; ++user) driver.acquire();
   wake_watchers();
 }

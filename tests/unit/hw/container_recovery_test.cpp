@@ -146,6 +146,26 @@ TEST_CASE("a device that stays away is told once, and asked for less and less of
   });
 }
 
+TEST_CASE("a device that fails for one reason after the other is told each, and comes back",
+          "[hw][recovery]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    CableRobot robot(executive);
+    std::atomic<const char*> reason{"the device has gone"};
+    robot.scout.trouble["open"] = robot.scout.trouble["poll"] = [&] {
+      return robot.outside.plugged ? ok() : fail(Code::unavailable, reason.load());
+    };
+    robot.drive();
+    robot.outside.plugged = false;
+    REQUIRE(robot.gets(HardwareState::backoff));
+    reason = "no such port";
+    REQUIRE(eventually(executive, [&] { return robot.diary.has("log: no such port"); }));
+    REQUIRE(robot.gets(HardwareState::backoff));
+    robot.outside.plugged = true;
+    REQUIRE(robot.gets(HardwareState::active));
+    CHECK(robot.count("-> Fault") == 2);
+  });
+}
+
 TEST_CASE("a device that was never there is a fault for good: the system does not start", "[hw][recovery]") {
   run_on_each(all_executives(), [](Executive& executive) {
     CableRobot robot(executive);

@@ -164,8 +164,10 @@ void System::hold(const std::string& reason) {
   for (const auto& hardware : hardware_) hardware->seat().hold(reason);
 }
 
-void System::let_go() {
-  for (const auto& hardware : hardware_) hardware->seat().let_go();
+bool System::let_go() {
+  bool was_held = false;
+  for (const auto& hardware : hardware_) was_held = hardware->seat().let_go() || was_held;
+  return was_held;
 }
 
 Status System::on_strand(const std::string& component, Event& changed, TimePoint deadline,

@@ -67,7 +67,8 @@ class System {
   /// Stops what moves and refuses commands to move, until let_go().
   /// @thread  any, once the system is built.
   void hold(const std::string& reason);
-  void let_go();
+  /// Returns whether anything was held.
+  bool let_go();
 
   /// Pause a component between two laps, and resume it.
   /// @errors  not_found; failed_precondition if it cannot be suspended now, or the system is given up meanwhile;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "control/motor_hold.hpp"
 
+#include <memory>
+#include <utility>
+
 #include "orca/base/log.hpp"
 #include "orca/supervisor/log_name.hpp"
 
@@ -8,6 +11,25 @@ namespace orca::supervisor {
 namespace {
 
 constexpr const char* kReason = "emergency stop; an operator releases it with: orcactl estop --release";
+
+// Refuses to release what nobody holds, when all processes have said so. A base may also be held because its device had failed.
+class Refusal {
+ public:
+  Refusal(ReplyPtr reply, bool holds) : reply_(std::move(reply)), holds_(holds) {}
+  ~Refusal() {
+    if (holds_) reply_->refuse(fail(Code::failed_precondition, "there is no emergency stop to be released"));
+  }
+  Refusal(const Refusal&) = delete;
+  Refusal& operator=(const Refusal&) = delete;
+  void hear(const Status& outcome) {
+    if (outcome.ok()) holds_ = false;
+    if (!outcome.ok() && outcome.error().code != Code::failed_precondition) reply_->refuse(outcome.error());
+  }
+
+ private:
+  const ReplyPtr reply_;
+  bool holds_;
+};
 
 }  // namespace
 
@@ -27,10 +49,12 @@ void MotorHold::stop(const ReplyPtr& reply) {
 }
 
 void MotorHold::release(const ReplyPtr& reply) {
-  if (!holds_)
-    return reply->refuse(fail(Code::failed_precondition, "there is no emergency stop to be released"));
-  holds_ = false;
-  ask_all(reply, [] { return ReleaseMotors{}; });
+  const bool was_stopped = std::exchange(holds_, false);
+  const auto refusal = std::make_shared<Refusal>(reply, !was_stopped);
+  for (Member* const member : members_)
+    if (member->is_built())
+      member->ask(ReleaseMotors{}, [refusal](const Status& outcome) { refusal->hear(outcome); });
+  if (!was_stopped) return;
   const std::string text = "the emergency stop is released; motors obey commands again";
   log::warning(kLogName, text);
   ledger_.settle(host::AlarmKind::estop, "", text);

@@ -184,7 +184,7 @@ std::optional<Answer> OrderDesk::answer_of(Order& order) {
   }
   if (std::holds_alternative<ReleaseMotors>(order)) {
     reports_.remember([](Recollection& all) { all.note_held(false); });
-    return part_.let_go(), Answer{};
+    return Answer{part_.let_go() ? ok() : Status(fail(Code::failed_precondition, "nothing is held"))};
   }
   if (auto* outlive = std::get_if<Outlive>(&order)) return Answer{prepare_to_outlive(*outlive)};
   if (std::holds_alternative<Count>(order)) return Answer{ok(), to_records(part_.counters())};

@@ -347,7 +347,7 @@ void HostedPart::stop_motors() { inside_->watched().stop_motors(); }
 
 void HostedPart::hold(const std::string& reason) { inside_->watched().system().hold(reason); }
 
-void HostedPart::let_go() { inside_->watched().system().let_go(); }
+bool HostedPart::let_go() { return inside_->watched().system().let_go(); }
 
 RunCounters HostedPart::counters() const { return inside_->counters(); }
 

@@ -142,7 +142,8 @@ class MotionHW {
   /// @param reason  for people, as the error of a refused command gives it: "emergency stop".
   /// @thread  any, as let_go().
   void hold(const std::string& reason);
-  void let_go();
+  /// Returns whether it was held.
+  bool let_go();
 
   /// Reports that the base has met something, or that its motors are stalled. If it is moving it stands until a command
   /// asks for another direction.

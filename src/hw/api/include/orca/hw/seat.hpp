@@ -81,7 +81,8 @@ class HardwareSeat final : public Device {
   /// Stops what moves and refuses commands to move, until let_go(), whichever driver is there.
   /// @param reason  for people: "emergency stop".
   void hold(const std::string& reason);
-  void let_go();
+  /// Lets it move again, also if it is held because its device had failed. Returns whether it was held.
+  bool let_go();
 
   /// Begins a pause: stops what moves at once, and frees the driver of its users. The driver may then be closed.
   /// @param reason  for people: "its driver is being exchanged".

@@ -160,7 +160,8 @@ class HostedPart {
   /// Stops what moves and refuses commands to move, until let_go(). Everything else goes on.
   /// @param reason  for people: "emergency stop".
   void hold(const std::string& reason);
-  void let_go();
+  /// Returns whether anything was held.
+  bool let_go();
 
   /// Returns the counters of the connections that end in this process.
   [[nodiscard]] RunCounters counters() const;
