@@ -66,6 +66,7 @@ LAYERS = (
     Layer("layout_probe", ("cmake/plugin/layout_probe",), (), DEVICE),  # sees what any plugin can see
     Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), ("geometry", *COMPONENT), ("fmt",)),
     Layer("hw_framing", ("src/hw/framing",), ("orca/hw/framing/",)),  # emulators use it too
+    Layer("hw_nomad_scout", ("src/hw/nomad_scout",), ("orca/hw/nomad_scout/",), ("hw_framing", "geometry", "base")),
     Layer("hw_p2os", ("src/hw/p2os",), ("orca/hw/p2os/",), ("hw_framing", "geometry", "base")),
     Layer("hw_sick_lms", ("src/hw/sick_lms",), ("orca/hw/sick_lms/",), ("hw_framing", "base")),
     Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
