@@ -2,6 +2,7 @@
 #include "orca/hw/nomad_scout/state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "fields.hpp"
@@ -38,24 +39,15 @@ State read_state(std::span<const std::uint8_t> payload) {
 }  // namespace
 
 bool is_answered_by_state(Type command) {
-  switch (command) {
-    case Type::accelerations:
-    case Type::speeds:
-    case Type::move:
-    case Type::drive:
-    case Type::get_state:
-    case Type::stop:
-    case Type::limp:
-    case Type::define_position:
-    case Type::zero:
-    case Type::configure_sonars:
-    case Type::set_watchdog:
-    case Type::define_angles:
-    case Type::wait:
-    case Type::configure_port:
-    case Type::axes: return true;
-    default: return false;
-  }
+  static constexpr std::array kCommands = {Type::accelerations, Type::speeds,
+                                           Type::move,          Type::drive,
+                                           Type::get_state,     Type::stop,
+                                           Type::limp,          Type::define_position,
+                                           Type::zero,          Type::configure_sonars,
+                                           Type::set_watchdog,  Type::define_angles,
+                                           Type::wait,          Type::configure_port,
+                                           Type::axes};
+  return std::ranges::find(kCommands, command) != kCommands.end();
 }
 
 Result<State> parse_state(const Message& message) {
