@@ -67,8 +67,10 @@ LAYERS = (
     Layer("hw_link", ("src/hw/link",), ("orca/hw/link/",), ("base",)),
     Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), ("hw_link", "geometry", *COMPONENT), ("fmt",)),
     Layer("hw_framing", ("src/hw/framing",), ("orca/hw/framing/",)),  # emulators use it too
+    Layer("hw_nomad_scout", ("src/hw/nomad_scout",), ("orca/hw/nomad_scout/",), ("hw_framing", "geometry", "base")),
     Layer("hw_p2os", ("src/hw/p2os",), ("orca/hw/p2os/",), ("hw_framing", "geometry", "base")),
     Layer("p2os_driver", ("src/hw/p2os/driver",), (), ("hw_p2os", "hw_framing", "hw_link", "geometry_objects", *DEVICE), ("fmt",)),
+    Layer("hw_sick_lms", ("src/hw/sick_lms",), ("orca/hw/sick_lms/",), ("hw_framing", "base")),
     Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_reading", (f"{GRAPH}/reading",), (), ("graph", "xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_checking", (f"{GRAPH}/checking",), (), ("graph_reading", "graph", "xml", "base"), ("fmt",), module=GRAPH),

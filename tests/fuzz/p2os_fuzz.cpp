@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any bytes may come from the line of a Pioneer. They are read twice: as a stream, whose packets are written again as they
+// were, and as the body of one packet, because few streams have good checksums.
+#include <algorithm>
+
+#include "frame_stream.hpp"
+#include "orca/hw/p2os/command.hpp"
+#include "orca/hw/p2os/config.hpp"
+#include "orca/hw/p2os/reports.hpp"
+#include "orca/hw/p2os/sip.hpp"
+#include "orca/hw/p2os/sync.hpp"
+
+namespace {
+
+using namespace orca::hw;
+using fuzz::Bytes;
+using fuzz::require;
+
+void read_reports(Bytes body) {
+  (void)p2os::parse_identity(body);
+  (void)p2os::parse_config(body);
+  (void)p2os::parse_encoder(body);
+  (void)p2os::parse_gyro(body);
+  (void)p2os::parse_io(body);
+  (void)p2os::parse_aux(body, p2os::PacketType::aux1);
+}
+
+void read_sip(Bytes body) {
+  for (const char* subclass : {"p2dx", "amigo"}) {
+    const auto sip = p2os::parse_sip(body, p2os::choose_model(subclass).model);
+    require(sip.has_value() || !sip.error().message.empty());
+    if (sip) require(sip->x < 32768 && sip->echoes.size() <= p2os::Sip::kMostEchoes);
+  }
+}
+
+// What is read of an integer is written again with the same meaning.
+void read_command(Bytes body) {
+  const auto command = p2os::decode_command(body);
+  require(command.has_value() == !body.empty());
+  if (!command || command->argument != p2os::ReceivedCommand::Argument::integer || command->value < -32768)
+    return;
+  const p2os::Packet packet = p2os::encode(static_cast<p2os::Command>(command->number), command->value);
+  require(p2os::decode_command(p2os::body_of(packet.view()))->value == command->value);
+}
+
+void read_body(Bytes body) {
+  read_reports(body);
+  read_sip(body);
+  read_command(body);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const Bytes input(data, size);
+  fuzz::check_stream(p2os::kProtocol, input, [](Bytes packet) {
+    const Bytes body = p2os::body_of(packet);
+    require(std::ranges::equal(p2os::make_packet(body), packet));
+    read_body(body);
+  });
+  read_body(input.first(std::min(size, p2os::kLongestBody)));
+  return 0;
+}
