@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/angle.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
@@ -111,7 +112,7 @@ void Senses::publish_bumpers() {
       object->pressed().push_back((bits >> i) & 1U);
       object->names().push_back(bumper_name(i, front));
       object->poses().push_back(
-          level_frame({model_.radius * out.x, model_.radius * out.y, std::atan2(out.y, out.x)}, 0.0));
+          level_frame({model_.radius * out.x, model_.radius * out.y, portable::atan2(out.y, out.x)}, 0.0));
     }
   object->stamp(to_time_value(stamp_));
   bumpers_.publish(std::move(object));
