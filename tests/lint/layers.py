@@ -64,7 +64,8 @@ LAYERS = (
     Layer("component_api", ("src/component_api", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
           ("patterns", "idl", "base"), ("fmt",)),
     Layer("layout_probe", ("cmake/plugin/layout_probe",), (), DEVICE),  # sees what any plugin can see
-    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), ("geometry", *COMPONENT), ("fmt",)),
+    Layer("hw_link", ("src/hw/link",), ("orca/hw/link/",), ("base",)),
+    Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), ("hw_link", "geometry", *COMPONENT), ("fmt",)),
     Layer("hw_framing", ("src/hw/framing",), ("orca/hw/framing/",)),  # emulators use it too
     Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_reading", (f"{GRAPH}/reading",), (), ("graph", "xml", "base"), ("fmt",), module=GRAPH),
@@ -73,7 +74,7 @@ LAYERS = (
           module=GRAPH),
     Layer("plugin_inspection", (f"{PLUGIN}/inspection",), (), DEVICE, ("fmt",), module=PLUGIN),
     Layer("plugin", (PLUGIN,), ("orca/plugin/",), ("plugin_inspection", *DEVICE), ("fmt",), module=PLUGIN),
-    Layer("device", ("src/hw",), (), ("geometry_objects", *DEVICE), ("fmt",), siblings=False),
+    Layer("device", ("src/hw",), (), ("hw_link", "geometry_objects", *DEVICE), ("fmt",), siblings=False),
     Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",),
           ("geometry_objects", "geometry", *COMPONENT)),
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),

@@ -73,6 +73,14 @@ class Mutants(unittest.TestCase):
         after = order("int first = 1;\nint a = 11;\nint b = 12;\nint b = 12;\nbool c = a < b;\n")
         self.assertEqual([change for change in after if change != ("constant", "1", "2")], before)
 
+    def test_what_a_run_printed_tells_what_it_caught(self):
+        printed = ("unchanged: building and running base_test\n"
+                   "[1/3] caught      93 s  src/a.cpp:28: return: 'x' -> '{}'\n"
+                   "[2/3] survived   588 s  src/b.cpp:2: constant: '1' -> '2'\n"
+                   "[3/3] equal        0 s  src/c.cpp:3: constant: '1' -> '2'\n"
+                   "survived: src/b.cpp:2: constant: '1' -> '2'\n")
+        self.assertEqual(run.caught_in(printed), {"src/a.cpp:28: return: 'x' -> '{}'"})
+
     def test_each_excused_mutant_exists_and_has_a_reason(self):
         for line in run.EQUAL.read_text().splitlines():
             if not line.strip() or line.startswith("#"):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md and docs/first_component.md say, done as they say it: the files are pasted into a new folder, the commands run.
+"""What README.md, docs/first_component.md and docs/first_comparison.md say, done as they say it: the files are
+pasted into a new folder, the commands run.
 
     tests/system/first_component_test.py BUILD
 
@@ -18,6 +19,7 @@ import unittest
 TREE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(sys.argv.pop()).resolve()
 BLOCK = re.compile(r"^<!-- (?:region \S*?/(?P<file>[\w.]+) \w+|read by \S+) -->\n```\w+\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+SAID = re.compile(r"^<!-- compared by \S+ -->\n```text\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 class Reader:
@@ -74,6 +76,15 @@ class Pages(unittest.TestCase):
         self.assertIn("100% tests passed, 0 tests failed out of 1", reader.out)
         self.assertIn("trace-hash", reader.out)
         self.assertNotIn("contact", reader.out)
+
+    def test_first_comparison(self):
+        reader = Reader("docs/first_comparison.md", self.folder)
+        reader.follow()
+        self.assertTrue((reader.folder / "office.batch/report.html").exists())
+        told = [line for block in SAID.finditer((TREE / reader.page).read_text()) for line in block["text"].splitlines()]
+        self.assertGreater(len(told), 10)
+        for line in told:
+            self.assertIn(line, reader.out.splitlines())
 
 
 COMPONENT = """#include "orca/component.hpp"

@@ -2,7 +2,6 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include <unistd.h>
 
-#include <cinttypes>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -23,6 +22,7 @@
 #include "orca/xml/number.hpp"
 #include "progress.hpp"
 #include "submission.hpp"
+#include "tables.hpp"
 
 namespace orca::simbatch {
 namespace {
@@ -46,12 +46,19 @@ std::optional<batch::Experiment> checked(const Options& options) {
   return diagnostics.has_errors() ? std::nullopt : std::move(experiment);
 }
 
+// Returns "1 seed", "2 seeds".
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 ExitCode check(const Options& options) {
   const std::optional<batch::Experiment> experiment = checked(options);
   if (!experiment) return ExitCode::bad_input;
-  std::fprintf(stderr, "%s: no errors; %zu variants, %zu worlds, %zu seeds: %zu runs\n",
-               options.subject.c_str(), experiment->variants.size(), experiment->worlds.size(),
-               experiment->seeds.size(), experiment->run_count());
+  std::fprintf(stderr, "%s: no errors; %s, %s, %s: %s\n", options.subject.c_str(),
+               counted(experiment->variants.size(), "variant").c_str(),
+               counted(experiment->worlds.size(), "world").c_str(),
+               counted(experiment->seeds.size(), "seed").c_str(),
+               counted(experiment->run_count(), "run").c_str());
   return ExitCode::done;
 }
 
@@ -62,17 +69,21 @@ Status write_file(const std::filesystem::path& file, const std::string& text) {
   return out.close();
 }
 
-// Writes the report beside the results, and says the most important on stdout.
+ExitCode could_not_write(const Status& written) {
+  std::fprintf(stderr, "error: %s\n", written.error().text().c_str());
+  return ExitCode::could_not_finish;
+}
+
+// Writes tables and report beside the results, and says the most important on stdout.
 ExitCode report(const batch::Experiment& experiment, const batch::Store& store,
                 const std::filesystem::path& folder) {
   const Result<batch::Report> made = batch::make_report(experiment, store);
   if (!made) return refuse(made.error());
+  if (const Status written = write_tables(store, folder); !written.ok()) return could_not_write(written);
   for (const auto& [name, text] :
        {std::pair("report.html", &made->html), std::pair("report.md", &made->markdown)}) {
-    if (const Status written = write_file(folder / name, *text); !written.ok()) {
-      std::fprintf(stderr, "error: %s\n", written.error().text().c_str());
-      return ExitCode::could_not_finish;
-    }
+    if (const Status written = write_file(folder / name, *text); !written.ok())
+      return could_not_write(written);
   }
   std::fputs(made->summary.c_str(), stdout);
   std::fprintf(stderr, "report: %s\n", (folder / "report.html").c_str());
@@ -199,30 +210,11 @@ ExitCode join(const Options& options) {
   return refuse(taken.error());
 }
 
-std::string quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 ExitCode table(const Options& options) {
   const Result<std::unique_ptr<batch::Store>> store = open_results(options.subject);
   if (!store) return refuse(store.error());
-  std::string title = "variant,world,seed,ending,failure,time,goals,failed_goals,contacts";
-  for (const batch::Measure& measure : batch::all_measures()) title += std::string(",") + measure.name;
-  std::printf("%s,trace_hash,reason\n", title.c_str());
-  const Status read = (*store)->for_each([](const batch::Row& row) {
-    const batch::Outcome& o = row.outcome;
-    std::string measures;
-    for (const batch::Measure& measure : batch::all_measures()) {
-      const std::optional<double>& value = o.measures.*measure.value;
-      measures += "," + (value ? xml::number_text(*value) : "");
-    }
-    std::printf("%s,%s,%" PRIu64 ",%s,%s,%s,%u,%u,%u%s,%s,%s\n", row.variant.c_str(), row.world.c_str(),
-                row.seed, batch::name_of(o.ending), batch::name_of(o.failure),
-                xml::number_text(o.time).c_str(), o.goals, o.failed_goals, o.contacts, measures.c_str(),
-                o.trace_hash.c_str(), quoted(o.reason).c_str());
-  });
+  const Status read =
+      runs_table(**store, [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); });
   return read.ok() ? ExitCode::done : refuse(read.error());
 }
 

@@ -13,6 +13,13 @@ Strand::Strand(Executive& executive, TaskOptions options)
 
 bool Strand::is_taking_in_here() const { return t_awake == this; }
 
+bool Strand::await_input() {
+  std::unique_ptr<InputEvent> event = executive_.make_input_event();
+  input_ = event.get();
+  if (event != nullptr) event_ = std::move(event);
+  return input_ != nullptr;
+}
+
 void Strand::set_doorbell(DoorbellWord& own) {
   event_ = executive_.make_doorbell_event(own);
   doorbell_ = executive_.doorbell() != nullptr ? executive_.doorbell() : &own;

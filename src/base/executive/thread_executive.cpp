@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "futex_event.hpp"
+#include "input_event.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "task_thread.hpp"
 
@@ -55,6 +56,10 @@ class ThreadTask final : public Task {
 TimePoint ThreadExecutive::now() const { return steady_now(); }
 
 std::unique_ptr<Event> ThreadExecutive::make_event() { return std::make_unique<FutexEvent>(spin_); }
+
+std::unique_ptr<InputEvent> ThreadExecutive::make_input_event() {
+  return std::make_unique<ThreadInputEvent>();
+}
 
 std::unique_ptr<Event> ThreadExecutive::make_doorbell_event(DoorbellWord& own) {
   return std::make_unique<FutexEvent>(spin_, &own);

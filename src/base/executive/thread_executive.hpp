@@ -15,6 +15,7 @@ class ThreadExecutive final : public Executive {
   [[nodiscard]] bool is_virtual() const override { return false; }
   [[nodiscard]] bool tasks_overlap() const override { return true; }
   [[nodiscard]] std::unique_ptr<Event> make_event() override;
+  [[nodiscard]] std::unique_ptr<InputEvent> make_input_event() override;
   [[nodiscard]] std::unique_ptr<Event> make_doorbell_event(DoorbellWord& own) override;
   [[nodiscard]] std::unique_ptr<Task> spawn(TaskOptions options, std::function<void()> body) override;
   void run(std::function<void()> main) override;

@@ -24,6 +24,10 @@ HardwareState HardwareContainer::state() const { return loop_->life().state(); }
 
 std::string HardwareContainer::fault() const { return loop_->life().fault(); }
 
+bool HardwareContainer::is_lost() const { return loop_->life().is_lost(); }
+
+void HardwareContainer::heard() { loop_->heard(); }
+
 void HardwareContainer::watch(Strand& strand, bool on) {
   on ? loop_->life().watch(strand) : loop_->life().unwatch(strand);
 }

@@ -18,13 +18,14 @@ void HardwareLifecycle::unwatch(const Strand& strand) {
   std::erase(watchers_, &strand);
 }
 
-void HardwareLifecycle::fail_with(const std::string& reason) {
-  report(reason);
-  handle(HardwareEvent::failed);
-}
+void HardwareLifecycle::fail_with(const std::string& reason) { handle(failure(reason)); }
 
 void HardwareLifecycle::drive(const DriveSetpoint& setpoint) {
   if (const FollowUp failed = checked(drive_to(setpoint))) handle(*failed);
+}
+
+void HardwareLifecycle::probe_again() {
+  if (const FollowUp next = probe()) handle(*next);
 }
 
 void HardwareLifecycle::handle(HardwareEvent event) {
@@ -44,6 +45,7 @@ HardwareLifecycle::FollowUp HardwareLifecycle::carry_out(HardwareAction action, 
   switch (action) {
     case HardwareAction::enter: enter(to); return std::nullopt;
     case HardwareAction::open: return checked(container_.open());
+    case HardwareAction::probe: return probe();
     case HardwareAction::start: return checked(container_.start());
     case HardwareAction::halt: halt(to); return std::nullopt;
     case HardwareAction::stand: return checked(drive_to(applied_.stopped()));
@@ -56,17 +58,33 @@ HardwareLifecycle::FollowUp HardwareLifecycle::carry_out(HardwareAction action, 
 }
 
 void HardwareLifecycle::enter(HardwareState state) {
+  if (state == HardwareState::ready && !works_) note_work();
+  if (state == HardwareState::fault) works_ = false;
   state_.store(state, std::memory_order_release);
   host_.state_changed(state);
   const std::lock_guard lock(mutex_);
   for (Strand* watcher : watchers_) watcher->wake();
 }
 
-// A fault belongs to the mission in which it happened.
+void HardwareLifecycle::note_work() {
+  works_ = true;
+  reopens_.store(container_.recovers(), std::memory_order_release);
+  if (!fault().empty()) host_.write_log(log::Level::warning, "it works again");
+}
+
+// A fault belongs to the mission in which it happened. Motors do not start again because a plug is back.
 void HardwareLifecycle::halt(HardwareState to) {
   if (container_.motion() == nullptr) return;
   container_.motion()->halt();
   if (to != HardwareState::fault) container_.motion()->end_mission();
+  if (to == HardwareState::fault && reopens())
+    container_.motion()->hold("it has failed; orcactl estop --release lets it move again");
+}
+
+HardwareLifecycle::FollowUp HardwareLifecycle::probe() {
+  const Result<bool> known = container_.probe();
+  if (!known) return failure(known.error().text());
+  return *known ? HardwareEvent::answered : HardwareEvent::unanswered;
 }
 
 void HardwareLifecycle::forget() {
@@ -94,13 +112,19 @@ Status HardwareLifecycle::drive_to(const DriveSetpoint& setpoint) {
 
 HardwareLifecycle::FollowUp HardwareLifecycle::checked(const Status& outcome) {
   if (outcome.ok()) return std::nullopt;
-  report(outcome.error().text());
+  return failure(outcome.error().text());
+}
+
+// A device that is still unplugged is no news.
+HardwareEvent HardwareLifecycle::failure(const std::string& reason) {
+  if (reopens() && !works_ && reason == fault()) return HardwareEvent::failed_again;
+  report(reason);
   return HardwareEvent::failed;
 }
 
-// Makes a fault known; this is the only place that does so. The first fault stays.
+// Makes a fault known; this is the only place that does so. The first fault stays until the device is opened again.
 void HardwareLifecycle::report(const std::string& reason) {
-  if (state() == HardwareState::fault) return;
+  if (state() == HardwareState::fault || state() == HardwareState::backoff) return;
   {
     const std::lock_guard lock(mutex_);
     fault_ = reason;

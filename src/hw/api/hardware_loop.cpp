@@ -2,6 +2,7 @@
 #include "hardware_loop.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <typeinfo>
 
 #include "orca/base/activity.hpp"
@@ -11,6 +12,11 @@ namespace orca::hw {
 namespace {
 
 constexpr Duration kExpiryReportPeriod = 10s;
+constexpr Duration kFirstPause =
+    500ms;  // before a device that has failed is opened again; then twice as long each time
+constexpr Duration kLongestPause = 5s;
+constexpr Duration kSteadyAfter = 10s;  // of work the pauses begin anew
+constexpr Duration kInputPeriod = 5ms;  // of looks for input where it wakes nobody
 
 }  // namespace
 
@@ -20,6 +26,7 @@ HardwareLoop::HardwareLoop(HardwareContainer& container, HardwareHost& host)
 void HardwareLoop::run() {
   shutting_down_.store(false, std::memory_order_release);
   strand_.emplace(host_.executive(), TaskOptions{host_.name(), 1});
+  hears_input_ = strand_->await_input();
   life_.handle(HardwareEvent::run);
   strand_->start([this] { main(); });
 }
@@ -47,7 +54,7 @@ void HardwareLoop::wake() {
 
 void HardwareLoop::main() {
   const Activity activity(host_.name().c_str(), Hook::strand, &typeid(container_));
-  guarded([this] { life_.handle(HardwareEvent::begun); });
+  guarded([this] { open(); });
   while (!shutting_down_.load(std::memory_order_acquire)) guarded([this] { turn(); });
   guarded([this] { life_.handle(HardwareEvent::unwanted); });
   guarded([this] { life_.handle(HardwareEvent::shut_down); });
@@ -56,10 +63,52 @@ void HardwareLoop::main() {
 void HardwareLoop::turn() {
   life_.handle(users_.load() > 0 ? HardwareEvent::wanted : HardwareEvent::unwanted);
   apply_motion();
-  if (works() && host_.now() >= container_.next_poll())
-    if (const Status polled = container_.poll(); !polled.ok()) life_.fail_with(polled.error().text());
+  if (is_open()) attend();
+  reopen();
   host_.pausing();
+  strand_->watch_input(is_open() ? container_.descriptor() : -1);
   strand_->pause_until(next_turn());
+}
+
+void HardwareLoop::open() {
+  opened_ = last_heard_ = host_.now();
+  life_.handle(HardwareEvent::begun);
+}
+
+void HardwareLoop::attend() {
+  const bool due = container_.descriptor() >= 0 || host_.now() >= container_.next_poll();
+  if (life_.state() == HardwareState::probing) {
+    if (due) life_.probe_again();
+    last_heard_ = host_.now();
+    return;
+  }
+  if (due)
+    if (const Status polled = container_.poll(); !polled.ok()) return life_.fail_with(polled.error().text());
+  check_silence();
+}
+
+void HardwareLoop::check_silence() {
+  if (host_.now() < silence_ends()) return;
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "nothing has come from it for %.3g s; is it still connected and switched on?",
+                to_seconds(container_.longest_silence()));
+  life_.fail_with(text);
+}
+
+// Opens a device again that has failed, after a while.
+void HardwareLoop::reopen() {
+  if (life_.reopens()) life_.handle(HardwareEvent::may_recover);
+  if (life_.state() != HardwareState::backoff) return retry_at_.reset();
+  if (!retry_at_) {
+    if (host_.now() - opened_ >= kSteadyAfter || pause_ == Duration{0}) pause_ = kFirstPause;
+    retry_at_ = host_.now() + pause_;
+    pause_ = std::min(2 * pause_, kLongestPause);
+  }
+  if (host_.now() < *retry_at_) return;
+  retry_at_.reset();
+  life_.handle(HardwareEvent::retry);
+  open();
 }
 
 void HardwareLoop::guarded(const std::function<void()>& step) {
@@ -87,14 +136,25 @@ void HardwareLoop::report_expiry(const MotionHW& motion) {
                   "the base stands: no motion command for " + std::to_string(age.count()) + " ms");
 }
 
+bool HardwareLoop::is_open() const { return works() || life_.state() == HardwareState::probing; }
+
 bool HardwareLoop::works() const {
   return life_.state() == HardwareState::ready || life_.state() == HardwareState::active;
 }
 
+TimePoint HardwareLoop::silence_ends() const {
+  return saturating_add(last_heard_, container_.longest_silence());
+}
+
 TimePoint HardwareLoop::next_turn() const {
-  if (!works()) return kForever;
+  if (life_.state() == HardwareState::backoff) return retry_at_.value_or(host_.now());
+  if (!is_open()) return kForever;
+  TimePoint next = container_.next_poll();
+  if (container_.descriptor() >= 0 && !hears_input_) next = std::min(next, host_.now() + kInputPeriod);
+  if (!works()) return std::max(next, host_.now() + kInputPeriod);  // input wakes it before
+  next = std::min(next, silence_ends());
   const bool moves = life_.state() == HardwareState::active && container_.motion() != nullptr;
-  return moves ? std::min(container_.next_poll(), container_.motion()->expiry()) : container_.next_poll();
+  return moves ? std::min(next, container_.motion()->expiry()) : next;
 }
 
 }  // namespace orca::hw

@@ -33,22 +33,35 @@ class HardwareLoop {
   void release();
   /// Makes the strand carry out a new command at once.
   void wake();
+  /// Notes that the device lives. On the strand.
+  void heard() { last_heard_ = host_.now(); }
 
   [[nodiscard]] HardwareLifecycle& life() { return life_; }
 
  private:
   void main();
   void turn();
+  void open();
+  void attend();
+  void reopen();
+  void check_silence();
   void guarded(const std::function<void()>& step);
   void apply_motion();
   void report_expiry(const MotionHW& motion);
+  [[nodiscard]] bool is_open() const;
   [[nodiscard]] bool works() const;
+  [[nodiscard]] TimePoint silence_ends() const;
   [[nodiscard]] TimePoint next_turn() const;
 
   HardwareContainer& container_;
   HardwareHost& host_;
   HardwareLifecycle life_;
   std::optional<Strand> strand_;
+  bool hears_input_ = false;  // the strand is woken by input
+  TimePoint last_heard_{};
+  TimePoint opened_{};
+  Duration pause_{};  // before it is opened again, the next time
+  std::optional<TimePoint> retry_at_;
   TimePoint next_expiry_report_{};
   std::atomic<int> users_{0};
   std::atomic<bool> shutting_down_{false};

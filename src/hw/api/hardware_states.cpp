@@ -13,7 +13,11 @@ constexpr Actions kFailAtRest = {Action::halt, Action::forget, Action::enter};
 
 constexpr auto kRows = std::to_array<HardwareTransition>({
     {State::closed, Event::run, State::opening, {Action::enter}},
-    {State::opening, Event::begun, State::ready, {Action::open, Action::enter}},
+    {State::opening, Event::begun, State::opening, {Action::open, Action::probe}},
+    {State::opening, Event::answered, State::ready, {Action::enter}},
+    {State::opening, Event::unanswered, State::probing, {Action::enter}},
+    {State::probing, Event::answered, State::ready, {Action::enter}},
+    {State::probing, Event::unanswered, State::probing, {}},
 
     // A command of an earlier use must not move the base now.
     {State::ready, Event::wanted, State::active, {Action::halt, Action::start, Action::enter}},
@@ -23,6 +27,7 @@ constexpr auto kRows = std::to_array<HardwareTransition>({
      {Action::halt, Action::stand, Action::stop, Action::forget, Action::enter}},
 
     {State::opening, Event::failed, State::fault, kFailAtRest},
+    {State::probing, Event::failed, State::fault, kFailAtRest},
     {State::ready, Event::failed, State::fault, kFailAtRest},
     {State::active,
      Event::failed,
@@ -31,6 +36,18 @@ constexpr auto kRows = std::to_array<HardwareTransition>({
     // The first fault is the reason that people need.
     {State::fault, Event::failed, State::fault, {}},
 
+    // The state comes first: whatever close() does, the device is opened again only after a while.
+    {State::fault, Event::may_recover, State::backoff, {Action::enter, Action::close}},
+    {State::opening, Event::failed_again, State::backoff, {Action::enter, Action::close}},
+    {State::probing, Event::failed_again, State::backoff, {Action::enter, Action::close}},
+    {State::fault, Event::failed_again, State::fault, {}},
+    {State::backoff, Event::failed, State::backoff, {}},
+    {State::backoff, Event::failed_again, State::backoff, {}},
+    {State::backoff, Event::retry, State::opening, {Action::enter}},
+
+    {State::opening, Event::shut_down, State::closed, {Action::close, Action::enter}},
+    {State::probing, Event::shut_down, State::closed, {Action::close, Action::enter}},
+    {State::backoff, Event::shut_down, State::closed, {Action::enter}},
     {State::ready, Event::shut_down, State::closed, {Action::close, Action::enter}},
     {State::fault, Event::shut_down, State::fault, {Action::close}},
 });

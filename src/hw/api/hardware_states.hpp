@@ -12,20 +12,26 @@ namespace orca::hw {
 /// The events that may make a hardware container change its state.
 enum class HardwareEvent {
   // Circumstances.
-  wanted,     ///< Somebody uses the device.
-  unwanted,   ///< Nobody uses it.
+  wanted,       ///< Somebody uses the device.
+  unwanted,     ///< Nobody uses it.
+  may_recover,  ///< The device has failed, and to open it again may help.
+  retry,        ///< The time has come to open it again.
   shut_down,  ///< The system is being stopped, or the driver exchanged, and the device does not work any more.
   // Orders.
   run,
   // Outcomes.
-  begun,   ///< The container's strand runs.
-  failed,  ///< A function of the driver reports an error or throws.
+  begun,         ///< The container's strand is about to open the device.
+  answered,      ///< The driver knows what is there.
+  unanswered,    ///< It does not know it yet.
+  failed,        ///< A function of the driver reports an error or throws.
+  failed_again,  ///< The same, for the same reason as before, and the device has not worked meanwhile.
 };
 
 /// The actions of a transition.
 enum class HardwareAction {
   enter,     ///< The new state holds from here on and is visible to others.
   open,      ///< Calls open().
+  probe,     ///< Calls probe().
   start,     ///< Calls start().
   halt,      ///< The motion endpoint drops its command.
   stand,     ///< Calls drive() with speed 0, unless the motors have that set-point already.
@@ -35,14 +41,14 @@ enum class HardwareAction {
   close,     ///< Calls close().
 };
 
-inline constexpr std::size_t kHardwareStates = 5;
-inline constexpr std::size_t kHardwareEvents = 6;
+inline constexpr std::size_t kHardwareStates = 7;
+inline constexpr std::size_t kHardwareEvents = 11;
 
 using HardwareTransition = Transition<HardwareState, HardwareEvent, HardwareAction>;
 
 /// The state machine of a hardware container.
 ///
-/// Any call of the driver may end in the event `failed`. That event is taken at once, in the state that holds
+/// Any call of the driver may end in the event `failed` or `failed_again`. That event is taken at once, in the state that holds
 /// then, and the rest of its row is left out.
 ///
 /// @return the row for the event in the state, or null if the event leads nowhere; kind_of() explains what

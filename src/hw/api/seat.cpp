@@ -87,6 +87,11 @@ std::string HardwareSeat::fault() const {
   return pause_ ? pause_->reason : driver_->fault();
 }
 
+bool HardwareSeat::is_lost() const {
+  const std::lock_guard lock(mutex_);
+  return pause_ ? pause_->state == HardwareState::fault : driver_->is_lost();
+}
+
 void HardwareSeat::watch(Strand& strand) {
   const std::lock_guard lock(mutex_);
   watchers_.push_back(&strand);

@@ -23,6 +23,11 @@ std::string in_short(Duration time) {
   return text;
 }
 
+// Whether the device has failed, also if it is opened again later.
+bool has_failed(HardwareState state) {
+  return state == HardwareState::fault || state == HardwareState::backoff;
+}
+
 // A use of the hardware: keeps it active while this object lives, even if a wait is interrupted.
 class Use {
  public:
@@ -81,7 +86,7 @@ class HardwareServer::SensorPorts {
   Result<ObjectLoan> answer(TimePoint since) {
     HardwareSeat& seat = *server_.seat_;
     const Use use(seat);
-    const auto failed = [&] { return seat.state() == HardwareState::fault; };
+    const auto failed = [&] { return has_failed(seat.state()); };
     server_.host().strand().wait_for(server_.now() + kFirstReadingLimit,
                                      [&] { return failed() || seat.latest(sensor_); });
     if (const ObjectRef reading = seat.latest(sensor_)) {
@@ -145,9 +150,10 @@ Status HardwareServer::start() {
   for (const auto& sensor : sensors_) sensor->set_open(true);
   seat_->acquire();
   host().strand().wait_for(now() + kStartLimit, [this] {
-    return seat_->state() == HardwareState::active || seat_->state() == HardwareState::fault;
+    return seat_->state() == HardwareState::active || has_failed(seat_->state());
   });
-  if (seat_->state() != HardwareState::active)
+  const bool comes_back = has_failed(seat_->state()) && !seat_->is_lost();
+  if (seat_->state() != HardwareState::active && !comes_back)
     return fail(Code::unavailable, "the hardware does not start: " + seat_->fault());
   carry_out_waiting_command();
   last_command_ = now();
@@ -165,7 +171,7 @@ void HardwareServer::carry_out_waiting_command() {
 }
 
 Outcome HardwareServer::work() {
-  if (seat_->state() == HardwareState::fault) return failed("the hardware failed: " + seat_->fault());
+  if (seat_->is_lost()) return failed("the hardware failed: " + seat_->fault());
   release_idle_motion();
   return again();
 }
@@ -188,6 +194,7 @@ Status HardwareServer::on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velo
 
 // A turret command has no age, so idle hardware takes it before it is started.
 Status HardwareServer::on_turret(const ObjectPtr<idl::TurretCommand>& turret) {
+  if (has_failed(seat_->state())) return fail(Code::unavailable, "it has failed: " + seat_->fault());
   const bool active = seat_->state() == HardwareState::active;
   const Status taken = active ? seat_->command(*turret) : seat_->point(*turret, now());
   if (!taken.ok()) return taken;
@@ -203,6 +210,8 @@ Status HardwareServer::carry_out(const ObjectPtr<Command>& command, bool stands)
     stay_active(!stands);
     return told_once(seat_->command(*command));
   }
+  if (has_failed(seat_->state()))
+    return told_once(fail(Code::unavailable, "it has failed: " + seat_->fault()));
   // Idle hardware stands already; the command for which it was to be started is discarded.
   waiting_command_ = nullptr;
   if (!stands) waiting_command_ = [this, command] { return seat_->command(*command); };

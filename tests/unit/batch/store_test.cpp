@@ -138,7 +138,7 @@ TEST_CASE("results of another version are refused, not read into the wrong colum
   sqlite3_close(database);
   const auto older = Store::open(folder.file("r.sqlite"), {});
   REQUIRE_FALSE(older);
-  CHECK_THAT(older.error().message, Contains("was made by another version of simbatch"));
+  CHECK_THAT(older.error().message, Catch::Contains("was made by another version of simbatch"));
 }
 
 TEST_CASE("a file that is no database, and a folder that is not there, are refused with the reason",

@@ -33,23 +33,35 @@ const Actions kFault = {Action::halt, Action::forget, Action::enter};
 const Actions kFaultWhileActive = {Action::halt, Action::try_stop, Action::forget, Action::enter};
 const Actions kActionsOfStop = {Action::halt, Action::stand, Action::stop, Action::forget, Action::enter};
 
-// By state, then by event: wanted, unwanted, shut_down, run, begun, failed.
+// By state, then by event: wanted, unwanted, may_recover, retry, shut_down, run, begun, answered, unanswered, failed,
+// failed_again.
 std::vector<std::vector<Cell>> specification() {
+  const Cell _ = ignored();
+  const Cell no = refused();
+  const Cell never = impossible();
   const Cell opens = leads(State::opening, {Action::enter});
-  const Cell opened = leads(State::ready, {Action::open, Action::enter});
+  const Cell opened = leads(State::opening, {Action::open, Action::probe});
+  const Cell is_ready = leads(State::ready, {Action::enter});
+  const Cell probes = leads(State::probing, {Action::enter});
+  const Cell probes_on = leads(State::probing, {});
   const Cell starts = leads(State::active, {Action::halt, Action::start, Action::enter});
   const Cell stops = leads(State::ready, kActionsOfStop);
   const Cell closes = leads(State::closed, {Action::close, Action::enter});
+  const Cell is_closed = leads(State::closed, {Action::enter});
   const Cell fails = leads(State::fault, kFault);
+  const Cell fails_active = leads(State::fault, kFaultWhileActive);
+  const Cell stays_failed = leads(State::fault, {});
+  const Cell last_close = leads(State::fault, {Action::close});
+  const Cell backs_off = leads(State::backoff, {Action::enter, Action::close});
+  const Cell stays_back = leads(State::backoff, {});
   return {
-      /*closed */ {ignored(), ignored(), ignored(), opens, impossible(), impossible()},
-      /*opening*/ {ignored(), ignored(), ignored(), refused(), opened, fails},
-      /*ready  */ {starts, ignored(), closes, refused(), impossible(), fails},
-      /*active */
-      {ignored(), stops, ignored(), refused(), impossible(), leads(State::fault, kFaultWhileActive)},
-      /*fault  */
-      {ignored(), ignored(), leads(State::fault, {Action::close}), refused(), impossible(),
-       leads(State::fault, {})},
+      /*closed */ {_, _, _, _, _, opens, never, never, never, never, never},
+      /*opening*/ {_, _, _, _, closes, no, opened, is_ready, probes, fails, backs_off},
+      /*probing*/ {_, _, _, _, closes, no, never, is_ready, probes_on, fails, backs_off},
+      /*ready  */ {starts, _, _, _, closes, no, never, never, never, fails, never},
+      /*active */ {_, stops, _, _, _, no, never, never, never, fails_active, never},
+      /*fault  */ {_, _, backs_off, _, last_close, no, never, never, never, stays_failed, stays_failed},
+      /*backoff*/ {_, _, _, opens, is_closed, no, never, never, never, stays_back, stays_back},
   };
 }
 
@@ -85,7 +97,9 @@ TEST_CASE("a container leaves Active only after the motors were commanded to sta
   }
 }
 
-TEST_CASE("nothing leads out of Fault", "[hw][states]") {
-  for (const HardwareTransition& row : hardware_transitions())
-    if (row.from == State::fault) CHECK(row.to == State::fault);
+TEST_CASE("out of Fault leads only the way through Backoff, in which nothing moves", "[hw][states]") {
+  for (const HardwareTransition& row : hardware_transitions()) {
+    if (row.from == State::fault) CHECK((row.to == State::fault || row.to == State::backoff));
+    if (row.from == State::backoff) CHECK(row.to != State::active);
+  }
 }

@@ -246,7 +246,8 @@ std::vector<RunGlance::Unwell> System::unwell() const {
   std::vector<RunGlance::Unwell> unwell = components_.unwell();
   for (const auto& hardware : hardware_) {
     const hw::HardwareState state = hardware->seat().state();
-    if (state == hw::HardwareState::opening || state == hw::HardwareState::fault)
+    if (state != hw::HardwareState::ready && state != hw::HardwareState::active &&
+        state != hw::HardwareState::closed)
       unwell.push_back({hardware->name(), hw::to_string(state)});
   }
   return unwell;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
+#include <iostream>
 
 namespace orca::test {
 
@@ -23,6 +24,13 @@ class DiaryListener final : public RunListener {
  private:
   Diary& diary_;
 };
+
+// A strand that runs on would use what is destroyed next: nobody could say then what went wrong.
+void end(const std::vector<std::string>& stuck) {
+  if (stuck.empty()) return;
+  for (const std::string& name : stuck) std::cerr << "cannot be stopped: " << name << std::endl;
+  std::abort();
+}
 
 }  // namespace
 
@@ -57,7 +65,7 @@ void LiveSystem::with(Executive& executive, const std::function<void(LiveSystem&
   REQUIRE(system.bring_up(*changed_, soon()).ok());
   system.open_gates();
   body(*this);
-  CHECK(system.take_down(soon()).empty());
+  end(system.take_down(soon()));
 }
 
 std::vector<std::string> LiveSystem::news() {

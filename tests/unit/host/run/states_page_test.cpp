@@ -69,21 +69,30 @@ const std::vector<std::string> kComponentActionNames = {"",
 const NameList kHardwareStateNames = {
     {"Closed", "The device is not open."},
     {"Opening", "The container's strand runs and opens the device."},
+    {"Probing", "The port is open; the driver finds out what is there, and waits for its answer."},
     {"Ready", "The device is open and polled; nobody uses it."},
     {"Active", "The device is started: readings come, and commands are carried out."},
-    {"Fault", "The device or its driver has failed. It stays so."}};
+    {"Fault", "The device or its driver has failed. It stays so, unless the device can be opened again."},
+    {"Backoff", "The device has failed and is closed; it is opened again after a while."}};
 
 const NameList kHardwareEventNames = {
     {"wanted", "Somebody uses the device."},
     {"not wanted", "Nobody uses it, or it is to be closed."},
+    {"may recover", "The device has worked and failed, and hangs on something that can be plugged in again."},
+    {"retry", "The pause is over: 0.5 s at first, then twice as long each time, at most 5 s."},
     {"the end", "The system is being stopped, or the driver exchanged, and the device is not used any more."},
-    {"run", "The system comes up, or the device is to be opened again."},
-    {"begun", "The container's strand runs."},
-    {"failed", "A function of the driver reports an error or throws."}};
+    {"run", "The system comes up, or the driver is exchanged."},
+    {"begun", "The container's strand is about to open the device."},
+    {"answered", "The driver knows what is there."},
+    {"unanswered", "It does not know it yet."},
+    {"failed", "A function of the driver reports an error or throws, or the device is silent for too long."},
+    {"failed again",
+     "The same, for the same reason as before, and the device has not worked meanwhile: no news."}};
 
 const std::vector<std::string> kHardwareActionNames = {
     "",
     "call `open()`",
+    "call `probe()`",
     "call `start()`",
     "drop the last motion command",
     "`drive()` with speed 0",

@@ -46,6 +46,17 @@ class Event {
   virtual bool wait_until(TimePoint deadline) = 0;
 };
 
+/// An Event that input from outside notifies, too: from a serial line or a socket.
+///
+/// Thread contract: as Event; watch() as wait_until().
+class InputEvent : public Event {
+ public:
+  /// Lets a wait also end while the descriptor has input to be read, or has failed, which reading it tells. Whoever does not
+  /// read what is there does not wait any more.
+  /// @param descriptor  stays open until another one is watched; -1: none.
+  virtual void watch(int descriptor) = 0;
+};
+
 struct TaskOptions {
   std::string name;  ///< For people: the component's name.
   int priority = 0;  ///< Fiber and baton: of tasks that are ready at the same time, the larger runs first.
@@ -103,6 +114,11 @@ class Executive {
   /// @thread  any; costs one look at a variable of the thread.
   [[nodiscard]] bool runs_here() const noexcept { return detail::t_executive == this; }
   [[nodiscard]] virtual std::unique_ptr<Event> make_event() = 0;
+
+  /// Makes an event that also waits for input. Null: this executive cannot, because it is virtual or has one thread for all
+  /// tasks.
+  /// @errors  throws std::system_error if the system has no more descriptors.
+  [[nodiscard]] virtual std::unique_ptr<InputEvent> make_input_event() { return nullptr; }
 
   /// Returns the word by which other processes wake all tasks of this executive; null: it has none.
   [[nodiscard]] virtual DoorbellWord* doorbell() const { return nullptr; }

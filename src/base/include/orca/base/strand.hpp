@@ -68,6 +68,17 @@ class Strand {
   /// other effect on the wait. Call before start(), or on the strand.
   void set_watch(std::function<TimePoint()> watch) { watch_ = std::move(watch); }
 
+  /// Lets the strand also wait for input. Call before start(), and before anybody wakes the strand.
+  /// @return whether its executive can; otherwise watch_input() has no effect.
+  /// @errors  throws std::system_error if the system has no more descriptors.
+  bool await_input();
+  /// Makes each wait end that finds input at a descriptor, as if the strand had been woken: see InputEvent::watch().
+  /// @param descriptor  -1: none.
+  /// @thread  the strand's.
+  void watch_input(int descriptor) {
+    if (input_ != nullptr) input_->watch(descriptor);
+  }
+
   /// Lets other processes wake the strand, by ring(*doorbell()).
   /// @param own  the strand's word, unless its executive has one for all strands. It outlives the strand.
   /// @pre  as Executive::make_doorbell_event(). Call before start(), and before anybody wakes the strand.
@@ -128,6 +139,7 @@ class Strand {
   Executive& executive_;
   TaskOptions options_;
   std::unique_ptr<Event> event_;
+  InputEvent* input_ = nullptr;  // event_, if it also waits for input
   DoorbellWord* doorbell_ = nullptr;
   std::vector<Intake*> intakes_;
   std::function<bool()> leave_;

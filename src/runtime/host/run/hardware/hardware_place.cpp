@@ -9,7 +9,8 @@ namespace {
 bool is_at_rest(HardwareInstance* driver) {
   if (driver == nullptr) return true;
   const hw::HardwareState state = driver->container().state();
-  return state == hw::HardwareState::closed || state == hw::HardwareState::fault;
+  return state == hw::HardwareState::closed || state == hw::HardwareState::fault ||
+         state == hw::HardwareState::backoff;
 }
 
 }  // namespace

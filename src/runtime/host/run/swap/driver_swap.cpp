@@ -17,6 +17,12 @@ constexpr Duration kCloseLimit = 2s;
 constexpr Duration kLook = 2ms;  // between two looks whether a strand has ended, which nobody reports
 constexpr const char* kPause = "its driver is being exchanged";
 
+// Whether a driver failed, also if it means to open its device again.
+bool has_failed(HardwareInstance& driver) {
+  const hw::HardwareState state = driver.container().state();
+  return state == hw::HardwareState::fault || state == hw::HardwareState::backoff;
+}
+
 std::vector<std::string> texts_of(const std::vector<HardwareFault>& faults) {
   std::vector<std::string> texts;
   for (const HardwareFault& fault : faults)
@@ -117,7 +123,7 @@ bool DriverSwap::has_opened(HardwareInstance& driver) const {
 bool DriverSwap::is_late() const { return site_.run.executive.now() >= limit_; }
 
 std::string DriverSwap::trouble_of(HardwareInstance& driver) const {
-  if (driver.container().state() == hw::HardwareState::fault) return driver.container().fault();
+  if (has_failed(driver)) return driver.container().fault();
   return "it was not ready within " + xml::number_text(to_seconds(order_.open_limit)) + " s";
 }
 
@@ -138,8 +144,7 @@ DriverSwap::Outcome DriverSwap::closed() {
 DriverSwap::Outcome DriverSwap::opened() {
   HardwareInstance& driver = *site_.place.spare();
   if (has_opened(driver)) return take();
-  const bool failed = driver.container().state() == hw::HardwareState::fault;
-  if (!failed && !is_late()) return std::nullopt;
+  if (!has_failed(driver) && !is_late()) return std::nullopt;
   why_ = trouble_of(driver);
   close(driver, Phase::closing_new);
   return std::nullopt;
@@ -163,7 +168,7 @@ DriverSwap::Outcome DriverSwap::closed_new() {
     why_ += ", and hangs";
   }
   HardwareInstance& driver = site_.place.driver();
-  if (driver.container().state() == hw::HardwareState::fault) {  // as it was before
+  if (has_failed(driver)) {  // as it was before
     is_to_start_ = false;
     return put_back(driver.container().fault());
   }
@@ -173,8 +178,7 @@ DriverSwap::Outcome DriverSwap::closed_new() {
 
 DriverSwap::Outcome DriverSwap::opened_again() {
   HardwareInstance& driver = site_.place.driver();
-  const bool failed = driver.container().state() == hw::HardwareState::fault;
-  if (!has_opened(driver) && !failed && !is_late()) return std::nullopt;
+  if (!has_opened(driver) && !has_failed(driver) && !is_late()) return std::nullopt;
   return put_back(has_opened(driver) ? "" : trouble_of(driver));
 }
 

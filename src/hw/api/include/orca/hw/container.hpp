@@ -34,16 +34,52 @@ class HardwareHost : public PluginHost {
   [[nodiscard]] virtual Executive& executive() = 0;
 };
 
+/// What a driver does with its device when the container asks for it. All of it runs on the container's own strand and never
+/// overlaps; none of it waits.
+class DriverFunctions {
+ public:
+  DriverFunctions() = default;
+  DriverFunctions(const DriverFunctions&) = delete;
+  DriverFunctions& operator=(const DriverFunctions&) = delete;
+
+ protected:
+  ~DriverFunctions() = default;
+
+  virtual Status open() { return ok(); }
+  /// Finds out what is there. Called after open() and then at next_poll() and when there is input, until it knows. It does not
+  /// wait.
+  /// @return whether it knows; an error with advice if there is no hope.
+  virtual Result<bool> probe() { return true; }
+  /// Returns whether a device that has worked and failed may work again when it is opened anew, as one that hangs on a cable
+  /// may. Its base then stands until an operator lets it move.
+  [[nodiscard]] virtual bool recovers() const { return false; }
+  /// Returns the descriptor at which the device's bytes arrive; -1: none, or not now. The container looks at it before each
+  /// wait.
+  [[nodiscard]] virtual int descriptor() const { return -1; }
+  /// Returns after how long without heard() the device has failed [s].
+  [[nodiscard]] virtual Duration longest_silence() const { return Duration::max(); }
+  virtual Status start() { return ok(); }
+  virtual void stop() {}
+  /// Closes the device. Also called after open() has failed.
+  virtual void close() {}
+  /// Reads the device and publishes readings. Called at next_poll() while ready or active, and whenever descriptor() may have
+  /// input (thesis 10.2, handleInput). It does not wait.
+  virtual Status poll() = 0;
+  [[nodiscard]] virtual TimePoint next_poll() const = 0;
+  /// Carries out a set-point. Where it is to stop at once, with the emergency stop of the device if it has one that does
+  /// not switch the motors off.
+  virtual Status drive(const DriveSetpoint& setpoint) = 0;
+};
+
 /// All hardware behind one port or bus. It opens, starts, stops and closes the device, and has sensor and
 /// motion endpoints (thesis 10.2, Fig. 10.1-10.2). A server component (RobotBaseServer, LaserServer) wraps
 /// it, through a HardwareSeat.
 ///
-/// A driver overrides the protected functions. They run on the container's own strand and never overlap. The
-/// constructor only declares parameters. prepare() declares endpoints from them and opens nothing, so a graph
-/// can be checked without the device.
+/// A driver overrides the DriverFunctions. The constructor only declares parameters. prepare() declares endpoints from them
+/// and opens nothing, so a graph can be checked without the device.
 ///
 /// Thread contract: the public functions from any strand.
-class HardwareContainer {
+class HardwareContainer : public DriverFunctions {
  public:
   explicit HardwareContainer(HardwareHost& host);
   /// May throw, because a plugin author's destructor may throw; the runtime contains it.
@@ -99,8 +135,10 @@ class HardwareContainer {
   }
 
   [[nodiscard]] HardwareState state() const;
-  /// Returns why the state is Fault.
+  /// Returns why the state is Fault or Backoff, or was so last.
   [[nodiscard]] std::string fault() const;
+  /// Returns whether the device has failed and will not be opened again.
+  [[nodiscard]] bool is_lost() const;
   /// Wakes `strand` at every change of state.
   /// @param on  false: no more. It is not woken once this has returned.
   void watch(Strand& strand, bool on = true);
@@ -110,17 +148,8 @@ class HardwareContainer {
   void add_sensor(SensorEndpoint& sensor) { sensors_.push_back(&sensor); }
   void set_motion(MotionHW& motion) { motion_ = &motion; }
 
-  virtual Status open() { return ok(); }
-  virtual Status start() { return ok(); }
-  virtual void stop() {}
-  /// Closes the device. Also called after open() has failed.
-  virtual void close() {}
-  /// Reads the device and publishes readings. Called at next_poll() while ready or active.
-  virtual Status poll() = 0;
-  [[nodiscard]] virtual TimePoint next_poll() const = 0;
-  /// Carries out a set-point. Where it is to stop at once, with the emergency stop of the device if it has one that does
-  /// not switch the motors off.
-  virtual Status drive(const DriveSetpoint& setpoint) = 0;
+  /// Notes that the device has said something that makes sense.
+  void heard();
 
   [[nodiscard]] HardwareHost& host() const { return host_; }
 

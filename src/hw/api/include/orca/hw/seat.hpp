@@ -67,8 +67,10 @@ class HardwareSeat final : public Device {
 
   /// Returns the driver's state; during a pause the one before it.
   [[nodiscard]] HardwareState state() const;
-  /// Returns why the state is Fault.
+  /// Returns why the device has failed.
   [[nodiscard]] std::string fault() const;
+  /// Returns whether the device has failed and will not be opened again.
+  [[nodiscard]] bool is_lost() const;
   /// Wakes `strand` at every change of state.
   void watch(Strand& strand);
   /// Forgets `strand`, which is not woken once this has returned.

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "orca/base/steady_clock.hpp"
+#include "orca/hw/link/byte_link.hpp"
+
+namespace orca::hw::link {
+
+/// What a link's text does not say.
+struct LinkOptions {
+  Line line{};                   ///< Of a serial line, until set_line().
+  NowFunction now = steady_now;  ///< The clock on which a recording is played.
+  Duration connect_limit = 3s;   ///< For connections [s].
+};
+
+/// Makes a link, closed, from a text as it stands in a graph. Nothing is opened or looked for yet.
+///
+/// | text                             | link                                                            |
+/// |----------------------------------|-----------------------------------------------------------------|
+/// | /dev/ttyUSB0                     | a serial line                                                   |
+/// | serial:/dev/ttyUSB0              | the same                                                        |
+/// | serial:usb-FTDI_FT232R-if00      | a name in /dev/serial/by-id, /dev/serial/by-path or /dev        |
+/// | tcp:scout.local:4000             | a connection; an IPv6 address stands in brackets: tcp:[::1]:4000 |
+/// | pty:/tmp/scout                   | the device's side of a line, which the driver opens at that path |
+/// | replay:run7.bytes                | a recording                                                     |
+///
+/// @errors  invalid_argument, with what is wrong and how a link is written.
+/// @thread  any.
+[[nodiscard]] Result<std::unique_ptr<ByteLink>> make_link(std::string_view text,
+                                                          const LinkOptions& options = {});
+
+}  // namespace orca::hw::link

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "orca/base/descriptor.hpp"
+#include "orca/hw/link/byte_link.hpp"
+
+namespace orca::hw::link {
+
+class OldSettings;
+class SerialPlaces;
+class Stream;
+
+struct SerialOptions {
+  /// A path, or a name in /dev/serial/by-id, /dev/serial/by-path or /dev.
+  std::string device;
+  Line line{};
+  /// Where the system keeps by-id and by-path.
+  std::string folder = "/dev/serial";
+};
+
+/// A serial line: raw bytes, any rate, no flow control. The port is this link's alone while it is open.
+///
+/// An adapter that was unplugged is found again by its name in by-id, even if it comes back under another number. A
+/// device that has taken the old number meanwhile is not opened: commands to the motors must not go to a stranger. A name
+/// in by-id or by-path is always followed. By-path is the choice for two adapters of one make without serial numbers, which
+/// have one name in by-id.
+///
+/// What is pending includes what the driver of the port still holds. close() lets out what was written last, which is
+/// often a command to stop, but waits at most 50 ms for that, and puts the old settings back.
+///
+/// Thread contract: one strand.
+class SerialLink final : public ByteLink {
+ public:
+  explicit SerialLink(SerialOptions options);
+  ~SerialLink() override;
+
+  [[nodiscard]] Result<Opening> open() override;
+  void close() override;
+  [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into) override;
+  [[nodiscard]] Status write(std::span<const std::uint8_t> bytes) override;
+  [[nodiscard]] Status flush() override;
+  [[nodiscard]] std::size_t pending() const override;
+  void discard_input() override;
+  void discard_output() override;
+  [[nodiscard]] int descriptor() const override;
+  [[nodiscard]] std::string name() const override { return "serial:" + options_.device; }
+  [[nodiscard]] Status set_line(const Line& line) override;
+  [[nodiscard]] double byte_time() const override { return options_.line.byte_time(); }
+
+  /// Returns the path, without links, of the device that is open; empty: none is.
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  [[nodiscard]] Result<std::string> locate() const;
+  [[nodiscard]] Result<Descriptor> claim(const std::string& path);
+  [[nodiscard]] Status take(int terminal);
+  void let_last_words_out();
+
+  SerialOptions options_;
+  const std::unique_ptr<SerialPlaces> places_;
+  const std::unique_ptr<OldSettings> old_;
+  const std::unique_ptr<Stream> stream_;
+  std::string identity_;  // the path in by-id of the adapter that was opened first, by another name
+  std::string path_;
+  TimePoint
+      busy_until_;  // with what was written, on the system's clock, if the device takes it at the line's rate
+};
+
+}  // namespace orca::hw::link

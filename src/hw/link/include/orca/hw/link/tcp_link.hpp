@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "orca/hw/link/byte_link.hpp"
+
+namespace orca::hw::link {
+
+class Connecting;
+class Stream;
+
+struct TcpOptions {
+  std::string host;  ///< A name, an IPv4 or an IPv6 address, without brackets.
+  std::uint16_t port = 0;
+  /// Longest time that open() may be under way [s], from its first call.
+  Duration limit = 3s;
+};
+
+/// A connection to a device or device server in the network. Each write goes out at once, and a device that does not
+/// answer any more is told as gone after about 5 s.
+///
+/// All addresses of a host are tried, one after the other. The limit runs on the system's clock, as the network does.
+///
+/// Thread contract: one strand.
+class TcpLink final : public ByteLink {
+ public:
+  explicit TcpLink(TcpOptions options);
+  ~TcpLink() override;
+
+  [[nodiscard]] Result<Opening> open() override;
+  void close() override;
+  [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into) override;
+  [[nodiscard]] Status write(std::span<const std::uint8_t> bytes) override;
+  [[nodiscard]] Status flush() override;
+  [[nodiscard]] std::size_t pending() const override;
+  void discard_input() override;
+  void discard_output() override;
+  [[nodiscard]] int descriptor() const override;
+  [[nodiscard]] std::string name() const override;
+
+ private:
+  const TcpOptions options_;
+  const std::unique_ptr<Stream> stream_;
+  std::unique_ptr<Connecting> connecting_;  // while open() is under way
+};
+
+}  // namespace orca::hw::link

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/hw/link/make_link.hpp"
+
+#include <charconv>
+#include <optional>
+#include <string>
+
+#include "orca/base/text.hpp"
+#include "orca/hw/link/pty_link.hpp"
+#include "orca/hw/link/replay_link.hpp"
+#include "orca/hw/link/serial_link.hpp"
+#include "orca/hw/link/tcp_link.hpp"
+
+namespace orca::hw::link {
+namespace {
+
+using Made = Result<std::unique_ptr<ByteLink>>;
+
+constexpr const char* kForms =
+    "; a link is serial:/dev/ttyUSB0 (or the path alone), tcp:HOST:PORT, pty:PATH or replay:FILE";
+
+Error wrong(std::string_view text, const std::string& what) {
+  return fail(Code::invalid_argument, in_quotes(printable(text)) + " is no link: " + what + kForms);
+}
+
+struct Place {
+  std::string_view host;
+  std::string_view port;
+};
+
+// Splits HOST:PORT or [ADDRESS]:PORT; nothing: it is neither.
+std::optional<Place> split(std::string_view rest) {
+  const std::size_t colon = rest.rfind(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  Place place{rest.substr(0, colon), rest.substr(colon + 1)};
+  const bool bracketed = place.host.starts_with('[') && place.host.ends_with(']');
+  if (bracketed) place.host = place.host.substr(1, place.host.size() - 2);
+  const bool has_colon = place.host.find(':') != std::string_view::npos;
+  const bool has_bracket = place.host.find_first_of("[]") != std::string_view::npos;
+  if (place.host.empty() || has_bracket || has_colon != bracketed) return std::nullopt;
+  return place;
+}
+
+std::optional<std::uint16_t> read_port(std::string_view digits) {
+  std::uint16_t port = 0;
+  const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+  if (fault != std::errc() || end != digits.data() + digits.size() || port == 0) return std::nullopt;
+  return port;
+}
+
+Made make_tcp(std::string_view text, std::string_view rest, const LinkOptions& options) {
+  const std::optional<Place> place = split(rest);
+  if (!place) return wrong(text, "tcp needs a host and a port, with an IPv6 address in brackets");
+  const std::optional<std::uint16_t> port = read_port(place->port);
+  if (!port) return wrong(text, in_quotes(printable(place->port)) + " is no port; ports are 1 to 65535");
+  return Made(std::make_unique<TcpLink>(TcpOptions{std::string(place->host), *port, options.connect_limit}));
+}
+
+Made make_serial(std::string_view device, const LinkOptions& options) {
+  SerialOptions serial;
+  serial.device = device;
+  serial.line = options.line;
+  return Made(std::make_unique<SerialLink>(std::move(serial)));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ByteLink>> make_link(std::string_view text, const LinkOptions& options) {
+  if (text.find_first_of(std::string_view("\0\n", 2)) != std::string_view::npos)
+    return wrong(text, "it has a line break or a zero in it");
+  if (text.starts_with('/')) return make_serial(text, options);
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return wrong(text, "it is no path and names no kind of link");
+  const std::string_view kind = text.substr(0, colon);
+  const std::string rest(text.substr(colon + 1));
+  if (kind != "serial" && kind != "tcp" && kind != "pty" && kind != "replay")
+    return wrong(text, "there is no kind " + in_quotes(printable(kind)));
+  if (rest.empty()) return wrong(text, "nothing follows " + std::string(kind) + ":");
+  if (kind == "serial") return make_serial(rest, options);
+  if (kind == "tcp") return make_tcp(text, rest, options);
+  if (kind == "pty") return Made(std::make_unique<PtyLink>(rest));
+  return Made(std::make_unique<ReplayLink>(ReplayOptions{rest, options.now}));
+}
+
+}  // namespace orca::hw::link

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/hw/link/serial_link.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+#include <thread>
+
+#include "line_settings.hpp"
+#include "orca/base/exhaustion.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "serial_places.hpp"
+#include "serial_trouble.hpp"
+#include "stream.hpp"
+
+namespace orca::hw::link {
+namespace {
+
+constexpr Duration kLongestLastWords = 50ms;
+constexpr std::chrono::milliseconds kPauseInLastWords{1};
+
+// Opened as a file, some devices do things: a watchdog starts to count. So it is looked at before.
+Status check_kind(const std::string& path, const std::string& name) {
+  struct stat about {};
+  if (stat(path.c_str(), &about) != 0 || S_ISCHR(about.st_mode)) return ok();  // open() says what is wrong
+  const std::string kind = S_ISDIR(about.st_mode) ? "a folder" : "a file";
+  return fail(Code::invalid_argument, path + " is " + kind + ", not a serial device", name);
+}
+
+}  // namespace
+
+SerialLink::SerialLink(SerialOptions options)
+    : options_(std::move(options)),
+      places_(std::make_unique<SerialPlaces>(options_.folder)),
+      old_(std::make_unique<OldSettings>()),
+      stream_(std::make_unique<Stream>(*this, Stream::Kind::terminal,
+                                       "the device has gone: was it unplugged or switched off?")) {}
+
+SerialLink::~SerialLink() { SerialLink::close(); }
+
+Result<Opening> SerialLink::open() {
+  if (stream_->is_attached()) return Opening::done;
+  const Result<std::string> path = locate();
+  if (!path) return path.error();
+  Result<Descriptor> terminal = claim(*path);
+  if (!terminal) return terminal.error();
+  path_ = resolved(*path);
+  if (identity_.empty() && !places_->holds(*path)) identity_ = places_->identity_of(*path);
+  stream_->attach(std::move(*terminal));
+  return Opening::done;
+}
+
+// Returns the path of the adapter that was opened first, wherever it is now.
+Result<std::string> SerialLink::locate() const {
+  const std::string named = places_->path_of(options_.device);
+  if (identity_.empty()) return named;
+  if (!resolved(identity_).empty()) return identity_;
+  if (resolved(named).empty()) return identity_;  // open() says that it is not there
+  return fail(Code::not_found,
+              identity_ + " is not plugged in, and " + named +
+                  " is another device now; plug in the first one, or start again to use the other",
+              name());
+}
+
+// Opens a device for this link alone.
+Result<Descriptor> SerialLink::claim(const std::string& path) {
+  if (const Status kind = check_kind(path, name()); !kind.ok()) return kind.error();
+  Descriptor terminal(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!terminal) {
+    const int reason = errno;
+    throw_if_exhausted(reason);
+    return explain_refusal(path, reason, *places_, name());
+  }
+  const int reason = old_->keep(terminal.number());
+  if (reason == ENOTTY || reason == EINVAL)
+    return fail(Code::invalid_argument, path + " is no serial device", name());
+  if (reason != 0)
+    return explain_refusal(path, reason, *places_, name());  // a port that its board does not have
+  // The lock keeps out other programs of Orca and root's, which the exclusive mode lets in.
+  if (flock(terminal.number(), LOCK_EX | LOCK_NB) != 0) {
+    terminal.reset();
+    return explain_holder(path, name());
+  }
+  if (const Status taken = take(terminal.number()); !taken.ok()) return taken.error();
+  return terminal;
+}
+
+Status SerialLink::take(int terminal) {
+  if (Status set = link::set_line(terminal, options_.line, name()); !set.ok()) {
+    old_->restore(terminal);
+    return set;
+  }
+  (void)ioctl(terminal, TIOCEXCL);
+  old_->hurry(terminal);
+  (void)ioctl(terminal, TCFLSH, TCIOFLUSH);
+  return ok();
+}
+
+void SerialLink::close() {
+  if (!stream_->is_attached()) return;
+  const int terminal = stream_->descriptor();
+  let_last_words_out();
+  if (pending() > 0) (void)ioctl(terminal, TCFLSH, TCOFLUSH);  // or closing waits for a stuck device
+  old_->restore(terminal);
+  (void)ioctl(terminal, TIOCNXCL);
+  (void)flock(terminal, LOCK_UN);  // a copy of this process may still hold the descriptor
+  stream_->detach();
+  path_.clear();
+}
+
+// The last words are often "stop". What they need is known from the rate, since adapters do not tell what they still hold.
+void SerialLink::let_last_words_out() {
+  const TimePoint latest = steady_now() + kLongestLastWords;
+  while (steady_now() < latest && stream_->flush().ok() && (pending() > 0 || steady_now() < busy_until_))
+    std::this_thread::sleep_for(kPauseInLastWords);
+}
+
+Result<std::size_t> SerialLink::read(std::span<std::uint8_t> into) { return stream_->read(into); }
+
+Status SerialLink::write(std::span<const std::uint8_t> bytes) {
+  Status written = stream_->write(bytes);
+  if (written.ok())
+    busy_until_ =
+        std::max(busy_until_, steady_now()) + from_seconds(static_cast<double>(bytes.size()) * byte_time());
+  return written;
+}
+
+Status SerialLink::flush() { return stream_->flush(); }
+
+std::size_t SerialLink::pending() const {
+  int held = 0;
+  if (!stream_->is_attached() || ioctl(stream_->descriptor(), TIOCOUTQ, &held) != 0 || held < 0) held = 0;
+  return stream_->pending() + static_cast<std::size_t>(held);
+}
+
+void SerialLink::discard_input() {
+  if (stream_->is_attached()) (void)ioctl(stream_->descriptor(), TCFLSH, TCIFLUSH);
+}
+
+void SerialLink::discard_output() {
+  stream_->discard_output();
+  busy_until_ = {};
+  if (stream_->is_attached()) (void)ioctl(stream_->descriptor(), TCFLSH, TCOFLUSH);
+}
+
+int SerialLink::descriptor() const { return stream_->descriptor(); }
+
+Status SerialLink::set_line(const Line& line) {
+  if (stream_->is_attached())
+    if (Status set = link::set_line(stream_->descriptor(), line, name()); !set.ok()) return set;
+  options_.line = line;
+  return ok();
+}
+
+}  // namespace orca::hw::link

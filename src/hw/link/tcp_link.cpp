@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/hw/link/tcp_link.hpp"
+
+#include <linux/sockios.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "address_lookup.hpp"
+#include "orca/base/descriptor.hpp"
+#include "orca/base/exhaustion.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "stream.hpp"
+
+namespace orca::hw::link {
+namespace {
+
+void set_number(int socket, int level, int option, int value) {
+  (void)setsockopt(socket, level, option, &value, sizeof value);
+}
+
+constexpr int kSendBuffer = 16384;  // [bytes]
+
+// By default, the system would keep megabytes of old commands for a device that is stuck, and wait hours for one whose
+// cable was pulled.
+void keep_fresh(int socket) {
+  set_number(socket, SOL_SOCKET, SO_SNDBUF, kSendBuffer);
+  set_number(socket, IPPROTO_TCP, TCP_NODELAY, 1);
+  set_number(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
+  set_number(socket, IPPROTO_TCP, TCP_KEEPIDLE, 2);   // [s]
+  set_number(socket, IPPROTO_TCP, TCP_KEEPINTVL, 1);  // [s]
+  set_number(socket, IPPROTO_TCP, TCP_KEEPCNT, 3);
+  set_number(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, 5000);  // [ms]
+}
+
+Error cannot_connect(int reason, std::uint16_t port) {
+  const std::string why = std::strerror(reason);
+  switch (reason) {
+    case ECONNREFUSED:
+      return fail(Code::unavailable, "the connection was refused: nothing listens on port " +
+                                         std::to_string(port) + "; is the device server running?");
+    case ETIMEDOUT:
+      return fail(Code::deadline_exceeded,
+                  "the host does not answer; is it switched on and in this network?");
+    case EHOSTUNREACH:
+    case ENETUNREACH:
+      return fail(Code::unavailable, "the host cannot be reached (" + why + "); is the network cable in?");
+    default: return fail(Code::unavailable, "cannot connect: " + why);
+  }
+}
+
+}  // namespace
+
+// A connection that is being made: the search for the host, then one address after the other.
+class Connecting {
+ public:
+  explicit Connecting(const TcpOptions& options)
+      : options_(options),
+        lookup_(options.host, std::to_string(options.port)),
+        end_(saturating_add(steady_now(), options.limit)) {}
+
+  // Goes on; gives the connected socket, an empty one: not yet.
+  [[nodiscard]] Result<Descriptor> go_on() {
+    if (!addresses_) {
+      Result<std::optional<std::vector<Address>>> found = lookup_.ask();
+      if (!found) return found.error();
+      if (!*found) return steady_now() < end_ ? Result<Descriptor>(Descriptor()) : too_late();
+      addresses_ = std::move(**found);
+    }
+    for (;;) {
+      if (!socket_ && next_ == addresses_->size()) return failure_;
+      if (!socket_) begin(next_++);
+      if (socket_ && is_connected()) return std::move(socket_);
+      if (socket_) return Descriptor();
+    }
+  }
+
+ private:
+  // Begins with an address. Without a socket it has failed already.
+  void begin(std::size_t index) {
+    const Address& address = (*addresses_)[index];
+    const auto left = static_cast<std::int64_t>(addresses_->size() - index);
+    until_ = steady_now() + std::max(end_ - steady_now(), Duration{0}) / left;
+    socket_ = Descriptor(socket(address.place.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    if (!socket_) throw_if_exhausted(errno);
+    const auto* const place = reinterpret_cast<const sockaddr*>(&address.place);
+    if (!socket_ || (connect(socket_.number(), place, address.size) != 0 && errno != EINPROGRESS))
+      give_up(cannot_connect(errno, options_.port));
+  }
+
+  // Returns whether the socket is connected; if that has failed, there is none any more.
+  bool is_connected() {
+    pollfd asked{socket_.number(), POLLOUT, 0};
+    if (poll(&asked, 1, 0) <= 0) {
+      if (steady_now() >= until_) give_up(too_late());
+      return false;
+    }
+    int reason = 0;
+    socklen_t size = sizeof reason;
+    if (getsockopt(socket_.number(), SOL_SOCKET, SO_ERROR, &reason, &size) != 0) reason = errno;
+    if (reason != 0) give_up(cannot_connect(reason, options_.port));
+    return reason == 0;
+  }
+
+  void give_up(Error why) {
+    socket_.reset();
+    failure_ = std::move(why);
+  }
+
+  [[nodiscard]] Error too_late() const {
+    return fail(Code::deadline_exceeded, "timed out: no answer within " +
+                                             std::to_string(to_seconds(options_.limit)) +
+                                             " s; is the device switched on and in this network?");
+  }
+
+  const TcpOptions& options_;
+  AddressLookup lookup_;
+  const TimePoint end_;
+  std::optional<std::vector<Address>> addresses_;
+  std::size_t next_ = 0;  // of the addresses
+  TimePoint until_;       // for the one that is tried now
+  Descriptor socket_;
+  Error failure_;  // of the one that was tried last
+};
+
+TcpLink::TcpLink(TcpOptions options)
+    : options_(std::move(options)),
+      stream_(std::make_unique<Stream>(*this, Stream::Kind::socket,
+                                       "the other end has gone: was it switched off, or its cable pulled?")) {
+}
+
+TcpLink::~TcpLink() = default;
+
+Result<Opening> TcpLink::open() {
+  if (stream_->is_attached()) return Opening::done;
+  if (!connecting_) connecting_ = std::make_unique<Connecting>(options_);
+  Result<Descriptor> socket = connecting_->go_on();
+  if (socket && !*socket) return Opening::under_way;
+  connecting_.reset();
+  if (!socket) return fail(socket.error().code, socket.error().message, name());
+  keep_fresh(socket->number());
+  stream_->attach(std::move(*socket));
+  return Opening::done;
+}
+
+void TcpLink::close() {
+  connecting_.reset();
+  stream_->drain();  // or the system cuts the connection, and the device loses what was written last
+  stream_->detach();
+}
+
+Result<std::size_t> TcpLink::read(std::span<std::uint8_t> into) { return stream_->read(into); }
+
+Status TcpLink::write(std::span<const std::uint8_t> bytes) { return stream_->write(bytes); }
+
+Status TcpLink::flush() { return stream_->flush(); }
+
+std::size_t TcpLink::pending() const {
+  int unsent = 0;
+  if (!stream_->is_attached() || ioctl(stream_->descriptor(), SIOCOUTQNSD, &unsent) != 0 || unsent < 0)
+    unsent = 0;
+  return stream_->pending() + static_cast<std::size_t>(unsent);
+}
+
+void TcpLink::discard_input() { stream_->drain(); }
+
+void TcpLink::discard_output() { stream_->discard_output(); }
+
+int TcpLink::descriptor() const { return stream_->descriptor(); }
+
+std::string TcpLink::name() const {
+  const bool v6 = options_.host.find(':') != std::string::npos;
+  return "tcp:" + (v6 ? "[" + options_.host + "]" : options_.host) + ":" + std::to_string(options_.port);
+}
+
+}  // namespace orca::hw::link
