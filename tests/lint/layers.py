@@ -68,6 +68,7 @@ LAYERS = (
     Layer("hw_api", ("src/hw/api",), ("orca/hw/", "orca/hardware.hpp"), ("hw_link", "geometry", *COMPONENT), ("fmt",)),
     Layer("hw_framing", ("src/hw/framing",), ("orca/hw/framing/",)),  # emulators use it too
     Layer("hw_player", ("src/hw/player",), ("orca/hw/player/",), ("base",)),
+    Layer("hw_create2", ("src/hw/create2",), ("orca/hw/create2/",), ("hw_framing", "geometry", "base")),
     Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_reading", (f"{GRAPH}/reading",), (), ("graph", "xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_checking", (f"{GRAPH}/checking",), (), ("graph_reading", "graph", "xml", "base"), ("fmt",), module=GRAPH),
