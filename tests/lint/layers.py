@@ -69,6 +69,7 @@ LAYERS = (
     Layer("hw_framing", ("src/hw/framing",), ("orca/hw/framing/",)),  # emulators use it too
     Layer("hw_player", ("src/hw/player",), ("orca/hw/player/",), ("base",)),
     Layer("hw_create2", ("src/hw/create2",), ("orca/hw/create2/",), ("hw_framing", "geometry", "base")),
+    Layer("hw_rplidar", ("src/hw/rplidar",), ("orca/hw/rplidar/",), ("hw_framing", "geometry", "base")),
     Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_reading", (f"{GRAPH}/reading",), (), ("graph", "xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_checking", (f"{GRAPH}/checking",), (), ("graph_reading", "graph", "xml", "base"), ("fmt",), module=GRAPH),
