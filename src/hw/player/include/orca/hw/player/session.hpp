@@ -23,7 +23,7 @@ inline constexpr MessageId kAskData{Interface::player, MessageType::request, 4};
 inline constexpr MessageId kSetDataMode{Interface::player, MessageType::request, 5};
 /// ReplaceRule; the answer is empty.
 inline constexpr MessageId kAddReplaceRule{Interface::player, MessageType::request, 10};
-/// Empty. Ends a round of data.
+/// Empty. Ends a round of data. Recognise it by its type: which device a server names in it was not recorded.
 inline constexpr MessageId kSynch{Interface::player, MessageType::synch, 1};
 /// Overflow. Ends a round of data, some of which were dropped.
 inline constexpr MessageId kSynchOverflow{Interface::player, MessageType::synch, 2};
