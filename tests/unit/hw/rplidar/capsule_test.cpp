@@ -158,6 +158,15 @@ TEST_CASE("after the first capsule of a scan, or a lost one, the one before is f
   CHECK(in_degrees(capsules.add(at_degrees(70.0)).value()[0].angle) == Approx(-60.0));
 }
 
+TEST_CASE("a turn that ended before the first capsule of a scan does not begin this scan", "[hw][rplidar]") {
+  CapsulePoints capsules;
+  capsules.add(at_degrees(344.0));
+  CHECK(capsules.add(at_degrees(0.0)).has_value());  // the next point would begin a scan
+  capsules.add(at_degrees(100.0, true));
+  const auto points = capsules.add(at_degrees(116.0)).value();
+  for (const Point& point : points) CHECK_FALSE(point.begins_scan);
+}
+
 TEST_CASE("a start angle of more than a turn does no harm", "[hw][rplidar]") {
   CapsulePoints capsules;
   capsules.add(Capsule{.start = 32767});

@@ -107,6 +107,30 @@ TEST_CASE("a stream that begins within a node is read from the second whole one"
   }
 }
 
+TEST_CASE("a row that fits at a wrong place is not taken for nodes", "[hw][rplidar]") {
+  struct Trap {
+    int first_angle;
+    int first_distance;
+    int distance_step;
+    std::size_t missing;
+  };
+  // Read from the second byte on, each of the first 8 nodes would begin a scan, its angle being made of the distance.
+  const Trap all_begin{128, 0x0A01, 1, 1};
+  // Read from the third byte on, the first 8 nodes would stand at one angle, which is made of the distance.
+  const Trap all_equal{256, 0x0FA1, 0, 2};
+  for (const Trap& trap : {all_begin, all_equal}) {
+    Nodes nodes;
+    for (int i = 0; i < 100; ++i)
+      nodes.push_back({.quality = 10,
+                       .angle = static_cast<std::uint16_t>(trap.first_angle + 16 * i),
+                       .distance = static_cast<std::uint16_t>(trap.first_distance + trap.distance_step * i)});
+    const NodeBytes stream = bytes_of_nodes(nodes);
+    NodeEar ear;
+    ear.hear(std::span(stream).subspan(trap.missing));
+    CHECK(ear.nodes == Nodes(nodes.begin() + 2, nodes.end() - 1));
+  }
+}
+
 namespace {
 
 // What a reader has made of a damaged stream.
