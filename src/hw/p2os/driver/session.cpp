@@ -107,10 +107,9 @@ Error Session::nobody() const {
     return fail(Code::not_found,
                 "something at " + where +
                     " sends packets but does not finish the handshake; switch the robot off and on");
-  return fail(Code::not_found,
-              "no Pioneer answers at " + where +
-                  "; is it switched on, is this its serial port, and is the "
-                  "cable crossed as it needs?");
+  return fail(Code::not_found, "no Pioneer answers at " + where +
+                                   "; is it switched on, is this its serial port, and is the "
+                                   "cable crossed as it needs?");
 }
 
 Status Session::receive(TimePoint now, const std::function<void(const Received&)>& take) {

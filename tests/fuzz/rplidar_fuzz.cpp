@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// RPLIDAR: a stream gives the same events however it is cut, and every point is within its range; what was read as a node or
+// a capsule is the same after writing. The first byte chooses the pieces, and where in the stream a new answer is expected.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <numbers>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "orca/hw/rplidar/receiver.hpp"
+
+namespace {
+
+using namespace orca::hw::rplidar;
+using Input = std::span<const std::uint8_t>;
+
+void check(const Point& point) {
+  if (!(point.angle > -std::numbers::pi && point.angle <= std::numbers::pi)) std::abort();
+  if (point.range && !(*point.range > 0.0 && *point.range < 16.4)) std::abort();
+}
+
+void hear(Receiver& receiver, Input stream, std::size_t piece, std::vector<Event>& events) {
+  for (std::size_t at = 0; at < stream.size(); at += piece)
+    receiver.feed(stream.subspan(at, std::min(piece, stream.size() - at)), [&](const Event& event) {
+      if (const auto* const point = std::get_if<Point>(&event)) check(*point);
+      events.push_back(event);
+    });
+}
+
+std::vector<Event> events_of(Input stream, std::size_t piece, std::size_t next_request) {
+  Receiver receiver;
+  std::vector<Event> events;
+  hear(receiver, stream.first(next_request), piece, events);
+  receiver.expect_answer();
+  hear(receiver, stream.subspan(next_request), piece, events);
+  return events;
+}
+
+void try_parts(Input bytes) {
+  if (bytes.size() >= kNodeSize) {
+    const auto node = parse_node(bytes.first(kNodeSize));
+    if (node && !std::ranges::equal(encode_node(*node), bytes.first(kNodeSize))) std::abort();
+  }
+  if (!bytes.empty() && look_at_capsule(bytes).kind == orca::hw::framing::Finding::Kind::frame) {
+    const auto frame = bytes.first(kCapsuleSize);
+    if (!std::ranges::equal(encode_capsule(parse_capsule(frame)), frame)) std::abort();
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 2) return 0;
+  const Input rest(data + 1, size - 1);
+  try_parts(rest);
+  const std::size_t next_request = rest.size() * (data[0] % 8U) / 8U;
+  if (events_of(rest, rest.size(), next_request) != events_of(rest, 1U + data[0] / 8U, next_request))
+    std::abort();
+  return 0;
+}
