@@ -86,7 +86,7 @@ void P2osFirmware::obey(Bytes body, TimePoint now) {
   const int number = body[0];
   if (!open_) return shake_hands(number, now);
   commands_.push_back(number);
-  carry_out(number, argument_of(body), now);
+  carry_out(number, argument_of(body));
 }
 
 // SYNC0, SYNC1, SYNC2 are sent back, the last one with the names of the robot; then OPEN, which is 1 like SYNC1.
@@ -109,7 +109,7 @@ void P2osFirmware::shake_hands(int number, TimePoint now) {
   send(std::move(answer), now);
 }
 
-void P2osFirmware::carry_out(int number, int value, TimePoint now) {
+void P2osFirmware::carry_out(int number, int value) {
   switch (number) {
     case kPulse: return;
     case kClose:
@@ -135,7 +135,7 @@ void P2osFirmware::carry_out(int number, int value, TimePoint now) {
       return;
     }
     case kReset: return reset();
-    default: (void)now; return;
+    default: return;
   }
 }
 

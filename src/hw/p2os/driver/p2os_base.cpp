@@ -143,14 +143,19 @@ class P2osBase final : public orca::hw::HardwareContainer {
   void declare_endpoints() {
     senses_.emplace(*model_);
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = std::min(*max_speed_, model_->max_speed),
-                                          .max_turn_rate = std::min(*max_turn_rate_, model_->max_turn_rate),
+    motion_.emplace(orca::hw::DriveLimits{.max_speed = within(*max_speed_, model_->max_speed),
+                                          .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
                                           .big_turn_angle = 1.0,
                                           .big_turn_speed = 0.1},
                     std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*max_command_age_)));
     set_motion(*motion_);
     const bool is_serial = link_->byte_time() > 0.0;
     session_.emplace(*link_, is_serial ? kRates : std::vector<std::uint32_t>{kRates.front()});
+  }
+
+  // Of some models the limit is not known.
+  [[nodiscard]] static double within(double wish, double limit) {
+    return limit > 0.0 ? std::min(wish, limit) : wish;
   }
 
   [[nodiscard]] static std::string all_models() {
@@ -217,7 +222,7 @@ class P2osBase final : public orca::hw::HardwareContainer {
       *this,
       "device",
       "/dev/ttyUSB0",
-      {.text = "Its line: a serial device, tcp:HOST:PORT, or another link (docs/hardware)."}};
+      {.text = "Its line: a serial device (/dev/ttyUSB0, or a name in /dev/serial/by-id) or tcp:HOST:PORT."}};
   orca::Param<std::string> model_name_{
       *this, "model", "p2dx", {.text = "What the robot calls itself (subclass): p2dx, p2pb, p3dx, ..."}};
   orca::Param<std::string> name_{*this, "name", "Pioneer", {.text = "Name of this robot, one word."}};

@@ -87,7 +87,7 @@ class P2osFirmware {
 
   void obey(std::span<const std::uint8_t> body, TimePoint now);
   void shake_hands(int number, TimePoint now);
-  void carry_out(int number, int value, TimePoint now);
+  void carry_out(int number, int value);
   void stop();
   void drive();
   void send(std::vector<std::uint8_t> body, TimePoint now);

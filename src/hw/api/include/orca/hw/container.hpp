@@ -35,7 +35,7 @@ class HardwareHost : public PluginHost {
 };
 
 /// What a driver does with its device when the container asks for it. All of it runs on the container's own strand and never
-/// overlaps; none of it waits.
+/// overlaps; none of it waits for the device. An error, and an exception, is a fault of the device with that text.
 class DriverFunctions {
  public:
   DriverFunctions() = default;
@@ -45,6 +45,7 @@ class DriverFunctions {
  protected:
   ~DriverFunctions() = default;
 
+  /// Opens the port.
   virtual Status open() { return ok(); }
   /// Finds out what is there. Called after open() and then at next_poll() and when there is input, until it knows. It does not
   /// wait.
@@ -58,7 +59,9 @@ class DriverFunctions {
   [[nodiscard]] virtual int descriptor() const { return -1; }
   /// Returns after how long without heard() the device has failed [s].
   [[nodiscard]] virtual Duration longest_silence() const { return Duration::max(); }
+  /// Begins to measure; somebody uses the device from now on. It gives no power to motors after a fault.
   virtual Status start() { return ok(); }
+  /// Ends that. The motors have been told to stand.
   virtual void stop() {}
   /// Closes the device. Also called after open() has failed.
   virtual void close() {}
