@@ -62,8 +62,6 @@ void add_text(std::vector<std::uint8_t>& body, const std::string& text) {
   body.push_back(0);
 }
 
-Duration seconds(double time) { return Duration(std::llround(1e9 * time)); }
-
 }  // namespace
 
 P2osFirmware::P2osFirmware(Body& body, P2osSettings settings)
@@ -134,7 +132,7 @@ void P2osFirmware::carry_out(int number, int value) {
       if (value >= 0 && value < 5) baud_ = kRates[value];
       return;
     }
-    case kReset: return reset();
+    case kReset: return restart();
     default: return;
   }
 }
@@ -146,7 +144,9 @@ void P2osFirmware::stop() {
 
 void P2osFirmware::drive() { body_.drive(power_ ? wanted_ : Twist2{}); }
 
-void P2osFirmware::reset() {
+void P2osFirmware::reset(TimePoint) { restart(); }
+
+void P2osFirmware::restart() {
   stop();
   power_ = sonar_ = open_ = false;
   syncs_ = 0;
@@ -168,11 +168,7 @@ std::vector<std::uint8_t> P2osFirmware::advance(TimePoint now) {
   }
   for (; open_ && now >= next_information_; next_information_ += settings_.cycle)
     send_information(next_information_);
-  std::vector<std::uint8_t> out;
-  for (; !line_.empty() && line_.front().leaves <= now; line_.pop_front()) out.push_back(line_.front().byte);
-  if (host_baud_ != 0 && host_baud_ != baud_)
-    for (std::uint8_t& byte : out) byte = static_cast<std::uint8_t>(byte * 37 + 11);  // as at a wrong rate
-  return out;
+  return line_.leave(now, host_baud_ == 0 || host_baud_ == baud_);
 }
 
 void P2osFirmware::send(std::vector<std::uint8_t> body, TimePoint now) {
@@ -181,11 +177,7 @@ void P2osFirmware::send(std::vector<std::uint8_t> body, TimePoint now) {
   packet.insert(packet.end(), body.begin(), body.end());
   packet.push_back(static_cast<std::uint8_t>(sum >> 8));
   packet.push_back(static_cast<std::uint8_t>(sum & 0xFF));
-  TimePoint leaves = line_.empty() ? now : std::max(now, line_.back().leaves);
-  for (const std::uint8_t byte : packet) {
-    leaves += seconds(byte_time());
-    line_.push_back({byte, leaves});
-  }
+  line_.send(packet, byte_time(), now);
 }
 
 void P2osFirmware::send_information(TimePoint now) {

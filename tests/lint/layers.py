@@ -25,6 +25,7 @@ class Layer:
 COMPONENT = ("component_api", "patterns", "idl", "base")
 ENDPOINTS = ("patterns_endpoints", "idl", "base")
 DEVICE = ("hw_api", "geometry", *COMPONENT)
+DRIVER = ("hw_driver", "hw_framing", "hw_link", "geometry_objects", *DEVICE)
 PATTERNS = "src/patterns"
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
 SUPERVISOR = "src/runtime/supervisor"
@@ -69,7 +70,8 @@ LAYERS = (
     Layer("hw_framing", ("src/hw/framing",), ("orca/hw/framing/",)),  # emulators use it too
     Layer("hw_nomad_scout", ("src/hw/nomad_scout",), ("orca/hw/nomad_scout/",), ("hw_framing", "geometry", "base")),
     Layer("hw_p2os", ("src/hw/p2os",), ("orca/hw/p2os/",), ("hw_framing", "geometry", "base")),
-    Layer("p2os_driver", ("src/hw/p2os/driver",), (), ("hw_p2os", "hw_framing", "hw_link", "geometry_objects", *DEVICE), ("fmt",)),
+    Layer("hw_driver", ("src/hw/driver",), ("orca/hw/line_driver.hpp",), ("hw_link", *DEVICE), ("fmt",)),
+    Layer("p2os_driver", ("src/hw/p2os/driver",), (), ("hw_p2os", *DRIVER), ("fmt",)),
     Layer("hw_sick_lms", ("src/hw/sick_lms",), ("orca/hw/sick_lms/",), ("hw_framing", "base")),
     Layer("hw_player", ("src/hw/player",), ("orca/hw/player/",), ("base",)),
     Layer("hw_create2", ("src/hw/create2",), ("orca/hw/create2/",), ("hw_framing", "geometry", "base")),

@@ -2,22 +2,16 @@
 // The driver of Pioneers with the controller's emulation at the other end of a pseudo terminal: nothing of it is simulated.
 #include <catch2/catch.hpp>
 
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <fstream>
-#include <functional>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 
 #include "deployer.hpp"
+#include "device_on_desk.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
-#include "orca/geometry/arc.hpp"
-#include "orca/hw/link/pty_link.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca;
@@ -28,79 +22,7 @@ using emulators::P2osSettings;
 
 namespace {
 
-// A robot in an empty plain, whose wheels do at once what they are told.
-class PlainBody final : public emulators::Body {
- public:
-  void go_on(Duration time) { pose_ = along_arc(pose_, velocity_ * to_seconds(time)); }
-  void drive(const Twist2& velocity) override { velocity_ = velocity; }
-  [[nodiscard]] Pose2 odometry() const override { return pose_; }
-  [[nodiscard]] Twist2 velocity() const override { return velocity_; }
-  [[nodiscard]] std::optional<double> sonar(int) const override { return std::nullopt; }
-
- private:
-  Pose2 pose_;
-  Twist2 velocity_;
-};
-
-// A Pioneer on a desk: its line is there, and its controller runs, as long as this lives.
-class Pioneer {
- public:
-  explicit Pioneer(const std::string& device, P2osSettings settings = {})
-      : link_(device), firmware_(body_, std::move(settings)) {
-    REQUIRE(link_.open());
-    thread_ = std::thread([this] { run(); });
-  }
-  ~Pioneer() {
-    ends_ = true;
-    thread_.join();
-  }
-  Pioneer(const Pioneer&) = delete;
-  Pioneer& operator=(const Pioneer&) = delete;
-
-  /// Looks at the controller and the body, or changes them, between two of its steps.
-  template <class Look>
-  auto with(Look look) {
-    const std::lock_guard lock(mutex_);
-    return look(firmware_, body_);
-  }
-  /// Pulls the plug out, and puts it in again.
-  void unplug() {
-    const std::lock_guard lock(mutex_);
-    link_.close();
-  }
-  void plug_in() {
-    const std::lock_guard lock(mutex_);
-    REQUIRE(link_.open());
-  }
-  void fall_silent(bool silent) { silent_ = silent; }
-
- private:
-  void run() {
-    for (TimePoint last = steady_now(); !ends_; std::this_thread::sleep_for(1ms)) {
-      const std::lock_guard lock(mutex_);
-      const TimePoint now = steady_now();
-      body_.go_on(now - last);
-      last = now;
-      exchange(now);
-    }
-  }
-  void exchange(TimePoint now) {
-    std::array<std::uint8_t, 256> bytes{};
-    if (const auto count = link_.read(bytes); count && *count > 0 && !silent_)
-      firmware_.take({bytes.data(), *count}, link_.line() ? link_.line()->baud : 0, now);
-    const std::vector<std::uint8_t> sent = firmware_.advance(now);
-    if (!sent.empty() && !silent_) (void)link_.write(sent);
-    (void)link_.flush();
-  }
-
-  hw::link::PtyLink link_;
-  PlainBody body_;
-  P2osFirmware firmware_;
-  std::mutex mutex_;
-  std::atomic<bool> silent_{false};
-  std::atomic<bool> ends_{false};
-  std::thread thread_;
-};
+using Pioneer = DeviceOnDesk<P2osFirmware, PlainBody>;
 
 Words drive(const std::string& device, const Words& more = {}) {
   return Words{system_graph("p2os.xml"), "--set", "device=" + device} + more;
@@ -118,15 +40,6 @@ std::string without_avoid(const std::string& graph) {
     if (line.find("avoid") == std::string::npos) text += line + "\n";
   }
   return text;
-}
-
-bool eventually(const std::function<bool()>& condition) {
-  const TimePoint end = steady_now() + 20s * static_cast<int>(kSlowdown);
-  while (!condition()) {
-    if (steady_now() > end) return false;
-    std::this_thread::sleep_for(5ms);
-  }
-  return true;
 }
 
 bool is_moving(Pioneer& pioneer) {
@@ -218,7 +131,7 @@ TEST_CASE(
   const TempFolder folder;
   const std::string device = folder.file("pioneer");
   Pioneer pioneer(device);
-  Subprocess program(deployer(drive(device, far_goal() + Words{"--trace", "/tmp/p2os.trace"})));
+  Subprocess program(deployer(drive(device, far_goal())));
   REQUIRE(eventually([&] { return is_moving(pioneer); }));
   pioneer.unplug();
   REQUIRE(eventually([&] { return stands(pioneer); }));  // its own watchdog
@@ -244,7 +157,7 @@ TEST_CASE("a controller that is switched off and on in mid-motion is found again
   Pioneer pioneer(device);
   Subprocess program(deployer(drive(device, far_goal())));
   REQUIRE(eventually([&] { return is_moving(pioneer); }));
-  pioneer.with([](P2osFirmware& firmware, PlainBody&) { firmware.reset(); });
+  pioneer.with([](P2osFirmware& firmware, PlainBody&) { firmware.reset(steady_now()); });
   CHECK(stands(pioneer));
   REQUIRE(program.wait_for_output("is it still connected and switched on?", Seconds(20 * kSlowdown)));
   REQUIRE(program.wait_for_output("it works again", Seconds(30 * kSlowdown)));

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/link/make_link.hpp"
 
+#include <unistd.h>
+
 #include <charconv>
+#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -16,8 +19,11 @@ namespace {
 
 using Made = Result<std::unique_ptr<ByteLink>>;
 
+constexpr Duration kEmulationStarts = 10s;  // another process may have to load a world first
+
 constexpr const char* kForms =
-    "; a link is serial:/dev/ttyUSB0 (or the path alone), tcp:HOST:PORT, pty:PATH or replay:FILE";
+    "; a link is serial:/dev/ttyUSB0 (or the path alone), tcp:HOST:PORT, emulated:NAME, pty:PATH or "
+    "replay:FILE";
 
 Error wrong(std::string_view text, const std::string& what) {
   return fail(Code::invalid_argument, in_quotes(printable(text)) + " is no link: " + what + kForms);
@@ -63,7 +69,26 @@ Made make_serial(std::string_view device, const LinkOptions& options) {
   return Made(std::make_unique<SerialLink>(std::move(serial)));
 }
 
+Made make_emulated(std::string_view text, std::string_view name, const LinkOptions& options) {
+  if (name.find('/') != std::string_view::npos || name.starts_with('.'))
+    return wrong(text, "the name of an emulation is no path");
+  SerialOptions serial;
+  serial.device = emulated_path(name);
+  serial.line = options.line;
+  serial.patience = kEmulationStarts;
+  serial.now = options.now;
+  return Made(std::make_unique<SerialLink>(std::move(serial)));
+}
+
 }  // namespace
+
+std::string emulated_path(std::string_view name) {
+  const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
+  const bool has_folder = runtime != nullptr && *runtime == '/';
+  const std::string folder =
+      has_folder ? std::string(runtime) + "/orca" : "/tmp/orca-" + std::to_string(getuid());
+  return folder + "/emulated/" + std::string(name);
+}
 
 Result<std::unique_ptr<ByteLink>> make_link(std::string_view text, const LinkOptions& options) {
   if (text.find_first_of(std::string_view("\0\n", 2)) != std::string_view::npos)
@@ -73,11 +98,12 @@ Result<std::unique_ptr<ByteLink>> make_link(std::string_view text, const LinkOpt
   if (colon == std::string_view::npos) return wrong(text, "it is no path and names no kind of link");
   const std::string_view kind = text.substr(0, colon);
   const std::string rest(text.substr(colon + 1));
-  if (kind != "serial" && kind != "tcp" && kind != "pty" && kind != "replay")
+  if (kind != "serial" && kind != "tcp" && kind != "emulated" && kind != "pty" && kind != "replay")
     return wrong(text, "there is no kind " + in_quotes(printable(kind)));
   if (rest.empty()) return wrong(text, "nothing follows " + std::string(kind) + ":");
   if (kind == "serial") return make_serial(rest, options);
   if (kind == "tcp") return make_tcp(text, rest, options);
+  if (kind == "emulated") return make_emulated(text, rest, options);
   if (kind == "pty") return Made(std::make_unique<PtyLink>(rest));
   return Made(std::make_unique<ReplayLink>(ReplayOptions{rest, options.now}));
 }

@@ -48,11 +48,18 @@ Result<Opening> SerialLink::open() {
   const Result<std::string> path = locate();
   if (!path) return path.error();
   Result<Descriptor> terminal = claim(*path);
+  if (!terminal && terminal.error().code == Code::not_found && goes_on_waiting()) return Opening::under_way;
+  waits_since_.reset();
   if (!terminal) return terminal.error();
   path_ = resolved(*path);
   if (identity_.empty() && !places_->holds(*path)) identity_ = places_->identity_of(*path);
   stream_->attach(std::move(*terminal));
   return Opening::done;
+}
+
+bool SerialLink::goes_on_waiting() {
+  if (!waits_since_) waits_since_ = options_.now();
+  return options_.now() - *waits_since_ < options_.patience;
 }
 
 // Returns the path of the adapter that was opened first, wherever it is now.

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "orca/base/text.hpp"
 #include "orca/hardware.hpp"
-#include "orca/hw/link/make_link.hpp"
+#include "orca/hw/line_driver.hpp"
 #include "orca/hw/p2os/model.hpp"
 #include "senses.hpp"
 #include "session.hpp"
@@ -30,18 +29,13 @@ const std::vector<std::uint32_t> kRates{9600, 38400, 19200, 115200, 57600};
 ///
 /// Its motors get power with the first command to move, not before, and lose it when nobody uses the base. After a fault they stay
 /// off until an operator lets the base move again.
-class P2osBase final : public orca::hw::HardwareContainer {
+class P2osBase final : public orca::hw::LineDriver {
  public:
-  explicit P2osBase(orca::hw::HardwareHost& host) : HardwareContainer(host) {}
+  explicit P2osBase(orca::hw::HardwareHost& host)
+      : LineDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()}) {}
 
   std::vector<orca::HardwareFault> prepare() override {
-    std::vector<orca::HardwareFault> faults;
-    auto link = orca::hw::link::make_link(*device_, {.line = {.baud = kRates.front()}});
-    if (link) {
-      link_ = std::move(link).value();
-    } else {
-      faults.push_back({"device", link.error().message});
-    }
+    std::vector<orca::HardwareFault> faults = prepare_line();
     const ModelChoice choice = choose_model(*model_name_);
     if (!choice.is_known)
       faults.push_back({"model", orca::in_quotes(*model_name_) + " is none of " + all_models()});
@@ -49,14 +43,6 @@ class P2osBase final : public orca::hw::HardwareContainer {
     model_ = &choice.model;
     declare_endpoints();
     return faults;
-  }
-
-  [[nodiscard]] std::vector<orca::HardwareFault> conflicts_with(
-      const HardwareContainer& earlier) const override {
-    const auto& other = static_cast<const P2osBase&>(earlier);
-    if (*device_ != *other.device_) return {};
-    return {{"device", "it is that of hardware " + orca::in_quotes(other.host().name()) +
-                           ", too; each robot has a line of its own"}};
   }
 
   [[nodiscard]] orca::idl::Robot description() const override {
@@ -70,7 +56,7 @@ class P2osBase final : public orca::hw::HardwareContainer {
     robot.width(model_->width);
     orca::idl::Drive drive;
     drive.name("wheels");
-    drive.port(*device_);
+    drive.port(device());
     drive.type(orca::idl::DIFFERENTIAL);
     drive.max_speed(motion_->limits().max_speed);
     drive.max_steer_speed(motion_->limits().max_turn_rate);
@@ -80,26 +66,20 @@ class P2osBase final : public orca::hw::HardwareContainer {
   }
 
  protected:
-  Status open() override {
-    Result<orca::hw::link::Opening> opening = link_->open();
-    if (!opening) return opening.error();
-    is_open_ = *opening == orca::hw::link::Opening::done;
-    return is_open_ ? begin() : orca::ok();
+  Status begin(TimePoint now) override {
+    session_.emplace(line(), has_rate() ? kRates : std::vector<std::uint32_t>{kRates.front()});
+    return session_->begin(now);
   }
 
-  Result<bool> probe() override {
-    if (!is_open_) {
-      if (Status opened = open(); !opened.ok()) return opened.error();
-      if (!is_open_) return false;
-    }
-    Result<bool> done = session_->advance(host().now());
+  Result<bool> advance(TimePoint now) override {
+    Result<bool> done = session_->advance(now);
     if (!done || !*done) return done;
     meet();
     return true;
   }
 
-  [[nodiscard]] bool recovers() const override { return true; }
-  [[nodiscard]] int descriptor() const override { return link_->descriptor(); }
+  [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
+  [[nodiscard]] TimePoint next_turn() const override { return say_again_; }
   [[nodiscard]] Duration longest_silence() const override { return 1s; }
 
   Status start() override { return send({encode(Command::sonar, 1)}); }
@@ -109,10 +89,9 @@ class P2osBase final : public orca::hw::HardwareContainer {
     powered_ = false;
   }
 
-  void close() override {
-    if (is_open_ && session_) (void)send({encode(Command::stop), encode(Command::close)});
-    link_->close();
-    is_open_ = powered_ = false;
+  void take_leave() override {
+    (void)send({encode(Command::stop), encode(Command::close)});
+    powered_ = false;
     applied_ = {};
   }
 
@@ -120,14 +99,8 @@ class P2osBase final : public orca::hw::HardwareContainer {
     const TimePoint now = host().now();
     if (Status read = session_->receive(now, [this](const Received& packet) { take(packet); }); !read.ok())
       return read;
-    if (now < say_again_) return link_->flush();
+    if (now < say_again_) return line().flush();
     return applied_.stands() ? send({encode(Command::pulse)}) : say(applied_);
-  }
-
-  [[nodiscard]] TimePoint next_poll() const override {
-    return session_ && state() != orca::hw::HardwareState::ready && state() != orca::hw::HardwareState::active
-               ? session_->next()
-               : say_again_;
   }
 
   Status drive(const DriveSetpoint& setpoint) override {
@@ -149,8 +122,6 @@ class P2osBase final : public orca::hw::HardwareContainer {
                                           .big_turn_speed = 0.1},
                     std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*max_command_age_)));
     set_motion(*motion_);
-    const bool is_serial = link_->byte_time() > 0.0;
-    session_.emplace(*link_, is_serial ? kRates : std::vector<std::uint32_t>{kRates.front()});
   }
 
   // Of some models the limit is not known.
@@ -163,8 +134,6 @@ class P2osBase final : public orca::hw::HardwareContainer {
     for (const Model& model : models()) names += (names.empty() ? "" : ", ") + std::string(model.subclass);
     return names;
   }
-
-  Status begin() { return session_->begin(host().now()); }
 
   // The robot has said what it is.
   void meet() {
@@ -218,11 +187,6 @@ class P2osBase final : public orca::hw::HardwareContainer {
     return orca::ok();
   }
 
-  orca::Param<std::string> device_{
-      *this,
-      "device",
-      "/dev/ttyUSB0",
-      {.text = "Its line: a serial device (/dev/ttyUSB0, or a name in /dev/serial/by-id) or tcp:HOST:PORT."}};
   orca::Param<std::string> model_name_{
       *this, "model", "p2dx", {.text = "What the robot calls itself (subclass): p2dx, p2pb, p3dx, ..."}};
   orca::Param<std::string> name_{*this, "name", "Pioneer", {.text = "Name of this robot, one word."}};
@@ -236,12 +200,10 @@ class P2osBase final : public orca::hw::HardwareContainer {
       0.2,
       {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}};
 
-  std::unique_ptr<orca::hw::link::ByteLink> link_;
   const Model* model_ = nullptr;
   std::optional<Senses> senses_;
   std::optional<orca::hw::MotionHW> motion_;
   std::optional<Session> session_;
-  bool is_open_ = false;
   bool powered_ = false;   // the motors
   DriveSetpoint applied_;  // what the wheels were told last
   TimePoint say_again_{};
@@ -250,3 +212,4 @@ class P2osBase final : public orca::hw::HardwareContainer {
 }  // namespace
 
 ORCA_HARDWARE(P2osBase, "orca.hw.P2os")
+ORCA_STEADY_CLOCK_ONLY("its robot lives in real time")

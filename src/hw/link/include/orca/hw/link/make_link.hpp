@@ -24,6 +24,7 @@ struct LinkOptions {
 /// | serial:/dev/ttyUSB0              | the same                                                        |
 /// | serial:usb-FTDI_FT232R-if00      | a name in /dev/serial/by-id, /dev/serial/by-path or /dev        |
 /// | tcp:scout.local:4000             | a connection; an IPv6 address stands in brackets: tcp:[::1]:4000 |
+/// | emulated:scout                   | the driver's side of an emulation, as a serial line; open() waits 10 s for it |
 /// | pty:/tmp/scout                   | the device's side of a line, which the driver opens at that path |
 /// | replay:run7.bytes                | a recording                                                     |
 ///
@@ -31,5 +32,10 @@ struct LinkOptions {
 /// @thread  any.
 [[nodiscard]] Result<std::unique_ptr<ByteLink>> make_link(std::string_view text,
                                                           const LinkOptions& options = {});
+
+/// Returns the path at which an emulation of that name offers its line: `$XDG_RUNTIME_DIR/orca/emulated/NAME`, or
+/// `/tmp/orca-<uid>/emulated/NAME` where there is no such folder.
+/// @thread  any that may read the environment.
+[[nodiscard]] std::string emulated_path(std::string_view name);
 
 }  // namespace orca::hw::link

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "orca/base/descriptor.hpp"
+#include "orca/base/steady_clock.hpp"
 #include "orca/hw/link/byte_link.hpp"
 
 namespace orca::hw::link {
@@ -19,6 +21,9 @@ struct SerialOptions {
   Line line{};
   /// Where the system keeps by-id and by-path.
   std::string folder = "/dev/serial";
+  /// For how long open() waits for a device that is not there yet [s].
+  Duration patience{0};
+  NowFunction now = steady_now;  ///< The clock of that.
 };
 
 /// A serial line: raw bytes, any rate, no flow control. The port is this link's alone while it is open.
@@ -54,6 +59,7 @@ class SerialLink final : public ByteLink {
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
+  [[nodiscard]] bool goes_on_waiting();
   [[nodiscard]] Result<std::string> locate() const;
   [[nodiscard]] Result<Descriptor> claim(const std::string& path);
   [[nodiscard]] Status take(int terminal);
@@ -65,6 +71,7 @@ class SerialLink final : public ByteLink {
   const std::unique_ptr<Stream> stream_;
   std::string identity_;  // the path in by-id of the adapter that was opened first, by another name
   std::string path_;
+  std::optional<TimePoint> waits_since_;  // for a device that is not there
   TimePoint
       busy_until_;  // with what was written, on the system's clock, if the device takes it at the line's rate
 };

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "orca/base/time.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/geometry/twist2.hpp"
+
+namespace orca::emulators {
+
+/// The body of a robot, as its controller drives and senses it. The simulator is one; a test may have a simpler one.
+///
+/// Thread contract: the firmware's.
+class Body {
+ public:
+  virtual ~Body() = default;
+  /// Gives the wheels a velocity, from now on. @param velocity  `left` is 0 unless the base is holonomic.
+  virtual void drive(const Twist2& velocity) = 0;
+  /// Returns where the wheels say that the robot is, from where it was at the start.
+  [[nodiscard]] virtual Pose2 odometry() const = 0;
+  /// Returns the velocity of the wheels.
+  [[nodiscard]] virtual Twist2 velocity() const = 0;
+  /// Returns the distance that a sonar hears [m]; nothing if it hears no echo.
+  [[nodiscard]] virtual std::optional<double> sonar(int number) const = 0;
+  /// Returns the pressed bumpers, a bit each: front in the low byte, rear in the high byte.
+  [[nodiscard]] virtual std::uint16_t bumpers() const { return 0; }
+  [[nodiscard]] virtual bool is_stalled() const { return false; }
+};
+
+/// A turn of a scanning laser's mirror.
+struct MirrorTurn {
+  TimePoint stamp{};               ///< When it was measured.
+  double first_angle = 0.0;        ///< [rad] of the first beam from ahead, positive to the left.
+  double step = 0.0;               ///< [rad] from beam to beam; positive: to the left.
+  std::span<const double> ranges;  ///< [m] one per beam; infinite: no return.
+};
+
+/// What a scanning laser's mirror shows it.
+///
+/// Thread contract: the firmware's.
+class Mirror {
+ public:
+  virtual ~Mirror() = default;
+  /// Returns the last turn; nothing before the first. It is valid until the firmware returns.
+  [[nodiscard]] virtual std::optional<MirrorTurn> last_turn() const = 0;
+};
+
+}  // namespace orca::emulators

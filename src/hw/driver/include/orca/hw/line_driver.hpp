@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "orca/component/param.hpp"
+#include "orca/hw/container.hpp"
+#include "orca/hw/link/byte_link.hpp"
+
+namespace orca::hw {
+
+/// A driver of a device at the end of one line (thesis 10.2). It opens the line that the parameter `device` names, keeps a log of
+/// its bytes if `byte_log` names a file, and opens it again when the device has failed and may have come back. A driver adds
+/// what is said over the line.
+///
+/// Thread contract: as HardwareContainer. What is protected runs on the container's strand.
+class LineDriver : public HardwareContainer {
+ public:
+  /// Two drivers of one type cannot have one line.
+  [[nodiscard]] std::vector<HardwareFault> conflicts_with(const HardwareContainer& earlier) const override;
+
+ protected:
+  /// @param usual  the line where such a device is often found: the default of `device`.
+  /// @param first  how bytes go over a serial line at first; begin() may set another rate.
+  LineDriver(HardwareHost& host, const std::string& usual, const link::Line& first = {});
+
+  /// Makes the line, closed. To be called first in prepare().
+  /// @return what is wrong with the parameters.
+  [[nodiscard]] std::vector<HardwareFault> prepare_line();
+  /// Returns the line. From the first begin() on it is always the same object.
+  /// @pre  prepare_line() has found no fault.
+  [[nodiscard]] link::ByteLink& line() const { return *line_; }
+  /// Returns the line as the graph names it.
+  [[nodiscard]] const std::string& device() const { return *device_; }
+  /// Returns whether the line has a rate, as a serial one has.
+  [[nodiscard]] bool has_rate() const { return line_->byte_time() > 0.0; }
+
+  /// Begins to find out what is at the other end. @pre  the line has just been opened.
+  virtual Status begin(TimePoint now) = 0;
+  /// Goes on with that, as DriverFunctions::probe().
+  virtual Result<bool> advance(TimePoint now) = 0;
+  /// Returns when advance() has something to do, even if nothing comes. @pre  begin() was called.
+  [[nodiscard]] virtual TimePoint next_step() const = 0;
+  /// Returns when poll() has something to do, even if nothing comes.
+  [[nodiscard]] virtual TimePoint next_turn() const = 0;
+  /// Says the last thing before the line is closed; also after a fault, when the line may still work.
+  virtual void take_leave() {}
+
+ private:
+  Status open() final;
+  Result<bool> probe() final;
+  void close() final;
+  [[nodiscard]] bool recovers() const final { return true; }
+  [[nodiscard]] int descriptor() const final { return line_->descriptor(); }
+  [[nodiscard]] TimePoint next_poll() const final;
+  Status keep_bytes();
+
+  Param<std::string> device_;
+  Param<std::string> byte_log_{*this,
+                               "byte_log",
+                               "",
+                               {.text = "File for all bytes that go over the line, with their times; "
+                                        "device=\"replay:FILE\" plays it back."}};
+  const link::Line first_;
+  std::unique_ptr<link::ByteLink> line_;
+  bool keeps_bytes_ = false;
+  bool is_open_ = false;
+};
+
+}  // namespace orca::hw

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/hw/line_driver.hpp"
+
+#include <utility>
+
+#include "orca/base/text.hpp"
+#include "orca/hw/link/byte_log.hpp"
+#include "orca/hw/link/logged_link.hpp"
+#include "orca/hw/link/make_link.hpp"
+
+namespace orca::hw {
+
+LineDriver::LineDriver(HardwareHost& host, const std::string& usual, const link::Line& first)
+    : HardwareContainer(host),
+      device_(*this, "device", usual,
+              {.text = "Its line: a serial device (" + usual +
+                       ", or a name in /dev/serial/by-id), tcp:HOST:PORT, or emulated:NAME for the "
+                       "emulation of that name."}),
+      first_(first) {}
+
+std::vector<HardwareFault> LineDriver::prepare_line() {
+  auto made = link::make_link(*device_, {.line = first_});
+  if (!made) return {{"device", made.error().message}};
+  line_ = std::move(made).value();
+  return {};
+}
+
+std::vector<HardwareFault> LineDriver::conflicts_with(const HardwareContainer& earlier) const {
+  const auto& other = static_cast<const LineDriver&>(earlier);
+  if (*device_ != *other.device_) return {};
+  return {{"device", "it is that of hardware " + in_quotes(other.host().name()) +
+                         ", too; each device has a line of its own"}};
+}
+
+Status LineDriver::open() {
+  if (Status kept = keep_bytes(); !kept.ok()) return kept;
+  const Result<link::Opening> opening = line_->open();
+  if (!opening) return opening.error();
+  is_open_ = *opening == link::Opening::done;
+  return is_open_ ? begin(host().now()) : ok();
+}
+
+// A graph that is only checked writes no file, so the log begins when the line is opened for the first time.
+Status LineDriver::keep_bytes() {
+  if (keeps_bytes_ || byte_log_->empty()) return ok();
+  auto log =
+      link::ByteLog::create({.path = *byte_log_, .now = [this] { return host().now(); }}, line_->name());
+  if (!log) return log.error();
+  line_ = std::make_unique<link::LoggedLink>(std::move(line_), std::move(log).value());
+  keeps_bytes_ = true;
+  return ok();
+}
+
+Result<bool> LineDriver::probe() {
+  if (is_open_) return advance(host().now());
+  if (Status opened = open(); !opened.ok()) return opened.error();
+  return false;
+}
+
+void LineDriver::close() {
+  if (is_open_) take_leave();
+  line_->close();
+  is_open_ = false;
+}
+
+TimePoint LineDriver::next_poll() const {
+  if (!is_open_) return host().now();
+  const bool works = state() == HardwareState::ready || state() == HardwareState::active;
+  return works ? next_turn() : next_step();
+}
+
+}  // namespace orca::hw

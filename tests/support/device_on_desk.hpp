@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "deployer.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "orca/emulators/body.hpp"
+#include "orca/emulators/firmware.hpp"
+#include "orca/geometry/arc.hpp"
+#include "orca/hw/link/pty_link.hpp"
+
+namespace orca::test {
+
+/// A robot in an empty plain, whose wheels do at once what they are told.
+class PlainBody final : public emulators::Body {
+ public:
+  void go_on(Duration time) { pose_ = along_arc(pose_, velocity_ * to_seconds(time)); }
+  void drive(const Twist2& velocity) override { velocity_ = velocity; }
+  [[nodiscard]] Pose2 odometry() const override { return pose_; }
+  [[nodiscard]] Twist2 velocity() const override { return velocity_; }
+  [[nodiscard]] std::optional<double> sonar(int) const override { return std::nullopt; }
+
+ private:
+  Pose2 pose_;
+  Twist2 velocity_;
+};
+
+/// A device on a desk: its line, a pseudo terminal, is there, and its firmware runs, as long as this lives.
+/// @tparam Body  has go_on(Duration) beside what the firmware wants of it.
+///
+/// Thread contract: one thread.
+template <class Firmware, class Body>
+class DeviceOnDesk {
+ public:
+  /// @param device  path of the line.
+  /// @param more    what the firmware's constructor takes behind the body.
+  template <class... More>
+  explicit DeviceOnDesk(const std::string& device, More&&... more)
+      : link_(device), firmware_(body_, std::forward<More>(more)...) {
+    REQUIRE(link_.open());
+    thread_ = std::thread([this] { run(); });
+  }
+  ~DeviceOnDesk() {
+    ends_ = true;
+    thread_.join();
+  }
+  DeviceOnDesk(const DeviceOnDesk&) = delete;
+  DeviceOnDesk& operator=(const DeviceOnDesk&) = delete;
+
+  /// Looks at firmware and body, or changes them, between two of their steps.
+  template <class Look>
+  auto with(Look look) {
+    const std::lock_guard lock(mutex_);
+    return look(firmware_, body_);
+  }
+  /// Pulls the plug out, and puts it in again.
+  void unplug() {
+    const std::lock_guard lock(mutex_);
+    link_.close();
+  }
+  void plug_in() {
+    const std::lock_guard lock(mutex_);
+    REQUIRE(link_.open());
+  }
+  /// Nothing that it sends or is sent arrives any more.
+  void fall_silent(bool silent) { silent_ = silent; }
+
+ private:
+  void run() {
+    for (TimePoint last = steady_now(); !ends_; std::this_thread::sleep_for(1ms)) {
+      const std::lock_guard lock(mutex_);
+      const TimePoint now = steady_now();
+      body_.go_on(now - last);
+      last = now;
+      exchange(now);
+    }
+  }
+  void exchange(TimePoint now) {
+    std::array<std::uint8_t, 256> bytes{};
+    if (const auto count = link_.read(bytes); count && *count > 0 && !silent_)
+      firmware_.take({bytes.data(), *count}, link_.line() ? link_.line()->baud : 0, now);
+    const std::vector<std::uint8_t> sent = firmware_.advance(now);
+    if (!sent.empty() && !silent_) (void)link_.write(sent);
+    (void)link_.flush();
+  }
+
+  hw::link::PtyLink link_;
+  Body body_;
+  Firmware firmware_;
+  std::mutex mutex_;
+  std::atomic<bool> silent_{false};
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+/// Returns whether the condition comes true within 20 s.
+inline bool eventually(const std::function<bool()>& condition) {
+  const TimePoint end = steady_now() + 20s * static_cast<int>(kSlowdown);
+  while (!condition()) {
+    if (steady_now() > end) return false;
+    std::this_thread::sleep_for(5ms);
+  }
+  return true;
+}
+
+}  // namespace orca::test
