@@ -62,7 +62,38 @@ void add_text(std::vector<std::uint8_t>& body, const std::string& text) {
   body.push_back(0);
 }
 
+struct Scale {
+  const char* subclass;
+  double distance_unit;
+  double range_unit;
+  int sonars;
+};
+
+constexpr Scale kScales[] = {{"p2dx", 0.00084, 0.000268, 16},
+                             {"p2de", 0.000969, 0.000268, 16},
+                             {"p2pb", 0.000424, 0.000268, 24},
+                             {"p3dx", 0.000485, 0.001, 16}};
+
 }  // namespace
+
+std::optional<P2osSettings> p2os_settings(std::string_view subclass) {
+  for (const Scale& scale : kScales)
+    if (scale.subclass == subclass) {
+      P2osSettings settings;
+      settings.subclass = subclass;
+      settings.distance_unit = scale.distance_unit;
+      settings.range_unit = scale.range_unit;
+      settings.sonars = scale.sonars;
+      return settings;
+    }
+  return std::nullopt;
+}
+
+std::vector<std::string> p2os_subclasses() {
+  std::vector<std::string> names;
+  for (const Scale& scale : kScales) names.emplace_back(scale.subclass);
+  return names;
+}
 
 P2osFirmware::P2osFirmware(Body& body, P2osSettings settings)
     : body_(body),

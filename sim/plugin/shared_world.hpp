@@ -16,6 +16,9 @@
 
 namespace orca::sim {
 
+/// Time between two readings of the true pose.
+inline constexpr Duration kTruthPeriod = std::chrono::milliseconds(100);
+
 /// The world that the simulated robots of one run share, tied to the run's clock.
 ///
 /// Whichever of them comes first at a tick advances it. The events of each robot wait in its Inbox until it

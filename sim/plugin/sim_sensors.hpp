@@ -15,9 +15,6 @@
 
 namespace orca::sim {
 
-/// Time between two readings of the true pose.
-inline constexpr Duration kTruthPeriod = std::chrono::milliseconds(100);
-
 /// The sensor endpoints of a simulated robot: one per device that its file lists, and one for its true pose.
 ///
 /// Thread contract: one strand.

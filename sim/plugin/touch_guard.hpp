@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "orca/hw/endpoints.hpp"
 #include "orca/sim/robot_model.hpp"
 #include "shared_world.hpp"
+#include "stall_watch.hpp"
 
 namespace orca::sim {
 
@@ -23,17 +23,15 @@ class TouchGuard {
   void look(const SharedWorld::Inbox& inbox);
 
   /// Notes what the motors were told last.
-  void driven(const Twist2& velocity, TimePoint now);
+  void driven(const Twist2& velocity, TimePoint now) { stall_.driven(velocity, now); }
 
  private:
   [[nodiscard]] std::vector<hw::Obstruction::Pressed> pressed(std::size_t ring,
                                                               const BumperReading& reading) const;
-  [[nodiscard]] bool is_stalled(const OdometryReading& reading) const;
 
   const RobotModel& robot_;
   hw::MotionHW& motion_;
-  Twist2 driven_;
-  std::optional<TimePoint> turned_at_;  // last time at which the wheels stood as they should, or turned
+  StallWatch stall_;
 };
 
 }  // namespace orca::sim

@@ -101,6 +101,7 @@ LAYERS = (
           SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # Bullet: transforms
     Layer("emulators", ("sim/emulators",), ("orca/emulators/",), ("hw_framing", "geometry", "base")),
     Layer("sim_plugin", ("sim/plugin",), (), ("geometry_objects", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
+    Layer("sim_emulated", ("sim/emulated",), (), ("emulators", "sim_plugin", "hw_link", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
     Layer("host_containment", (f"{HOST}/containment",), ("orca/host/alarm.hpp", "orca/host/alarm_store.hpp", "orca/host/last_words.hpp",
                                                                 "orca/host/stop_signal.hpp"),
           ("plugin", *DEVICE), ("fmt",), module=HOST),

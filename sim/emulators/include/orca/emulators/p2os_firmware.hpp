@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "orca/base/time.hpp"
@@ -27,6 +29,12 @@ struct P2osSettings {
   Duration watchdog = 2s;     ///< [s] without a command until the robot stops.
   std::uint32_t baud = 9600;  ///< After power-on.
 };
+
+/// Returns the settings of a robot's controller by its subclass; nothing if that is not known here.
+/// @source  parameter files of the vendor, as public drivers quote them.
+[[nodiscard]] std::optional<P2osSettings> p2os_settings(std::string_view subclass);
+/// Returns the subclasses that p2os_settings() knows.
+[[nodiscard]] std::vector<std::string> p2os_subclasses();
 
 /// The controller of a Pioneer at the other end of the line: it answers the handshake, sends information packets, drives the body
 /// as it is commanded, and stops it when no command has come for the time of its watchdog.

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "device_kinds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "orca/base/text.hpp"
+#include "orca/emulators/p2os_firmware.hpp"
+#include "orca/xml/names.hpp"
+
+namespace orca::sim {
+namespace {
+
+using Made = Result<std::unique_ptr<emulators::Firmware>>;
+
+struct Kind {
+  std::string_view name;
+  Made (*make)(const DeviceWish& wish, WorldBody& body);
+};
+
+Error no_model(const DeviceWish& wish, const std::vector<std::string>& models) {
+  return fail(Code::invalid_argument, "there is no model " + in_quotes(wish.model) + " of " + wish.kind +
+                                          "; models: " + listed(models) +
+                                          xml::did_you_mean(xml::nearest_name(wish.model, models)));
+}
+
+Made make_p2os(const DeviceWish& wish, WorldBody& body) {
+  const std::string subclass = wish.model.empty() ? "p2dx" : wish.model;
+  const auto settings = emulators::p2os_settings(subclass);
+  if (!settings) return no_model(wish, emulators::p2os_subclasses());
+  return Made(std::make_unique<emulators::P2osFirmware>(body, *settings));
+}
+
+constexpr std::array kKinds = {Kind{"p2os", make_p2os}};
+
+Error wrong(const std::string& what) {
+  return fail(Code::invalid_argument,
+              what +
+                  "; lines are a list such as \"p2os pioneer; sick_lms pioneer_laser\": the kind of each "
+                  "device and the name of its line, which is emulated:NAME to the driver");
+}
+
+Result<DeviceWish> read_device(const std::string& item) {
+  std::istringstream words(item);
+  DeviceWish wish;
+  std::string more;
+  words >> wish.kind >> wish.name;
+  if (wish.name.empty() || words >> more) return wrong(in_quotes(item) + " is no kind and name");
+  if (const std::size_t colon = wish.kind.find(':'); colon != std::string::npos) {
+    wish.model = wish.kind.substr(colon + 1);
+    wish.kind.resize(colon);
+  }
+  const bool is_plain = std::ranges::all_of(wish.name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  if (!is_plain) return wrong(in_quotes(wish.name) + " is no name of a line: letters, digits, _ and -");
+  return wish;
+}
+
+}  // namespace
+
+Result<std::vector<DeviceWish>> read_devices(std::string_view text) {
+  std::vector<DeviceWish> wishes;
+  std::set<std::string> names;
+  std::istringstream items{std::string(text)};
+  for (std::string item; std::getline(items, item, ';');) {
+    if (item.find_first_not_of(" \t\n") == std::string::npos) continue;
+    Result<DeviceWish> wish = read_device(item);
+    if (!wish) return wish.error();
+    if (!names.insert(wish->name).second) return wrong("two lines have the name " + in_quotes(wish->name));
+    wishes.push_back(std::move(*wish));
+  }
+  if (wishes.empty()) return wrong("no device is named");
+  return wishes;
+}
+
+Made make_firmware(const DeviceWish& wish, WorldBody& body) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds) {
+    if (kind.name == wish.kind) return kind.make(wish, body);
+    names.emplace_back(kind.name);
+  }
+  return fail(Code::invalid_argument, "there is no emulation of " + in_quotes(wish.kind) +
+                                          "; kinds: " + listed(names) +
+                                          xml::did_you_mean(xml::nearest_name(wish.kind, names)));
+}
+
+}  // namespace orca::sim

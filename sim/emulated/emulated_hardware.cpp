@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "device_kinds.hpp"
+#include "device_line.hpp"
+#include "objects.hpp"
+#include "orca/hardware.hpp"
+#include "simulated_robot.hpp"
+#include "world_body.hpp"
+
+namespace {
+
+using namespace orca::sim;
+using namespace std::chrono_literals;
+using orca::Status;
+using orca::TimePoint;
+
+constexpr orca::Duration kTurn = 2ms;  // of the lines: at 38400 baud 8 bytes
+
+/// A robot in the simulated world whose devices are at the other ends of lines, where real drivers find them. Here it has nothing but
+/// its true pose.
+class EmulatedHardware final : public SimulatedRobot {
+ public:
+  using SimulatedRobot::SimulatedRobot;
+
+ private:
+  std::vector<orca::HardwareFault> declare() override {
+    body_.emplace(robot(), [this](const orca::Twist2& velocity) { (void)command({.velocity = velocity}); });
+    add_sensor(truth_);
+    const auto wishes = read_devices(*lines_text_);
+    if (!wishes) return {{"lines", wishes.error().message}};
+    for (const DeviceWish& wish : *wishes) {
+      auto firmware = make_firmware(wish, *body_);
+      if (!firmware) return {{"lines", firmware.error().message}};
+      lines_.push_back(std::make_unique<DeviceLine>(wish.name, std::move(*firmware)));
+    }
+    return {};
+  }
+
+  Status open() override {
+    if (Status world = SimulatedRobot::open(); !world.ok()) return world;
+    for (const auto& line : lines_)
+      if (Status opened = line->open(); !opened.ok()) return opened;
+    return orca::ok();
+  }
+
+  void close() override {
+    for (const auto& line : lines_) line->close();
+  }
+
+  Status poll() override {
+    const TimePoint now = host().now();
+    if (now >= next_tick()) go_on();
+    for (const auto& line : lines_) line->exchange(now);
+    turned_ = now;
+    return orca::ok();
+  }
+
+  [[nodiscard]] TimePoint next_poll() const override { return std::min(next_tick(), turned_ + kTurn); }
+
+  Status drive(const orca::hw::DriveSetpoint&) override { return orca::ok(); }
+
+  void sense(const SharedWorld::Inbox& inbox) override {
+    body_->sense(inbox);
+    if (state() != orca::hw::HardwareState::active) return;
+    for (const SharedWorld::Inbox::Truth& pose : inbox.truth) {
+      auto object = truth_.loan();
+      fill(*object, pose);
+      truth_.publish(std::move(object));
+    }
+  }
+
+  void miss(const SharedWorld::Inbox& inbox) override { body_->sense(inbox); }
+
+  orca::Param<std::string> lines_text_{*this,
+                                       "lines",
+                                       "",
+                                       {.text = "Its devices, e.g. \"p2os pioneer\": the kind of each (with "
+                                                "a model: p2os:p3dx) and the name of its "
+                                                "line, which is emulated:NAME to the driver."}};
+
+  orca::hw::SensorHW<orca::idl::RobotPose> truth_{kTruthPeriod, orca::hw::Source::truth};
+  std::optional<WorldBody> body_;
+  std::vector<std::unique_ptr<DeviceLine>> lines_;
+  TimePoint turned_{};
+};
+
+}  // namespace
+
+ORCA_HARDWARE(EmulatedHardware, "orca.hw.Emulated")
+ORCA_STEADY_CLOCK_ONLY("the drivers at the other ends of its lines live in real time")
