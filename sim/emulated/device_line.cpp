@@ -44,14 +44,15 @@ void DeviceLine::close() {
 }
 
 // While no driver has the line open there is nothing to read, and what the device says is lost.
-void DeviceLine::exchange(TimePoint now) {
+bool DeviceLine::exchange(TimePoint now) {
   std::array<std::uint8_t, 512> bytes{};
   const std::uint32_t baud = link_.line() ? link_.line()->baud : 0;
-  for (auto count = link_.read(bytes); count && *count > 0; count = link_.read(bytes))
-    firmware_->take({bytes.data(), *count}, baud, now);
+  auto count = link_.read(bytes);
+  for (; count && *count > 0; count = link_.read(bytes)) firmware_->take({bytes.data(), *count}, baud, now);
   const std::vector<std::uint8_t> sent = firmware_->advance(now);
   if (!sent.empty()) (void)link_.write(sent);
   (void)link_.flush();
+  return static_cast<bool>(count);
 }
 
 }  // namespace orca::sim

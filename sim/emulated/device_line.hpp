@@ -22,7 +22,8 @@ class DeviceLine {
   Status open();
   void close();
   /// Passes bytes on, as the line's rate allows.
-  void exchange(TimePoint now);
+  /// @return whether a driver has the line open.
+  bool exchange(TimePoint now);
 
  private:
   const std::string name_;

@@ -18,6 +18,7 @@ using orca::Status;
 using orca::TimePoint;
 
 constexpr orca::Duration kTurn = 2ms;  // of the lines: at 38400 baud 8 bytes
+constexpr orca::Duration kLeaveTime = 500ms;
 
 /// A robot in the simulated world whose devices are at the other ends of lines, where real drivers find them. Here it has nothing but
 /// its true pose.
@@ -43,19 +44,32 @@ class EmulatedHardware final : public SimulatedRobot {
     if (Status world = SimulatedRobot::open(); !world.ok()) return world;
     for (const auto& line : lines_)
       if (Status opened = line->open(); !opened.ok()) return opened;
+    is_open_ = true;
     return orca::ok();
   }
 
+  // Drivers are closed at the same time: what they say last still reaches the devices, which stop their motors.
   void close() override {
+    const std::unique_ptr<orca::Event> pause = host().executive().make_event();
+    const TimePoint end = host().now() + kLeaveTime;
+    while (is_open_ && host().now() < end && turn()) pause->wait_until(host().now() + kTurn);
     for (const auto& line : lines_) line->close();
+    is_open_ = false;
   }
 
   Status poll() override {
+    (void)turn();
+    return orca::ok();
+  }
+
+  // Returns whether any driver has its line open.
+  bool turn() {
     const TimePoint now = host().now();
     if (now >= next_tick()) go_on();
-    for (const auto& line : lines_) line->exchange(now);
+    bool has_driver = false;
+    for (const auto& line : lines_) has_driver = line->exchange(now) || has_driver;
     turned_ = now;
-    return orca::ok();
+    return has_driver;
   }
 
   [[nodiscard]] TimePoint next_poll() const override { return std::min(next_tick(), turned_ + kTurn); }
@@ -84,6 +98,7 @@ class EmulatedHardware final : public SimulatedRobot {
   orca::hw::SensorHW<orca::idl::RobotPose> truth_{kTruthPeriod, orca::hw::Source::truth};
   std::optional<WorldBody> body_;
   std::vector<std::unique_ptr<DeviceLine>> lines_;
+  bool is_open_ = false;
   TimePoint turned_{};
 };
 

@@ -9,9 +9,7 @@
 namespace orca::sim {
 
 WorldBody::WorldBody(const RobotModel& robot, Wheels wheels)
-    : robot_(robot),
-      wheels_(std::move(wheels)),
-      sonars_(robot.sonars.empty() ? 0 : robot.sonars[0].count) {}
+    : robot_(robot), wheels_(std::move(wheels)), sonars_(robot.sonars.empty() ? 0 : robot.sonars[0].count) {}
 
 void WorldBody::sense(const SharedWorld::Inbox& inbox) {
   for (const auto& [ring, scan] : inbox.sonar)

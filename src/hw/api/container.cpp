@@ -26,7 +26,21 @@ std::string HardwareContainer::fault() const { return loop_->life().fault(); }
 
 bool HardwareContainer::is_lost() const { return loop_->life().is_lost(); }
 
+idl::DeviceStatistics HardwareContainer::statistics() const {
+  idl::DeviceStatistics statistics;
+  statistics.line(line_name_);
+  statistics.state(std::string(to_string(state())));
+  statistics.fault(fault());
+  loop_->record().fill(statistics);
+  return statistics;
+}
+
 void HardwareContainer::heard() { loop_->heard(); }
+
+void HardwareContainer::heard(TimePoint sent) {
+  loop_->heard();
+  loop_->record().heard(host_.now() - sent);
+}
 
 void HardwareContainer::watch(Strand& strand, bool on) {
   on ? loop_->life().watch(strand) : loop_->life().unwatch(strand);

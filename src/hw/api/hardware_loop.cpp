@@ -72,6 +72,7 @@ void HardwareLoop::turn() {
 
 void HardwareLoop::open() {
   opened_ = last_heard_ = host_.now();
+  record_.opened();
   life_.handle(HardwareEvent::begun);
 }
 
@@ -80,8 +81,10 @@ void HardwareLoop::attend() {
   if (life_.state() == HardwareState::probing) {
     if (due) life_.probe_again();
     last_heard_ = host_.now();
+    if (works()) record_.answered();
     return;
   }
+  if (due) record_.count(container_.counts());
   if (due)
     if (const Status polled = container_.poll(); !polled.ok()) return life_.fail_with(polled.error().text());
   check_silence();

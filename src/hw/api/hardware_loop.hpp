@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "hardware_lifecycle.hpp"
+#include "line_record.hpp"
 #include "orca/base/strand.hpp"
 #include "orca/hw/container.hpp"
 
@@ -37,6 +38,7 @@ class HardwareLoop {
   void heard() { last_heard_ = host_.now(); }
 
   [[nodiscard]] HardwareLifecycle& life() { return life_; }
+  [[nodiscard]] LineRecord& record() { return record_; }
 
  private:
   void main();
@@ -56,6 +58,7 @@ class HardwareLoop {
   HardwareContainer& container_;
   HardwareHost& host_;
   HardwareLifecycle life_;
+  LineRecord record_;
   std::optional<Strand> strand_;
   bool hears_input_ = false;  // the strand is woken by input
   TimePoint last_heard_{};

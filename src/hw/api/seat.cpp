@@ -48,6 +48,16 @@ Duration HardwareSeat::max_command_age() const {
   return driver_->motion()->max_command_age();
 }
 
+bool HardwareSeat::has_line() const {
+  const std::lock_guard lock(mutex_);
+  return !driver_->line_name().empty();
+}
+
+idl::DeviceStatistics HardwareSeat::statistics() const {
+  const std::lock_guard lock(mutex_);
+  return driver_->statistics();
+}
+
 idl::Robot HardwareSeat::description() const {
   const std::lock_guard lock(mutex_);
   if (!description_) description_ = driver_->description();

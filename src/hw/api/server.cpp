@@ -119,6 +119,10 @@ HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectT
     const bool wanted = only == nullptr || only->name == sensor.type->name;
     if (wanted && sensor.source == source) sensors_.push_back(std::make_unique<SensorPorts>(*this, sensor));
   }
+  if (seat_->has_line())
+    statistics_ = std::make_unique<QueryServer<idl::Ask, idl::DeviceStatistics>>(
+        *this, "DeviceStatisticsQuery", &HardwareServer::on_statistics,
+        PortOptions{.text = "What was counted on the line to the device, and why it failed last."});
 }
 
 HardwareServer::~HardwareServer() {
@@ -179,6 +183,10 @@ Outcome HardwareServer::work() {
 void HardwareServer::stop() {
   for (const auto& sensor : sensors_) sensor->set_open(false);
   seat_->release();
+}
+
+Result<Loan<idl::DeviceStatistics>> HardwareServer::on_statistics(const ObjectPtr<idl::Ask>& /*ask*/) {
+  return make_object<idl::DeviceStatistics>(seat_->statistics());
 }
 
 Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {

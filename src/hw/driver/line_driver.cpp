@@ -22,6 +22,7 @@ std::vector<HardwareFault> LineDriver::prepare_line() {
   auto made = link::make_link(*device_, {.line = first_});
   if (!made) return {{"device", made.error().message}};
   line_ = std::move(made).value();
+  set_line_name(*device_);
   return {};
 }
 

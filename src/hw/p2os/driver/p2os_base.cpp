@@ -80,6 +80,10 @@ class P2osBase final : public orca::hw::LineDriver {
 
   [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
   [[nodiscard]] TimePoint next_turn() const override { return say_again_; }
+  [[nodiscard]] orca::hw::LineCounts counts() const override {
+    const orca::hw::framing::Statistics& all = session_->statistics();
+    return {all.frames, all.bad_checksums, all.skipped_bytes, all.resynchronisations};
+  }
   [[nodiscard]] Duration longest_silence() const override { return 1s; }
 
   Status start() override { return send({encode(Command::sonar, 1)}); }
@@ -159,7 +163,7 @@ class P2osBase final : public orca::hw::LineDriver {
     if (!is_sip(packet.body)) return;  // others are not asked for
     const Result<Sip> sip = parse_sip(packet.body, senses_->units());
     if (!sip) return;  // its checksum was good, but it is cut short
-    heard();
+    heard(packet.stamp);
     senses_->take(*sip, packet.stamp);
     if (state() != orca::hw::HardwareState::active) return;
     guard(*sip);

@@ -12,6 +12,7 @@
 #include "orca/hw/drawable.hpp"
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/hardware_state.hpp"
+#include "orca/hw/line_counts.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/sensing.hpp"
 
@@ -59,6 +60,8 @@ class DriverFunctions {
   [[nodiscard]] virtual int descriptor() const { return -1; }
   /// Returns after how long without heard() the device has failed [s].
   [[nodiscard]] virtual Duration longest_silence() const { return Duration::max(); }
+  /// Returns what was read from the line since open().
+  [[nodiscard]] virtual LineCounts counts() const { return {}; }
   /// Begins to measure; somebody uses the device from now on. It gives no power to motors after a fault.
   virtual Status start() { return ok(); }
   /// Ends that. The motors have been told to stand.
@@ -110,6 +113,10 @@ class HardwareContainer : public DriverFunctions {
   [[nodiscard]] MotionHW* motion() const { return motion_; }
   /// Returns what this hardware is, for clients that ask by Query.
   [[nodiscard]] virtual idl::Robot description() const = 0;
+  /// Returns the line to the device, as the graph names it; empty: it has none.
+  [[nodiscard]] const std::string& line_name() const { return line_name_; }
+  /// Returns what was counted on that line, and the state of the device.
+  [[nodiscard]] idl::DeviceStatistics statistics() const;
   /// Returns the interface that draws this hardware; null for real hardware.
   [[nodiscard]] virtual Drawable* drawable() { return nullptr; }
 
@@ -150,9 +157,12 @@ class HardwareContainer : public DriverFunctions {
   /// @pre  called from prepare(); the endpoints live as long as the container.
   void add_sensor(SensorEndpoint& sensor) { sensors_.push_back(&sensor); }
   void set_motion(MotionHW& motion) { motion_ = &motion; }
+  void set_line_name(std::string name) { line_name_ = std::move(name); }
 
   /// Notes that the device has said something that makes sense.
   void heard();
+  /// The same. @param sent  when its first byte left the device.
+  void heard(TimePoint sent);
 
   [[nodiscard]] HardwareHost& host() const { return host_; }
 
@@ -166,6 +176,7 @@ class HardwareContainer : public DriverFunctions {
   HardwareHost& host_;
   std::vector<SensorEndpoint*> sensors_;
   MotionHW* motion_ = nullptr;
+  std::string line_name_;
   // Everything that changes while the container runs; drivers are compiled without knowing it.
   const std::unique_ptr<HardwareLoop> loop_;
 };

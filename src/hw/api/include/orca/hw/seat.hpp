@@ -47,6 +47,10 @@ class HardwareSeat final : public Device {
   [[nodiscard]] std::optional<DriveLimits> limits() const;
   /// Returns for how long a command holds [s]. @pre  there is a base.
   [[nodiscard]] Duration max_command_age() const;
+  /// Returns whether the hardware hangs on a line.
+  [[nodiscard]] bool has_line() const;
+  /// Returns what was counted on that line.
+  [[nodiscard]] idl::DeviceStatistics statistics() const;
   /// Returns what the hardware is.
   [[nodiscard]] idl::Robot description() const;
 

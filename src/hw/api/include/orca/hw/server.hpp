@@ -8,7 +8,9 @@
 
 #include "orca/component/component.hpp"
 #include "orca/hw/seat.hpp"
+#include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
+#include "orca/idl/system.hpp"
 #include "orca/patterns/push.hpp"
 #include "orca/patterns/query.hpp"
 #include "orca/patterns/send.hpp"
@@ -19,7 +21,7 @@ namespace orca::hw {
 /// the chosen source becomes a Push and a Query port named after its object type (`OdometryPush`,
 /// `OdometryQuery`). The motion endpoint becomes a Send port `MotionCommandSend`. Abilities of some bases
 /// become ports on those bases alone: `HolonomicVelocitySend` on one that moves sideways, `TurretCommandSend`
-/// on one with a turret. A new sensor type needs no change here. A Query is answered with the latest reading, unless
+/// on one with a turret, and `DeviceStatisticsQuery` on a device that hangs on a line. A new sensor type needs no change here. A Query is answered with the latest reading, unless
 /// it was sensed before the time that the client asks for: then with an error, unavailable. RobotBaseServer, LaserServer and
 /// TruthLocalizer add a few lines of their own.
 ///
@@ -49,6 +51,7 @@ class HardwareServer : public Component {
  private:
   class SensorPorts;
 
+  Result<Loan<idl::DeviceStatistics>> on_statistics(const ObjectPtr<idl::Ask>& ask);
   Status on_motion(const ObjectPtr<idl::MotionCommand>& command);
   Status on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velocity);
   Status on_turret(const ObjectPtr<idl::TurretCommand>& turret);
@@ -61,6 +64,7 @@ class HardwareServer : public Component {
   HardwareSeat* const seat_;
   bool watches_ = false;  // whether the seat wakes the strand
   std::vector<std::unique_ptr<SensorPorts>> sensors_;
+  std::unique_ptr<QueryServer<idl::Ask, idl::DeviceStatistics>> statistics_;
   std::unique_ptr<SendServer<idl::MotionCommand>> motion_;
   std::unique_ptr<SendServer<idl::HolonomicVelocity>> velocity_;
   std::unique_ptr<SendServer<idl::TurretCommand>> turret_;

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The shipped graphs of real robots with --profile emulate: the real drivers talk to emulated devices in the simulated world.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <csignal>
+#include <iostream>
+#include <numbers>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "deployer.hpp"
+#include "record_table.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct Robot {
+  const char* graph;
+  double length_step;  // [m] resolution of the odometry on the line
+  double angle_step;   // [rad]
+};
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+const std::vector<Robot> kRobots{{"peoplebot", 0.000424, 360.0 / 4096.0 * kDegree}};
+
+std::string graph_of(const Robot& robot) {
+  return source_file("graphs/" + std::string(robot.graph) + ".xml");
+}
+
+// Two systems of other tests may run at the same time.
+Words emulate(const Robot& robot, const TempFolder& folder) {
+  return {graph_of(robot), "--profile", "emulate", "--set",
+          "emulated=" + std::string(folder.path().filename())};
+}
+
+// How the odometry of a robot that stands lies beside the truth there.
+struct AtRest {
+  double apart = 0.0;   // [m]
+  double turned = 0.0;  // [rad]
+};
+
+// Compares the last poses, of which the odometry counts from where the robot began, at x 1 m, y 6 m, looking along x.
+AtRest compared(const std::string& file) {
+  const RecordTable table(file);
+  const auto odometry = table.rows("base.OdometryPush");
+  const auto truth = table.rows("localizer.RobotPosePush");
+  REQUIRE(odometry.size() > 20);
+  REQUIRE(truth.size() > 20);
+  const double x = number(truth.back(), "x") - number(truth.front(), "x");
+  const double y = number(truth.back(), "y") - number(truth.front(), "y");
+  const double yaw = number(truth.back(), "orientation");
+  REQUIRE(number(truth.front(), "orientation") == 0.0);
+  REQUIRE(std::hypot(x, y) > 1.0);
+  return {std::hypot(number(odometry.back(), "x") - x, number(odometry.back(), "y") - y),
+          std::abs(std::remainder(number(odometry.back(), "steer_angle") - yaw, 2.0 * std::numbers::pi))};
+}
+
+}  // namespace
+
+TEST_CASE("each shipped robot reaches its first goal with its real drivers on emulated devices",
+          "[system][hardware]") {
+  for (const Robot& robot : kRobots) {
+    CAPTURE(robot.graph);
+    const TempFolder folder;
+    const Run run = run_deployer(
+        emulate(robot, folder) + Words{"--set", "goals=kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8"}, Seconds(90));
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.arrivals().size() == 1);
+    CHECK(run.contacts().empty());
+  }
+}
+
+TEST_CASE("each shipped robot reaches all its goals with its real drivers on emulated devices", "[.][slow]") {
+  for (const Robot& robot : kRobots) {
+    CAPTURE(robot.graph);
+    const TempFolder folder;
+    const Run run = run_deployer(emulate(robot, folder), Seconds(400));
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+    CHECK(run.arrivals().size() == 3);
+    CHECK(run.contacts().empty());
+    if (!run.arrivals().empty())
+      std::cout << robot.graph << ": " << run.arrivals().size() << " of 3 goals in "
+                << run.arrivals().back().t << " s\n";
+  }
+}
+
+TEST_CASE("odometry that went over the line is that of the world, as finely as the protocol tells it",
+          "[system][hardware]") {
+  for (const Robot& robot : kRobots) {
+    CAPTURE(robot.graph);
+    const TempFolder folder;
+    const std::string file = folder.file("poses.csv");
+    // In an ideal world wheels do not slip, so the truth is what they have rolled.
+    Subprocess program(deployer(emulate(robot, folder) +
+                                Words{"--set", "realism=ideal", "--set", "goals=far: 2.5 6.3 > 9 6",
+                                      "--record", file + "=base.OdometryPush,localizer.RobotPosePush"}));
+    std::this_thread::sleep_for(7s);
+    CHECK(run_orcactl({"estop"}).exit_code() == 0);
+    std::this_thread::sleep_for(2s);
+    program.send(SIGINT);
+    const Run run = finish(program, Seconds(20));
+    INFO(run.err);
+    REQUIRE(run.exit_code() == 0);
+    const AtRest difference = compared(file);
+    // Each coordinate and the direction are rounded once to a step, and steps of coordinates are turned by the first direction.
+    CHECK(difference.apart <= 2.0 * robot.length_step + 0.5 * robot.angle_step * 2.1);
+    CHECK(difference.turned <= 0.51 * robot.angle_step);
+  }
+}
