@@ -135,7 +135,7 @@ LAYERS = (
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host_containment", "graph", "plugin", "xml", *DEVICE)),
     Layer("apps", ("src/apps",), (),
           ("batch_running", "batch_report", "batch_results", "batch_measures", "batch_experiment", "batch_statistics", "supervisor_run", "supervisor_processes", "supervisor_channel", "host_run", "host_containment", "host_picture", "graph", "plugin", "text",
-           "xml", *DEVICE), ("fmt",)),
+           "xml", "hw_link", *DEVICE), ("fmt",)),
 )
 
 # Library -> prefixes of its headers. All layers may use headers that no line names (the standard library, POSIX).

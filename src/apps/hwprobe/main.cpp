@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "orca/base/live_line.hpp"
+#include "orca/base/log.hpp"
+#include "orca/base/text.hpp"
+#include "orca/plugin/index.hpp"
+#include "orca/xml/names.hpp"
+#include "orca/xml/number.hpp"
+#include "ports.hpp"
+#include "trial.hpp"
+
+namespace orca::hwprobe {
+namespace {
+
+constexpr const char* kHelp =
+    "hwprobe [PORT...] [options]     which device is at which port, and what it says first\n"
+    "\n"
+    "  hwprobe                            all serial ports of this machine\n"
+    "  hwprobe /dev/ttyUSB0               one port\n"
+    "  hwprobe tcp:192.168.0.20:8101      a device behind a network\n"
+    "  hwprobe --driver orca.hw.P2os      only one kind of device\n"
+    "\n"
+    "Each driver looks for its device in turn, at all rates that the device may have. It may take half a "
+    "minute per port. Nothing is\n"
+    "moved: motors get no power. A port that cannot be opened, and a device that does not answer, is told "
+    "with what to do. Stop a running\n"
+    "system first: a port belongs to one program at a time.\n"
+    "\n"
+    "  --driver TYPE     only this hardware type; may be repeated\n"
+    "  --limit SECONDS   the longest wait for an answer, and for data (default 15)\n"
+    "  --plugins FOLDER  look for drivers here too, after Orca's own; may be repeated\n"
+    "  --help, --version\n"
+    "\n"
+    "Exit status: 0 a device answered at each port, 1 at some port none did, 2 wrong usage.\n"
+    "docs/hardware/day-one.md leads from here to the first motion.\n";
+
+constexpr std::size_t kLongestData = 160;  // of an object, as it is shown
+
+enum class ExitCode { all_answer = 0, some_silent = 1, usage = 2 };
+
+struct Options {
+  std::vector<std::string> ports{};
+  std::vector<std::string> types{};
+  std::vector<std::string> folders{};
+  double limit = 15.0;  // [s]
+};
+
+Error wrong(const std::string& what) {
+  return fail(Code::invalid_argument, what + "; hwprobe --help explains what there is");
+}
+
+Status take_option(Options& options, const std::string& name, const std::string& value) {
+  if (name == "--driver") {
+    options.types.push_back(value);
+  } else if (name == "--plugins") {
+    options.folders.push_back(value);
+  } else if (name == "--limit") {
+    const auto seconds = xml::parse_number(value);
+    if (!seconds || !(*seconds > 0.0) || *seconds > 3600.0)
+      return wrong("--limit " + in_quotes(value) + " is no time of up to an hour in seconds");
+    options.limit = *seconds;
+  } else {
+    return wrong("there is no option " + in_quotes(name));
+  }
+  return ok();
+}
+
+Result<Options> parse(const std::vector<std::string>& words) {
+  Options options;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!words[i].starts_with("-")) {
+      options.ports.push_back(words[i]);
+      continue;
+    }
+    if (i + 1 == words.size())
+      return wrong("there is no option " + in_quotes(words[i]) + ", or its value is missing");
+    if (Status taken = take_option(options, words[i], words[i + 1]); !taken.ok()) return taken.error();
+    ++i;
+  }
+  return options;
+}
+
+std::vector<std::string> plugin_folders(const Options& options) {
+  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
+  std::vector<std::string> folders{(own.parent_path().parent_path() / "plugins").string()};
+  folders.insert(folders.end(), options.folders.begin(), options.folders.end());
+  return folders;
+}
+
+void show(const std::string& text) { std::printf("%s\n", text.c_str()); }
+
+// Returns the text, without its end if it is long.
+std::string shortened(const std::string& text) {
+  return text.size() <= kLongestData ? text : text.substr(0, kLongestData) + " ...";
+}
+
+void show_device(const std::string& type, const std::string& port, const Finding& finding) {
+  show("  " + type + ": " + finding.what.vendor() + " " + finding.what.model());
+  for (const std::string& line : finding.said) show("    " + line);
+  for (const std::string& object : finding.data) show("    " + shortened(object));
+  for (const std::string& name : finding.silent) show("    no " + name + " has come");
+  show("    the line: " + std::to_string(finding.line.frames()) + " good frames, " +
+       std::to_string(finding.line.bad_checksums()) + " spoiled, " +
+       std::to_string(finding.line.skipped_bytes()) + " bytes skipped");
+  show("    in a graph: <hardware name=\"...\" type=\"" + type + "\"><param name=\"device\" value=\"" + port +
+       "\"/></hardware>");
+}
+
+// Returns whether a device has answered.
+bool probe(host::PluginCatalogue& catalogue, const Options& options, const std::string& port) {
+  show(port);
+  if (const Status opened = try_port(port); !opened.ok()) {
+    show("  " + opened.error().text());
+    return false;
+  }
+  std::vector<std::string> reasons;
+  for (const std::string& type : options.types) {
+    if (isatty(STDERR_FILENO) != 0) LiveLine::show(STDERR_FILENO, "  looking for " + type);
+    const Duration limit(static_cast<Duration::rep>(1e9 * options.limit));
+    const Result<Finding> finding = try_driver(catalogue, type, port, limit);
+    LiveLine::erase();
+    if (finding && finding->answers) {
+      show_device(type, port, *finding);
+      return true;
+    }
+    reasons.push_back("  " + type + ": " + (finding ? finding->reason : finding.error().message));
+  }
+  for (const std::string& reason : reasons) show(reason);
+  return false;
+}
+
+ExitCode refuse(const Error& error) {
+  std::fprintf(stderr, "error: %s\n", error.message.c_str());
+  return ExitCode::usage;
+}
+
+Status check_types(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
+  for (const std::string& type : wanted)
+    if (std::find(known.begin(), known.end(), type) == known.end())
+      return wrong("there is no driver " + in_quotes(type) + "; drivers: " + listed(known) +
+                   xml::did_you_mean(xml::nearest_name(type, known)));
+  return ok();
+}
+
+ExitCode run(Options options) {
+  host::PluginCatalogue catalogue(plugin::PluginIndex(plugin_folders(options)));
+  const std::vector<std::string> known = drivers(catalogue);
+  if (const Status checked = check_types(options.types, known); !checked.ok()) return refuse(checked.error());
+  if (options.types.empty()) options.types = known;
+  if (options.ports.empty()) options.ports = serial_ports();
+  if (options.ports.empty()) {
+    show(
+        "this machine has no serial port: is the adapter plugged in? \"dmesg | tail\" shows what became of "
+        "it");
+    return ExitCode::some_silent;
+  }
+  bool all_answer = true;
+  for (const std::string& port : options.ports) all_answer = probe(catalogue, options, port) && all_answer;
+  return all_answer ? ExitCode::all_answer : ExitCode::some_silent;
+}
+
+}  // namespace
+}  // namespace orca::hwprobe
+
+int main(int argc, char** argv) {
+  using namespace orca::hwprobe;
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  for (const std::string& word : words) {
+    if (word == "--help" || word == "-h") return std::fputs(kHelp, stdout) < 0 ? 1 : 0;
+    if (word == "--version") return std::printf("hwprobe %s\n", ORCA_VERSION) < 0 ? 1 : 0;
+  }
+  const orca::Result<Options> options = parse(words);
+  return static_cast<int>(options ? run(*options) : refuse(options.error()));
+}
