@@ -28,11 +28,19 @@ class PlainBody final : public emulators::Body {
   void drive(const Twist2& velocity) override { velocity_ = velocity; }
   [[nodiscard]] Pose2 odometry() const override { return pose_; }
   [[nodiscard]] Twist2 velocity() const override { return velocity_; }
-  [[nodiscard]] std::optional<double> sonar(int) const override { return std::nullopt; }
+  [[nodiscard]] std::optional<double> sonar(int) const override { return range_; }
+  [[nodiscard]] std::uint16_t bumpers() const override { return bumpers_; }
+
+  /// Puts something around it, at a distance [m] from each sonar; nothing: takes it away.
+  void surround(std::optional<double> range) { range_ = range; }
+  /// Presses these bumpers, a bit each, and no others.
+  void touch(std::uint16_t bumpers) { bumpers_ = bumpers; }
 
  private:
   Pose2 pose_;
   Twist2 velocity_;
+  std::optional<double> range_;
+  std::uint16_t bumpers_ = 0;
 };
 
 /// A device on a desk: its line, a pseudo terminal, is there, and its firmware runs, as long as this lives.

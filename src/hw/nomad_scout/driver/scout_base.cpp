@@ -144,9 +144,10 @@ class ScoutBase final : public orca::hw::LineDriver {
                      "connected to a Nomad Scout" +
                          (has_rate() ? " at " + std::to_string(session_->rate()) + " baud" : std::string()));
     rest();
-    chores_ = {orca::hw::nomad_scout::stop(), set_watchdog(kWatchdog),
+    const bool turns = !(session_->first().state.speeds == Wheels{});
+    limp_due_ = turns;
+    chores_ = {turns ? orca::hw::nomad_scout::stop() : limp(), set_watchdog(kWatchdog),
                set_accelerations({.left = *max_acceleration_, .right = *max_acceleration_})};
-    limp_due_ = true;
     senses_->connect();
     next_question_ = now;
   }

@@ -28,7 +28,8 @@ Status ScoutSession::begin(TimePoint now) {
   rate_ = 0;
   tries_ = 0;
   refusals_ = 0;
-  heard_ = found_ = false;
+  heard_ = false;
+  first_.reset();
   scanner_ = framing::Scanner(kProtocol);
   if (Status set = link_.set_line({.baud = rates_[0]}); !set.ok()) return set;
   link_.discard_input();
@@ -36,9 +37,9 @@ Status ScoutSession::begin(TimePoint now) {
 }
 
 Result<bool> ScoutSession::advance(TimePoint now) {
-  if (Status heard = receive(now, [this](const Answer&) { found_ = true; }); !heard.ok())
-    return heard.error();
-  if (found_) return true;
+  const auto meet = [this](const Answer& answer) { first_ = answer; };
+  if (Status heard = receive(now, meet); !heard.ok()) return heard.error();
+  if (first_) return true;
   if (asked_) return false;
   if (Status tried = try_again(now); !tried.ok()) return tried.error();
   return false;

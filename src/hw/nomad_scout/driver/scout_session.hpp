@@ -45,6 +45,9 @@ class ScoutSession {
   /// @errors  not_found if nothing answers at any rate, with what to do; data_loss if it is another robot; those of the link.
   Result<bool> advance(TimePoint now);
 
+  /// Returns what the robot answered first. @pre  it has been found.
+  [[nodiscard]] const Answer& first() const { return *first_; }
+
   /// Reads what there is and hands out the answers. @pre  the robot has been found.
   /// @errors  unavailable if the robot refuses a command again and again; those of the link.
   Status receive(TimePoint now, const Take& take);
@@ -74,9 +77,9 @@ class ScoutSession {
   const std::vector<std::uint32_t> rates_;
   framing::Scanner scanner_{kProtocol};
   std::size_t rate_ = 0;
-  int tries_ = 0;                // at this rate
-  bool heard_ = false;           // a packet, at whatever rate
-  bool found_ = false;           // the robot
+  int tries_ = 0;       // at this rate
+  bool heard_ = false;  // a packet, at whatever rate
+  std::optional<Answer> first_;
   std::optional<Type> asked_{};  // awaits its answer
   TimePoint deadline_{};
   int refusals_ = 0;  // NAKs one after the other
