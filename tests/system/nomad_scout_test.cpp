@@ -159,12 +159,15 @@ TEST_CASE(
   Scout scout(device, settings);
   Subprocess program(deployer(drive(device, far_goal())));
   REQUIRE(eventually([&] { return is_moving(scout); }));
+  std::this_thread::sleep_for(1s);  // its clock must be seen to go back
   scout.with([](BadScout& line, PlainBody&) { line.reset(steady_now()); });
   const double there = pose(scout).x;
-  REQUIRE(program.wait_for_output(settings.power_up == Duration{0}
-                                      ? "its controller has started anew; was it switched off and on"
-                                      : "is it still connected and switched on?",
-                                  Seconds(20 * kSlowdown)));
+  const std::string what = settings.power_up == Duration{0}
+                               ? "its controller has started anew; was it switched off and on"
+                               : "is it still connected and switched on?";
+  const bool told = program.wait_for_output(what, Seconds(20 * kSlowdown));
+  INFO(program.err());
+  REQUIRE(told);
   REQUIRE(program.wait_for_output("it works again", Seconds(30 * kSlowdown)));
   std::this_thread::sleep_for(500ms);
   CHECK(stands(scout));
