@@ -64,7 +64,7 @@ void check_goals(Create& create, const std::string& device) {
   CHECK(stands(create));
 }
 
-// Starts to drive far away, and returns once the robot moves.
+// Waits until the robot moves.
 void set_off(Create& create) {
   REQUIRE(eventually([&] { return is_moving(create); }));
 }
@@ -213,7 +213,8 @@ TEST_CASE("a Create 2 gets to its goals over a bad line", "[system][hardware]") 
   const TempFolder folder;
   const std::string device = folder.file("create");
   Create create(device);
-  SECTION("with garbage between its frames") { spoil(create, garbage_after(33, {0x13, 0x05, 0x00})); }
+  // A frame has 36 bytes.
+  SECTION("with garbage between its frames") { spoil(create, garbage_after(36, {0x13, 0x05, 0x00})); }
   SECTION("with garbage within some of them") { spoil(create, garbage_after(1001, {0x13, 0xF0, 0x07})); }
   SECTION("that spoils one in a hundred of them") { spoil(create, flipped_bits(0.01 / 36.0)); }
   SECTION("that delivers several at a time") { spoil(create, glued(40)); }
