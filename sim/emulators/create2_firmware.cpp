@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "orca/geometry/arc.hpp"
 #include "orca/hw/framing/checksums.hpp"
 
 namespace orca::emulators {
@@ -42,31 +43,24 @@ enum Opcode {
   kStopInterface = 173
 };
 
+struct DataSize {
+  int opcode;
+  std::size_t size;
+};
+
+// 138 and 144: brushes; 139, 162, 163, 164: lights and digits; 141: play a song; 165: buttons; 167, 168: schedule and time.
+constexpr DataSize kDataSizes[] = {{kBaud, 1},        {138, 1},          {141, 1},       {kSensors, 1},
+                                   {kPauseStream, 1}, {165, 1},          {162, 2},       {139, 3},
+                                   {144, 3},          {168, 3},          {kDriveArc, 4}, {163, 4},
+                                   {164, 4},          {kDriveDirect, 4}, {kDrivePwm, 4}, {167, 15}};
+
 // Returns how many bytes of data belong to a command, of which the first ones are there.
 std::size_t data_of(Bytes command) {
-  const std::size_t count = command.size() > 1 ? command[1] : 0;
-  switch (command[0]) {
-    case kBaud:
-    case 138:  // brushes
-    case 141:  // play a song
-    case kSensors:
-    case kPauseStream:
-    case 165: return 1;  // buttons
-    case 162: return 2;  // lights of the schedule
-    case 139:            // lights
-    case 144:            // brushes
-    case 168: return 3;  // time
-    case kDriveArc:
-    case kDriveDirect:
-    case kDrivePwm:
-    case 163:             // digits
-    case 164: return 4;   // letters
-    case 167: return 15;  // schedule
-    case kStream:
-    case kQueryList: return 1 + count;
-    case kSong: return command.size() > 2 ? 2 + 2U * command[2] : 2;
-    default: return 0;
-  }
+  const int opcode = command[0];
+  if (opcode == kStream || opcode == kQueryList) return command.size() > 1 ? 1U + command[1] : 1U;
+  if (opcode == kSong) return command.size() > 2 ? 2U + 2U * command[2] : 2U;
+  const auto* const found = std::ranges::find(kDataSizes, opcode, &DataSize::opcode);
+  return found == std::end(kDataSizes) ? 0 : found->size;
 }
 
 int signed_of(Bytes data, std::size_t index) {
@@ -244,18 +238,16 @@ std::vector<std::uint8_t> Create2Firmware::advance(TimePoint now) {
   return line_.leave(now, host_baud_ == 0 || host_baud_ == baud_);
 }
 
-// Adds to the ways of the wheels what the body has come since the last time, on an arc.
+// Adds to the ways of the wheels what the body has come since the last time.
 void Create2Firmware::count() {
   const Pose2 pose = body_.odometry();
-  const Pose2 step = seen_from(last_pose_.value_or(pose), pose);
+  const Travel2 travel = arc_between(last_pose_.value_or(pose), pose);
   last_pose_ = pose;
-  const double half = 0.5 * step.yaw;
-  const double chord = std::copysign(norm(step.position()), step.x);
-  const double way = half == 0.0 ? chord : chord * half / std::sin(half);
-  ways_[kRightWheel] += way + half * settings_.wheel_base;
-  ways_[kLeftWheel] += way - half * settings_.wheel_base;
-  distance_ += way;
-  angle_ += step.yaw;
+  const double turning = 0.5 * travel.turn * settings_.wheel_base;
+  ways_[kRightWheel] += travel.forward + turning;
+  ways_[kLeftWheel] += travel.forward - turning;
+  distance_ += travel.forward;
+  angle_ += travel.turn;
 }
 
 void Create2Firmware::stay_safe() {
@@ -302,15 +294,21 @@ void Create2Firmware::add_packet(std::vector<std::uint8_t>& bytes, int packet) {
 
 // What is not listed is 0: it senses nothing, or draws no current.
 int Create2Firmware::value_of(int packet) {
+  if (packet < 19) return contact_value(packet);
+  if (packet == 19) return static_cast<int>(std::lround(1000.0 * std::exchange(distance_, 0.0)));
+  if (packet == 20)
+    return static_cast<int>(std::lround(std::exchange(angle_, 0.0) * 180.0 / std::numbers::pi));
+  return packet < 35 ? battery_value(packet) : motor_value(packet);
+}
+
+int Create2Firmware::contact_value(int packet) const {
+  if (packet == 7) return (body_.bumpers() & 3) | (body_.is_lifted() ? 0x0C : 0);
+  if (packet >= 9 && packet <= 12) return (body_.cliffs() >> (packet - 9)) & 1;
+  return packet == 14 && body_.is_stalled() ? 0x18 : 0;
+}
+
+int Create2Firmware::battery_value(int packet) const {
   switch (packet) {
-    case 7: return (body_.bumpers() & 3) | (body_.is_lifted() ? 0x0C : 0);
-    case 9:
-    case 10:
-    case 11:
-    case 12: return (body_.cliffs() >> (packet - 9)) & 1;
-    case 14: return body_.is_stalled() ? 0x18 : 0;
-    case 19: return static_cast<int>(std::lround(1000.0 * std::exchange(distance_, 0.0)));
-    case 20: return static_cast<int>(std::lround(std::exchange(angle_, 0.0) * 180.0 / std::numbers::pi));
     case 21: return charger_ ? 2 : 0;
     case 22: return settings_.voltage;
     case 23: return charger_ ? 1200 : -250;
@@ -318,11 +316,11 @@ int Create2Firmware::value_of(int packet) {
     case 25: return settings_.charge;
     case 26: return settings_.capacity;
     case 34: return charger_ ? 1 : 0;
-    default: return motor_value(packet);
+    default: return 0;
   }
 }
 
-int Create2Firmware::motor_value(int packet) {
+int Create2Firmware::motor_value(int packet) const {
   const auto counts = [&](std::size_t wheel) {
     const double turns = ways_[wheel] / (std::numbers::pi * settings_.wheel_diameter);
     return static_cast<int>(std::llround(turns * settings_.counts_per_turn) & 0xFFFF);

@@ -76,7 +76,9 @@ class Create2Firmware final : public Firmware {
   void answer(std::span<const std::uint8_t> packets, TimePoint now);
   void add_packet(std::vector<std::uint8_t>& bytes, int packet);
   [[nodiscard]] int value_of(int packet);
-  [[nodiscard]] int motor_value(int packet);
+  [[nodiscard]] int contact_value(int packet) const;
+  [[nodiscard]] int battery_value(int packet) const;
+  [[nodiscard]] int motor_value(int packet) const;
   void send(std::span<const std::uint8_t> bytes, TimePoint now);
 
   Body& body_;
