@@ -26,6 +26,7 @@ namespace {
 using BadCreate = BadLine<Create2Firmware>;
 using Create = DeviceOnDesk<BadCreate, PlainBody>;
 
+constexpr int kStart = 128;  // leads to passive mode, in which the wheels stand
 constexpr int kSafe = 131;
 constexpr int kDriveDirect = 145;
 
@@ -135,6 +136,27 @@ TEST_CASE("a Create 2 that is unplugged drives on, is stopped when it is back, a
   check_release(create);
   program.send(SIGINT);
   CHECK(finish(program, Seconds(20)).exit_code() == 0);
+}
+
+TEST_CASE(
+    "kill -9 of the whole system: a Create 2 drives on, for it has no watchdog, and the next start stops it "
+    "first",
+    "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("create");
+  Create create(device);
+  Subprocess program(deployer(drive(device, far_goal() + Words{"--in-process"})));
+  set_off(create);
+  program.send(SIGKILL);
+  std::this_thread::sleep_for(1s);
+  CHECK(is_moving(create));
+  const std::size_t before = commands(create).size();
+  const Run run = run_deployer(drive(device, {"--set", "goals=here: 0 0"}), Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  REQUIRE(commands(create).size() > before);
+  CHECK(commands(create)[before] == kStart);
+  CHECK(stands(create));
 }
 
 TEST_CASE("a Create 2 that is switched off and on in mid-motion is found again, and stands",

@@ -65,6 +65,7 @@ class ScoutSession {
 
   /// Returns the rate of the line [baud].
   [[nodiscard]] std::uint32_t rate() const { return rates_[rate_]; }
+  [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }
 
  private:
   Status read(TimePoint now, const Take& take);
