@@ -71,6 +71,8 @@ LAYERS = (
     Layer("hw_nomad_scout", ("src/hw/nomad_scout",), ("orca/hw/nomad_scout/",), ("hw_framing", "geometry", "base")),
     Layer("hw_p2os", ("src/hw/p2os",), ("orca/hw/p2os/",), ("hw_framing", "geometry", "base")),
     Layer("hw_driver", ("src/hw/driver",), ("orca/hw/line_driver.hpp",), ("hw_link", *DEVICE), ("fmt",)),
+    Layer("create2_driver", ("src/hw/create2/driver",), (), ("hw_create2", *DRIVER), ("fmt",)),
+    Layer("nomad_scout_driver", ("src/hw/nomad_scout/driver",), (), ("hw_nomad_scout", *DRIVER), ("fmt",)),
     Layer("p2os_driver", ("src/hw/p2os/driver",), (), ("hw_p2os", *DRIVER), ("fmt",)),
     Layer("hw_sick_lms", ("src/hw/sick_lms",), ("orca/hw/sick_lms/",), ("hw_framing", "base")),
     Layer("hw_player", ("src/hw/player",), ("orca/hw/player/",), ("base",)),

@@ -28,11 +28,27 @@ class PlainBody final : public emulators::Body {
   void drive(const Twist2& velocity) override { velocity_ = velocity; }
   [[nodiscard]] Pose2 odometry() const override { return pose_; }
   [[nodiscard]] Twist2 velocity() const override { return velocity_; }
-  [[nodiscard]] std::optional<double> sonar(int) const override { return std::nullopt; }
+  [[nodiscard]] std::optional<double> sonar(int) const override { return range_; }
+  [[nodiscard]] std::uint16_t bumpers() const override { return bumpers_; }
+  [[nodiscard]] std::uint8_t cliffs() const override { return cliffs_; }
+  [[nodiscard]] bool is_lifted() const override { return lifted_; }
+
+  /// Puts something around it, at a distance [m] from each sonar; nothing: takes it away.
+  void surround(std::optional<double> range) { range_ = range; }
+  /// Presses these bumpers, a bit each, and no others.
+  void touch(std::uint16_t bumpers) { bumpers_ = bumpers; }
+  /// Takes the floor away at these places, a bit each, and at no others.
+  void drop(std::uint8_t cliffs) { cliffs_ = cliffs; }
+  /// Lifts it up, or puts it down.
+  void lift(bool lifted) { lifted_ = lifted; }
 
  private:
   Pose2 pose_;
   Twist2 velocity_;
+  std::optional<double> range_;
+  std::uint16_t bumpers_ = 0;
+  std::uint8_t cliffs_ = 0;
+  bool lifted_ = false;
 };
 
 /// A device on a desk: its line, a pseudo terminal, is there, and its firmware runs, as long as this lives.

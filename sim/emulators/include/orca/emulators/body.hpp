@@ -28,6 +28,10 @@ class Body {
   /// Returns the pressed bumpers, a bit each: front in the low byte, rear in the high byte.
   [[nodiscard]] virtual std::uint16_t bumpers() const { return 0; }
   [[nodiscard]] virtual bool is_stalled() const { return false; }
+  /// Returns the places in front without a floor, a bit each, from the left to the right.
+  [[nodiscard]] virtual std::uint8_t cliffs() const { return 0; }
+  /// Returns whether the wheels hang, because the robot was lifted.
+  [[nodiscard]] virtual bool is_lifted() const { return false; }
 };
 
 /// A turn of a scanning laser's mirror.

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "create2_senses.hpp"
+#include "create2_session.hpp"
+#include "orca/hardware.hpp"
+#include "orca/hw/line_driver.hpp"
+
+namespace {
+
+using orca::Duration;
+using orca::Result;
+using orca::Status;
+using orca::TimePoint;
+using orca::hw::DriveSetpoint;
+using namespace orca::hw::create2;
+using namespace std::chrono_literals;
+
+constexpr Duration kSayAgain = 250ms;
+constexpr Duration kCliffTime = 200ms;  // in which the end of safe mode is put down to a cliff
+constexpr double kMaxTurnRate = 2.0 * kMaxWheelSpeed / kWheelBase;
+const std::vector<std::uint32_t> kRates{115200, 19200};
+
+/// An iRobot Create 2, or a Roomba of the series 600: a base on two wheels with a bumper and cliff sensors.
+///
+/// It enters safe mode, in which its motors may run, with the first command to move, and is in passive mode before and when nobody
+/// uses it. It leaves safe mode by itself when a wheel hangs, at a cliff and at a charger. It has no watchdog: when the
+/// line breaks while it drives, it drives on until its bumper, which it does not heed, or a cliff.
+class Create2Base final : public orca::hw::LineDriver {
+ public:
+  explicit Create2Base(orca::hw::HardwareHost& host)
+      : LineDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()}) {}
+
+  std::vector<orca::HardwareFault> prepare() override {
+    std::vector<orca::HardwareFault> faults = prepare_line();
+    if (!faults.empty()) return faults;
+    for (orca::hw::SensorEndpoint* const sensor : senses_.endpoints()) add_sensor(*sensor);
+    motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
+                                          .max_turn_rate = *max_turn_rate_,
+                                          .big_turn_angle = 1.0,
+                                          .big_turn_speed = 0.1},
+                    std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*max_command_age_)));
+    set_motion(*motion_);
+    return faults;
+  }
+
+  [[nodiscard]] orca::idl::Robot description() const override {
+    orca::idl::Robot robot;
+    robot.name(*name_);
+    robot.vendor("iRobot");
+    robot.model("Create 2");
+    robot.radius(kRadius);
+    robot.bumper_radius(kRadius);
+    orca::idl::Drive drive;
+    drive.name("wheels");
+    drive.port(device());
+    drive.type(orca::idl::DIFFERENTIAL);
+    drive.max_speed(motion_->limits().max_speed);
+    drive.max_steer_speed(motion_->limits().max_turn_rate);
+    drive.steer_gain(motion_->limits().steer_gain);
+    robot.drives().push_back(drive);
+    return robot;
+  }
+
+ protected:
+  Status begin(TimePoint now) override {
+    session_.emplace(line(), has_rate() ? kRates : std::vector<std::uint32_t>{kRates.front()});
+    return session_->begin(now);
+  }
+
+  Result<bool> advance(TimePoint now) override {
+    Result<bool> done = session_->advance(now);
+    if (!done || !*done) return done;
+    host().write_log(orca::log::Level::info,
+                     "connected to a Create 2" +
+                         (has_rate() ? " at " + std::to_string(session_->rate()) + " baud" : std::string()));
+    senses_.connect();
+    rest();
+    return true;
+  }
+
+  [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
+  [[nodiscard]] TimePoint next_turn() const override { return powered_ ? say_again_ : orca::kForever; }
+  [[nodiscard]] Duration longest_silence() const override { return 1s; }
+
+  void stop() override {
+    (void)session_->send(drive_wheels({}));
+    (void)session_->send(encode(Order::start));  // back to passive mode
+    rest();
+  }
+
+  void take_leave() override {
+    (void)session_->send(drive_wheels({}));
+    (void)session_->send(encode(Order::stop));
+    rest();
+  }
+
+  Status poll() override {
+    const TimePoint now = host().now();
+    const auto taken = [this](const Sensors& sensors, TimePoint stamp) { take(sensors, stamp); };
+    if (Status read = session_->receive(now, taken); !read.ok()) return read;
+    if (!powered_ || now < say_again_) return line().flush();
+    return say(applied_);
+  }
+
+  Status drive(const DriveSetpoint& setpoint) override {
+    applied_ = setpoint;
+    if (!setpoint.stands()) powered_ = true;
+    return powered_ ? say(setpoint) : orca::ok();
+  }
+
+ private:
+  // From now on it is told nothing that moves it.
+  void rest() {
+    powered_ = was_safe_ = false;
+    applied_ = {};
+  }
+
+  void take(const Sensors& sensors, TimePoint stamp) {
+    heard();
+    senses_.take(sensors, stamp);
+    if (state() != orca::hw::HardwareState::active) return;
+    guard();
+    senses_.publish();
+  }
+
+  // Stops the base where it cannot go on. What needs a person needs an operator to go on.
+  void guard() {
+    const std::vector<orca::hw::Obstruction::Pressed> pressed = senses_.pressed();
+    if (!pressed.empty()) last_cliff_ = host().now();
+    motion_->press(pressed);
+    if (senses_.is_stalled()) motion_->obstruct("its motors draw too much current");
+    if (senses_.wheel_hangs()) hold("a wheel hangs; put it down on the floor");
+    if (powered_ && senses_.is_at_charger()) hold("it is connected to its charger; take it off");
+    if (senses_.mode() == Mode::safe) was_safe_ = powered_;
+    if (!was_safe_ || senses_.mode() == Mode::safe) return;
+    was_safe_ = false;  // at a cliff; the next command to move takes it into safe mode again
+    if (host().now() - last_cliff_ > kCliffTime)
+      hold("it has left safe mode; was one of its buttons pressed?");
+  }
+
+  void hold(const std::string& reason) {
+    powered_ = was_safe_ = false;
+    motion_->hold(reason + ", then orcactl estop --release");
+  }
+
+  // Safe mode is asked for again until it is there, but not to stand.
+  Status say(const DriveSetpoint& setpoint) {
+    say_again_ = host().now() + kSayAgain;
+    if (!setpoint.stands() && senses_.mode() != Mode::safe)
+      if (Status safe = session_->send(encode(Order::safe)); !safe.ok()) return safe;
+    return session_->send(drive_wheels(wheel_speeds(setpoint.velocity)));
+  }
+
+  orca::Param<std::string> name_{*this, "name", "Create", {.text = "Name of this robot, one word."}};
+  orca::Param<double> max_speed_{
+      *this, "max_speed", 0.3, {.unit = "m/s", .min = 0.0, .max = kMaxWheelSpeed, .text = "Greatest speed."}};
+  orca::Param<double> max_turn_rate_{
+      *this,
+      "max_turn_rate",
+      1.5,
+      {.unit = "rad/s", .min = 0.0, .max = kMaxTurnRate, .text = "Greatest turn rate."}};
+  orca::Param<double> max_command_age_{
+      *this,
+      "max_command_age",
+      0.2,
+      {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}};
+
+  Create2Senses senses_;
+  std::optional<orca::hw::MotionHW> motion_;
+  std::optional<Create2Session> session_;
+  bool powered_ = false;   // it was told to move since it was connected, stopped or held
+  bool was_safe_ = false;  // it has entered safe mode since then
+  DriveSetpoint applied_;  // what the wheels were told last
+  TimePoint say_again_{};
+  TimePoint last_cliff_{};  // or bumper
+};
+
+}  // namespace
+
+ORCA_HARDWARE(Create2Base, "orca.hw.Create2")
+ORCA_STEADY_CLOCK_ONLY("its robot lives in real time")

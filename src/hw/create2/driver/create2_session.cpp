@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "create2_session.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace orca::hw::create2 {
+namespace {
+
+constexpr Duration kFrameTime = 250ms;  // until the first frame of a stream; it takes 15 ms
+constexpr int kTries = 3;               // at each rate
+constexpr double kSlowByte = 0.0002;    // [s] a line with slower bytes does not carry all packets
+
+// Bumps, cliffs, currents, mode, counts and voltage fit into 15 ms at 19200 baud.
+constexpr std::array<std::uint8_t, 10> kFewPackets{
+    kPacketBumpsAndDrops, 9, 10, 11, 12, 14, kPacketMode, kPacketLeftCounts, kPacketRightCounts,
+    kPacketVoltage};
+constexpr std::array<std::uint8_t, 14> kPackets{kPacketBumpsAndDrops,
+                                                9,
+                                                10,
+                                                11,
+                                                12,
+                                                14,
+                                                kPacketMode,
+                                                kPacketLeftCounts,
+                                                kPacketRightCounts,
+                                                kPacketVoltage,
+                                                kPacketChargingState,
+                                                kPacketCharge,
+                                                kPacketCapacity,
+                                                34};
+
+std::span<const std::uint8_t> packets_for(const link::ByteLink& link) {
+  if (link.byte_time() > kSlowByte) return kFewPackets;
+  return kPackets;
+}
+
+}  // namespace
+
+Create2Session::Create2Session(link::ByteLink& link, std::vector<std::uint32_t> rates)
+    : link_(link), rates_(std::move(rates)) {}
+
+Status Create2Session::begin(TimePoint now) {
+  rate_ = 0;
+  tries_ = 0;
+  found_ = false;
+  if (Status set = link_.set_line({.baud = rates_[0]}); !set.ok()) return set;
+  return call(now);
+}
+
+// A command that was cut short may wait for its data, of which it takes at most four here.
+Status Create2Session::call(TimePoint now) {
+  deadline_ = now + kFrameTime;
+  link_.discard_input();
+  scanner_ = framing::Scanner(kProtocol);
+  if (tries_ > 0)
+    for (int i = 0; i < 4; ++i)
+      if (Status sent = send(encode(Order::start)); !sent.ok()) return sent;
+  if (Status sent = send(encode(Order::start)); !sent.ok()) return sent;
+  const Result<Command> wanted = stream(packets_for(link_));
+  return wanted ? send(*wanted) : wanted.error();
+}
+
+Result<bool> Create2Session::advance(TimePoint now) {
+  const auto meet = [this](const Sensors& sensors, TimePoint) { found_ |= sensors.left_counts.has_value(); };
+  if (Status read = receive(now, meet); !read.ok()) return read.error();
+  if (found_) return true;
+  if (now < deadline_) return false;
+  if (Status tried = try_again(now); !tried.ok()) return tried.error();
+  return false;
+}
+
+Status Create2Session::try_again(TimePoint now) {
+  if (++tries_ >= kTries) {
+    tries_ = 0;
+    if (++rate_ == rates_.size()) {
+      rate_ = 0;
+      return nobody();
+    }
+    if (Status set = link_.set_line({.baud = rates_[rate_]}); !set.ok()) return set;
+  }
+  return call(now);
+}
+
+Error Create2Session::nobody() const {
+  std::string rates;
+  for (const std::uint32_t rate : rates_) rates += (rates.empty() ? "" : ", ") + std::to_string(rate);
+  const std::string where = link_.name() + (rates_.size() > 1 ? " at " + rates + " baud" : "");
+  return fail(Code::not_found,
+              "no Create 2 answers at " + where +
+                  "; press its Clean button, for it may sleep; is its battery charged, and is "
+                  "this its serial port?");
+}
+
+Status Create2Session::receive(TimePoint now, const Take& take) {
+  std::array<std::uint8_t, 512> bytes{};
+  for (;;) {
+    const Result<std::size_t> count = link_.read(bytes);
+    if (!count) return count.error();
+    if (*count == 0) return ok();
+    const std::uint64_t after = scanner_.received() + *count;
+    scanner_.feed({bytes.data(), *count}, [&](const framing::Frame& frame) {
+      Sensors sensors;
+      if (!sensors.apply_body(body_of(frame.bytes)).ok()) return;  // the scanner has looked whether it fits
+      const double age = static_cast<double>(after - frame.begin) * link_.byte_time();
+      take(sensors, now - Duration(std::llround(1e9 * age)));
+    });
+  }
+}
+
+}  // namespace orca::hw::create2

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "orca/geometry/pose2.hpp"
+#include "orca/hw/endpoints.hpp"
+#include "orca/hw/nomad_scout/odometry.hpp"
+#include "orca/hw/nomad_scout/state.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/sensing.hpp"
+
+namespace orca::hw::nomad_scout {
+
+inline constexpr double kRadius = 0.19;         ///< [m] of the body, as in sim/robots/nomad_scout.urdf.
+inline constexpr double kBumperRadius = 0.205;  ///< [m] of the bumpers, as there.
+inline constexpr Duration kPeriod = 50ms;       ///< From state to state, on a line that is fast enough.
+
+/// What a Scout senses of itself and around it, as endpoints: odometry, sonars, bumpers, battery.
+///
+/// Which bumper switch has which bit is not documented. They are counted like the sonars, from ahead to the left. A switch that is
+/// touched in motion is taken to lie where the robot drives to, whatever its number.
+///
+/// Thread contract: not synchronised; the container's strand.
+class ScoutSenses {
+ public:
+  /// @param track  [m] between the wheels.
+  /// @param cycle  [s] in which all sonars fire once.
+  ScoutSenses(double track, Duration cycle);
+
+  [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
+
+  /// Begins anew with a robot. The pose goes on from where it was.
+  void connect();
+
+  /// Takes a state.
+  /// @param stamp    when the robot sent it.
+  /// @param forward  [m/s] that the wheels are told.
+  void take(const State& state, TimePoint stamp, double forward);
+  /// Publishes what the last state told. @pre  take() was called.
+  void publish();
+
+  /// Returns the bumpers that are pressed, for MotionHW::press().
+  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const;
+  /// Returns whether the wheels turn.
+  [[nodiscard]] bool moves() const { return !(state_.speeds == Wheels{}); }
+  /// Returns whether the controller's clock has gone back: it was switched off and on.
+  [[nodiscard]] bool has_restarted(const State& next) const;
+
+ private:
+  static constexpr std::size_t kBits = 24;  // of the bumpers
+
+  void take_touches(unsigned bits, double forward);
+  void take_sonars(const SonarRanges& ranges);
+  void publish_odometry();
+  void publish_sonars();
+  void publish_bumpers();
+  void publish_battery();
+
+  const double track_;
+  const Duration cycle_;
+  SensorHW<idl::Odometry> odometry_;
+  SensorHW<idl::SonarRangeReadings> sonar_;
+  SensorHW<idl::BumperReadings> bumpers_;
+  SensorHW<idl::Battery> battery_;
+
+  ScoutOdometry wheels_;
+  std::optional<double>
+      heading_offset_;  // [rad] from the controller's heading to that of the pose; none: not heard yet
+  Pose2 pose_;          // in the frame of the odometry
+  State state_;         // the last one
+  TimePoint stamp_{};
+  SonarRanges ranges_{};                     // [m] limited to what a sonar hears
+  std::array<TimePoint, kSonars> stamps_{};  // of each
+  std::array<Vec2, kBits> outwards_{};       // of each pressed switch
+};
+
+}  // namespace orca::hw::nomad_scout

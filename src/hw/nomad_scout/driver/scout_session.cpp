@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "scout_session.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace orca::hw::nomad_scout {
+namespace {
+
+constexpr Duration kAnswerTime = 250ms;      // beside what the bytes take
+constexpr double kExchange = 62.0;           // [bytes] of a command and of the state
+constexpr std::size_t kLongestCommand = 17;  // [bytes] of the payloads that we send; each state has more
+constexpr int kTries = 3;                    // at each rate
+constexpr int kRefusals = 5;                 // NAKs one after the other until we give up
+
+Duration line_time(double bytes, const link::ByteLink& link) {
+  return Duration(std::llround(1e9 * bytes * link.byte_time()));
+}
+
+}  // namespace
+
+ScoutSession::ScoutSession(link::ByteLink& link, std::vector<std::uint32_t> rates)
+    : link_(link), rates_(std::move(rates)) {}
+
+Status ScoutSession::begin(TimePoint now) {
+  rate_ = 0;
+  tries_ = 0;
+  refusals_ = 0;
+  heard_ = false;
+  first_.reset();
+  scanner_ = framing::Scanner(kProtocol);
+  if (Status set = link_.set_line({.baud = rates_[0]}); !set.ok()) return set;
+  link_.discard_input();
+  return ask(get_state(), now);
+}
+
+Result<bool> ScoutSession::advance(TimePoint now) {
+  const auto meet = [this](const Answer& answer) { first_ = answer; };
+  if (Status heard = receive(now, meet); !heard.ok()) return heard.error();
+  if (first_) return true;
+  if (asked_) return false;
+  if (Status tried = try_again(now); !tried.ok()) return tried.error();
+  return false;
+}
+
+// Nothing has answered in time.
+Status ScoutSession::try_again(TimePoint now) {
+  if (++tries_ >= kTries) {
+    tries_ = 0;
+    if (++rate_ == rates_.size()) {
+      rate_ = 0;
+      return nobody();
+    }
+    if (Status set = link_.set_line({.baud = rates_[rate_]}); !set.ok()) return set;
+  }
+  link_.discard_input();
+  scanner_ = framing::Scanner(kProtocol);
+  return ask(get_state(), now);
+}
+
+Error ScoutSession::nobody() const {
+  std::string rates;
+  for (const std::uint32_t rate : rates_) rates += (rates.empty() ? "" : ", ") + std::to_string(rate);
+  const std::string where = link_.name() + (rates_.size() > 1 ? " at " + rates + " baud" : "");
+  if (heard_)
+    return fail(Code::not_found,
+                where +
+                    " sends back what it is sent, and nothing else: no robot, but a loop; is "
+                    "the cable plugged into the robot, and is the robot switched on?");
+  return fail(Code::not_found, "no Scout answers at " + where +
+                                   "; is it switched on, is this its serial port, and is the cable crossed "
+                                   "as it needs?");
+}
+
+Status ScoutSession::ask(const Packet& packet, TimePoint now) {
+  asked_ = message_of(packet.view()).type;
+  deadline_ = now + kAnswerTime + line_time(kExchange, link_);
+  return link_.write(packet.view());
+}
+
+Status ScoutSession::receive(TimePoint now, const Take& take) {
+  const std::uint64_t spoiled = scanner_.statistics().bad_checksums;
+  Status taken = read(now, take);
+  if (asked_ && now >= deadline_) {  // the end of its answer was lost
+    asked_.reset();
+    scanner_.give_up([&](const framing::Frame& frame) {
+      if (taken.ok()) taken = take_frame(frame, now, take);
+    });
+  }
+  // An answer that was spoiled is an answer: the robot waits for the next command.
+  if (scanner_.statistics().bad_checksums != spoiled) asked_.reset();
+  return taken;
+}
+
+Status ScoutSession::read(TimePoint now, const Take& take) {
+  std::array<std::uint8_t, 512> bytes{};
+  Status taken;
+  while (taken.ok()) {
+    const Result<std::size_t> count = link_.read(bytes);
+    if (!count) return count.error();
+    if (*count == 0) break;
+    const std::uint64_t after = scanner_.received() + *count;
+    scanner_.feed({bytes.data(), *count}, [&](const framing::Frame& frame) {
+      if (!taken.ok()) return;
+      taken = take_frame(frame, now - line_time(static_cast<double>(after - frame.begin), link_), take);
+    });
+  }
+  return taken;
+}
+
+Status ScoutSession::take_frame(const framing::Frame& frame, TimePoint stamp, const Take& take) {
+  const Message message = message_of(frame.bytes);
+  heard_ = true;
+  if (message.type == Type::nak) return take_refusal();
+  if (message.payload.size() <= kLongestCommand || !is_answered_by_state(message.type))
+    return ok();  // an echo
+  const Result<State> state = parse_state(message);
+  if (!state) return state.error();
+  if (asked_ == message.type) asked_.reset();
+  refusals_ = 0;
+  take({message.type, *state, stamp});
+  return ok();
+}
+
+Status ScoutSession::take_refusal() {
+  const int command = static_cast<int>(asked_.value_or(Type::nak));
+  asked_.reset();
+  if (++refusals_ < kRefusals) return ok();
+  return fail(Code::unavailable, "the robot does not understand the command " + std::to_string(command) +
+                                     " (NAK); is it a Scout, and is its line free of noise?");
+}
+
+}  // namespace orca::hw::nomad_scout

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bytes of any host to the emulations of devices: whatever comes, they go on, and tell the wheels finite speeds.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "orca/emulators/create2_firmware.hpp"
+#include "orca/emulators/nomad_scout_firmware.hpp"
+
+using namespace orca;
+
+namespace {
+
+class FuzzedBody final : public emulators::Body {
+ public:
+  void drive(const Twist2& velocity) override {
+    if (!is_finite(velocity)) std::abort();
+    velocity_ = velocity;
+  }
+  [[nodiscard]] Pose2 odometry() const override {
+    return {velocity_.forward, 0.0, wrapped(velocity_.turn_rate)};
+  }
+  [[nodiscard]] Twist2 velocity() const override { return velocity_; }
+  [[nodiscard]] std::optional<double> sonar(int number) const override {
+    if (number < 0 || number > 15) std::abort();
+    return 0.1 * number;
+  }
+
+ private:
+  Twist2 velocity_;
+};
+
+// The bytes come in pieces, whose sizes they name themselves.
+void talk(emulators::Firmware& device, std::span<const std::uint8_t> bytes, std::uint32_t baud) {
+  TimePoint now{1s};
+  while (!bytes.empty()) {
+    const std::span<const std::uint8_t> piece =
+        bytes.first(std::min<std::size_t>(1 + bytes[0] % 32, bytes.size()));
+    device.take(piece, baud, now);
+    now += 7ms;
+    (void)device.advance(now);
+    bytes = bytes.subspan(piece.size());
+  }
+  (void)device.advance(now + 10s);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  FuzzedBody body;
+  emulators::NomadScoutFirmware scout(body);
+  talk(scout, {data, size}, 38400);
+  emulators::Create2Firmware create(body);
+  talk(create, {data, size}, 115200);
+  return 0;
+}
