@@ -6,17 +6,20 @@
 #include <array>
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "deployer.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/emulators/body.hpp"
 #include "orca/emulators/firmware.hpp"
 #include "orca/geometry/arc.hpp"
+#include "orca/hw/link/faulty_link.hpp"
 #include "orca/hw/link/pty_link.hpp"
 
 namespace orca::test {
@@ -51,6 +54,42 @@ class PlainBody final : public emulators::Body {
   bool lifted_ = false;
 };
 
+/// The line of a device on a desk.
+struct DeskLine {
+  DeskLine(std::string path) : device(std::move(path)) {}
+  DeskLine(std::string path, hw::link::FaultPlan plan) : device(std::move(path)), faults(std::move(plan)) {}
+  std::string device;  ///< Its path.
+  /// What goes wrong on it, as the device sees it: `in` is what the host sends, `out` what the device sends.
+  /// A line that has some does not work again when the host has closed it.
+  std::optional<hw::link::FaultPlan> faults{};
+};
+
+/// A scanning laser's mirror in a place that stays as it is until the test changes it.
+class MirrorOnDesk final : public emulators::Mirror {
+ public:
+  void go_on(Duration /*time*/) {
+    stamp_ = steady_now();
+    ++turns_;
+  }
+  [[nodiscard]] std::optional<emulators::MirrorTurn> last_turn() const override {
+    if (turns_ == 0) return std::nullopt;
+    return emulators::MirrorTurn{stamp_, first_angle_, step_, ranges_};
+  }
+  /// @param first_angle, step  [rad], @param ranges  [m], infinite: no return.
+  void show(double first_angle, double step, std::vector<double> ranges) {
+    first_angle_ = first_angle;
+    step_ = step;
+    ranges_ = std::move(ranges);
+  }
+
+ private:
+  double first_angle_ = 0.0;
+  double step_ = 1.0;
+  std::vector<double> ranges_;
+  TimePoint stamp_{};
+  int turns_ = 0;
+};
+
 /// A device on a desk: its line, a pseudo terminal, is there, and its firmware runs, as long as this lives.
 /// @tparam Body  has go_on(Duration) beside what the firmware wants of it.
 ///
@@ -58,14 +97,12 @@ class PlainBody final : public emulators::Body {
 template <class Firmware, class Body>
 class DeviceOnDesk {
  public:
-  /// @param device  path of the line.
-  /// @param more    what the firmware's constructor takes behind the body.
+  /// @param more  what the firmware's constructor takes behind the body.
   template <class... More>
-  explicit DeviceOnDesk(const std::string& device, More&&... more)
-      : link_(device), firmware_(body_, std::forward<More>(more)...) {
-    REQUIRE(link_.open());
-    thread_ = std::thread([this] { run(); });
-  }
+  explicit DeviceOnDesk(const DeskLine& line, More&&... more)
+      : DeviceOnDesk(std::make_unique<hw::link::PtyLink>(line.device), line.faults,
+                     std::forward<More>(more)...) {}
+
   ~DeviceOnDesk() {
     ends_ = true;
     thread_.join();
@@ -82,16 +119,37 @@ class DeviceOnDesk {
   /// Pulls the plug out, and puts it in again.
   void unplug() {
     const std::lock_guard lock(mutex_);
-    link_.close();
+    link_->close();
   }
   void plug_in() {
     const std::lock_guard lock(mutex_);
-    REQUIRE(link_.open());
+    REQUIRE(link_->open());
   }
   /// Nothing that it sends or is sent arrives any more.
   void fall_silent(bool silent) { silent_ = silent; }
+  /// What the host sends comes back to it as well.
+  void echo(bool echoes) { echoes_ = echoes; }
+  /// Returns how often a fault has happened on the line.
+  [[nodiscard]] std::uint64_t faults(hw::link::Fault fault) const {
+    return faulty_ == nullptr ? 0 : faulty_->count(fault);
+  }
 
  private:
+  // A line without faults has no FaultyLink around it, which would not outlive the driver's first leave.
+  template <class... More>
+  DeviceOnDesk(std::unique_ptr<hw::link::PtyLink> pty, std::optional<hw::link::FaultPlan> plan,
+               More&&... more)
+      : pty_(*pty), link_(std::move(pty)), firmware_(body_, std::forward<More>(more)...) {
+    if (plan) {
+      plan->now = steady_now;
+      auto faulty = std::make_unique<hw::link::FaultyLink>(std::move(link_), *plan);
+      faulty_ = faulty.get();
+      link_ = std::move(faulty);
+    }
+    REQUIRE(link_->open());
+    thread_ = std::thread([this] { run(); });
+  }
+
   void run() {
     for (TimePoint last = steady_now(); !ends_; std::this_thread::sleep_for(1ms)) {
       const std::lock_guard lock(mutex_);
@@ -103,18 +161,23 @@ class DeviceOnDesk {
   }
   void exchange(TimePoint now) {
     std::array<std::uint8_t, 256> bytes{};
-    if (const auto count = link_.read(bytes); count && *count > 0 && !silent_)
-      firmware_.take({bytes.data(), *count}, link_.line() ? link_.line()->baud : 0, now);
+    if (const auto count = link_->read(bytes); count && *count > 0 && !silent_) {
+      if (echoes_) (void)link_->write({bytes.data(), *count});
+      firmware_.take({bytes.data(), *count}, pty_.line() ? pty_.line()->baud : 0, now);
+    }
     const std::vector<std::uint8_t> sent = firmware_.advance(now);
-    if (!sent.empty() && !silent_) (void)link_.write(sent);
-    (void)link_.flush();
+    if (!sent.empty() && !silent_) (void)link_->write(sent);
+    (void)link_->flush();
   }
 
-  hw::link::PtyLink link_;
+  hw::link::PtyLink& pty_;                  // inside link_
+  hw::link::FaultyLink* faulty_ = nullptr;  // likewise, if there are faults
+  std::unique_ptr<hw::link::ByteLink> link_;
   Body body_;
   Firmware firmware_;
   std::mutex mutex_;
   std::atomic<bool> silent_{false};
+  std::atomic<bool> echoes_{false};
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };
