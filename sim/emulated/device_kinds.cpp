@@ -8,7 +8,10 @@
 #include <utility>
 
 #include "orca/base/text.hpp"
+#include "orca/emulators/create2_firmware.hpp"
+#include "orca/emulators/nomad_scout_firmware.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
+#include "orca/emulators/sick_lms_firmware.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::sim {
@@ -34,7 +37,19 @@ Made make_p2os(const DeviceWish& wish, WorldBody& body) {
   return Made(std::make_unique<emulators::P2osFirmware>(body, *settings));
 }
 
-constexpr std::array kKinds = {Kind{"p2os", make_p2os}};
+// Makes the firmware of a device of which there is one model.
+template <class Firmware>
+Made make_only(const DeviceWish& wish, WorldBody& body) {
+  if (!wish.model.empty())
+    return fail(Code::invalid_argument,
+                wish.kind + " has no models; write " + in_quotes(wish.kind + " " + wish.name));
+  return Made(std::make_unique<Firmware>(body));
+}
+
+constexpr std::array kKinds = {Kind{"create2", make_only<emulators::Create2Firmware>},
+                               Kind{"nomad_scout", make_only<emulators::NomadScoutFirmware>},
+                               Kind{"p2os", make_p2os},
+                               Kind{"sick_lms", make_only<emulators::SickLmsFirmware>}};
 
 Error wrong(const std::string& what) {
   return fail(Code::invalid_argument,

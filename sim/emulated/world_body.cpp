@@ -35,7 +35,7 @@ void WorldBody::feel(const BumperRing& ring, const BumperReading& reading) {
   unsigned front = 0;
   unsigned rear = 0;
   for (std::size_t k = 0; k < reading.pressed.size(); ++k) {
-    const bool ahead = std::abs(ring.segment(k).yaw) < 0.5 * std::numbers::pi;
+    const bool ahead = ring.angles.empty() || std::abs(ring.segment(k).yaw) < 0.5 * std::numbers::pi;
     const unsigned bit = ahead ? front++ : 8 + rear++;
     if (reading.pressed[k]) bumpers_ = static_cast<std::uint16_t>(bumpers_ | (1U << bit));
   }

@@ -58,6 +58,8 @@ Words operator+(Words a, const Words& b) {
 
 Words deployer(const Words& words) { return Words{ORCA_BINARY_DIR "/bin/deployer"} + words; }
 
+Words hwprobe(const Words& words) { return Words{ORCA_BINARY_DIR "/bin/hwprobe"} + words; }
+
 Words orcactl(const Words& words) { return Words{ORCA_BINARY_DIR "/bin/orcactl"} + words; }
 
 Run run_orcactl(const Words& words, Seconds limit) {

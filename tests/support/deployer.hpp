@@ -74,6 +74,8 @@ struct Run {
 [[nodiscard]] Run run_orcactl(const Words& words, Seconds limit = Seconds(20));
 /// Returns the command build/PRESET/bin/orcactl with the words as arguments.
 [[nodiscard]] Words orcactl(const Words& words);
+/// Returns the command build/PRESET/bin/hwprobe with the words as arguments.
+[[nodiscard]] Words hwprobe(const Words& words);
 
 /// Returns `--clock virtual`, with an executor that works with the sanitizer of this build.
 [[nodiscard]] Words virtual_clock();

@@ -22,6 +22,7 @@ namespace orca::hw::link {
 namespace {
 
 constexpr Duration kLongestLastWords = 50ms;
+constexpr Duration kHeldByAdapter = 20ms;  // a USB adapter collects bytes for 16 ms
 constexpr std::chrono::milliseconds kPauseInLastWords{1};
 
 // Opened as a file, some devices do things: a watchdog starts to count. So it is looked at before.
@@ -120,10 +121,12 @@ void SerialLink::close() {
   path_.clear();
 }
 
-// The last words are often "stop". What they need is known from the rate, since adapters do not tell what they still hold.
+// The last words are often "stop". What they need is known from the rate, since adapters do not tell what they still hold; they
+// must not go out at the rate that is set back.
 void SerialLink::let_last_words_out() {
   const TimePoint latest = steady_now() + kLongestLastWords;
-  while (steady_now() < latest && stream_->flush().ok() && (pending() > 0 || steady_now() < busy_until_))
+  while (steady_now() < latest && stream_->flush().ok() &&
+         (pending() > 0 || steady_now() < busy_until_ + kHeldByAdapter))
     std::this_thread::sleep_for(kPauseInLastWords);
 }
 

@@ -9,6 +9,7 @@
 #include "create2_session.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/line_driver.hpp"
+#include "orca/hw/line_frames.hpp"
 
 namespace {
 
@@ -85,6 +86,9 @@ class Create2Base final : public orca::hw::LineDriver {
 
   [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
   [[nodiscard]] TimePoint next_turn() const override { return powered_ ? say_again_ : orca::kForever; }
+  [[nodiscard]] orca::hw::LineCounts counts() const override {
+    return orca::hw::counts_of(session_->statistics());
+  }
   [[nodiscard]] Duration longest_silence() const override { return 1s; }
 
   void stop() override {
@@ -121,7 +125,7 @@ class Create2Base final : public orca::hw::LineDriver {
   }
 
   void take(const Sensors& sensors, TimePoint stamp) {
-    heard();
+    heard(stamp);
     senses_.take(sensors, stamp);
     if (state() != orca::hw::HardwareState::active) return;
     guard();

@@ -2,9 +2,10 @@
 #include "create2_session.hpp"
 
 #include <array>
-#include <cmath>
 #include <string>
 #include <utility>
+
+#include "orca/hw/line_frames.hpp"
 
 namespace orca::hw::create2 {
 namespace {
@@ -95,19 +96,11 @@ Error Create2Session::nobody() const {
 }
 
 Status Create2Session::receive(TimePoint now, const Take& take) {
-  std::array<std::uint8_t, 512> bytes{};
-  for (;;) {
-    const Result<std::size_t> count = link_.read(bytes);
-    if (!count) return count.error();
-    if (*count == 0) return ok();
-    const std::uint64_t after = scanner_.received() + *count;
-    scanner_.feed({bytes.data(), *count}, [&](const framing::Frame& frame) {
-      Sensors sensors;
-      if (!sensors.apply_body(body_of(frame.bytes)).ok()) return;  // the scanner has looked whether it fits
-      const double age = static_cast<double>(after - frame.begin) * link_.byte_time();
-      take(sensors, now - Duration(std::llround(1e9 * age)));
-    });
-  }
+  return read_frames(link_, scanner_, now, [&](const framing::Frame& frame, TimePoint stamp) {
+    Sensors sensors;
+    // The scanner has looked whether it fits.
+    if (sensors.apply_body(body_of(frame.bytes)).ok()) take(sensors, stamp);
+  });
 }
 
 }  // namespace orca::hw::create2

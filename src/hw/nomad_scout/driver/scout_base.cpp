@@ -10,6 +10,7 @@
 
 #include "orca/hardware.hpp"
 #include "orca/hw/line_driver.hpp"
+#include "orca/hw/line_frames.hpp"
 #include "orca/hw/nomad_scout/command.hpp"
 #include "scout_senses.hpp"
 #include "scout_session.hpp"
@@ -96,6 +97,9 @@ class ScoutBase final : public orca::hw::LineDriver {
   [[nodiscard]] TimePoint next_turn() const override {
     return session_->is_free() ? next_question_ : session_->deadline();
   }
+  [[nodiscard]] orca::hw::LineCounts counts() const override {
+    return orca::hw::counts_of(session_->statistics());
+  }
   [[nodiscard]] Duration longest_silence() const override { return 1s; }
 
   Status start() override {
@@ -164,7 +168,7 @@ class ScoutBase final : public orca::hw::LineDriver {
       return orca::fail(
           orca::Code::unavailable,
           "its controller has started anew; was it switched off and on, or is its battery low?");
-    heard();
+    heard(answer.stamp);
     note(answer.type);
     senses_->take(answer.state, answer.stamp, wish_.velocity.forward);
     if (state() != orca::hw::HardwareState::active) return orca::ok();

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "scout_session.hpp"
 
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
+
+#include "orca/hw/line_frames.hpp"
 
 namespace orca::hw::nomad_scout {
 namespace {
@@ -95,19 +96,11 @@ Status ScoutSession::receive(TimePoint now, const Take& take) {
 }
 
 Status ScoutSession::read(TimePoint now, const Take& take) {
-  std::array<std::uint8_t, 512> bytes{};
   Status taken;
-  while (taken.ok()) {
-    const Result<std::size_t> count = link_.read(bytes);
-    if (!count) return count.error();
-    if (*count == 0) break;
-    const std::uint64_t after = scanner_.received() + *count;
-    scanner_.feed({bytes.data(), *count}, [&](const framing::Frame& frame) {
-      if (!taken.ok()) return;
-      taken = take_frame(frame, now - line_time(static_cast<double>(after - frame.begin), link_), take);
-    });
-  }
-  return taken;
+  Status read = read_frames(link_, scanner_, now, [&](const framing::Frame& frame, TimePoint stamp) {
+    if (taken.ok()) taken = take_frame(frame, stamp, take);
+  });
+  return taken.ok() ? read : taken;
 }
 
 Status ScoutSession::take_frame(const framing::Frame& frame, TimePoint stamp, const Take& take) {

@@ -8,6 +8,7 @@
 #include "orca/base/text.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/line_driver.hpp"
+#include "orca/hw/line_frames.hpp"
 #include "orca/hw/p2os/model.hpp"
 #include "senses.hpp"
 #include "session.hpp"
@@ -81,8 +82,7 @@ class P2osBase final : public orca::hw::LineDriver {
   [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
   [[nodiscard]] TimePoint next_turn() const override { return say_again_; }
   [[nodiscard]] orca::hw::LineCounts counts() const override {
-    const orca::hw::framing::Statistics& all = session_->statistics();
-    return {all.frames, all.bad_checksums, all.skipped_bytes, all.resynchronisations};
+    return orca::hw::counts_of(session_->statistics());
   }
   [[nodiscard]] Duration longest_silence() const override { return 1s; }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "session.hpp"
 
-#include <array>
-#include <cmath>
 #include <utility>
 
+#include "orca/hw/line_frames.hpp"
 #include "orca/hw/p2os/sip.hpp"
 
 namespace orca::hw::p2os {
@@ -113,17 +112,9 @@ Error Session::nobody() const {
 }
 
 Status Session::receive(TimePoint now, const std::function<void(const Received&)>& take) {
-  std::array<std::uint8_t, 512> bytes{};
-  for (;;) {
-    const Result<std::size_t> count = link_.read(bytes);
-    if (!count) return count.error();
-    if (*count == 0) return ok();
-    const std::uint64_t after = scanner_.received() + *count;
-    scanner_.feed({bytes.data(), *count}, [&](const framing::Frame& frame) {
-      const double age = static_cast<double>(after - frame.begin) * link_.byte_time();
-      take({body_of(frame.bytes), now - Duration(std::llround(1e9 * age))});
-    });
-  }
+  return read_frames(link_, scanner_, now, [&](const framing::Frame& frame, TimePoint stamp) {
+    take({body_of(frame.bytes), stamp});
+  });
 }
 
 }  // namespace orca::hw::p2os

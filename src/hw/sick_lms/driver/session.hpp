@@ -63,6 +63,7 @@ class Session {
   Status send(const Telegram& request);
 
   /// Returns type and version, as the laser names itself. @pre  advance() has returned true, as for the rest.
+  [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }
   [[nodiscard]] const std::string& type() const { return type_; }
   [[nodiscard]] const Configuration& configuration() const { return configuration_; }
   /// Returns the rate of the line [baud].

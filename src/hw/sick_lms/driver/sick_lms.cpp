@@ -11,6 +11,7 @@
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/line_driver.hpp"
+#include "orca/hw/line_frames.hpp"
 #include "orca/hw/sick_lms/scan.hpp"
 #include "orca/hw/sick_lms/timing.hpp"
 #include "orca/idl/hardware.hpp"
@@ -120,6 +121,10 @@ class SickLms final : public orca::hw::LineDriver {
     return turned_ + (line().descriptor() < 0 ? kTurnWithoutWaking : kTurn);
   }
 
+  [[nodiscard]] orca::hw::LineCounts counts() const override {
+    return orca::hw::counts_of(session_->statistics());
+  }
+
   // It says nothing unless it scans. A slow line takes a second for a scan.
   [[nodiscard]] Duration longest_silence() const override {
     return scanning_ ? std::max(kShortestSilence, 3 * scan_period(variant_, session_->rate()))
@@ -192,7 +197,7 @@ class SickLms final : public orca::hw::LineDriver {
     if (reply.code != ReplyCode::scan) return orca::ok();
     // A scan whose check word is good and whose content is not fits no setting of ours; the next one may.
     if (!parse_scan(reply, format_, scan_).ok() || scan_.ranges.size() != beams(variant_)) return orca::ok();
-    heard();
+    heard(received.stamp);
     publish(received.stamp - mirror_time(variant_));
     return orca::ok();
   }

@@ -87,6 +87,18 @@ TEST_CASE("bumpers in front fill the low byte and those behind the high byte, in
   CHECK(bench.body.bumpers() == 0);
 }
 
+TEST_CASE("of a bumper that goes all around, each bit is a switch, counted from ahead to the left",
+          "[emulated]") {
+  RobotModel robot = small_robot();
+  robot.bumpers[0].angles.clear();
+  robot.bumpers[0].pitch = 60 * kDegree;
+  WorldBody body(robot, [](const Twist2&) {});
+  SharedWorld::Inbox inbox;
+  inbox.bumper.push_back({0, {{}, {true, false, false, true, false, true}, {}}});
+  body.sense(inbox);
+  CHECK(body.bumpers() == 0b10'1001);
+}
+
 TEST_CASE("a turn of the mirror has the scanner's beams, infinite where nothing came back", "[emulated]") {
   Bench bench;
   CHECK_FALSE(bench.body.last_turn());

@@ -25,7 +25,8 @@ class Body {
   [[nodiscard]] virtual Twist2 velocity() const = 0;
   /// Returns the distance that a sonar hears [m]; nothing if it hears no echo.
   [[nodiscard]] virtual std::optional<double> sonar(int number) const = 0;
-  /// Returns the pressed bumpers, a bit each: front in the low byte, rear in the high byte.
+  /// Returns the pressed bumpers, a bit each: front in the low byte, rear in the high byte; of a bumper that goes all around, bit i
+  /// is switch i, counted from ahead to the left.
   [[nodiscard]] virtual std::uint16_t bumpers() const { return 0; }
   [[nodiscard]] virtual bool is_stalled() const { return false; }
   /// Returns the places in front without a floor, a bit each, from the left to the right.
