@@ -64,7 +64,41 @@ AtRest compared(const std::string& file) {
           std::abs(std::remainder(number(odometry.back(), "steer_angle") - yaw, 2.0 * std::numbers::pi))};
 }
 
+// Returns the last scan of a robot that stands at its start in an ideal world.
+RecordTable::Row scan_at_start(const Words& more, const TempFolder& folder) {
+  const std::string file = folder.file("scans.csv");
+  const Run run = run_deployer(
+      Words{source_file("graphs/pioneer2dx_sick.xml"), "--set", "realism=ideal", "--fail", "goto=silent@0s",
+            "--until", "6s", "--record", file + "=laser.LaserRangeReadingsPush"} +
+          more,
+      Seconds(30));
+  INFO(run.err);
+  const auto rows = RecordTable(file).rows("laser.LaserRangeReadingsPush");
+  REQUIRE(rows.size() > 3);
+  return rows.back();
+}
+
 }  // namespace
+
+TEST_CASE("scans that went over the line are those of the world, to a millimetre", "[system][hardware]") {
+  const TempFolder folder;
+  const RecordTable::Row sim = scan_at_start(virtual_clock(), folder);
+  const RecordTable::Row real = scan_at_start(
+      {"--profile", "emulate", "--set", "emulated=" + std::string(folder.path().filename())}, folder);
+  const std::vector<double> wanted = numbers(sim, "ranges");
+  const std::vector<double> got = numbers(real, "ranges");
+  REQUIRE(wanted.size() == 181);
+  REQUIRE(got.size() == 361);
+  CHECK(number(real, "angle_start") == Approx(number(sim, "angle_start")));
+  int compared = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i] >= number(sim, "max_range")) continue;  // nothing comes back
+    CAPTURE(i);
+    CHECK(std::abs(got[2 * i] - wanted[i]) <= 0.0005 + 1e-9);
+    ++compared;
+  }
+  CHECK(compared > 100);
+}
 
 TEST_CASE("each shipped robot reaches its first goal with its real drivers on emulated devices",
           "[system][hardware]") {

@@ -248,18 +248,6 @@ TEST_CASE("a line that sends back what it is sent is not taken for a laser", "[s
   CHECK(run.says("sends back what it is sent, and no laser answers"));
 }
 
-TEST_CASE("a laser that was just switched on is waited for as long as patience says", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  SickLmsSettings settings;
-  settings.power_up = 10s;
-  Laser laser(device, settings);
-  show_place(laser);
-  Subprocess program(deployer(listen(device, {"--set", "patience=40 s"})));
-  CHECK(program.wait_for_output("connected to", Seconds(40)));
-  CHECK(eventually([&] { return scans_sent(laser) > 3; }));
-}
-
 TEST_CASE("a laser that is unplugged while it scans comes back", "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("lms");

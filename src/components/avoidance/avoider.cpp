@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "orca/base/portable_math.hpp"
 #include "orca/geometry/arc.hpp"
@@ -101,14 +102,15 @@ Status Avoider::start() {
   heard_at_.reset();
   moved_at_.reset();
   last_direction_ = 0.0;
-  return ask_robot();
+  body_.reset();
+  sensor_is_elsewhere_ = false;
+  return ask_robot(std::string(sensed().name));
 }
 
-Status Avoider::ask_robot() {
-  body_.reset();
+Status Avoider::ask_robot(const std::string& about) {
   if (!robot_.connected()) return ok();
   auto ask = robot_.loan();
-  ask->about() = std::string(sensed().name);
+  ask->about() = about;
   const Result<QueryId> sent = robot_.query_request(std::move(ask));
   if (!sent) return fail(sent.error().code, "cannot ask the base about the robot: " + sent.error().message);
   question_ = *sent;
@@ -119,6 +121,9 @@ Status Avoider::learn_robot() {
   const auto answer = question_ ? robot_.query_receive(*question_) : std::nullopt;
   if (!answer) return ok();
   question_.reset();
+  // A sensor on a line of its own is none of the base's.
+  if (!*answer && answer->error().code == Code::not_found && !std::exchange(sensor_is_elsewhere_, true))
+    return ask_robot("limits");
   if (!*answer)
     return fail(answer->error().code, "the base does not describe the robot: " + answer->error().message);
   const idl::Robot& robot = ***answer;

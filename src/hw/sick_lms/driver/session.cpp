@@ -239,10 +239,9 @@ Error Session::nobody() const {
   if (!rate_trouble_.empty())
     return fail(Code::not_found, "no laser answers at " + where + " any more; " + rate_trouble_ +
                                      "; switch it off and on, and write rate=\"38400\"");
-  return fail(Code::not_found,
-              "no laser answers at " + where +
-                  "; is it switched on (then it needs up to a minute: see patience), is this "
-                  "its serial port, and are its two data lines crossed as they must be?");
+  return fail(Code::not_found, "no laser answers at " + where +
+                                   "; is it switched on (then it needs up to a minute), is this "
+                                   "its serial port, and are its two data lines crossed as they must be?");
 }
 
 Error Session::refused(const std::string& what) const {

@@ -272,7 +272,8 @@ class SickLms final : public orca::hw::LineDriver {
                                 {.unit = "s",
                                  .min = 0.0,
                                  .max = 600.0,
-                                 .text = "For how long a laser is waited for that was just switched on."}};
+                                 .text = "For how long a laser is waited for that was just switched on; the "
+                                         "deployer gives up after 10 s."}};
   orca::Param<double> x_{
       *this, "x", 0.0, {.unit = "m", .text = "Where it sits on the robot: ahead of the middle."}};
   orca::Param<double> y_{*this, "y", 0.0, {.unit = "m", .text = "To the left of the middle."}};
