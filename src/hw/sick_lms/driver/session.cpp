@@ -116,20 +116,26 @@ Status Session::take(const Reply& reply, TimePoint now) {
   return answers(reply) ? take_answer(reply, now) : ok();
 }
 
-// Returns whether it is an answer to the present step, and no scan that was on its way.
-bool Session::answers(const Reply& reply) const {
-  switch (step_) {
-    case Step::find: return parse_mode_answer(reply) == ModeAnswer::success;
-    case Step::type: return reply.code == ReplyCode::type || reply.code == ReplyCode::not_accepted;
-    case Step::read: return reply.code == ReplyCode::configuration || reply.code == ReplyCode::not_accepted;
-    case Step::write: return reply.code == ReplyCode::written || reply.code == ReplyCode::not_accepted;
-    case Step::confirm: return reply.code == ReplyCode::status || reply.code == ReplyCode::not_accepted;
-    case Step::variant: return reply.code == ReplyCode::variant || reply.code == ReplyCode::not_accepted;
+// Returns the code of an answer to a step, beside that of a refusal; nothing: none comes.
+std::optional<ReplyCode> Session::answer_to(Step step) {
+  switch (step) {
+    case Step::type: return ReplyCode::type;
+    case Step::read: return ReplyCode::configuration;
+    case Step::write: return ReplyCode::written;
+    case Step::confirm: return ReplyCode::status;
+    case Step::variant: return ReplyCode::variant;
     case Step::install:
     case Step::leave:
-    case Step::rate: return reply.code == ReplyCode::mode || reply.code == ReplyCode::not_accepted;
-    default: return false;
+    case Step::rate: return ReplyCode::mode;
+    default: return std::nullopt;
   }
+}
+
+// Returns whether it is an answer to the present step, and no scan that was on its way.
+bool Session::answers(const Reply& reply) const {
+  if (step_ == Step::find) return parse_mode_answer(reply) == ModeAnswer::success;
+  const std::optional<ReplyCode> answer = answer_to(step_);
+  return answer && (reply.code == *answer || reply.code == ReplyCode::not_accepted);
 }
 
 Status Session::take_answer(const Reply& reply, TimePoint now) {
@@ -139,23 +145,27 @@ Status Session::take_answer(const Reply& reply, TimePoint now) {
     case Step::type: type_ = parse_type(reply).value_or(""); return say(Step::read, now);
     case Step::read: return take_configuration(reply, now);
     case Step::install: return chosen ? say(Step::write, now) : Status(refused("the password SICK_LMS"));
-    case Step::write: {
-      const std::optional<WriteAnswer> answer = parse_written(reply);
-      if (!answer || !answer->is_accepted) return refused("a configuration with the wished unit");
-      configuration_ = answer->configuration;
-      return say(Step::leave, now);
-    }
+    case Step::write: return take_written(reply, now);
     case Step::leave: return chosen ? choose_rate(now) : Status(refused("to send scans"));
     case Step::rate: return take_rate(reply, now);
     case Step::confirm: return say(Step::variant, now);
-    case Step::variant: {
-      const std::optional<VariantAnswer> answer = parse_variant(reply);
-      if (!answer || !answer->is_accepted || !(answer->variant == wishes_.variant))
-        return refused("the wished angle and resolution; write another angle or resolution");
-      return say(Step::done, now);
-    }
+    case Step::variant: return take_variant(reply, now);
     default: return ok();
   }
+}
+
+Status Session::take_written(const Reply& reply, TimePoint now) {
+  const std::optional<WriteAnswer> answer = parse_written(reply);
+  if (!answer || !answer->is_accepted) return refused("a configuration with the wished unit");
+  configuration_ = answer->configuration;
+  return say(Step::leave, now);
+}
+
+Status Session::take_variant(const Reply& reply, TimePoint now) {
+  const std::optional<VariantAnswer> answer = parse_variant(reply);
+  if (!answer || !answer->is_accepted || !(answer->variant == wishes_.variant))
+    return refused("the wished angle and resolution; write another angle or resolution");
+  return say(Step::done, now);
 }
 
 Status Session::take_configuration(const Reply& reply, TimePoint now) {

@@ -79,8 +79,11 @@ class Session {
   [[nodiscard]] Result<Telegram> request() const;
   [[nodiscard]] Duration patience() const;
   Status take(const Reply& reply, TimePoint now);
+  [[nodiscard]] static std::optional<ReplyCode> answer_to(Step step);
   [[nodiscard]] bool answers(const Reply& reply) const;
   Status take_answer(const Reply& reply, TimePoint now);
+  Status take_written(const Reply& reply, TimePoint now);
+  Status take_variant(const Reply& reply, TimePoint now);
   Status take_configuration(const Reply& reply, TimePoint now);
   Status choose_rate(TimePoint now);
   [[nodiscard]] Result<bool> can_have(std::uint32_t baud);
