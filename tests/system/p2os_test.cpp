@@ -73,6 +73,22 @@ TEST_CASE("a Pioneer drives to its goals over a serial line, and its motors are 
   CHECK_FALSE(pioneer.with([](P2osFirmware& firmware, PlainBody&) { return firmware.is_open(); }));
 }
 
+TEST_CASE("what goes over the line is kept where the graph says so", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  const std::string log = folder.file("bytes");
+  Pioneer pioneer(device);
+  const Run run = run_deployer(drive(device, {"--set", "pioneer.byte_log=" + log}), Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  std::ifstream file(log);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  CHECK_THAT(text, Catch::StartsWith("# orca byte log 1\n"));
+  CHECK_THAT(text, Contains("out  fa fb 03 00 00 00\n"));           // SYNC0
+  CHECK_THAT(text, Contains("out  fa fb 06 04 3b 01 00 05 3b\n"));  // power for the motors
+  CHECK_THAT(text, Contains("out  fa fb 03 02 00 02\n"));           // CLOSE
+}
+
 TEST_CASE("the rate of the line is found", "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("pioneer");
@@ -144,6 +160,9 @@ TEST_CASE(
   REQUIRE(back);
   std::this_thread::sleep_for(500ms);
   CHECK(stands(pioneer));
+  const Run counted = run_orcactl({"query", "base.DeviceStatisticsQuery", "<Ask/>"});
+  CHECK_THAT(counted.out, Contains("connections=\"2\"") &&
+                              Contains("is the adapter plugged in?", Catch::CaseSensitive::No));
   CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);
   CHECK(eventually([&] { return is_moving(pioneer); }));
   program.send(SIGINT);
