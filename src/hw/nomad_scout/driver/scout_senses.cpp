@@ -30,12 +30,7 @@ std::string bumper_name(std::size_t number) { return "bumper " + std::to_string(
 }  // namespace
 
 ScoutSenses::ScoutSenses(double track, Duration cycle)
-    : track_(track),
-      cycle_(cycle),
-      odometry_(kPeriod),
-      sonar_(kPeriod),
-      bumpers_(kPeriod),
-      battery_(kPeriod) {}
+    : track_(track), cycle_(cycle), odometry_(kPeriod), sonar_(cycle), bumpers_(kPeriod), battery_(kPeriod) {}
 
 std::vector<SensorEndpoint*> ScoutSenses::endpoints() { return {&odometry_, &battery_, &sonar_, &bumpers_}; }
 
@@ -96,7 +91,10 @@ void ScoutSenses::publish_odometry() {
   odometry_.publish(std::move(object));
 }
 
+// Once in a cycle: an old range that is published again would count as another echo.
 void ScoutSenses::publish_sonars() {
+  if (stamp_ - sonars_published_ < cycle_) return;
+  sonars_published_ = stamp_;
   auto object = sonar_.loan();
   object->ranges().assign(ranges_.begin(), ranges_.end());
   for (std::size_t i = 0; i < kSonars; ++i) {

@@ -73,6 +73,7 @@ class ScoutSenses {
   Pose2 pose_;          // in the frame of the odometry
   State state_;         // the last one
   TimePoint stamp_{};
+  TimePoint sonars_published_{};
   SonarRanges ranges_{};                     // [m] limited to what a sonar hears
   std::array<TimePoint, kSonars> stamps_{};  // of each
   std::array<Vec2, kBits> outwards_{};       // of each pressed switch
