@@ -105,8 +105,8 @@ TEST_CASE("each shipped robot reaches its first goal with its real drivers on em
   for (const Robot& robot : kRobots) {
     CAPTURE(robot.graph);
     const TempFolder folder;
-    const Run run = run_deployer(
-        emulate(robot, folder) + Words{"--set", "goals=door: 3.6 6 > 3.6 7.4"}, Seconds(90));
+    const Run run =
+        run_deployer(emulate(robot, folder) + Words{"--set", "goals=door: 3.6 6 > 3.6 7.4"}, Seconds(90));
     INFO(run.err);
     CHECK(run.exit_code() == 0);
     CHECK(run.arrivals().size() == 1);
