@@ -33,6 +33,20 @@ std::vector<HardwareFault> LineDriver::conflicts_with(const HardwareContainer& e
                          ", too; each device has a line of its own"}};
 }
 
+idl::Drive LineDriver::describe_wheels() const {
+  const DriveLimits& limits = motion()->limits();
+  idl::Drive drive;
+  drive.name("wheels");
+  drive.port(*device_);
+  drive.type(limits.type);
+  drive.max_speed(limits.max_speed);
+  drive.max_steer_speed(limits.max_turn_rate);
+  drive.steer_gain(limits.steer_gain);
+  drive.big_turn_angle(limits.big_turn_angle);
+  drive.big_turn_speed(limits.big_turn_speed);
+  return drive;
+}
+
 Status LineDriver::open() {
   if (Status kept = keep_bytes(); !kept.ok()) return kept;
   const Result<link::Opening> opening = line_->open();

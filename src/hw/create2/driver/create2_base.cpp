@@ -56,14 +56,7 @@ class Create2Base final : public orca::hw::LineDriver {
     robot.model("Create 2");
     robot.radius(kRadius);
     robot.bumper_radius(kRadius);
-    orca::idl::Drive drive;
-    drive.name("wheels");
-    drive.port(device());
-    drive.type(orca::idl::DIFFERENTIAL);
-    drive.max_speed(motion_->limits().max_speed);
-    drive.max_steer_speed(motion_->limits().max_turn_rate);
-    drive.steer_gain(motion_->limits().steer_gain);
-    robot.drives().push_back(drive);
+    robot.drives().push_back(describe_wheels());
     return robot;
   }
 

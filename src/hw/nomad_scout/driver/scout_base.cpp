@@ -66,17 +66,8 @@ class ScoutBase final : public orca::hw::LineDriver {
     robot.model("SuperScout");
     robot.radius(kRadius);
     robot.bumper_radius(kBumperRadius);
-    orca::idl::Drive drive;
-    drive.name("wheels");
-    drive.port(device());
-    drive.type(orca::idl::DIFFERENTIAL);
-    drive.max_speed(motion_->limits().max_speed);
-    drive.max_steer_speed(motion_->limits().max_turn_rate);
-    drive.steer_gain(motion_->limits().steer_gain);
-    drive.speed_change(*max_acceleration_);
-    drive.big_turn_angle(motion_->limits().big_turn_angle);
-    drive.big_turn_speed(motion_->limits().big_turn_speed);
-    robot.drives().push_back(drive);
+    robot.drives().push_back(describe_wheels());
+    robot.drives().back().speed_change(*max_acceleration_);
     return robot;
   }
 
@@ -228,13 +219,14 @@ class ScoutBase final : public orca::hw::LineDriver {
   orca::Param<double> sonar_interval_{
       *this,
       "sonar_interval",
-      0.06,
+      0.012,
       {.unit = "s",
        .min = 0.004,
        .max = 1.0,
-       .text =
-           "Time from one sonar's firing to that of the next, in steps of 4 ms; below 0.04 a sonar may hear "
-           "the one before it."}};
+       .text = "Time from one sonar's firing to that of the next, in steps of 4 ms. Below 0.04 a sonar may "
+               "hear the "
+               "one before it, which fires in another direction; with 16 sonars above 0.015, SonarAvoid has "
+               "forgotten an echo before the next one comes."}};
   orca::Param<double> max_command_age_{
       *this,
       "max_command_age",

@@ -55,14 +55,7 @@ class P2osBase final : public orca::hw::LineDriver {
     robot.bumper_radius(model_->radius);
     robot.length(model_->length);
     robot.width(model_->width);
-    orca::idl::Drive drive;
-    drive.name("wheels");
-    drive.port(device());
-    drive.type(orca::idl::DIFFERENTIAL);
-    drive.max_speed(motion_->limits().max_speed);
-    drive.max_steer_speed(motion_->limits().max_turn_rate);
-    drive.steer_gain(motion_->limits().steer_gain);
-    robot.drives().push_back(drive);
+    robot.drives().push_back(describe_wheels());
     return robot;
   }
 

@@ -20,12 +20,6 @@ constexpr double kLongestRange = 5.0;                          // [m]
 constexpr double kHalfLobe = 12.5 * std::numbers::pi / 180.0;  // [rad] of a Polaroid transducer
 constexpr double kSonarHeight = 0.24;                          // [m] of the front ring above the floor
 
-// The time in which all sonars fire: a packet has the echoes of eight.
-Duration round_of(const Model& model) {
-  constexpr std::size_t kEchoes = 8;
-  return kPeriod * static_cast<int>((model.sonar_poses.size() + kEchoes - 1) / kEchoes);
-}
-
 // Bumpers lie on an arc, from the left to the right, in front, and as many behind.
 Vec2 outwards(int number, int count, bool front) {
   const double step = std::numbers::pi / count;
@@ -43,7 +37,7 @@ Senses::Senses(const Model& model)
     : model_(model),
       units_(&model),
       odometry_(kPeriod),
-      sonar_(round_of(model)),
+      sonar_(kPeriod),
       bumpers_(kPeriod),
       battery_(kPeriod),
       wheels_(model.distance_unit),
@@ -74,15 +68,13 @@ void Senses::take(const Sip& sip, TimePoint stamp) {
     if (echo.index >= ranges_.size()) continue;
     ranges_[echo.index] = std::min(echo.range, kLongestRange);
     stamps_[echo.index] = stamp;
-    ++echoes_;
   }
 }
 
 void Senses::publish() {
   publish_odometry();
   publish_battery();
-  // Once in a round: an old range that is published again would count as another echo.
-  if (!ranges_.empty() && echoes_ >= ranges_.size()) publish_sonars();
+  if (!ranges_.empty() && !sip_.echoes.empty()) publish_sonars();
   if (model_.bumpers > 0) publish_bumpers();
 }
 
@@ -98,7 +90,6 @@ void Senses::publish_odometry() {
 }
 
 void Senses::publish_sonars() {
-  echoes_ = 0;
   auto object = sonar_.loan();
   object->ranges().assign(ranges_.begin(), ranges_.end());
   for (std::size_t i = 0; i < ranges_.size(); ++i) {

@@ -58,7 +58,6 @@ class Senses {
   TimePoint stamp_{};
   std::vector<double> ranges_;     // [m] the latest of each sonar
   std::vector<TimePoint> stamps_;  // of each
-  std::size_t echoes_ = 0;         // since ranges were published
 };
 
 }  // namespace orca::hw::p2os

@@ -9,6 +9,7 @@
 #include "orca/component/param.hpp"
 #include "orca/hw/container.hpp"
 #include "orca/hw/link/byte_link.hpp"
+#include "orca/idl/hardware.hpp"
 
 namespace orca::hw {
 
@@ -37,6 +38,9 @@ class LineDriver : public HardwareContainer {
   [[nodiscard]] const std::string& device() const { return *device_; }
   /// Returns whether the line has a rate, as a serial one has.
   [[nodiscard]] bool has_rate() const { return line_->byte_time() > 0.0; }
+
+  /// Returns the description of a base's wheels, by its limits. @pre  it has a motion endpoint.
+  [[nodiscard]] idl::Drive describe_wheels() const;
 
   /// Begins to find out what is at the other end. @pre  the line has just been opened.
   virtual Status begin(TimePoint now) = 0;
