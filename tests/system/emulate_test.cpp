@@ -80,7 +80,9 @@ RecordTable::Row scan_at_start(const Words& more, const TempFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("scans that went over the line are those of the world, to a millimetre", "[system][hardware]") {
+TEST_CASE(
+    "scans that went over the line are those of the world, to half a millimetre, from where they are taken",
+    "[system][hardware]") {
   const TempFolder folder;
   const RecordTable::Row sim = scan_at_start(virtual_clock(), folder);
   const RecordTable::Row real = scan_at_start(
@@ -90,6 +92,11 @@ TEST_CASE("scans that went over the line are those of the world, to a millimetre
   REQUIRE(wanted.size() == 181);
   REQUIRE(got.size() == 361);
   CHECK(number(real, "angle_start") == Approx(number(sim, "angle_start")));
+  // The driver is told where the laser sits; the simulator reads it from the robot's file.
+  for (const char* const field : {"pose.x", "pose.y", "pose.z", "pose.rotation.yaw"}) {
+    CAPTURE(field);
+    CHECK(number(real, field) == Approx(number(sim, field)).margin(1e-12));
+  }
   int compared = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (wanted[i] >= number(sim, "max_range")) continue;  // nothing comes back

@@ -84,13 +84,18 @@ void HardwareLoop::attend() {
     if (works()) record_.answered();
     return;
   }
-  if (due) record_.count(container_.counts());
-  if (due)
-    if (const Status polled = container_.poll(); !polled.ok()) return life_.fail_with(polled.error().text());
+  if (due) poll();
   check_silence();
 }
 
+void HardwareLoop::poll() {
+  const Status polled = container_.poll();
+  record_.count(container_.counts());
+  if (!polled.ok()) life_.fail_with(polled.error().text());
+}
+
 void HardwareLoop::check_silence() {
+  if (!works()) return;
   if (host_.now() < silence_ends()) return;
   char text[120];
   std::snprintf(text, sizeof text,

@@ -45,6 +45,7 @@ class HardwareLoop {
   void turn();
   void open();
   void attend();
+  void poll();
   void reopen();
   void check_silence();
   void guarded(const std::function<void()>& step);

@@ -94,6 +94,7 @@ class ScoutBase final : public orca::hw::LineDriver {
   [[nodiscard]] Duration longest_silence() const override { return 1s; }
 
   Status start() override {
+    senses_->await_sonars(host().now());
     chores_.push_back(start_sonars(as_duration(*sonar_interval_), kSonarOrder));
     return go_on();
   }

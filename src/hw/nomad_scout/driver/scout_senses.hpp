@@ -36,6 +36,9 @@ class ScoutSenses {
   /// Begins anew with a robot. The pose goes on from where it was.
   void connect();
 
+  /// Notes that the sonars are told to fire. Until each has, their ranges say nothing and are not published.
+  void await_sonars(TimePoint now) { sonars_published_ = now + cycle_; }
+
   /// Takes a state.
   /// @param stamp    when the robot sent it.
   /// @param forward  [m/s] that the wheels are told.
@@ -73,7 +76,7 @@ class ScoutSenses {
   Pose2 pose_;          // in the frame of the odometry
   State state_;         // the last one
   TimePoint stamp_{};
-  TimePoint sonars_published_{};
+  TimePoint sonars_published_{};             // last; ahead of now while the first round is awaited
   SonarRanges ranges_{};                     // [m] limited to what a sonar hears
   std::array<TimePoint, kSonars> stamps_{};  // of each
   std::array<Vec2, kBits> outwards_{};       // of each pressed switch

@@ -21,9 +21,10 @@ namespace orca::hw {
 /// the chosen source becomes a Push and a Query port named after its object type (`OdometryPush`,
 /// `OdometryQuery`). The motion endpoint becomes a Send port `MotionCommandSend`. Abilities of some bases
 /// become ports on those bases alone: `HolonomicVelocitySend` on one that moves sideways, `TurretCommandSend`
-/// on one with a turret, and `DeviceStatisticsQuery` on a device that hangs on a line. A new sensor type needs no change here. A Query is answered with the latest reading, unless
-/// it was sensed before the time that the client asks for: then with an error, unavailable. RobotBaseServer, LaserServer and
-/// TruthLocalizer add a few lines of their own.
+/// on one with a turret, and `DeviceStatisticsQuery` on a device that hangs on a line. A new sensor type needs no
+/// change here. A Query is answered with the latest reading, unless it was sensed before the time that the client
+/// asks for: then with an error, unavailable. RobotBaseServer, LaserServer and TruthLocalizer add a few lines of
+/// their own.
 ///
 /// The hardware is active while somebody subscribes, for a moment after a motion command, and while a query
 /// waits.
