@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "orca/base/random.hpp"
-#include "orca/emulators/body.hpp"
 #include "orca/emulators/firmware.hpp"
+#include "orca/hw/framing/scanner.hpp"
 
 namespace orca::test {
 
@@ -20,8 +20,9 @@ class BadLine final : public emulators::Firmware {
  public:
   using Bytes = std::vector<std::uint8_t>;
 
-  template <class... More>
-  explicit BadLine(emulators::Body& body, More&&... more) : device_(body, std::forward<More>(more)...) {}
+  /// @param body  an emulators::Body or Mirror, as the device needs it.
+  template <class Body, class... More>
+  explicit BadLine(Body& body, More&&... more) : device_(body, std::forward<More>(more)...) {}
 
   /// Lets a function change all that the device sends from now on; none: nothing.
   void spoil(std::function<void(Bytes& sent)> change) { change_ = std::move(change); }
@@ -49,14 +50,6 @@ class BadLine final : public emulators::Firmware {
   Bytes echo_;
 };
 
-/// Returns what flips a bit of some bytes, chosen at random with that chance [0..1].
-[[nodiscard]] inline std::function<void(std::vector<std::uint8_t>&)> flipped_bits(double chance) {
-  return [chance, random = RandomStream(1, "test", "bad line")](std::vector<std::uint8_t>& sent) mutable {
-    for (std::uint8_t& byte : sent)
-      if (random.uniform(0.0, 1.0) < chance) byte = static_cast<std::uint8_t>(byte ^ (1U << (random() % 8)));
-  };
-}
-
 /// Returns what puts these bytes behind each n-th byte.
 [[nodiscard]] inline std::function<void(std::vector<std::uint8_t>&)> garbage_after(
     int n, std::vector<std::uint8_t> garbage) {
@@ -79,11 +72,20 @@ class BadLine final : public emulators::Firmware {
   };
 }
 
-/// Returns what changes every 40th byte, so that no longer packet is whole. Two changes do not make up for each other in a sum.
-[[nodiscard]] inline std::function<void(std::vector<std::uint8_t>&)> all_spoiled() {
-  return [count = 0U](std::vector<std::uint8_t>& sent) mutable {
-    for (std::uint8_t& byte : sent)
-      if (++count % 40 == 0) byte = static_cast<std::uint8_t>(byte ^ (1U << (count / 40 % 7)));
+/// Returns what flips one bit of one in so many frames that the device sends, wherever in the frame.
+[[nodiscard]] inline std::function<void(std::vector<std::uint8_t>&)> one_frame_spoiled_in(
+    int n, const hw::framing::Protocol& protocol) {
+  return [n, scanner = hw::framing::Scanner(protocol), random = RandomStream(1, "test", "spoiled"),
+          count = 0](std::vector<std::uint8_t>& sent) mutable {
+    std::vector<std::uint8_t> passed;
+    scanner.feed(sent, [&](const hw::framing::Frame& frame) {
+      const auto begin = static_cast<std::ptrdiff_t>(passed.size());
+      passed.insert(passed.end(), frame.bytes.begin(), frame.bytes.end());
+      if (++count % n == 0)
+        passed[static_cast<std::size_t>(begin) + random() % frame.bytes.size()] ^=
+            static_cast<std::uint8_t>(1U << (random() % 8));
+    });
+    sent = std::move(passed);
   };
 }
 

@@ -50,9 +50,6 @@ Pose2 pose(Create& create) {
 std::vector<int> commands(Create& create) {
   return create.with([](BadCreate& line, PlainBody&) { return line.device().commands(); });
 }
-void spoil(Create& create, const std::function<void(std::vector<std::uint8_t>&)>& change) {
-  create.with([&](BadCreate& line, PlainBody&) { line.spoil(change); });
-}
 
 // Drives to the goals of the graph, and checks that the robot got there.
 void check_goals(Create& create, const std::string& device) {
@@ -228,40 +225,5 @@ TEST_CASE("a Create 2 that is lifted up or connected to its charger stands until
   std::this_thread::sleep_for(500ms);
   CHECK(stands(create));
   CHECK(mode(create) == Create2Mode::passive);
-  check_release(create);
-}
-
-TEST_CASE("a Create 2 gets to its goals over a bad line", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
-  Create create(device);
-  // A frame has 36 bytes.
-  SECTION("with garbage between its frames") { spoil(create, garbage_after(36, {0x13, 0x05, 0x00})); }
-  SECTION("with garbage within some of them") { spoil(create, garbage_after(1001, {0x13, 0xF0, 0x07})); }
-  SECTION("that spoils one in a hundred of them") { spoil(create, flipped_bits(0.01 / 36.0)); }
-  SECTION("that delivers several at a time") { spoil(create, glued(40)); }
-  SECTION("that echoes what it is sent") {
-    create.with([](BadCreate& line, PlainBody&) { line.echo(true); });
-  }
-  check_goals(create, device);
-}
-
-TEST_CASE("a Create 2 of which no frame comes whole any more is stopped, and stands until it is let go",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
-  Create create(device);
-  Subprocess program(deployer(drive(device, far_goal())));
-  set_off(create);
-  spoil(create, [count = 0U](std::vector<std::uint8_t>& sent) mutable {
-    for (std::uint8_t& byte : sent)
-      if (++count % 30 == 0) byte = static_cast<std::uint8_t>(byte ^ (1U << (count / 30 % 7)));
-  });
-  REQUIRE(program.wait_for_output("is it still connected and switched on?", Seconds(20 * kSlowdown)));
-  REQUIRE(eventually([&] { return stands(create); }));
-  spoil(create, nullptr);
-  REQUIRE(program.wait_for_output("it works again", Seconds(30 * kSlowdown)));
-  std::this_thread::sleep_for(500ms);
-  CHECK(stands(create));
   check_release(create);
 }

@@ -24,6 +24,7 @@ namespace {
 constexpr Duration kLongestLastWords = 50ms;
 constexpr Duration kHeldByAdapter = 20ms;  // a USB adapter collects bytes for 16 ms
 constexpr std::chrono::milliseconds kPauseInLastWords{1};
+constexpr Duration kLongestHold = 500ms;  // of the line, while bytes wait
 
 // Opened as a file, some devices do things: a watchdog starts to count. So it is looked at before.
 Status check_kind(const std::string& path, const std::string& name) {
@@ -55,6 +56,8 @@ Result<Opening> SerialLink::open() {
   path_ = resolved(*path);
   if (identity_.empty() && !places_->holds(*path)) identity_ = places_->identity_of(*path);
   stream_->attach(std::move(*terminal));
+  flowed_ = steady_now();
+  waited_ = 0;
   return Opening::done;
 }
 
@@ -130,13 +133,35 @@ void SerialLink::let_last_words_out() {
     std::this_thread::sleep_for(kPauseInLastWords);
 }
 
-Result<std::size_t> SerialLink::read(std::span<std::uint8_t> into) { return stream_->read(into); }
+// Fails when bytes wait and none of them has gone for too long.
+Status SerialLink::check_flow() {
+  const std::size_t waiting = pending();
+  const TimePoint now = steady_now();
+  if (waiting == 0 || waiting < waited_) flowed_ = now;
+  waited_ = waiting;
+  if (now - flowed_ < kLongestHold) return ok();
+  return fail(
+      Code::deadline_exceeded,
+      "the device takes nothing any more, " + std::to_string(waiting) +
+          " bytes wait; is the line held back by flow control (an XOFF, a cable with RTS and CTS), or "
+          "does its adapter hang? Then unplug it and plug it in again",
+      name());
+}
+
+Result<std::size_t> SerialLink::read(std::span<std::uint8_t> into) {
+  Result<std::size_t> count = stream_->read(into);
+  if (!count || *count > 0) return count;
+  const Status flows = check_flow();
+  return flows.ok() ? count : flows.error();
+}
 
 Status SerialLink::write(std::span<const std::uint8_t> bytes) {
-  Status written = stream_->write(bytes);
-  if (written.ok())
-    busy_until_ =
-        std::max(busy_until_, steady_now()) + from_seconds(static_cast<double>(bytes.size()) * byte_time());
+  Status written = stream_->is_attached() ? check_flow() : ok();
+  if (written.ok()) written = stream_->write(bytes);
+  if (!written.ok()) return written;
+  waited_ = pending();
+  busy_until_ =
+      std::max(busy_until_, steady_now()) + from_seconds(static_cast<double>(bytes.size()) * byte_time());
   return written;
 }
 
@@ -155,6 +180,7 @@ void SerialLink::discard_input() {
 void SerialLink::discard_output() {
   stream_->discard_output();
   busy_until_ = {};
+  waited_ = 0;
   if (stream_->is_attached()) (void)ioctl(stream_->descriptor(), TCFLSH, TCOFLUSH);
 }
 

@@ -233,6 +233,55 @@ TEST_CASE("closing waits for the last words at the line's rate, but not for a de
   CHECK(stuck < 5s);
 }
 
+TEST_CASE("a line that is held back is told after half a second, and what waited does not go out later",
+          "[hw][link][serial]") {
+  const TempFolder folder;
+  PtyLink device;
+  must_open(device);
+  const Descriptor port = open_plainly(device.device());
+  SerialLink link(serial_at(folder, device.device()));
+  must_open(link);
+  must_write(link, bytes_of("before "));
+  CHECK(text_of(read_bytes(device, 7)) == "before ");
+  REQUIRE(ioctl(port.number(), TCXONC, TCOOFF) == 0);
+  must_write(link, bytes_of("late"));
+  CHECK(read_some(link).empty());
+  std::optional<Error> told;
+  REQUIRE(soon([&] {
+    const Result<std::size_t> count = link.read(std::span<std::uint8_t>{});
+    if (!count) told = count.error();
+    return told.has_value();
+  }));
+  CHECK(told->code == Code::deadline_exceeded);
+  CHECK_THAT(told->message, Contains("takes nothing any more, 4 bytes wait; is the line held back"));
+  CHECK(link.write(bytes_of("refused")).error().code == Code::deadline_exceeded);
+  link.close();
+  REQUIRE(ioctl(port.number(), TCXONC, TCOON) == 0);
+  must_open(link);
+  must_write(link, bytes_of("after"));
+  CHECK(text_of(read_bytes(device, 5)) == "after");
+}
+
+TEST_CASE("a line that is slow, but takes what it gets, is not told as held back", "[hw][link][serial]") {
+  const TempFolder folder;
+  PtyLink device;
+  must_open(device);
+  const Descriptor port = open_plainly(device.device());
+  SerialLink link(serial_at(folder, device.device()));
+  must_open(link);
+  const TimePoint end = steady_now() + 1500ms;
+  while (steady_now() < end) {  // now and then some bytes go, and never all
+    must_write(link, Bytes(8, 0x55));
+    REQUIRE(ioctl(port.number(), TCXONC, TCOOFF) == 0);
+    must_write(link, Bytes(8, 0x55));
+    std::this_thread::sleep_for(200ms);
+    REQUIRE(ioctl(port.number(), TCXONC, TCOON) == 0);
+    REQUIRE(link.flush().ok());
+    (void)read_some(device);
+  }
+  CHECK(link.pending() == 0);
+}
+
 TEST_CASE("an adapter that is unplugged is told as gone, and found again where it comes back",
           "[hw][link][serial]") {
   const TempFolder folder;

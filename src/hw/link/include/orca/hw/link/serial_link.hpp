@@ -33,7 +33,9 @@ struct SerialOptions {
 /// in by-id or by-path is always followed. By-path is the choice for two adapters of one make without serial numbers, which
 /// have one name in by-id.
 ///
-/// What is pending includes what the driver of the port still holds. close() lets out what was written last, which is
+/// What is pending includes what the driver of the port still holds. A device that takes none of it for half a second, because an
+/// XOFF or the wires of flow control hold it back, has failed (deadline_exceeded): what waits would reach it too late, so close()
+/// drops it. close() lets out what was written last, which is
 /// often a command to stop, but waits at most 50 ms for that, and puts the old settings back.
 ///
 /// Thread contract: one strand.
@@ -63,6 +65,7 @@ class SerialLink final : public ByteLink {
   [[nodiscard]] Result<std::string> locate() const;
   [[nodiscard]] Result<Descriptor> claim(const std::string& path);
   [[nodiscard]] Status take(int terminal);
+  [[nodiscard]] Status check_flow();
   void let_last_words_out();
 
   SerialOptions options_;
@@ -72,8 +75,10 @@ class SerialLink final : public ByteLink {
   std::string identity_;  // the path in by-id of the adapter that was opened first, by another name
   std::string path_;
   std::optional<TimePoint> waits_since_;  // for a device that is not there
-  TimePoint
-      busy_until_;  // with what was written, on the system's clock, if the device takes it at the line's rate
+  // On the system's clock: how long the line is busy with what was written, at its rate; and when it was last seen to take some.
+  TimePoint busy_until_;
+  TimePoint flowed_;
+  std::size_t waited_ = 0;  // bytes, at that look
 };
 
 }  // namespace orca::hw::link
