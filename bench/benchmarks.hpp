@@ -16,5 +16,6 @@ void register_graph();
 void register_sim_cast();
 void register_sim_world();
 void register_sim_scaling();
+void register_stalling_device();
 
 }  // namespace orca::bench

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "orca/emulators/command_diary.hpp"
 #include "orca/geometry/arc.hpp"
 #include "orca/hw/framing/checksums.hpp"
 
@@ -118,7 +119,7 @@ void Create2Firmware::obey(TimePoint now) {
   if (is_heard && command_.size() < 1 + data_of(command_)) return;
   const std::vector<std::uint8_t> command = std::exchange(command_, {});
   if (!is_heard) return;
-  commands_.push_back(command[0]);
+  note_command(commands_, command[0]);
   carry_out(command[0], Bytes(command).subspan(1), now);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "orca/emulators/command_diary.hpp"
 #include "orca/hw/framing/checksums.hpp"
 
 namespace orca::emulators {
@@ -143,7 +144,7 @@ void NomadScoutFirmware::obey(Bytes packet, TimePoint now) {
   last_command_ = now;
   fed_ = true;
   const int type = packet[3];
-  commands_.push_back(type);
+  note_command(commands_, type);
   const Bytes payload = packet.subspan(4, packet.size() - 6);
   if (payload.size() < payload_of(type)) return send(kNak, {}, now);
   if (carry_out(type, payload, now) || set(type, payload, now)) return send(type, state(now), now);

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "orca/emulators/command_diary.hpp"
 #include "orca/hw/framing/checksums.hpp"
+#include "p2os_config.hpp"
+#include "p2os_servo.hpp"
 
 namespace orca::emulators {
 namespace {
@@ -14,6 +17,7 @@ using Bytes = std::span<const std::uint8_t>;
 using hw::framing::Finding;
 
 constexpr std::size_t kLongest = 258;
+constexpr double kTurnDegree = std::numbers::pi / 180.0;
 constexpr int kSonarsEachTime = 8;  // two groups fire in a cycle
 constexpr std::uint8_t kSyncLost = 0xFF;
 
@@ -22,11 +26,20 @@ enum Number {
   kOpen = 1,
   kClose = 2,
   kEnable = 4,
+  kSetv = 6,
+  kSeto = 7,
+  kMove = 8,
+  kRotate = 9,
+  kSetrv = 10,
   kVel = 11,
+  kHead = 12,
+  kDhead = 13,
+  kConfig = 18,
   kRvel = 21,
   kSonar = 28,
   kStop = 29,
   kVel2 = 32,
+  kBumpstall = 44,
   kHostbaud = 50,
   kEstop = 55,
   kReset = 253
@@ -99,7 +112,10 @@ P2osFirmware::P2osFirmware(Body& body, P2osSettings settings)
     : body_(body),
       settings_(std::move(settings)),
       scanner_({.look = find_packet, .longest = kLongest}),
-      baud_(settings_.baud) {}
+      baud_(settings_.baud),
+      servo_(std::make_unique<P2osServo>()) {}
+
+P2osFirmware::~P2osFirmware() = default;
 
 void P2osFirmware::take(Bytes bytes, std::uint32_t baud, TimePoint now) {
   host_baud_ = baud;
@@ -114,8 +130,8 @@ void P2osFirmware::obey(Bytes body, TimePoint now) {
   fed_ = true;
   const int number = body[0];
   if (!open_) return shake_hands(number, now);
-  commands_.push_back(number);
-  carry_out(number, argument_of(body));
+  note_command(commands_, number);
+  carry_out(number, argument_of(body), now);
 }
 
 // SYNC0, SYNC1, SYNC2 are sent back, the last one with the names of the robot; then OPEN, which is 1 like SYNC1.
@@ -138,37 +154,59 @@ void P2osFirmware::shake_hands(int number, TimePoint now) {
   send(std::move(answer), now);
 }
 
-void P2osFirmware::carry_out(int number, int value) {
+void P2osFirmware::carry_out(int number, int value, TimePoint now) {
+  if (set_motion(number, value)) return drive();
   switch (number) {
-    case kPulse: return;
     case kClose:
       stop();
       power_ = sonar_ = open_ = false;
       syncs_ = 0;
       return;
     case kEnable: power_ = value != 0 && !button_; return drive();
-    case kVel: wanted_.forward = 0.001 * value; return drive();
-    case kRvel: wanted_.turn_rate = value * std::numbers::pi / 180.0; return drive();
-    case kVel2: {
-      const double right = 0.02 * static_cast<std::int8_t>(value & 0xFF);
-      const double left = 0.02 * static_cast<std::int8_t>((value >> 8) & 0xFF);
-      wanted_ = {0.5 * (left + right), 0.0, 0.5 * (right - left) / settings_.half_track};
-      return drive();
-    }
+    case kSetv: return servo_->set_speed(0.001 * std::abs(value));
+    case kSetrv: return servo_->set_turn_rate(kTurnDegree * std::abs(value));
+    case kSeto: origin_ = body_.odometry(); return;
+    case kConfig: return send(p2os_config(settings_), now);
     case kSonar: sonar_ = value != 0; return;
     case kStop:
     case kEstop: return stop();
-    case kHostbaud: {
-      constexpr std::uint32_t kRates[] = {9600, 19200, 38400, 57600, 115200};
-      if (value >= 0 && value < 5) baud_ = kRates[value];
-      return;
-    }
+    case kBumpstall: bumpers_stall_ = value; return;
+    case kHostbaud: return set_baud(value);
     case kReset: return restart();
     default: return;
   }
 }
 
+// Returns whether it was a command to move.
+bool P2osFirmware::set_motion(int number, int value) {
+  switch (number) {
+    case kMove: servo_->move(0.001 * value, body_.odometry()); return true;
+    case kHead: servo_->turn_to(kTurnDegree * value + origin_.yaw); return true;
+    case kDhead: servo_->turn_to(kTurnDegree * value + body_.odometry().yaw); return true;
+    case kVel: wanted_.forward = 0.001 * value; break;
+    case kRotate:
+    case kRvel: wanted_.turn_rate = kTurnDegree * value; break;
+    case kVel2: set_wheels(value); break;
+    default: return false;
+  }
+  servo_->cease();
+  return true;
+}
+
+// The low byte is the right wheel's.
+void P2osFirmware::set_wheels(int value) {
+  const double right = 0.02 * static_cast<std::int8_t>(value & 0xFF);
+  const double left = 0.02 * static_cast<std::int8_t>((value >> 8) & 0xFF);
+  wanted_ = {0.5 * (left + right), 0.0, 0.5 * (right - left) / settings_.half_track};
+}
+
+void P2osFirmware::set_baud(int code) {
+  constexpr std::uint32_t kRates[] = {9600, 19200, 38400, 57600, 115200};
+  if (code >= 0 && code < 5) baud_ = kRates[code];
+}
+
 void P2osFirmware::stop() {
+  servo_->cease();
   wanted_ = {};
   drive();
 }
@@ -180,6 +218,8 @@ void P2osFirmware::reset(TimePoint) { restart(); }
 void P2osFirmware::restart() {
   stop();
   power_ = sonar_ = open_ = false;
+  bumpers_stall_ = 0;
+  origin_ = body_.odometry();
   syncs_ = 0;
   baud_ = settings_.baud;
   line_.clear();
@@ -197,6 +237,10 @@ std::vector<std::uint8_t> P2osFirmware::advance(TimePoint now) {
     if (!(wanted_ == Twist2{})) ++watchdog_stops_;
     stop();
   }
+  if (servo_->works()) {
+    wanted_ = servo_->velocity(body_.odometry());
+    drive();
+  }
   for (; open_ && now >= next_information_; next_information_ += settings_.cycle)
     send_information(next_information_);
   return line_.leave(now, host_baud_ == 0 || host_baud_ == baud_);
@@ -211,19 +255,29 @@ void P2osFirmware::send(std::vector<std::uint8_t> body, TimePoint now) {
   line_.send(packet, byte_time(), now);
 }
 
+// Where it is, in the frame in which its odometry was set to 0.
+Pose2 P2osFirmware::pose() const { return seen_from(origin_, body_.odometry()); }
+
+bool P2osFirmware::is_stalled() const {
+  const unsigned bumpers = body_.bumpers();
+  const bool front = (bumpers_stall_ & 1) != 0 && (bumpers & 0x7F) != 0;
+  const bool rear = (bumpers_stall_ & 2) != 0 && ((bumpers >> 8) & 0x7F) != 0;
+  return body_.is_stalled() || front || rear;
+}
+
 void P2osFirmware::send_information(TimePoint now) {
-  const Pose2 pose = body_.odometry();
+  const Pose2 here = pose();
   const Twist2 velocity = body_.velocity();
   const double turning = velocity.turn_rate * settings_.half_track;
   const bool moves = !(velocity == Twist2{});
   std::vector<std::uint8_t> body{static_cast<std::uint8_t>(moves ? 0x33 : 0x32)};
-  add_word(body, std::lround(pose.x / settings_.distance_unit) & 0x7FFF);
-  add_word(body, std::lround(pose.y / settings_.distance_unit) & 0x7FFF);
-  add_word(body, std::lround(pose.yaw * 4096.0 / (2.0 * std::numbers::pi)));
+  add_word(body, std::lround(here.x / settings_.distance_unit) & 0x7FFF);
+  add_word(body, std::lround(here.y / settings_.distance_unit) & 0x7FFF);
+  add_word(body, std::lround(here.yaw * 4096.0 / (2.0 * std::numbers::pi)));
   add_word(body, std::lround(1000.0 * (velocity.forward - turning)));
   add_word(body, std::lround(1000.0 * (velocity.forward + turning)));
   body.push_back(127);  // 12.7 V
-  const unsigned stall = body_.is_stalled() ? 1 : 0;
+  const unsigned stall = is_stalled() ? 1 : 0;
   const unsigned bumpers = body_.bumpers();
   body.push_back(static_cast<std::uint8_t>(stall | (((bumpers >> 8) & 0x7F) << 1)));
   body.push_back(static_cast<std::uint8_t>(stall | ((bumpers & 0x7F) << 1)));

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "orca/emulators/command_diary.hpp"
 #include "orca/hw/framing/checksums.hpp"
 #include "sick_lms_scan.hpp"
 
@@ -154,7 +155,7 @@ void SickLmsFirmware::turn_mirror(TimePoint now) {
 }
 
 void SickLmsFirmware::obey(Bytes payload, TimePoint now) {
-  commands_.push_back(payload[0]);
+  note_command(commands_, payload[0]);
   constexpr std::array<std::uint8_t, 1> kAck{0x06};
   if (settings_.acknowledges) send(kAck, now);
   const Bytes data = payload.subspan(1);

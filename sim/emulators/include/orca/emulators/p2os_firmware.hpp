@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@
 
 namespace orca::emulators {
 
+class P2osServo;
+
 struct P2osSettings {
   std::string name = "Orca_Emu";
   std::string robot_class = "Pioneer";
@@ -25,6 +28,8 @@ struct P2osSettings {
   double range_unit = 0.000268;    ///< [m] a count of a sonar range.
   double half_track = 1.0 / 5.6;   ///< [m] half the distance of the wheels.
   int sonars = 16;
+  unsigned front_bumpers = 5;
+  unsigned rear_bumpers = 5;
   Duration cycle = 100ms;     ///< [s] between two information packets.
   Duration watchdog = 2s;     ///< [s] without a command until the robot stops.
   std::uint32_t baud = 9600;  ///< After power-on.
@@ -41,12 +46,17 @@ struct P2osSettings {
 ///
 /// A line that the host has set to another rate carries no command either way. What is sent takes its time at the rate.
 ///
+/// It sets its odometry to 0, drives ways and turns to headings by itself (MOVE, HEAD, DHEAD), tells its configuration, and
+/// lets bumpers raise a stall. What has no use for a body without grippers, gyros and serial ports of its own is
+/// passed over, as are gains and accelerations, which the body has.
+///
 /// Thread contract: not synchronised.
 /// @source  Pioneer 2 operations manual, "Client commands" and "Server information packet".
 class P2osFirmware final : public Firmware {
  public:
   /// @param body  outlives the object.
   explicit P2osFirmware(Body& body, P2osSettings settings = {});
+  ~P2osFirmware() override;
 
   void take(std::span<const std::uint8_t> bytes, std::uint32_t baud, TimePoint now) override;
   std::vector<std::uint8_t> advance(TimePoint now) override;
@@ -66,13 +76,18 @@ class P2osFirmware final : public Firmware {
  private:
   void obey(std::span<const std::uint8_t> body, TimePoint now);
   void shake_hands(int number, TimePoint now);
-  void carry_out(int number, int value);
+  void carry_out(int number, int value, TimePoint now);
+  bool set_motion(int number, int value);
+  void set_wheels(int value);
+  void set_baud(int code);
   void stop();
   void restart();
   void drive();
   void send(std::vector<std::uint8_t> body, TimePoint now);
   void send_information(TimePoint now);
   [[nodiscard]] std::vector<std::uint8_t> echoes();
+  [[nodiscard]] Pose2 pose() const;
+  [[nodiscard]] bool is_stalled() const;
   [[nodiscard]] double byte_time() const { return 10.0 / baud_; }
 
   Body& body_;
@@ -89,6 +104,9 @@ class P2osFirmware final : public Firmware {
   bool fed_ = false;  // the watchdog, since it bit
   int next_sonar_ = 0;
   Twist2 wanted_{};
+  const std::unique_ptr<P2osServo> servo_;
+  Pose2 origin_{};         // of its odometry, as the body counts
+  int bumpers_stall_ = 0;  // bit 0: those in front, bit 1: those behind
   TimePoint last_command_{};
   TimePoint next_information_{};
   int watchdog_stops_ = 0;
