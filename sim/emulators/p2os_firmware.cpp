@@ -231,6 +231,11 @@ void P2osFirmware::press_button(bool pressed) {
   drive();
 }
 
+void P2osFirmware::cut_power() {
+  power_ = false;
+  drive();
+}
+
 std::vector<std::uint8_t> P2osFirmware::advance(TimePoint now) {
   if (fed_ && now - last_command_ > settings_.watchdog) {
     fed_ = false;

@@ -211,3 +211,33 @@ TEST_CASE("the red button takes the motors' power, and only an operator gives it
   CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);
   CHECK(eventually([&] { return is_moving(pioneer); }));
 }
+
+TEST_CASE("motors that lose their power by themselves are told, and stay off until an operator lets them on",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  Subprocess program(deployer(drive(device, far_goal())));
+  REQUIRE(eventually([&] { return is_moving(pioneer); }));
+  pioneer.with([](P2osFirmware& firmware, PlainBody&) { firmware.cut_power(); });
+  CHECK(program.wait_for_output("its motors have lost their power", Seconds(20 * kSlowdown)));
+  std::this_thread::sleep_for(500ms);
+  CHECK(stands(pioneer));
+  CHECK_FALSE(has_power(pioneer));
+  CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);
+  CHECK(eventually([&] { return is_moving(pioneer); }));
+}
+
+TEST_CASE("a Pioneer tells what it has and how often it is told of it", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  Subprocess program(deployer(drive(device, far_goal())));
+  REQUIRE(eventually([&] { return is_moving(pioneer); }));
+  const Run asked = run_orcactl({"query", "base.RobotQuery", "<Ask about=\"SonarRangeReadings\"/>"});
+  INFO(asked.out << asked.err);
+  CHECK_THAT(asked.out,
+             Contains("number=\"16\"") && Contains("update_interval=\"0.1\"") && Contains("max_range=\"5\""));
+  const Run odometry = run_orcactl({"query", "base.RobotQuery", "<Ask about=\"Odometry\"/>"});
+  CHECK_THAT(odometry.out, Contains("type=\"Odometry\"") && Contains("update_interval=\"0.1\""));
+}

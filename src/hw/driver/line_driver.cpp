@@ -7,6 +7,7 @@
 #include "orca/hw/link/byte_log.hpp"
 #include "orca/hw/link/logged_link.hpp"
 #include "orca/hw/link/make_link.hpp"
+#include "orca/idl/sensing.hpp"
 
 namespace orca::hw {
 
@@ -45,6 +46,23 @@ idl::Drive LineDriver::describe_wheels() const {
   drive.big_turn_angle(limits.big_turn_angle);
   drive.big_turn_speed(limits.big_turn_speed);
   return drive;
+}
+
+std::vector<idl::Sensor> LineDriver::describe_senses() const {
+  std::vector<idl::Sensor> all;
+  for (const SensorEndpoint* const endpoint : sensors()) {
+    const std::string type(endpoint->type().name);
+    if (type == object_type<idl::LaserRangeReadings>().name ||
+        type == object_type<idl::SonarRangeReadings>().name)
+      continue;
+    idl::Sensor sensor;
+    sensor.name(type);
+    sensor.port(*device_);
+    sensor.type(type);
+    sensor.update_interval(to_seconds(endpoint->period()));
+    all.push_back(sensor);
+  }
+  return all;
 }
 
 Status LineDriver::open() {

@@ -57,6 +57,7 @@ class Create2Base final : public orca::hw::LineDriver {
     robot.radius(kRadius);
     robot.bumper_radius(kRadius);
     robot.drives().push_back(describe_wheels());
+    robot.sensors() = describe_senses();
     return robot;
   }
 

@@ -68,6 +68,8 @@ class ScoutBase final : public orca::hw::LineDriver {
     robot.bumper_radius(kBumperRadius);
     robot.drives().push_back(describe_wheels());
     robot.drives().back().speed_change(*max_acceleration_);
+    robot.sensors() = describe_senses();
+    robot.sonar_rings().push_back(senses_->describe_sonars());
     return robot;
   }
 

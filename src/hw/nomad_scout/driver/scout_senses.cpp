@@ -34,6 +34,20 @@ ScoutSenses::ScoutSenses(double track, Duration cycle)
 
 std::vector<SensorEndpoint*> ScoutSenses::endpoints() { return {&odometry_, &battery_, &sonar_, &bumpers_}; }
 
+idl::SonarRing ScoutSenses::describe_sonars() const {
+  idl::SonarRing ring;
+  ring.name("sonars");
+  ring.type("SonarRangeReadings");
+  ring.update_interval(to_seconds(cycle_));
+  ring.number(kSonars);
+  ring.dphi(2.0 * std::numbers::pi / kSonars);
+  ring.radius(kRadius);
+  ring.half_lobe(kHalfLobe);
+  ring.min_range(kShortestRange);
+  ring.max_range(kLongestRange);
+  return ring;
+}
+
 void ScoutSenses::connect() {
   wheels_.forget();
   heading_offset_.reset();

@@ -10,6 +10,7 @@
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/nomad_scout/odometry.hpp"
 #include "orca/hw/nomad_scout/state.hpp"
+#include "orca/idl/hardware.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 
@@ -32,6 +33,7 @@ class ScoutSenses {
   ScoutSenses(double track, Duration cycle);
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
+  [[nodiscard]] idl::SonarRing describe_sonars() const;
 
   /// Begins anew with a robot. The pose goes on from where it was.
   void connect();

@@ -23,7 +23,8 @@ using orca::hw::DriveSetpoint;
 using namespace orca::hw::p2os;
 using namespace std::chrono_literals;
 
-constexpr Duration kSayAgain = 250ms;  // what it is to do, and that we live; its watchdog waits 2 s
+constexpr Duration kSayAgain = 250ms;   // what it is to do, and that we live; its watchdog waits 2 s
+constexpr Duration kPowerTime = 500ms;  // from the command for power until a packet must tell of it
 const std::vector<std::uint32_t> kRates{9600, 38400, 19200, 115200, 57600};
 
 /// The base of a Pioneer 2, PeopleBot or later robot that speaks P2OS or ARCOS.
@@ -56,6 +57,8 @@ class P2osBase final : public orca::hw::LineDriver {
     robot.length(model_->length);
     robot.width(model_->width);
     robot.drives().push_back(describe_wheels());
+    robot.sensors() = describe_senses();
+    if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);
     return robot;
   }
 
@@ -104,6 +107,7 @@ class P2osBase final : public orca::hw::LineDriver {
     applied_ = setpoint;
     if (!setpoint.stands() && !powered_) {
       powered_ = true;
+      powered_at_ = host().now();
       if (Status on = send({encode(Command::enable, 1)}); !on.ok()) return on;
     }
     return say(setpoint);
@@ -167,9 +171,17 @@ class P2osBase final : public orca::hw::LineDriver {
   void guard(const Sip& sip) {
     motion_->press(senses_->pressed());
     if (sip.left_stall || sip.right_stall) motion_->obstruct("its motors are stalled");
-    if (!sip.emergency_stop) return;
+    if (sip.emergency_stop) hold("its emergency button is pressed; release it");
+    const bool had_time = powered_ && host().now() - powered_at_ > kPowerTime;
+    if (had_time && !sip.motors_enabled)
+      hold(
+          "its motors have lost their power; was its motor button pressed, or is its battery low? Press the "
+          "button, or charge it");
+  }
+
+  void hold(const std::string& reason) {
     powered_ = false;
-    motion_->hold("its emergency button is pressed; release it, then orcactl estop --release");
+    motion_->hold(reason + ", then orcactl estop --release");
   }
 
   Status say(const DriveSetpoint& setpoint) {
@@ -201,7 +213,8 @@ class P2osBase final : public orca::hw::LineDriver {
   std::optional<Senses> senses_;
   std::optional<orca::hw::MotionHW> motion_;
   std::optional<Session> session_;
-  bool powered_ = false;   // the motors
+  bool powered_ = false;  // the motors
+  TimePoint powered_at_{};
   DriveSetpoint applied_;  // what the wheels were told last
   TimePoint say_again_{};
 };

@@ -51,6 +51,21 @@ std::vector<SensorEndpoint*> Senses::endpoints() {
   return all;
 }
 
+std::optional<idl::SonarRing> Senses::describe_sonars() const {
+  if (model_.sonar_poses.empty()) return std::nullopt;
+  idl::SonarRing ring;
+  ring.name("sonars");
+  ring.type("SonarRangeReadings");
+  ring.update_interval(to_seconds(kPeriod));
+  ring.number(static_cast<std::uint32_t>(model_.sonar_poses.size()));
+  ring.angle_sonar0(model_.sonar_poses.front().yaw);
+  ring.half_lobe(kHalfLobe);
+  ring.scale_factor(model_.range_unit);
+  ring.min_range(kShortestRange);
+  ring.max_range(kLongestRange);
+  return ring;
+}
+
 void Senses::connect(const Model& units) {
   units_ = &units;
   wheels_ = WheelOdometry(units.distance_unit);

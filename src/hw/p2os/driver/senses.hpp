@@ -9,6 +9,7 @@
 #include "orca/hw/p2os/model.hpp"
 #include "orca/hw/p2os/odometry.hpp"
 #include "orca/hw/p2os/sip.hpp"
+#include "orca/idl/hardware.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 
@@ -23,6 +24,8 @@ class Senses {
   explicit Senses(const Model& model);
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
+  /// Returns the description of the sonars; nothing if there are none.
+  [[nodiscard]] std::optional<idl::SonarRing> describe_sonars() const;
 
   /// Begins anew with a robot, whose counts have units of their own. The pose goes on from where it was.
   void connect(const Model& units);

@@ -65,6 +65,8 @@ class P2osFirmware final : public Firmware {
 
   /// Presses or releases the emergency button. The motors lose their power and do not get it back by themselves.
   void press_button(bool pressed);
+  /// Takes the motors' power, as the button for the motors on the robot does. A command gives it back.
+  void cut_power();
 
   [[nodiscard]] bool has_power() const { return power_; }
   [[nodiscard]] bool is_open() const { return open_; }

@@ -41,6 +41,9 @@ class LineDriver : public HardwareContainer {
 
   /// Returns the description of a base's wheels, by its limits. @pre  it has a motion endpoint.
   [[nodiscard]] idl::Drive describe_wheels() const;
+  /// Describes each of its sensors by the object that it delivers and the time between two: odometry, bumpers, battery. Those that
+  /// have a description of their own are left out: lasers, and rings of sonars.
+  [[nodiscard]] std::vector<idl::Sensor> describe_senses() const;
 
   /// Begins to find out what is at the other end. @pre  the line has just been opened.
   virtual Status begin(TimePoint now) = 0;
