@@ -31,6 +31,19 @@ TEST_CASE("nobody can change the size of a memory file, or take that promise bac
   CHECK((fcntl(file.descriptor(), F_GETFD) & FD_CLOEXEC) != 0);
 }
 
+TEST_CASE("a program whose standard input is closed has memory files, too", "[base][shared_memory]") {
+  const int input = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (input >= 0) close(STDIN_FILENO);
+  {
+    const auto file = MemoryFile::create("test", 4096);
+    CHECK(file);
+    if (file) CHECK(file->descriptor() == STDIN_FILENO);
+  }
+  CHECK(fcntl(STDIN_FILENO, F_GETFD) == -1);  // it was closed
+  if (input >= 0) REQUIRE(dup2(input, STDIN_FILENO) == STDIN_FILENO);
+  if (input >= 0) close(input);
+}
+
 TEST_CASE("a mapping outlives the descriptor and a move", "[base][shared_memory]") {
   auto file = std::make_optional(MemoryFile::create("test", 4096).value());
   const int descriptor = file->descriptor();

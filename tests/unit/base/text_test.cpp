@@ -33,6 +33,9 @@ TEST_CASE("a long text in quotes, or a long name in a list, loses its middle", "
   CHECK(in_quotes(std::string(301, 'a')) ==
         "\"" + std::string(150, 'a') + "...(301 bytes)..." + std::string(150, 'a') + "\"");
   CHECK(listed(Names(20, std::string(1'000'000, 'n'))).size() < 20 * 250);
+  CHECK(listed(Names{std::string(200, 'n')}) == std::string(200, 'n'));
+  CHECK(listed(Names{std::string(201, 'n')}) ==
+        std::string(100, 'n') + "...(201 bytes)..." + std::string(100, 'n'));
 }
 
 TEST_CASE("a shortened text holds whole characters only", "[base][text]") {
@@ -51,6 +54,7 @@ TEST_CASE("a printable text has nothing that a terminal obeys, and everything el
   CHECK(printable("\u00e4\u20ac\U0001f600") == "\u00e4\u20ac\U0001f600");
   CHECK(printable("a\nb\rc\td") == "a\\nb\\rc\\td");
   CHECK(printable(std::string("\0\x1b[31m\x7f", 7)) == "\\x00\\x1b[31m\\x7f");
+  CHECK(printable("\x7f\u0080\u009f\u00a0") == "\\x7f\\u0080\\u009f\u00a0");
   CHECK(printable("\u009b\u2028\u202e\u2066\u200f") == "\\u009b\\u2028\\u202e\\u2066\\u200f");
   CHECK(printable("\xff \xc3 \xe2\x82 \xed\xa0\x80 \xc0\xaf \xf5\x80\x80\x80") ==
         "\\xff \\xc3 \\xe2\\x82 \\xed\\xa0\\x80 \\xc0\\xaf \\xf5\\x80\\x80\\x80");
