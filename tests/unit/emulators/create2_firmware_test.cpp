@@ -5,9 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "hex_bytes.hpp"
 #include "orca/emulators/create2_firmware.hpp"
-#include "orca/geometry/arc.hpp"
+#include "robot_line.hpp"
 
 using namespace orca;
 using namespace std::chrono_literals;
@@ -27,55 +26,15 @@ constexpr const char* kAhead = "91 00 C8 00 C8";     // both wheels 200 mm/s
 constexpr const char* kBackward = "91 FF 38 FF 38";  // both -200 mm/s
 constexpr const char* kStand = "91 00 00 00 00";
 
-class ScriptedBody final : public emulators::Body {
- public:
-  void drive(const Twist2& velocity) override { told = velocity; }
-  [[nodiscard]] Pose2 odometry() const override { return pose; }
-  [[nodiscard]] Twist2 velocity() const override { return told; }
-  [[nodiscard]] std::optional<double> sonar(int) const override { return std::nullopt; }
-  [[nodiscard]] std::uint16_t bumpers() const override { return pressed; }
-  [[nodiscard]] bool is_stalled() const override { return stalled; }
-  [[nodiscard]] std::uint8_t cliffs() const override { return no_floor; }
-  [[nodiscard]] bool is_lifted() const override { return lifted; }
-
-  Twist2 told;
-  Pose2 pose;
-  std::uint16_t pressed = 0;
-  std::uint8_t no_floor = 0;
-  bool stalled = false;
-  bool lifted = false;
-};
-
-/// A Create 2 and its host, which hears everything that it sends.
-struct CreateLine {
-  explicit CreateLine(const Create2Settings& settings = {}) : firmware(body, settings) {
-    (void)firmware.advance(now);
-  }
-  void say(const std::string& bytes, std::uint32_t baud = 115200) { firmware.take(hex(bytes), baud, now); }
-  /// Lets time pass in steps of 1 ms, in which the body moves, and returns what was sent.
-  Bytes pass(Duration time) {
-    Bytes sent;
-    for (const TimePoint end = now + time; now < end;) {
-      now += 1ms;
-      body.pose = along_arc(body.pose, body.told * 0.001);
-      const Bytes part = firmware.advance(now);
-      sent.insert(sent.end(), part.begin(), part.end());
-    }
-    return sent;
-  }
-  std::string answer(const std::string& bytes) {
-    say(bytes);
-    return text_of(pass(10ms));
-  }
+/// A Create 2 and its host.
+struct CreateLine : emulators::test::RobotLine<Create2Firmware, Create2Settings, 115200> {
+  using RobotLine::RobotLine;
+  std::string answer(const std::string& bytes) { return RobotLine::answer(bytes, 10ms); }
   void open(const std::string& mode = kSafe) {
     say(kStart);
     say(mode);
     pass(1ms);
   }
-
-  ScriptedBody body;
-  Create2Firmware firmware;
-  TimePoint now{10s};
 };
 
 }  // namespace

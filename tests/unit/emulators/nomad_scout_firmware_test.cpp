@@ -3,12 +3,10 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <map>
 #include <numbers>
 
-#include "hex_bytes.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
-#include "orca/geometry/arc.hpp"
+#include "robot_line.hpp"
 
 using namespace orca;
 using namespace std::chrono_literals;
@@ -32,49 +30,10 @@ constexpr const char* kFireSonars =                                       // CON
     "01 13 00 0F 0F 00 02 0F 01 0E 03 0D 04 0C 05 0B 06 0A 07 09 08 AA 5C";
 constexpr const char* kNakAnswer = "01 02 00 08 0B 5C";
 
-class ScriptedBody final : public emulators::Body {
- public:
-  void drive(const Twist2& velocity) override { told = velocity; }
-  [[nodiscard]] Pose2 odometry() const override { return pose; }
-  [[nodiscard]] Twist2 velocity() const override { return measured.value_or(told); }
-  [[nodiscard]] std::optional<double> sonar(int number) const override {
-    const auto found = ranges.find(number);
-    return found == ranges.end() ? std::nullopt : std::optional<double>(found->second);
-  }
-  [[nodiscard]] std::uint16_t bumpers() const override { return pressed; }
-
-  Twist2 told;
-  std::optional<Twist2> measured;
-  Pose2 pose;
-  std::map<int, double> ranges;
-  std::uint16_t pressed = 0;
-};
-
-/// A Scout and its host, which hears everything that it sends.
-struct ScoutLine {
-  explicit ScoutLine(const NomadScoutSettings& settings = {}) : firmware(body, settings) {
-    (void)firmware.advance(now);
-  }
-  void say(const std::string& packet, std::uint32_t baud = 38400) { firmware.take(hex(packet), baud, now); }
-  /// Lets time pass in steps of 1 ms, in which the body moves, and returns what was sent.
-  Bytes pass(Duration time) {
-    Bytes sent;
-    for (const TimePoint end = now + time; now < end;) {
-      now += 1ms;
-      body.pose = along_arc(body.pose, body.told * 0.001);
-      const Bytes part = firmware.advance(now);
-      sent.insert(sent.end(), part.begin(), part.end());
-    }
-    return sent;
-  }
-  std::string answer(const std::string& packet) {
-    say(packet);
-    return text_of(pass(20ms));
-  }
-
-  ScriptedBody body;
-  NomadScoutFirmware firmware;
-  TimePoint now{10s};
+/// A Scout and its host.
+struct ScoutLine : emulators::test::RobotLine<NomadScoutFirmware, NomadScoutSettings, 38400> {
+  using RobotLine::RobotLine;
+  std::string answer(const std::string& packet) { return RobotLine::answer(packet, 20ms); }
 };
 
 }  // namespace

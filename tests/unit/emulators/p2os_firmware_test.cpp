@@ -3,13 +3,11 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <map>
 #include <numbers>
 
-#include "hex_bytes.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
-#include "orca/geometry/arc.hpp"
 #include "orca/hw/p2os/packet.hpp"
+#include "robot_line.hpp"
 
 using namespace orca;
 using namespace std::chrono_literals;
@@ -30,46 +28,10 @@ constexpr const char* kStop = "FA FB 03 1D 00 1D";
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-class RolledBody final : public emulators::Body {
- public:
-  void drive(const Twist2& velocity) override { told = velocity; }
-  [[nodiscard]] Pose2 odometry() const override { return pose; }
-  [[nodiscard]] Twist2 velocity() const override { return told; }
-  [[nodiscard]] std::optional<double> sonar(int number) const override {
-    const auto found = ranges.find(number);
-    return found == ranges.end() ? std::nullopt : std::optional<double>(found->second);
-  }
-  [[nodiscard]] std::uint16_t bumpers() const override { return pressed; }
-  [[nodiscard]] bool is_stalled() const override { return stalled; }
-
-  Twist2 told;
-  Pose2 pose;
-  std::map<int, double> ranges;
-  std::uint16_t pressed = 0;
-  bool stalled = false;
-};
-
-/// A Pioneer and its host, which hears everything that it sends.
-struct PioneerLine {
-  explicit PioneerLine(const P2osSettings& settings = {}) : firmware(body, settings) {
-    (void)firmware.advance(now);
-  }
-  void say(const std::string& bytes, std::uint32_t baud = 9600) { firmware.take(hex(bytes), baud, now); }
-  /// Lets time pass in steps of 1 ms, in which the body moves, and returns what was sent.
-  Bytes pass(Duration time) {
-    Bytes sent;
-    for (const TimePoint end = now + time; now < end;) {
-      now += 1ms;
-      body.pose = along_arc(body.pose, body.told * 0.001);
-      const Bytes part = firmware.advance(now);
-      sent.insert(sent.end(), part.begin(), part.end());
-    }
-    return sent;
-  }
-  std::string answer(const std::string& bytes) {
-    say(bytes);
-    return text_of(pass(50ms));
-  }
+/// A Pioneer and its host.
+struct PioneerLine : emulators::test::RobotLine<P2osFirmware, P2osSettings, 9600> {
+  using RobotLine::RobotLine;
+  std::string answer(const std::string& bytes) { return RobotLine::answer(bytes, 50ms); }
   void open() {
     for (const char* const step : {kSync0, kSync1, kSync2, kSync1}) (void)answer(step);
     say(kEnable);
@@ -92,10 +54,6 @@ struct PioneerLine {
     REQUIRE(packet.size() >= 30);
     return packet;
   }
-
-  RolledBody body;
-  P2osFirmware firmware;
-  TimePoint now{10s};
 };
 
 }  // namespace
