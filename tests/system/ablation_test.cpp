@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What each component of each shipped graph is for: without it the run gets worse, in the way that the comment of the graph
-// says. scout_teleop is in teleop_test.cpp, because it needs a person at the keys. scout_goto_processes and two_machines are
+// says. scout_teleop is in teleop_test.cpp, because it needs a person at the keys, and scout_player in player_server_test.cpp. scout_goto_processes and two_machines are
 // the same run as scout_goto, to which placement_test.cpp compares them, and scout_goto_two_localizers is in trading_test.cpp.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -99,8 +99,8 @@ const std::vector<Case> kCases{
 const std::set<std::string> kLeavesGoals{"scout_rounds", "scout_odometry"};
 
 // Shipped graphs that other tests look at.
-const std::set<std::string> kElsewhere{"scout_teleop", "scout_goto_processes", "scout_goto_two_localizers",
-                                       "two_machines"};
+const std::set<std::string> kElsewhere{"scout_teleop", "scout_player", "scout_goto_processes",
+                                       "scout_goto_two_localizers", "two_machines"};
 
 // Graphs of robots that exist, and those whose components they have, one for one.
 const std::map<std::string, std::string> kOfRealRobots{

@@ -51,6 +51,8 @@ const std::vector<Robot> kRobots{
 
 // Driven by a person, in real time.
 const Robot kTeleop{"scout_teleop", "", {"teleop", "avoid"}};
+// Driven by another program; rehearsed in player_server_test.cpp.
+const Robot kPlayer{"scout_player", "", {"player", "avoid"}};
 
 const Words kHows{"silent", "throw", "hang", "slow"};
 
@@ -189,6 +191,7 @@ TEST_CASE("every behaviour of every shipped graph has its rehearsal", "[system][
   for (const std::string& graph : shipped_graphs()) shipped.merge(behaviours_of(graph));
   std::vector<Robot> robots = kRobots;
   robots.push_back(kTeleop);
+  robots.push_back(kPlayer);
   std::set<std::string> rehearsed;
   for (const Robot& robot : robots)
     for (const std::string& behaviour : robot.behaviours)

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "client_session.hpp"
+
+#include <cmath>
+
+#include "orca/hw/player/banner.hpp"
+#include "orca/hw/player/payload.hpp"
+#include "orca/hw/player/session.hpp"
+
+namespace orca::player_server {
+namespace {
+
+using namespace hw::player;
+
+constexpr std::size_t kMostUnread = 256 * 1024;        // [bytes] until a client is sent no new data
+constexpr std::size_t kMostAnswers = 4 * 1024 * 1024;  // and until it is given up
+constexpr const char* kDriver = "orca";
+
+Pose2 pose_of(const Planar& planar) { return {planar.x, planar.y, planar.yaw}; }
+
+bool is_finite_twist(const Planar& planar) {
+  return std::isfinite(planar.x) && std::isfinite(planar.y) && std::isfinite(planar.yaw);
+}
+
+}  // namespace
+
+ClientSession::ClientSession(const RobotFace& face, Address address) : face_(face), address_(address) {
+  const auto banner = make_banner("3.1.0-orca");
+  output_.assign(banner.begin(), banner.end());
+}
+
+Status ClientSession::take(std::span<const std::uint8_t> bytes, TimePoint now) {
+  Status read = reader_.feed(bytes, [&](const Message& message) { obey(message, now); });
+  if (!read.ok()) return read;
+  if (output_.size() > kMostAnswers) return fail(Code::unavailable, "it asks and does not read the answers");
+  return ok();
+}
+
+void ClientSession::obey(const Message& message, TimePoint now) {
+  if (message.header.type == MessageType::command) return command(message, now);
+  if (message.header.type == MessageType::request) return answer(message);
+}
+
+// Only velocities are carried out. A command that cannot be understood is dropped, as a server of Player does.
+void ClientSession::command(const Message& message, TimePoint now) {
+  if (!uses(Interface::position2d) || id_of(message.header) != kPosition2dVelocity) return;
+  const Result<VelocityCommand> wanted = decode<VelocityCommand>(message.payload);
+  if (!wanted || !is_finite_twist(wanted->velocity)) return;
+  wish_.reset();
+  if (motors_on_ && wanted->motors_on)
+    wish_ = Wish{{wanted->velocity.x, wanted->velocity.y, wanted->velocity.yaw}, now};
+}
+
+void ClientSession::answer(const Message& message) {
+  if (message.header.address.interface == Interface::player) return answer_server(message);
+  if (!has(message.header.address)) return;
+  if (message.header.subtype == 255) {
+    const Result<Capability> asked = decode<Capability>(message.payload);
+    const MessageId id{message.header.address.interface,
+                       asked ? static_cast<MessageType>(asked->type) : MessageType::nack,
+                       asked ? asked->subtype : 0};
+    return knows(id) ? accept(message.header) : refuse(message.header);
+  }
+  answer_device(message);
+}
+
+void ClientSession::answer_server(const Message& message) {
+  const Header& header = message.header;
+  const MessageId id = id_of(header);
+  if (id == kListDevices) {
+    DeviceList list;
+    for (const Interface device : face_.devices())
+      list.devices.push_back({address_.host, address_.robot, device, 0});
+    return accept(header, encode(list));
+  }
+  if (id == kAskDriver) return tell_driver(message);
+  if (id == kSubscribe) return subscribe(message);
+  if (id == kAskData) return send_round(header);
+  if (id == kAddReplaceRule) return accept(header);  // the newest replaces others in any case
+  if (id != kSetDataMode) return;
+  const Result<DataMode> mode = decode<DataMode>(message.payload);
+  if (!mode) return refuse(header);
+  pulls_ = mode->mode == DataMode::Mode::pull;
+  accept(header);
+}
+
+void ClientSession::tell_driver(const Message& message) {
+  Result<DriverInfo> asked = decode<DriverInfo>(message.payload);
+  if (!asked || !has(asked->device)) return refuse(message.header);
+  asked->driver = kDriver;
+  accept(message.header, encode(*asked));
+}
+
+void ClientSession::subscribe(const Message& message) {
+  Result<Subscription> wish = decode<Subscription>(message.payload);
+  if (!wish || !has(wish->device)) return refuse(message.header);
+  const Interface device = wish->device.interface;
+  if (wish->access == Access::open) {
+    uses_.insert(device);
+  } else {
+    uses_.erase(device);
+    fresh_.erase(device);
+    if (device == Interface::position2d) wish_.reset();
+  }
+  wish->device.host = address_.host;
+  wish->device.robot = address_.robot;
+  wish->driver = kDriver;
+  accept(message.header, encode(*wish));
+}
+
+// The answer, what is new of each device, and the end of the round, which a client waits for.
+void ClientSession::send_round(const Header& request) {
+  accept(request);
+  for (const auto& [device, stamp] : std::exchange(fresh_, {})) send_data(device, stamp);
+  send({.address = {.interface = Interface::player}, .type = MessageType::synch, .subtype = kSynch.subtype});
+}
+
+void ClientSession::answer_device(const Message& message) {
+  const Header& header = message.header;
+  const MessageId id = id_of(header);
+  if (id == kPosition2dAskGeometry) return accept(header, encode(Geometry{.size = face_.size}));
+  if (id == kSonarAskGeometry) return accept(header, encode(face_.sonar_poses));
+  if (id == kLaserAskGeometry) return accept(header, encode(Geometry{.pose = face_.laser_pose}));
+  if (id == kLaserAskConfig) return accept(header, encode(face_.laser_config));
+  if (id == kSonarPower || id == kPosition2dVelocityMode) return accept(header);
+  if (id == kPosition2dMotorPower) {
+    const Result<Switch> power = decode<Switch>(message.payload);
+    if (!power) return refuse(header);
+    motors_on_ = power->on;
+    if (!motors_on_) wish_.reset();
+    return accept(header);
+  }
+  if (id == kPosition2dResetOdometry || id == kPosition2dSetOdometry) {
+    const Result<Planar> wanted = id == kPosition2dSetOdometry ? decode<Planar>(message.payload) : Planar{};
+    if (!wanted || !is_finite_twist(*wanted)) return refuse(header);
+    const Pose2 here = face_.state ? pose_of(face_.state->pose) : Pose2{};
+    origin_ = pose_of(*wanted) * inverse(here);
+    return accept(header);
+  }
+  refuse(header);
+}
+
+bool ClientSession::knows(const MessageId& id) const {
+  static constexpr MessageId kAll[] = {kPosition2dState,
+                                       kPosition2dVelocity,
+                                       kPosition2dAskGeometry,
+                                       kPosition2dMotorPower,
+                                       kPosition2dSetOdometry,
+                                       kPosition2dResetOdometry,
+                                       kPosition2dVelocityMode,
+                                       kSonarRanges,
+                                       kSonarAskGeometry,
+                                       kSonarPower,
+                                       kLaserScan,
+                                       kLaserAskGeometry,
+                                       kLaserAskConfig};
+  for (const MessageId& known : kAll)
+    if (known == id) return true;
+  return false;
+}
+
+bool ClientSession::has(const Address& device) const {
+  if (device.index != 0) return false;
+  for (const Interface offered : face_.devices())
+    if (offered == device.interface) return true;
+  return false;
+}
+
+void ClientSession::offer(Interface device, double stamp) {
+  if (!uses(device)) return;
+  fresh_[device] = stamp;
+  if (pulls_ || output_.size() > kMostUnread) return;
+  for (const auto& [waiting, since] : std::exchange(fresh_, {})) send_data(waiting, since);
+}
+
+Planar ClientSession::shown_pose() const {
+  const Pose2 pose = origin_ * pose_of(face_.state->pose);
+  return {pose.x, pose.y, pose.yaw};
+}
+
+std::optional<std::vector<std::uint8_t>> ClientSession::data_of(Interface device) const {
+  if (device == Interface::position2d && face_.state) {
+    Position2dState state = *face_.state;
+    state.pose = shown_pose();
+    return encode(state);
+  }
+  if (device == Interface::sonar && face_.sonar) return encode(*face_.sonar);
+  if (device == Interface::laser && face_.scan) return encode(*face_.scan);
+  return std::nullopt;
+}
+
+void ClientSession::send_data(Interface device, double stamp) {
+  if (const auto data = data_of(device))
+    send({.address = {.interface = device}, .type = MessageType::data, .subtype = 1, .time = stamp}, *data);
+}
+
+void ClientSession::accept(const Header& request, Payload payload) {
+  send(answer_to(request, MessageType::ack), payload);
+}
+
+void ClientSession::refuse(const Header& request) { send(answer_to(request, MessageType::nack)); }
+
+void ClientSession::send(Header header, Payload payload) {
+  header.address.host = address_.host;
+  header.address.robot = address_.robot;
+  const auto message = make_message(header, payload);
+  if (message) output_.insert(output_.end(), message->begin(), message->end());
+}
+
+}  // namespace orca::player_server

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A simulated Scout as a server of Player. The client's bytes are those of the protocol's description, written out by hand.
+#include <catch2/catch.hpp>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <bit>
+#include <csignal>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "deployer.hpp"
+#include "device_on_desk.hpp"
+#include "orca/base/descriptor.hpp"
+#include "orca/base/steady_clock.hpp"
+#include "shipped_graph.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca;
+using namespace orca::test;
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+struct Answer {
+  std::uint32_t interface = 0, type = 0, subtype = 0;
+  Bytes payload;
+};
+
+constexpr std::uint32_t kPosition2d = 4, kSonar = 5;
+constexpr std::uint32_t kData = 1, kCommand = 2, kRequest = 3, kAck = 4, kSynch = 5, kNack = 6;
+
+void add_word(Bytes& bytes, std::uint32_t value) {
+  for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+void add_double(Bytes& bytes, double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  add_word(bytes, static_cast<std::uint32_t>(bits >> 32));
+  add_word(bytes, static_cast<std::uint32_t>(bits));
+}
+std::uint32_t word_at(const Bytes& bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes.at(at + i);
+  return value;
+}
+double double_at(const Bytes& bytes, std::size_t at) {
+  return std::bit_cast<double>(std::uint64_t{word_at(bytes, at)} << 32 | word_at(bytes, at + 4));
+}
+
+// A program written for Player.
+class Client {
+ public:
+  explicit Client(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_port = htons(port);
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    REQUIRE(connect(socket_.number(), reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0);
+    banner_ = read(32);
+  }
+  [[nodiscard]] std::string banner() const { return {banner_.begin(), banner_.end()}; }
+
+  void send(std::uint32_t interface, std::uint32_t type, std::uint32_t subtype, const Bytes& payload = {}) {
+    send_bytes(message(interface, type, subtype, payload));
+  }
+  static Bytes message(std::uint32_t interface, std::uint32_t type, std::uint32_t subtype,
+                       const Bytes& payload) {
+    Bytes message;
+    for (const std::uint32_t word : {0U, 0U, interface, 0U, type, subtype, 0U, 0U, 0U})
+      add_word(message, word);
+    add_word(message, static_cast<std::uint32_t>(payload.size()));
+    message.insert(message.end(), payload.begin(), payload.end());
+    return message;
+  }
+  void send_bytes(const Bytes& bytes) { REQUIRE(takes(bytes)); }
+  // Returns whether the server is still there.
+  bool takes(const Bytes& bytes) {
+    return ::send(socket_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
+           static_cast<ssize_t>(bytes.size());
+  }
+  Answer receive() {
+    const Bytes header = read(40);
+    return {word_at(header, 8), word_at(header, 16), word_at(header, 20), read(word_at(header, 36))};
+  }
+  // Returns the first message of a type; passes over others, such as data.
+  Answer receive(std::uint32_t interface, std::uint32_t type) {
+    for (;;) {
+      Answer answer = receive();
+      if (answer.interface == interface && answer.type == type) return answer;
+    }
+  }
+  Answer ask(std::uint32_t interface, std::uint32_t subtype, const Bytes& payload = {}) {
+    send(interface, kRequest, subtype, payload);
+    for (;;) {
+      Answer answer = receive();
+      if (answer.interface == interface && (answer.type == kAck || answer.type == kNack)) return answer;
+    }
+  }
+  Answer subscribe(std::uint32_t interface) {
+    Bytes wish;
+    for (const std::uint32_t word : {0U, 0U, interface, 0U, 1U, 0U, 0U}) add_word(wish, word);
+    return ask(1, 3, wish);
+  }
+  void drive(double forward, double turn_rate) { REQUIRE(tries_to_drive(forward, turn_rate)); }
+  bool tries_to_drive(double forward, double turn_rate) {
+    Bytes velocity;
+    for (const double value : {forward, 0.0, turn_rate}) add_double(velocity, value);
+    add_word(velocity, 1);
+    return takes(message(kPosition2d, kCommand, 1, velocity));
+  }
+  // Returns whether the server ends the connection within 10 s.
+  bool is_cut_off() {
+    std::array<std::uint8_t, 4096> bytes{};
+    for (const TimePoint end = steady_now() + 10s; steady_now() < end;) {
+      pollfd waiting{socket_.number(), POLLIN, 0};
+      if (poll(&waiting, 1, 100) > 0 && recv(socket_.number(), bytes.data(), bytes.size(), 0) <= 0)
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  Bytes read(std::size_t count) {
+    Bytes bytes(count);
+    for (std::size_t at = 0; at < count;) {
+      pollfd waiting{socket_.number(), POLLIN, 0};
+      REQUIRE(poll(&waiting, 1, 10'000 * static_cast<int>(kSlowdown)) > 0);
+      const ssize_t got = recv(socket_.number(), bytes.data() + at, count - at, 0);
+      REQUIRE(got > 0);
+      at += static_cast<std::size_t>(got);
+    }
+    return bytes;
+  }
+
+  Descriptor socket_;
+  Bytes banner_;
+};
+
+// The system with the Scout, at a port that the kernel has chosen.
+struct Robot {
+  explicit Robot(const Words& more = {}, const std::string& graph = source_file("graphs/scout_player.xml"))
+      : program(deployer(Words{graph, "--set", "port=0"} + more)) {
+    const std::string said = "clients of Player find the robot at 127.0.0.1:";
+    const bool listens = program.wait_for_output(said, Seconds(30 * kSlowdown));
+    INFO(program.err());
+    REQUIRE(listens);
+    REQUIRE(
+        eventually([&] { return program.err().find('\n', program.err().find(said)) != std::string::npos; }));
+    const std::string text = program.err();
+    port = static_cast<std::uint16_t>(std::stoi(text.substr(text.find(said) + said.size())));
+  }
+  Subprocess program;
+  std::uint16_t port = 0;
+};
+
+// Drives ahead for a while, ten times a second, and returns how far it has come by the odometry that the client gets.
+double way_driven(Client& client, Duration time) {
+  const double before = double_at(client.receive(kPosition2d, kData).payload, 0);
+  double after = before;
+  for (const TimePoint end = steady_now() + time; steady_now() < end;) {
+    client.drive(0.3, 0.0);
+    after = double_at(client.receive(kPosition2d, kData).payload, 0);
+  }
+  return after - before;
+}
+
+}  // namespace
+
+TEST_CASE("a client of Player finds the robot's devices, subscribes to them and drives", "[system][player]") {
+  Robot robot;
+  Client client(robot.port);
+  CHECK(client.banner().starts_with("Player v."));
+  const Answer devices = client.ask(1, 1);
+  REQUIRE(devices.payload.size() == 8 + 2 * 16);
+  CHECK(word_at(devices.payload, 0) == 2);
+  CHECK(word_at(devices.payload, 4) == 2);
+  CHECK(word_at(devices.payload, 8) == 0x0100007F);  // 127.0.0.1
+  CHECK(word_at(devices.payload, 12) == robot.port);
+  CHECK(word_at(devices.payload, 16) == kPosition2d);
+  CHECK(word_at(devices.payload, 32) == kSonar);
+
+  const Answer base = client.subscribe(kPosition2d);
+  CHECK(base.type == kAck);
+  CHECK(word_at(base.payload, 16) == 1);  // open
+  CHECK(client.subscribe(kSonar).type == kAck);
+  CHECK(client.subscribe(6).type == kNack);  // it has no laser
+  CHECK(client.ask(kPosition2d, 2, {0, 0, 0, 1}).type == kAck);
+
+  const Answer geometry = client.ask(kPosition2d, 1);
+  CHECK(double_at(geometry.payload, 6 * 8) == Approx(0.41).margin(0.05));
+  const Answer ranges = client.receive(kSonar, kData);
+  CHECK(word_at(ranges.payload, 0) == 16);
+  const Answer poses = client.ask(kSonar, 1);
+  CHECK(word_at(poses.payload, 0) == 16);
+  CHECK(poses.payload.size() == 8 + 16 * 48);
+  CHECK(way_driven(client, 2s) > 0.2);
+}
+
+TEST_CASE("the robot stops when a client of Player says nothing more, and when it goes", "[system][player]") {
+  Robot robot;
+  Client watcher(robot.port);
+  CHECK(watcher.subscribe(kPosition2d).type == kAck);
+  const auto stands_soon = [&] {
+    return eventually([&] {
+      const Bytes state = watcher.receive(kPosition2d, kData).payload;
+      return std::abs(double_at(state, 24)) < 0.01;
+    });
+  };
+  {
+    Client driver(robot.port);
+    CHECK(driver.subscribe(kPosition2d).type == kAck);
+    CHECK(way_driven(driver, 1s) > 0.05);
+    CHECK(stands_soon());  // it is still there
+    CHECK(way_driven(driver, 1s) > 0.05);
+  }
+  CHECK(stands_soon());
+}
+
+TEST_CASE("motors that a client of Player has switched off do not turn", "[system][player]") {
+  Robot robot;
+  Client client(robot.port);
+  CHECK(client.subscribe(kPosition2d).type == kAck);
+  CHECK(client.ask(kPosition2d, 2, {0, 0, 0, 0}).type == kAck);
+  CHECK(std::abs(way_driven(client, 1s)) < 0.01);
+  CHECK(client.ask(kPosition2d, 2, {0, 0, 0, 1}).type == kAck);
+  CHECK(way_driven(client, 1s) > 0.05);
+}
+
+TEST_CASE("in pull mode a client of Player gets the newest of each device, and the end of the round",
+          "[system][player]") {
+  Robot robot;
+  Client client(robot.port);
+  CHECK(client.ask(1, 5, {0, 0, 0, 2}).type == kAck);
+  CHECK(client.subscribe(kPosition2d).type == kAck);
+  for (int round = 0; round < 3; ++round) {
+    std::this_thread::sleep_for(300ms);
+    client.send(1, kRequest, 4);
+    CHECK(client.receive().type == kAck);
+    CHECK(client.receive().type == kData);  // one, although several have come
+    CHECK(client.receive().type == kSynch);
+  }
+}
+
+TEST_CASE("a client of Player sets its odometry to 0, and another's stays", "[system][player]") {
+  Robot robot;
+  Client client(robot.port);
+  Client other(robot.port);
+  CHECK(client.subscribe(kPosition2d).type == kAck);
+  CHECK(other.subscribe(kPosition2d).type == kAck);
+  CHECK(way_driven(client, 2s) > 0.2);
+  CHECK(client.ask(kPosition2d, 6).type == kAck);
+  CHECK(std::abs(double_at(client.receive(kPosition2d, kData).payload, 0)) < 0.2);
+  double there = 0.0;
+  for (int i = 0; i < 20; ++i) there = double_at(other.receive(kPosition2d, kData).payload, 0);
+  CHECK(there > 0.1);
+}
+
+TEST_CASE("a client that sends no messages of Player is cut off, and others go on", "[system][player]") {
+  Robot robot;
+  Client good(robot.port);
+  CHECK(good.subscribe(kPosition2d).type == kAck);
+  Client bad(robot.port);
+  bad.send_bytes(Bytes(4096, 0xFF));
+  CHECK(bad.is_cut_off());
+  CHECK(robot.program.wait_for_output("is no longer served", Seconds(10)));
+  CHECK(way_driven(good, 1s) > 0.05);
+}
+
+TEST_CASE("a client that does not read delays nobody", "[system][player]") {
+  Robot robot;
+  Client lazy(robot.port);
+  CHECK(lazy.subscribe(kPosition2d).type == kAck);
+  CHECK(lazy.subscribe(kSonar).type == kAck);
+  Client good(robot.port);
+  CHECK(good.subscribe(kPosition2d).type == kAck);
+  CHECK(way_driven(good, 5s) > 0.8);
+}
+
+TEST_CASE("a robot that a client of Player drives is stopped when the server or the avoider fails",
+          "[system][player]") {
+  for (const char* behaviour : {"player", "avoid"})
+    for (const char* how : {"silent", "throw", "hang", "slow"}) {
+      Robot robot({"--fail", std::string(behaviour) + "=" + how + "@3s"});
+      Client client(robot.port);
+      CAPTURE(behaviour, how);
+      CHECK(client.subscribe(kPosition2d).type == kAck);
+      const auto says = [&] { return robot.program.err().find("stops the robot: ") != std::string::npos; };
+      const TimePoint end = steady_now() + 20s * static_cast<int>(kSlowdown);
+      while (!says() && steady_now() < end) {
+        (void)client.tries_to_drive(0.0, 0.5);
+        std::this_thread::sleep_for(50ms);
+      }
+      INFO(robot.program.err());
+      CHECK(says());
+    }
+}
+
+TEST_CASE("without avoid a client of Player that drives ahead meets the wall, with it not",
+          "[system][player][ablation]") {
+  for (const bool avoids : {true, false}) {
+    const TempFolder folder;
+    ShippedGraph graph("scout_player");
+    if (!avoids) graph.remove("avoid");
+    Robot robot({}, folder.write("graph.xml", graph.text()));
+    Client client(robot.port);
+    CHECK(client.subscribe(kPosition2d).type == kAck);
+    for (const TimePoint end = steady_now() + 16s;
+         steady_now() < end && robot.program.out().find("contact") == std::string::npos;)
+      (void)way_driven(client, 500ms);
+    CAPTURE(avoids);
+    INFO(robot.program.err());
+    CHECK((robot.program.out().find("contact") != std::string::npos) == !avoids);
+  }
+}
+
+TEST_CASE("without any other component of the graph for Player the robot stands",
+          "[system][player][ablation]") {
+  for (const char* component : {"fuser", "base"}) {
+    Robot robot({"--fail", std::string(component) + "=silent@1s"});
+    Client client(robot.port);
+    CHECK(client.subscribe(kPosition2d).type == kAck);
+    std::this_thread::sleep_for(1500ms);
+    client.drive(0.3, 0.0);
+    const Bytes state = client.receive(kPosition2d, kData).payload;
+    CAPTURE(component);
+    CHECK(std::abs(double_at(state, 24)) < 0.01);
+  }
+}
