@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "orca/base/random.hpp"
-#include "orca/emulators/body.hpp"
 #include "orca/emulators/firmware.hpp"
 
 namespace orca::test {
@@ -20,8 +19,9 @@ class BadLine final : public emulators::Firmware {
  public:
   using Bytes = std::vector<std::uint8_t>;
 
-  template <class... More>
-  explicit BadLine(emulators::Body& body, More&&... more) : device_(body, std::forward<More>(more)...) {}
+  /// @param senses  what the device's constructor takes first: a body, or a laser's mirror.
+  template <class Senses, class... More>
+  explicit BadLine(Senses& senses, More&&... more) : device_(senses, std::forward<More>(more)...) {}
 
   /// Lets a function change all that the device sends from now on; none: nothing.
   void spoil(std::function<void(Bytes& sent)> change) { change_ = std::move(change); }

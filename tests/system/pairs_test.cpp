@@ -19,7 +19,8 @@ struct Type {
 };
 
 const std::vector<Type> kTypes{{"nomad_scout", false}, {"nomad_200", false}, {"omni", true},
-                               {"pioneer_2dx", true},  {"barn_base", true},  {"peoplebot", true}};
+                               {"pioneer_2dx", true},  {"barn_base", true},  {"peoplebot", true},
+                               {"create2", true}};
 
 struct Start {
   double x, y;     // [m]

@@ -3,130 +3,14 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <csignal>
-#include <limits>
-#include <numbers>
 #include <string>
-#include <thread>
+#include <vector>
 
-#include "bad_line.hpp"
-#include "deployer.hpp"
-#include "device_on_desk.hpp"
-#include "orca/emulators/rplidar_firmware.hpp"
-#include "record_table.hpp"
-#include "temp_folder.hpp"
+#include "rplidar_desk.hpp"
 
 using namespace orca;
 using namespace orca::test;
 using Catch::Contains;
-using emulators::RplidarFirmware;
-using emulators::RplidarSettings;
-
-namespace {
-
-// BadLine wants a base, which a laser has no use for.
-class SpoiledRplidar final : public emulators::Firmware {
- public:
-  using Bytes = std::vector<std::uint8_t>;
-
-  template <class... More>
-  explicit SpoiledRplidar(MirrorOnDesk& mirror, More&&... more)
-      : device_(mirror, std::forward<More>(more)...) {}
-
-  void spoil(std::function<void(Bytes& sent)> change) { change_ = std::move(change); }
-  [[nodiscard]] RplidarFirmware& device() { return device_; }
-
-  void take(std::span<const std::uint8_t> bytes, std::uint32_t baud, TimePoint now) override {
-    device_.take(bytes, baud, now);
-  }
-  Bytes advance(TimePoint now) override {
-    Bytes sent = device_.advance(now);
-    if (change_) change_(sent);
-    return sent;
-  }
-  void reset(TimePoint now) override { device_.reset(now); }
-
- private:
-  RplidarFirmware device_;
-  std::function<void(Bytes&)> change_;
-};
-
-using Laser = DeviceOnDesk<SpoiledRplidar, MirrorOnDesk>;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-RplidarSettings at_once() {
-  RplidarSettings settings;
-  settings.boot = 0s;
-  settings.spin_up = 100ms;
-  return settings;
-}
-
-// A range of its own for each degree to the left of straight ahead, and no echo between 40 and 60 degrees.
-std::vector<double> ranges_of_place() {
-  std::vector<double> ranges;
-  for (int i = 0; i < 360; ++i) ranges.push_back(i >= 40 && i <= 60 ? kInfinity : 1.0 + 0.025 * i);
-  return ranges;
-}
-
-void show_place(Laser& laser) {
-  laser.with([](SpoiledRplidar&, MirrorOnDesk& mirror) { mirror.show(0.0, kDegree, ranges_of_place()); });
-}
-
-Words listen(const std::string& device, const Words& more = {}) {
-  return Words{system_graph("rplidar.xml"), "--set", "device=" + device} + more;
-}
-
-Words recorded(const TempFolder& folder, const Words& more = {}) {
-  return Words{"--record", folder.file("scans.csv") + "=laser.LaserRangeReadingsPush"} + more;
-}
-
-std::vector<RecordTable::Row> scans_in(const TempFolder& folder) {
-  return RecordTable(folder.file("scans.csv")).rows("laser.LaserRangeReadingsPush");
-}
-
-// Checks that each beam of the scan shows what the mirror shows within a beam of its direction.
-void check_ranges(const RecordTable::Row& scan, double step) {
-  const std::vector<double> shown = ranges_of_place();
-  const std::vector<double> got = numbers(scan, "ranges");
-  REQUIRE(got.size() == 360);
-  CHECK(number(scan, "angle_start") == Approx(std::numbers::pi));
-  CHECK(number(scan, "angle_increment") == Approx(-kDegree));
-  for (int i = 0; i < 360; ++i) {
-    const int left = (540 - i) % 360;  // [deg] of the beam, counter-clockwise
-    double nearest = kInfinity;
-    double farthest = 0.0;
-    for (const int off : {359, 0, 1}) {
-      const double range = shown[static_cast<std::size_t>((left + off) % 360)];
-      nearest = std::min(nearest, range);
-      farthest = std::max(farthest, range);
-    }
-    const double range = got[static_cast<std::size_t>(i)];
-    CAPTURE(i, left, range);
-    CHECK(range >= nearest - 0.51 * step);
-    CHECK(range <= farthest + 0.51 * step);
-  }
-}
-
-bool sends(Laser& laser) {
-  return laser.with([](SpoiledRplidar& firmware, MirrorOnDesk&) { return firmware.device().sends_scans(); });
-}
-
-int turns_sent(Laser& laser) {
-  return laser.with([](SpoiledRplidar& firmware, MirrorOnDesk&) { return firmware.device().turns(); });
-}
-
-std::vector<int> requests_to(Laser& laser) {
-  return laser.with([](SpoiledRplidar& firmware, MirrorOnDesk&) { return firmware.device().requests(); });
-}
-
-bool was_asked(Laser& laser, int request) {
-  const std::vector<int> requests = requests_to(laser);
-  return std::ranges::find(requests, request) != requests.end();
-}
-
-}  // namespace
 
 TEST_CASE("an RPLIDAR's turns arrive as scans with the ranges that it saw, and it stops at the end",
           "[system][hardware]") {
@@ -230,7 +114,7 @@ TEST_CASE("an RPLIDAR that reports an error is reset once, and works if that has
   const std::string device = folder.file("lidar");
   Laser laser(device, at_once());
   show_place(laser);
-  laser.with([](SpoiledRplidar& firmware, MirrorOnDesk&) { firmware.device().set_health(2, 0x8001); });
+  laser.with([](BadRplidar& firmware, MirrorOnDesk&) { firmware.device().set_health(2, 0x8001); });
   Subprocess program(deployer(listen(device)));
   CHECK(eventually([&] { return turns_sent(laser) > 3; }));
   const std::vector<int> requests = requests_to(laser);
@@ -243,7 +127,7 @@ TEST_CASE("an RPLIDAR whose error stays does not start, and what to do is said",
   RplidarSettings settings = at_once();
   settings.resets_heal = false;
   Laser laser(device, settings);
-  laser.with([](SpoiledRplidar& firmware, MirrorOnDesk&) { firmware.device().set_health(2, 0x8001); });
+  laser.with([](BadRplidar& firmware, MirrorOnDesk&) { firmware.device().set_health(2, 0x8001); });
   const Run run = run_deployer(listen(device), Seconds(60));
   CHECK(run.exit_code() == 3);
   CHECK_THAT(run.err, Contains("reports error 8001 and still does after a reset") &&
@@ -255,7 +139,7 @@ TEST_CASE("an RPLIDAR that may fail soon works, with a warning", "[system][hardw
   const std::string device = folder.file("lidar");
   Laser laser(device, at_once());
   show_place(laser);
-  laser.with([](SpoiledRplidar& firmware, MirrorOnDesk&) { firmware.device().set_health(1, 7); });
+  laser.with([](BadRplidar& firmware, MirrorOnDesk&) { firmware.device().set_health(1, 7); });
   Subprocess program(deployer(listen(device)));
   CHECK(program.wait_for_output("it may fail soon (number 7)", Seconds(20 * kSlowdown)));
   CHECK(eventually([&] { return turns_sent(laser) > 3; }));
@@ -268,7 +152,7 @@ TEST_CASE("an RPLIDAR whose motor stands is a fault that names motor, supply and
   show_place(laser);
   const auto power = [&](bool on) {
     laser.with(
-        [on](SpoiledRplidar& firmware, MirrorOnDesk&) { firmware.device().power_motor(on, steady_now()); });
+        [on](BadRplidar& firmware, MirrorOnDesk&) { firmware.device().power_motor(on, steady_now()); });
   };
   power(false);
   Subprocess program(deployer(listen(device)));

@@ -78,6 +78,7 @@ class Rplidar final : public orca::hw::LineDriver {
  protected:
   Status begin(TimePoint now) override {
     session_.emplace(line(), mode());
+    noted_.reset();
     return session_->begin(now);
   }
 
@@ -150,8 +151,9 @@ class Rplidar final : public orca::hw::LineDriver {
   void note_beginning() {
     if (std::exchange(scanned_, true)) return;
     turned_ = looked_;
-    host().write_log(orca::log::Level::info,
-                     session_->is_express() ? "it sends express scans" : "it sends standard scans");
+    if (noted_ == session_->is_express()) return;
+    noted_ = session_->is_express();
+    host().write_log(orca::log::Level::info, *noted_ ? "it sends express scans" : "it sends standard scans");
   }
 
   [[nodiscard]] Status no_turn() const {
@@ -226,7 +228,8 @@ class Rplidar final : public orca::hw::LineDriver {
   std::optional<orca::hw::SensorHW<orca::idl::LaserRangeReadings>> scans_;
   std::optional<TurnCollector> turns_;
   std::optional<RplidarSession> session_;
-  bool scanned_ = false;  // points have come since start()
+  bool scanned_ = false;       // points have come since start()
+  std::optional<bool> noted_;  // whether express scans were said to come
   int blind_turns_ = 0;
   TimePoint looked_{};
   TimePoint turned_{};  // when a turn ended
