@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bytes of any host to the emulations of devices: whatever comes, they go on, and tell the wheels finite speeds.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <span>
 
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
+#include "orca/emulators/rplidar_firmware.hpp"
 
 using namespace orca;
 
@@ -31,6 +33,16 @@ class FuzzedBody final : public emulators::Body {
   Twist2 velocity_;
 };
 
+class FuzzedMirror final : public emulators::Mirror {
+ public:
+  [[nodiscard]] std::optional<emulators::MirrorTurn> last_turn() const override {
+    return emulators::MirrorTurn{{}, 3.0, -0.5, ranges_};
+  }
+
+ private:
+  const std::array<double, 12> ranges_{0.0, 0.1, 1.0, 2.0, 3.0, 11.9, 12.1, 20.0, 1e9, 4.0, 5.0, 6.0};
+};
+
 // The bytes come in pieces, whose sizes they name themselves.
 void talk(emulators::Firmware& device, std::span<const std::uint8_t> bytes, std::uint32_t baud) {
   TimePoint now{1s};
@@ -53,5 +65,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   talk(scout, {data, size}, 38400);
   emulators::Create2Firmware create(body);
   talk(create, {data, size}, 115200);
+  FuzzedMirror mirror;
+  emulators::RplidarFirmware laser(mirror, {.boot = 0s, .spin_up = 1ms});
+  talk(laser, {data, size}, 115200);
   return 0;
 }
