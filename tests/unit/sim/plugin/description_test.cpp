@@ -195,7 +195,7 @@ Fields expected(const PlainFile& file) {
              {"radius", file.si("orca", "radius")},
              {"bumper_radius", file.si("orca", "bumper_radius", file.get("orca", "radius"))}};
   all.merge(drive(file));
-  all.merge(sonar_ring(file));
+  if (file.has("sonar_ring")) all.merge(sonar_ring(file));
   if (file.has("laser")) all.merge(laser(file));
   if (file.has("turret")) all.merge(device(file, "actuators.0.", "turret", file.get("turret", "joint")));
   int k = 0;

@@ -53,7 +53,7 @@ TEST_CASE("where a gap is reported, a laser does not see the robot, and else it 
   robot.sonars.clear();
   robot.infrareds.clear();
   int seen = 0, unseen = 0;
-  for (double height = 0.015; height < 1.4; height += 0.03) {
+  for (double height = 0.015; height < 1.4; height += 0.02) {
     robot.lasers = {laser};
     robot.lasers[0].height = height;
     World world({"empty", {}, {}}, {.seed = 1, .realism = Realism::ideal});
