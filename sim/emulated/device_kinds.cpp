@@ -11,6 +11,7 @@
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
+#include "orca/emulators/rplidar_firmware.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
 #include "orca/xml/names.hpp"
 
@@ -49,6 +50,7 @@ Made make_only(const DeviceWish& wish, WorldBody& body) {
 constexpr std::array kKinds = {Kind{"create2", make_only<emulators::Create2Firmware>},
                                Kind{"nomad_scout", make_only<emulators::NomadScoutFirmware>},
                                Kind{"p2os", make_p2os},
+                               Kind{"rplidar", make_only<emulators::RplidarFirmware>},
                                Kind{"sick_lms", make_only<emulators::SickLmsFirmware>}};
 
 Error wrong(const std::string& what) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bytes of any host to the emulations of devices: whatever comes, they go on, and tell the wheels finite speeds.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <span>
 
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
+#include "orca/emulators/rplidar_firmware.hpp"
 
 using namespace orca;
 
@@ -31,8 +33,19 @@ class FuzzedBody final : public emulators::Body {
   Twist2 velocity_;
 };
 
+class FuzzedMirror final : public emulators::Mirror {
+ public:
+  [[nodiscard]] std::optional<emulators::MirrorTurn> last_turn() const override {
+    return emulators::MirrorTurn{{}, 3.0, -0.5, ranges_};
+  }
+
+ private:
+  const std::array<double, 12> ranges_{0.0, 0.1, 1.0, 2.0, 3.0, 11.9, 12.1, 20.0, 1e9, 4.0, 5.0, 6.0};
+};
+
 // The bytes come in pieces, whose sizes they name themselves.
-void talk(emulators::Firmware& device, std::span<const std::uint8_t> bytes, std::uint32_t baud) {
+void talk(emulators::Firmware& device, std::span<const std::uint8_t> bytes, std::uint32_t baud,
+          Duration more = 10s) {
   TimePoint now{1s};
   while (!bytes.empty()) {
     const std::span<const std::uint8_t> piece =
@@ -42,7 +55,7 @@ void talk(emulators::Firmware& device, std::span<const std::uint8_t> bytes, std:
     (void)device.advance(now);
     bytes = bytes.subspan(piece.size());
   }
-  (void)device.advance(now + 10s);
+  (void)device.advance(now + more);
 }
 
 }  // namespace
@@ -53,5 +66,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   talk(scout, {data, size}, 38400);
   emulators::Create2Firmware create(body);
   talk(create, {data, size}, 115200);
+  FuzzedMirror mirror;
+  emulators::RplidarFirmware laser(mirror, {.boot = 0s, .spin_up = 1ms});
+  talk(laser, {data, size}, 115200, 300ms);  // it may send 2000 points a second
   return 0;
 }

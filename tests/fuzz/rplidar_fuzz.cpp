@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // RPLIDAR: a stream gives the same events however it is cut, and every point is within its range; what was read as a node or
-// a capsule is the same after writing. The first byte chooses the pieces, and where in the stream a new answer is expected.
+// a capsule is the same after writing. Turns of
+// the points have all their beams. The first byte chooses the pieces, and where in the stream a new answer is expected.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "orca/hw/rplidar/receiver.hpp"
+#include "orca/hw/rplidar/turns.hpp"
 
 namespace {
 
@@ -40,6 +42,21 @@ std::vector<Event> events_of(Input stream, std::size_t piece, std::size_t next_r
   return events;
 }
 
+// Each turn has all its beams, and took some time, but not too long.
+void collect(const std::vector<Event>& events) {
+  TurnCollector turns(90);
+  orca::TimePoint now{};
+  for (const Event& event : events) {
+    const auto* const point = std::get_if<Point>(&event);
+    if (point == nullptr) continue;
+    now += orca::Duration(500'000);
+    const Turn* const turn = turns.add(*point, now);
+    if (turn == nullptr) continue;
+    if (turn->ranges.size() != 90 || turn->period > TurnCollector::kLongestTurn) std::abort();
+    if (!std::ranges::all_of(turn->ranges, [](double range) { return range > 0.0; })) std::abort();
+  }
+}
+
 void try_parts(Input bytes) {
   if (bytes.size() >= kNodeSize) {
     const auto node = parse_node(bytes.first(kNodeSize));
@@ -58,7 +75,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Input rest(data + 1, size - 1);
   try_parts(rest);
   const std::size_t next_request = rest.size() * (data[0] % 8U) / 8U;
-  if (events_of(rest, rest.size(), next_request) != events_of(rest, 1U + data[0] / 8U, next_request))
-    std::abort();
+  const std::vector<Event> events = events_of(rest, rest.size(), next_request);
+  if (events != events_of(rest, 1U + data[0] / 8U, next_request)) std::abort();
+  collect(events);
   return 0;
 }

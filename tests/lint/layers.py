@@ -78,6 +78,7 @@ LAYERS = (
     Layer("sick_lms_driver", ("src/hw/sick_lms/driver",), (), ("hw_sick_lms", *DRIVER), ("fmt",)),
     Layer("hw_player", ("src/hw/player",), ("orca/hw/player/",), ("base",)),
     Layer("hw_create2", ("src/hw/create2",), ("orca/hw/create2/",), ("hw_framing", "geometry", "base")),
+    Layer("rplidar_driver", ("src/hw/rplidar/driver",), (), ("hw_rplidar", *DRIVER), ("fmt",)),
     Layer("hw_rplidar", ("src/hw/rplidar",), ("orca/hw/rplidar/",), ("hw_framing", "geometry", "base")),
     Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_reading", (f"{GRAPH}/reading",), (), ("graph", "xml", "base"), ("fmt",), module=GRAPH),

@@ -50,6 +50,14 @@ class BadLine final : public emulators::Firmware {
   Bytes echo_;
 };
 
+/// Returns what flips a bit of some bytes, chosen at random with that chance [0..1].
+[[nodiscard]] inline std::function<void(std::vector<std::uint8_t>&)> flipped_bits(double chance) {
+  return [chance, random = RandomStream(1, "test", "bad line")](std::vector<std::uint8_t>& sent) mutable {
+    for (std::uint8_t& byte : sent)
+      if (random.uniform(0.0, 1.0) < chance) byte = static_cast<std::uint8_t>(byte ^ (1U << (random() % 8)));
+  };
+}
+
 /// Returns what puts these bytes behind each n-th byte.
 [[nodiscard]] inline std::function<void(std::vector<std::uint8_t>&)> garbage_after(
     int n, std::vector<std::uint8_t> garbage) {
@@ -69,6 +77,14 @@ class BadLine final : public emulators::Firmware {
     held.insert(held.end(), sent.begin(), sent.end());
     sent.clear();
     if (++count % steps == 0) sent.swap(held);
+  };
+}
+
+/// Returns what changes every 40th byte, so that no longer packet is whole. Two changes do not make up for each other in a sum.
+[[nodiscard]] inline std::function<void(std::vector<std::uint8_t>&)> all_spoiled() {
+  return [count = 0U](std::vector<std::uint8_t>& sent) mutable {
+    for (std::uint8_t& byte : sent)
+      if (++count % 40 == 0) byte = static_cast<std::uint8_t>(byte ^ (1U << (count / 40 % 7)));
   };
 }
 

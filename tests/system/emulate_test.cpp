@@ -27,10 +27,12 @@ struct Robot {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// A Scout tells 0.1 inch and a tenth of a degree.
+// A Scout tells 0.1 inch and a tenth of a degree. A Create 2 counts its wheels' turns, of which each may be off by half a count.
+constexpr double kCreateCount = std::numbers::pi * 0.072 / 508.8;  // [m]
 const std::vector<Robot> kRobots{{"peoplebot", 0.000424, 360.0 / 4096.0 * kDegree},
                                  {"nomad_scout", 0.00254, 0.1 * kDegree},
-                                 {"pioneer2dx_sick", 0.00084, 360.0 / 4096.0 * kDegree}};
+                                 {"pioneer2dx_sick", 0.00084, 360.0 / 4096.0 * kDegree},
+                                 {"create2_rplidar", kCreateCount, 2.0 * kCreateCount / 0.235}};
 
 std::string graph_of(const Robot& robot) {
   return source_file("graphs/" + std::string(robot.graph) + ".xml");
@@ -65,10 +67,10 @@ AtRest compared(const std::string& file) {
 }
 
 // Returns the last scan of a robot that stands at its start in an ideal world.
-RecordTable::Row scan_at_start(const Words& more, const TempFolder& folder) {
+RecordTable::Row scan_at_start(const std::string& graph, const Words& more, const TempFolder& folder) {
   const std::string file = folder.file("scans.csv");
   const Run run = run_deployer(
-      Words{source_file("graphs/pioneer2dx_sick.xml"), "--set", "realism=ideal", "--fail", "goto=silent@0s",
+      Words{source_file("graphs/" + graph + ".xml"), "--set", "realism=ideal", "--fail", "goto=silent@0s",
             "--until", "6s", "--record", file + "=laser.LaserRangeReadingsPush"} +
           more,
       Seconds(30));
@@ -78,25 +80,31 @@ RecordTable::Row scan_at_start(const Words& more, const TempFolder& folder) {
   return rows.back();
 }
 
+Words emulated_in(const TempFolder& folder) {
+  return {"--profile", "emulate", "--set", "emulated=" + std::string(folder.path().filename())};
+}
+
+// The driver is told where the laser sits; the simulator reads it from the robot's file.
+void check_same_mount(const RecordTable::Row& real, const RecordTable::Row& sim) {
+  for (const char* const field : {"pose.x", "pose.y", "pose.z", "pose.rotation.yaw", "angle_start"}) {
+    CAPTURE(field);
+    CHECK(number(real, field) == Approx(number(sim, field)).margin(1e-12));
+  }
+}
+
 }  // namespace
 
 TEST_CASE(
     "scans that went over the line are those of the world, to half a millimetre, from where they are taken",
     "[system][hardware]") {
   const TempFolder folder;
-  const RecordTable::Row sim = scan_at_start(virtual_clock(), folder);
-  const RecordTable::Row real = scan_at_start(
-      {"--profile", "emulate", "--set", "emulated=" + std::string(folder.path().filename())}, folder);
+  const RecordTable::Row sim = scan_at_start("pioneer2dx_sick", virtual_clock(), folder);
+  const RecordTable::Row real = scan_at_start("pioneer2dx_sick", emulated_in(folder), folder);
   const std::vector<double> wanted = numbers(sim, "ranges");
   const std::vector<double> got = numbers(real, "ranges");
   REQUIRE(wanted.size() == 181);
   REQUIRE(got.size() == 361);
-  CHECK(number(real, "angle_start") == Approx(number(sim, "angle_start")));
-  // The driver is told where the laser sits; the simulator reads it from the robot's file.
-  for (const char* const field : {"pose.x", "pose.y", "pose.z", "pose.rotation.yaw"}) {
-    CAPTURE(field);
-    CHECK(number(real, field) == Approx(number(sim, field)).margin(1e-12));
-  }
+  check_same_mount(real, sim);
   int compared = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (wanted[i] >= number(sim, "max_range")) continue;  // nothing comes back
@@ -105,6 +113,32 @@ TEST_CASE(
     ++compared;
   }
   CHECK(compared > 100);
+}
+
+TEST_CASE("turns of an RPLIDAR that went over the line are those of the world, to half a millimetre",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const RecordTable::Row sim = scan_at_start("create2_rplidar", virtual_clock(), folder);
+  const RecordTable::Row real = scan_at_start("create2_rplidar", emulated_in(folder), folder);
+  const std::vector<double> wanted = numbers(sim, "ranges");
+  const std::vector<double> got = numbers(real, "ranges");
+  REQUIRE(wanted.size() == 360);
+  REQUIRE(got.size() == 360);
+  check_same_mount(real, sim);
+  CHECK(number(real, "angle_increment") == Approx(number(sim, "angle_increment")));
+  int same = 0;
+  for (std::size_t i = 0; i < 360; ++i) {
+    const auto shows = [&](std::size_t beam) {
+      const double range = wanted[beam % 360];
+      const bool is_nothing = range >= number(sim, "max_range");
+      return is_nothing ? std::isinf(got[i]) : std::abs(got[i] - range) <= 0.0005 + 1e-9;
+    };
+    CAPTURE(i, wanted[i], got[i]);
+    // A point at the edge of a beam may be that of the beam beside it.
+    CHECK((shows(i) || shows(i + 1) || shows(i + 359)));
+    same += shows(i) ? 1 : 0;
+  }
+  CHECK(same > 300);
 }
 
 TEST_CASE("each shipped robot reaches its first goal with its real drivers on emulated devices",

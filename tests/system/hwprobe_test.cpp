@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// hwprobe with an emulated Pioneer on a pseudo terminal.
+// hwprobe with emulated devices on a pseudo terminal.
 #include <catch2/catch.hpp>
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include "deployer.hpp"
 #include "device_on_desk.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
+#include "orca/emulators/rplidar_firmware.hpp"
 #include "ports.hpp"
 #include "temp_folder.hpp"
 
@@ -47,6 +48,19 @@ TEST_CASE("hwprobe names the robot at a port, shows its first data and counts, a
     CHECK_FALSE(firmware.is_open());
     for (const int command : firmware.commands()) CHECK((command != 11 && command != 21));  // none to move
   });
+}
+
+TEST_CASE("hwprobe finds an RPLIDAR with all drivers, shows its first turn and stops it",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("lidar");
+  DeviceOnDesk<orca::emulators::RplidarFirmware, MirrorOnDesk> laser(device);
+  const Run run = probe({device});
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.out, Contains("orca.hw.Rplidar: SLAMTEC RPLIDAR A1"));
+  CHECK_THAT(run.out, Contains("<LaserRangeReadings"));
+  CHECK_FALSE(laser.with([](auto& firmware, MirrorOnDesk&) { return firmware.sends_scans(); }));
 }
 
 TEST_CASE("hwprobe says why no driver has found its device", "[system][hardware]") {

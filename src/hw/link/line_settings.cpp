@@ -64,6 +64,13 @@ Status set_line(int terminal, const Line& line, const std::string& name) {
   return ok();
 }
 
+Status set_dtr(int terminal, bool raised, const std::string& name) {
+  const int line = TIOCM_DTR;
+  if (ioctl(terminal, raised ? TIOCMBIS : TIOCMBIC, &line) == 0) return ok();
+  const bool has_none = errno == ENOTTY || errno == EINVAL;
+  return has_none ? ok() : Status(cannot_set(name, errno));
+}
+
 std::optional<Line> line_of(int terminal) {
   termios2 settings{};
   if (ioctl(terminal, TCGETS2, &settings) != 0) return std::nullopt;
@@ -87,12 +94,13 @@ void OldSettings::hurry(int terminal) {
   (void)ioctl(terminal, TIOCMBIS, &present);
 }
 
-void OldSettings::restore(int terminal) {
+void OldSettings::restore(int terminal, bool keeps_dtr) {
   serial_struct about{};
   if (flags_ && ioctl(terminal, TIOCGSERIAL, &about) == 0) {
     about.flags = *flags_;
     (void)ioctl(terminal, TIOCSSERIAL, &about);
   }
+  if (keeps_dtr) line_.c_cflag &= ~static_cast<tcflag_t>(HUPCL);
   (void)ioctl(terminal, TCSETS2, &line_);
 }
 

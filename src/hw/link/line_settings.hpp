@@ -18,6 +18,10 @@ namespace orca::hw::link {
 /// @source  Linux tty ioctls: termios2 with BOTHER carries any rate.
 [[nodiscard]] Status set_line(int terminal, const Line& line, const std::string& name);
 
+/// Raises or lowers DTR. A terminal without that line, such as a pseudo terminal, is left as it is.
+/// @errors  unavailable with the system's reason.
+[[nodiscard]] Status set_dtr(int terminal, bool raised, const std::string& name);
+
 /// Returns the line that is set; for a pseudo terminal's master, the line that the other side has set.
 [[nodiscard]] std::optional<Line> line_of(int terminal);
 
@@ -33,7 +37,8 @@ class OldSettings {
   /// lines that tell the device that somebody is there. Drivers without these features are left as they are.
   void hurry(int terminal);
   /// Puts everything back.
-  void restore(int terminal);
+  /// @param keeps_dtr  whether DTR stays as it is when the terminal is closed, whatever it was set to.
+  void restore(int terminal, bool keeps_dtr);
 
  private:
   termios2 line_{};

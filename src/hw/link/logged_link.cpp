@@ -79,6 +79,11 @@ Status LoggedLink::set_line(const Line& line) {
   return link_->set_line(line);
 }
 
+Status LoggedLink::set_dtr(bool raised) {
+  log_->remark(raised ? "DTR raised" : "DTR lowered");
+  return link_->set_dtr(raised);
+}
+
 void LoggedLink::note_failure(const Error& error) {
   if (!open_ || gone_) return;
   if (error.code != Code::unavailable && error.code != Code::data_loss) {

@@ -103,11 +103,13 @@ Result<Descriptor> SerialLink::claim(const std::string& path) {
 
 Status SerialLink::take(int terminal) {
   if (Status set = link::set_line(terminal, options_.line, name()); !set.ok()) {
-    old_->restore(terminal);
+    old_->restore(terminal, dtr_.has_value());
     return set;
   }
   (void)ioctl(terminal, TIOCEXCL);
   old_->hurry(terminal);
+  if (dtr_)
+    if (Status set = link::set_dtr(terminal, *dtr_, name()); !set.ok()) return set;
   (void)ioctl(terminal, TCFLSH, TCIOFLUSH);
   return ok();
 }
@@ -117,7 +119,7 @@ void SerialLink::close() {
   const int terminal = stream_->descriptor();
   let_last_words_out();
   if (pending() > 0) (void)ioctl(terminal, TCFLSH, TCOFLUSH);  // or closing waits for a stuck device
-  old_->restore(terminal);
+  old_->restore(terminal, dtr_.has_value());
   (void)ioctl(terminal, TIOCNXCL);
   (void)flock(terminal, LOCK_UN);  // a copy of this process may still hold the descriptor
   stream_->detach();
@@ -191,6 +193,11 @@ Status SerialLink::set_line(const Line& line) {
     if (Status set = link::set_line(stream_->descriptor(), line, name()); !set.ok()) return set;
   options_.line = line;
   return ok();
+}
+
+Status SerialLink::set_dtr(bool raised) {
+  dtr_ = raised;
+  return stream_->is_attached() ? link::set_dtr(stream_->descriptor(), raised, name()) : ok();
 }
 
 }  // namespace orca::hw::link

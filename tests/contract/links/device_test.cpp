@@ -38,12 +38,13 @@ TEMPLATE_TEST_CASE("what has arrived and is discarded is not read", "[hw][link]"
   CHECK(text_of(read_bytes(*kit.link, 3)) == "new");
 }
 
-TEMPLATE_TEST_CASE("a link has a name for people and takes a rate, which some have", "[hw][link]",
-                   ORCA_LINK_KITS) {
+TEMPLATE_TEST_CASE("a link has a name for people and takes a rate and a level of DTR, which some have",
+                   "[hw][link]", ORCA_LINK_KITS) {
   TestType kit;
   kit.connect();
   CHECK_FALSE(kit.link->name().empty());
   CHECK(kit.link->set_line({38400}).ok());
+  CHECK(kit.link->set_dtr(false).ok());
   const std::set<double> times{0.0, 10.0 / 38400,
                                10.0 / 115200};  // none, the link's own, the driver's at the far end
   CHECK(times.count(kit.link->byte_time()) == 1);

@@ -39,6 +39,11 @@ TEST_CASE("a device of an unknown kind or model is refused with those that there
   WorldBody body(robot, [](const Twist2&) {});
   CHECK(make_firmware({"p2os", "", "x"}, body));
   CHECK(make_firmware({"p2os", "p2pb", "x"}, body));
+  for (const char* const kind : {"create2", "nomad_scout", "rplidar", "sick_lms"}) {
+    CAPTURE(kind);
+    CHECK(make_firmware({kind, "", "x"}, body));
+    CHECK_FALSE(make_firmware({kind, "p2dx", "x"}, body));
+  }
   const auto kind = make_firmware({"p2oz", "", "x"}, body);
   REQUIRE_FALSE(kind);
   CHECK_THAT(kind.error().message,

@@ -59,6 +59,17 @@ TEST_CASE("the Pioneer 2-DX has the outline and the sonars of the maker's parame
   CHECK(ring.transducer(12).position() == Vec2{-0.255, 0.027});
 }
 
+TEST_CASE("the Create 2 has the size of the maker's data sheet, and a laser that looks all around clockwise",
+          "[sim][robots]") {
+  const RobotModel create = shipped("create2");
+  CHECK(std::get<Circle>(create.footprint).radius == Approx(0.17));
+  CHECK(create.drive.max_turn_rate == Approx(2.0 * 0.5 / 0.235).epsilon(1e-3));  // one wheel ahead, one back
+  const LaserScanner& laser = create.lasers.at(0);
+  CHECK(laser.first_angle == Approx(std::numbers::pi));
+  CHECK(static_cast<double>(laser.count) * laser.pitch == Approx(-2.0 * std::numbers::pi));
+  CHECK(laser.height == Approx(0.135));
+}
+
 TEST_CASE("the PeopleBot has sonars at two heights", "[sim][robots]") {
   const RobotModel peoplebot = shipped("peoplebot");
   const SonarRing& ring = peoplebot.sonars.at(0);

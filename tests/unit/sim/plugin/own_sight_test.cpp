@@ -13,7 +13,7 @@ using Catch::Contains;
 
 TEST_CASE("each shipped robot is solid at the height of each sensor of its own", "[sim][robots]") {
   const std::string name =
-      GENERATE("barn_base", "nomad_200", "nomad_scout", "omni", "peoplebot", "pioneer_2dx");
+      GENERATE("barn_base", "create2", "nomad_200", "nomad_scout", "omni", "peoplebot", "pioneer_2dx");
   INFO(name);
   CHECK(gaps_at_own_sensors(shipped(name)).empty());
 }
@@ -47,13 +47,13 @@ TEST_CASE("infrared rings are judged too", "[sim][robots]") {
 }
 
 TEST_CASE("where a gap is reported, a laser does not see the robot, and else it does", "[sim][robots]") {
-  RobotModel robot =
-      shipped(GENERATE("barn_base", "nomad_200", "nomad_scout", "omni", "peoplebot", "pioneer_2dx"));
+  RobotModel robot = shipped(
+      GENERATE("barn_base", "create2", "nomad_200", "nomad_scout", "omni", "peoplebot", "pioneer_2dx"));
   const LaserScanner laser = shipped("pioneer_2dx").lasers.at(0);
   robot.sonars.clear();
   robot.infrareds.clear();
   int seen = 0, unseen = 0;
-  for (double height = 0.015; height < 1.4; height += 0.03) {
+  for (double height = 0.015; height < 1.4; height += 0.02) {
     robot.lasers = {laser};
     robot.lasers[0].height = height;
     World world({"empty", {}, {}}, {.seed = 1, .realism = Realism::ideal});

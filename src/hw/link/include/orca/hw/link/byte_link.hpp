@@ -95,6 +95,12 @@ class ByteLink {
   /// @errors  invalid_argument if the device cannot do it; see the class.
   [[nodiscard]] virtual Status set_line(const Line& /*line*/) { return ok(); }
 
+  /// Raises or lowers the line DTR, which switches something on some devices (the motor of an RPLIDAR A1): now if the link is
+  /// open, and after each open() that follows. As long as nobody has called it, DTR is raised while the link is open. Opening
+  /// raises it for a moment in any case. A link without such a line does nothing: a connection, a pseudo terminal.
+  /// @errors  see the class.
+  [[nodiscard]] virtual Status set_dtr(bool /*raised*/) { return ok(); }
+
   /// Returns the time that one byte takes [s]; 0: the link has no rate.
   [[nodiscard]] virtual double byte_time() const { return 0.0; }
 };

@@ -93,6 +93,7 @@ class FaultyLink final : public ByteLink {
   [[nodiscard]] int descriptor() const override { return -1; }
   [[nodiscard]] std::string name() const override { return link_->name(); }
   [[nodiscard]] Status set_line(const Line& line) override { return link_->set_line(line); }
+  [[nodiscard]] Status set_dtr(bool raised) override { return link_->set_dtr(raised); }
   [[nodiscard]] double byte_time() const override { return link_->byte_time(); }
 
   [[nodiscard]] FaultModes modes() const;

@@ -29,6 +29,7 @@ class LoggedLink final : public ByteLink {
   [[nodiscard]] int descriptor() const override { return link_->descriptor(); }
   [[nodiscard]] std::string name() const override { return link_->name(); }
   [[nodiscard]] Status set_line(const Line& line) override;
+  [[nodiscard]] Status set_dtr(bool raised) override;
   [[nodiscard]] double byte_time() const override { return link_->byte_time(); }
 
   /// Returns whether the log has neither reached its limit nor lost its disk.

@@ -36,7 +36,8 @@ struct SerialOptions {
 /// What is pending includes what the driver of the port still holds. A device that takes none of it for half a second, because an
 /// XOFF or the wires of flow control hold it back, has failed (deadline_exceeded): what waits would reach it too late, so close()
 /// drops it. close() lets out what was written last, which is
-/// often a command to stop, but waits at most 50 ms for that, and puts the old settings back.
+/// often a command to stop, but waits at most 50 ms for that, and puts the old settings back. The system lowers DTR behind a
+/// port that is closed, unless set_dtr() was called: then it stays as it was set.
 ///
 /// Thread contract: one strand.
 class SerialLink final : public ByteLink {
@@ -55,6 +56,7 @@ class SerialLink final : public ByteLink {
   [[nodiscard]] int descriptor() const override;
   [[nodiscard]] std::string name() const override { return "serial:" + options_.device; }
   [[nodiscard]] Status set_line(const Line& line) override;
+  [[nodiscard]] Status set_dtr(bool raised) override;
   [[nodiscard]] double byte_time() const override { return options_.line.byte_time(); }
 
   /// Returns the path, without links, of the device that is open; empty: none is.
@@ -74,6 +76,7 @@ class SerialLink final : public ByteLink {
   const std::unique_ptr<Stream> stream_;
   std::string identity_;  // the path in by-id of the adapter that was opened first, by another name
   std::string path_;
+  std::optional<bool> dtr_;               // raised or lowered; nothing: nobody has asked for it
   std::optional<TimePoint> waits_since_;  // for a device that is not there
   // On the system's clock: how long the line is busy with what was written, at its rate; and when it was last seen to take some.
   TimePoint busy_until_;

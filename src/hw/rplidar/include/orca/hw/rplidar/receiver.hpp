@@ -59,6 +59,10 @@ class Receiver {
 
   /// Returns the number of bytes that were skipped while a descriptor was waited for.
   [[nodiscard]] std::uint64_t skipped_bytes() const { return skipped_bytes_; }
+  /// Returns whether points are expected.
+  [[nodiscard]] bool is_scanning() const {
+    return answer_ == DataType::nodes || answer_ == DataType::capsules;
+  }
   /// Returns what was counted in the latest scan.
   [[nodiscard]] const framing::Statistics& scan_statistics() const {
     return is_express_ ? capsules_.statistics() : nodes_.statistics();

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+#include "orca/hw/line_counts.hpp"
+#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/rplidar/receiver.hpp"
+#include "orca/hw/rplidar/request.hpp"
+
+namespace orca::hw::rplidar {
+
+/// Which scans are asked for.
+enum class ScanMode {
+  automatic,  ///< Express scans if the scanner knows them.
+  standard,   ///< A point is a node: half as many, with the strength of the echo.
+  express,    ///< Points in capsules.
+};
+
+/// The connection to an RPLIDAR: stops what is being sent, asks who is there, resets a scanner that reports an error, once, and
+/// asks for a scan, during which it passes points on.
+///
+/// The motor turns from scan() to rest(): the line DTR of its adapter stops it. The scanner sends no point before the motor turns
+/// evenly, so a scan without points for kSpinTime is one whose motor does not turn.
+///
+/// Thread contract: not synchronised; the container's strand.
+/// @source  SLAMTEC, "RPLIDAR Interface Protocol and Application Notes", for the A1 and A2; DTR: the vendor's SDK.
+class RplidarSession {
+ public:
+  /// A function that takes a point, and when it was measured.
+  using Take = std::function<void(const Point&, TimePoint stamp)>;
+
+  static constexpr Duration kSpinTime = 6s;
+
+  /// @param link  outlives the object.
+  RplidarSession(link::ByteLink& link, ScanMode mode);
+
+  /// Begins anew, with a motor that stands. @pre  the link is open.
+  Status begin(TimePoint now);
+  /// Goes on with that.
+  /// @return whether the scanner is known and well.
+  /// @errors  not_found if it does not answer, failed_precondition if it reports an error after a reset, too, or does not know the
+  ///          wished mode, each with what to do; those of the link.
+  Result<bool> advance(TimePoint now);
+  /// Asks for a scan. Points come when the motor turns evenly. @pre  advance() has returned true.
+  Status scan(TimePoint now);
+  /// Ends the scan and stops the motor, as far as the line still works.
+  void rest();
+  /// Reads what there is, hands out the points, and goes on with the request for a scan.
+  /// @errors  deadline_exceeded if no scan or no point comes, with what to do; those of the link.
+  Status receive(TimePoint now, const Take& take);
+  /// Returns when advance() or receive() has something to do, even if nothing comes.
+  [[nodiscard]] TimePoint next() const { return deadline_; }
+
+  [[nodiscard]] const DeviceInfo& info() const { return info_; }
+  [[nodiscard]] const Health& health() const { return health_; }
+  /// Returns whether points come, or came last, in capsules.
+  [[nodiscard]] bool is_express() const { return express_; }
+  /// Returns whether points have come since scan().
+  [[nodiscard]] bool scans() const { return step_ == Step::flow; }
+  /// Returns what was counted since begin().
+  [[nodiscard]] LineCounts counts() const;
+
+ private:
+  enum class Step { quiet, info, health, boot, rates, done, hush, scan, spin, flow };
+
+  Status say(Step step, TimePoint now);
+  Status say_again(TimePoint now);
+  Status request(Step step);
+  [[nodiscard]] static Duration patience(Step step);
+  Status send(Request request);
+  Status read(TimePoint now, const Take& take);
+  void hear(const Event& event, TimePoint now, const Take& take);
+  void hear_point(const Point& point, TimePoint now, const Take& take);
+  Status take_answer(TimePoint now);
+  Status take_health(TimePoint now);
+  Status choose(TimePoint now);
+  Status go_on(TimePoint now);
+  Status give_up(TimePoint now);
+  Status refuse_express(TimePoint now);
+  [[nodiscard]] Duration age_of_point() const;
+  [[nodiscard]] Error nobody() const;
+
+  link::ByteLink& link_;
+  const ScanMode mode_;
+  Receiver receiver_;
+  LineCounts before_;  // of the scans before the present one
+  Step step_ = Step::quiet;
+  int tries_ = 0;  // of this step
+  TimePoint deadline_{};
+  bool was_reset_ = false;
+  bool answered_ = false;  // the present step
+  bool has_rates_ = false;
+  bool express_ = false;
+  std::uint64_t heard_bytes_ = 0;  // since begin()
+  DeviceInfo info_;
+  Health health_;
+  SampleRates rates_;
+  int place_in_capsule_ = 0;  // of the next point
+};
+
+}  // namespace orca::hw::rplidar
