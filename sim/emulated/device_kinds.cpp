@@ -12,6 +12,7 @@
 #include "orca/emulators/nomad_scout_firmware.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
+#include "orca/emulators/xr4000_firmware.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::sim {
@@ -49,7 +50,8 @@ Made make_only(const DeviceWish& wish, WorldBody& body) {
 constexpr std::array kKinds = {Kind{"create2", make_only<emulators::Create2Firmware>},
                                Kind{"nomad_scout", make_only<emulators::NomadScoutFirmware>},
                                Kind{"p2os", make_p2os},
-                               Kind{"sick_lms", make_only<emulators::SickLmsFirmware>}};
+                               Kind{"sick_lms", make_only<emulators::SickLmsFirmware>},
+                               Kind{"xr4000", make_only<emulators::Xr4000Firmware>}};
 
 Error wrong(const std::string& what) {
   return fail(Code::invalid_argument,
