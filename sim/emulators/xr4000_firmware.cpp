@@ -15,8 +15,8 @@ using hw::framing::Finding;
 constexpr std::size_t kLongestXrFrame = 135;
 constexpr Duration kHalfFrameTime = 500ms;
 constexpr double kMillimetre = 0.001;
-constexpr int kMostSpeed[] = {1500, 1500, 500};
-constexpr int kMostAcceleration[] = {1500, 1500, 5000};
+constexpr int kXrSpeeds[] = {1500, 1500, 500};
+constexpr int kXrAccelerations[] = {1500, 1500, 5000};
 constexpr int kStopAcceleration = 1000;
 constexpr std::uint8_t kNotReady = 1 | 2 | 4;
 constexpr std::size_t kX = 0;
@@ -93,13 +93,17 @@ Xr4000Firmware::Xr4000Firmware(Body& body, const Xr4000Settings& settings)
 
 void Xr4000Firmware::take(Bytes bytes, std::uint32_t baud, TimePoint now) {
   host_baud_ = baud;
-  if (!on_since_) on_since_ = now;
+  switch_on(now);
   if (now < *on_since_) return;                     // it is starting
   if (baud != 0 && baud != settings_.baud) return;  // it sees other bits, and no frame
   const auto take_frame = [&](const hw::framing::Frame& frame) { obey(frame.bytes, now); };
   if (now - last_byte_ > kHalfFrameTime) scanner_.give_up(take_frame);
   last_byte_ = now;
   scanner_.feed(bytes, take_frame);
+}
+
+void Xr4000Firmware::switch_on(TimePoint now) {
+  if (!on_since_) on_since_ = moved_at_ = now;
 }
 
 void Xr4000Firmware::reset(TimePoint now) {
@@ -151,8 +155,8 @@ int Xr4000Firmware::set_axes(Bytes payload) {
     power_ = true;
     const bool stops = mode == kStopMode;
     const int acceleration = stops ? kStopAcceleration : number_at(payload, 9 * i + 5);
-    axes_[i].wanted = stops ? 0.0 : std::clamp(number_at(payload, 9 * i + 1), -kMostSpeed[i], kMostSpeed[i]);
-    axes_[i].acceleration = std::clamp(acceleration, 0, kMostAcceleration[i]);
+    axes_[i].wanted = stops ? 0.0 : std::clamp(number_at(payload, 9 * i + 1), -kXrSpeeds[i], kXrSpeeds[i]);
+    axes_[i].acceleration = std::clamp(acceleration, 0, kXrAccelerations[i]);
   }
   return kOk;
 }
@@ -204,14 +208,14 @@ void Xr4000Firmware::add_bumpers(std::vector<std::uint8_t>& answer) const {
 }
 
 std::vector<std::uint8_t> Xr4000Firmware::advance(TimePoint now) {
-  if (!on_since_) on_since_ = now;
+  switch_on(now);
   accelerate(now);
   watch(now);
   return line_.leave(now, host_baud_ == 0 || host_baud_ == settings_.baud);
 }
 
 void Xr4000Firmware::accelerate(TimePoint now) {
-  const double time = moved_at_ == TimePoint{} ? 0.0 : to_seconds(now - moved_at_);
+  const double time = to_seconds(now - moved_at_);
   moved_at_ = now;
   bool changes = false;
   for (Axis& axis : axes_) {

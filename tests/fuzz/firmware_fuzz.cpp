@@ -7,6 +7,7 @@
 
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
+#include "orca/emulators/xr4000_firmware.hpp"
 
 using namespace orca;
 
@@ -23,7 +24,7 @@ class FuzzedBody final : public emulators::Body {
   }
   [[nodiscard]] Twist2 velocity() const override { return velocity_; }
   [[nodiscard]] std::optional<double> sonar(int number) const override {
-    if (number < 0 || number > 15) std::abort();
+    if (number < 0 || number > 47) std::abort();
     return 0.1 * number;
   }
 
@@ -53,5 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   talk(scout, {data, size}, 38400);
   emulators::Create2Firmware create(body);
   talk(create, {data, size}, 115200);
+  emulators::Xr4000Firmware xr4000(body);
+  talk(xr4000, {data, size}, 115200);
   return 0;
 }

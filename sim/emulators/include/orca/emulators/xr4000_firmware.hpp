@@ -74,6 +74,7 @@ class Xr4000Firmware final : public Firmware {
   void add_state(std::vector<std::uint8_t>& answer, TimePoint now) const;
   void add_sonars(std::vector<std::uint8_t>& answer) const;
   void add_bumpers(std::vector<std::uint8_t>& answer) const;
+  void switch_on(TimePoint now);
   void accelerate(TimePoint now);
   void watch(TimePoint now);
   void go_limp();
