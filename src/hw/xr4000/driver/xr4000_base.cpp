@@ -72,6 +72,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
     robot.bumper_radius(*radius_);
     robot.drives().push_back(describe_wheels());
     robot.drives().back().speed_change(*max_acceleration_);
+    robot.sonar_rings().push_back(senses_->describe_sonars(device()));
     return robot;
   }
 

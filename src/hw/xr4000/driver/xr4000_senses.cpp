@@ -43,6 +43,21 @@ std::vector<SensorEndpoint*> XrSenses::endpoints() {
   return all;
 }
 
+idl::SonarRing XrSenses::describe_sonars(const std::string& port) const {
+  idl::SonarRing ring;
+  ring.name("sonar");
+  ring.port(port);
+  ring.type(std::string(sonar_.type().name));
+  ring.update_interval(to_seconds(cycle_));
+  ring.number(kSonars);
+  ring.radius(kRadius);
+  ring.half_lobe(kHalfLobe);
+  ring.scale_factor(0.001);
+  ring.min_range(kNearest);
+  ring.max_range(kFarthest);
+  return ring;
+}
+
 void XrSenses::connect() {
   integrator_.forget();
   state_ = {};

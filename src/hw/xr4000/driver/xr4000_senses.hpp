@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "orca/geometry/twist2.hpp"
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/xr4000/answers.hpp"
 #include "orca/hw/xr4000/odometry.hpp"
+#include "orca/idl/hardware.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 
@@ -36,6 +38,9 @@ class XrSenses {
   XrSenses(Duration cycle, const BatteryScale& scale);
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
+
+  /// Returns what the sonars are, for clients that ask what the robot has. @param port  the line, as the graph names it.
+  [[nodiscard]] idl::SonarRing describe_sonars(const std::string& port) const;
 
   /// Begins anew with a robot. The pose goes on from where it was.
   void connect();
