@@ -27,9 +27,10 @@ struct Robot {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// A Scout tells 0.1 inch and a tenth of a degree.
+// A Scout tells 0.1 inch and a tenth of a degree, an XR4000 millimetres and milliradians.
 const std::vector<Robot> kRobots{{"peoplebot", 0.000424, 360.0 / 4096.0 * kDegree},
                                  {"nomad_scout", 0.00254, 0.1 * kDegree},
+                                 {"nomad_xr4000", 0.001, 0.001},
                                  {"pioneer2dx_sick", 0.00084, 360.0 / 4096.0 * kDegree}};
 
 std::string graph_of(const Robot& robot) {

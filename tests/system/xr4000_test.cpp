@@ -314,8 +314,11 @@ TEST_CASE("an XR4000's readings are those of its page", "[system][hardware]") {
                                                                "nomad.battery_channel=2"})));
   REQUIRE(says(program, "connected to the agent of an XR4000"));
   const auto reading = [](const std::string& port) {
-    return run_orcactl({"query", "base." + port, "<AskReading/>"}).out;
+    const Run run = run_orcactl({"query", "base." + port, "<AskReading/>"});
+    UNSCOPED_INFO(run.err);
+    return run.out;
   };
+  REQUIRE(eventually([&] { return !reading("OdometryQuery").empty(); }));
   CHECK_THAT(reading("SonarRangeReadingsQuery"), Contains("0.991") && Contains("7.62"));
   CHECK_THAT(reading("BumperReadingsQuery"), Contains("set 0 switch 4"));
   CHECK_THAT(reading("BatteryQuery"), Contains("voltage=\"24") && Contains("channel 2"));
