@@ -13,6 +13,7 @@
 #include "orca/emulators/p2os_firmware.hpp"
 #include "orca/emulators/rplidar_firmware.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
+#include "orca/emulators/xr4000_firmware.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::sim {
@@ -51,7 +52,8 @@ constexpr std::array kKinds = {Kind{"create2", make_only<emulators::Create2Firmw
                                Kind{"nomad_scout", make_only<emulators::NomadScoutFirmware>},
                                Kind{"p2os", make_p2os},
                                Kind{"rplidar", make_only<emulators::RplidarFirmware>},
-                               Kind{"sick_lms", make_only<emulators::SickLmsFirmware>}};
+                               Kind{"sick_lms", make_only<emulators::SickLmsFirmware>},
+                               Kind{"xr4000", make_only<emulators::Xr4000Firmware>}};
 
 Error wrong(const std::string& what) {
   return fail(Code::invalid_argument,

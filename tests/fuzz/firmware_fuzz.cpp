@@ -9,6 +9,7 @@
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
 #include "orca/emulators/rplidar_firmware.hpp"
+#include "orca/emulators/xr4000_firmware.hpp"
 
 using namespace orca;
 
@@ -25,7 +26,7 @@ class FuzzedBody final : public emulators::Body {
   }
   [[nodiscard]] Twist2 velocity() const override { return velocity_; }
   [[nodiscard]] std::optional<double> sonar(int number) const override {
-    if (number < 0 || number > 15) std::abort();
+    if (number < 0 || number > 47) std::abort();
     return 0.1 * number;
   }
 
@@ -69,5 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   FuzzedMirror mirror;
   emulators::RplidarFirmware laser(mirror, {.boot = 0s, .spin_up = 1ms});
   talk(laser, {data, size}, 115200, 300ms);  // it may send 2000 points a second
+  emulators::Xr4000Firmware xr4000(body);
+  talk(xr4000, {data, size}, 115200);
   return 0;
 }

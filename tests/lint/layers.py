@@ -80,6 +80,8 @@ LAYERS = (
     Layer("hw_create2", ("src/hw/create2",), ("orca/hw/create2/",), ("hw_framing", "geometry", "base")),
     Layer("rplidar_driver", ("src/hw/rplidar/driver",), (), ("hw_rplidar", *DRIVER), ("fmt",)),
     Layer("hw_rplidar", ("src/hw/rplidar",), ("orca/hw/rplidar/",), ("hw_framing", "geometry", "base")),
+    Layer("hw_xr4000", ("src/hw/xr4000",), ("orca/hw/xr4000/",), ("hw_framing", "geometry", "base")),
+    Layer("xr4000_driver", ("src/hw/xr4000/driver",), (), ("hw_xr4000", *DRIVER), ("fmt",)),
     Layer("graph", (GRAPH,), ("orca/graph/",), ("xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_reading", (f"{GRAPH}/reading",), (), ("graph", "xml", "base"), ("fmt",), module=GRAPH),
     Layer("graph_checking", (f"{GRAPH}/checking",), (), ("graph_reading", "graph", "xml", "base"), ("fmt",), module=GRAPH),

@@ -104,6 +104,7 @@ const std::set<std::string> kElsewhere{"scout_teleop", "scout_player", "scout_go
 
 // Graphs of robots that exist, and those whose components they have, one for one.
 const std::map<std::string, std::string> kOfRealRobots{{"nomad_scout", "scout_goto"},
+                                                       {"nomad_xr4000", "scout_goto"},
                                                        {"peoplebot", "scout_goto"},
                                                        {"pioneer2dx_sick", "pioneer_laser_goto"},
                                                        {"create2_rplidar", "pioneer_laser_goto"}};

@@ -39,6 +39,7 @@ const std::vector<Robot> kRobots{
     {"create2_rplidar", "", {"goto", "avoid"}},
     {"peoplebot", "", {"goto", "avoid"}},
     {"nomad_scout", "", {"goto", "avoid"}},
+    {"nomad_xr4000", "", {"goto", "avoid"}},
     {"pioneer_planner", "", {"planner"}},
     {"random_walk", "", {"walk", "avoid"}},
     {"two_robots", "dewey/", {"goto", "avoid"}},

@@ -22,11 +22,13 @@
 #include "orca/emulators/p2os_firmware.hpp"
 #include "orca/emulators/rplidar_firmware.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
+#include "orca/emulators/xr4000_firmware.hpp"
 #include "orca/hw/create2/stream.hpp"
 #include "orca/hw/nomad_scout/packet.hpp"
 #include "orca/hw/p2os/packet.hpp"
 #include "orca/hw/rplidar/capsule.hpp"
 #include "orca/hw/sick_lms/telegram.hpp"
+#include "orca/hw/xr4000/frame.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca;
@@ -64,6 +66,12 @@ struct Create : Base<emulators::Create2Firmware> {
   static constexpr const char* graph = "create2.xml";
   static constexpr Protocol protocol = hw::create2::kProtocol;
   static constexpr bool has_watchdog = false;
+};
+struct Nomad : Base<emulators::Xr4000Firmware> {
+  static emulators::Xr4000Settings settings() { return {}; }
+  static constexpr const char* graph = "xr4000.xml";
+  static constexpr Protocol protocol = hw::xr4000::kProtocol;
+  static constexpr bool has_watchdog = true;
 };
 struct Laser {
   using Firmware = emulators::SickLmsFirmware;
@@ -190,8 +198,8 @@ Descriptor terminal_at(const std::string& path) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("a driver works on over a bad line", "[system][hardware]", Pioneer, Scout, Create, Laser,
-                   Lidar) {
+TEMPLATE_TEST_CASE("a driver works on over a bad line", "[system][hardware]", Pioneer, Scout, Create, Nomad,
+                   Laser, Lidar) {
   AtWork<TestType> driver;
   const auto check_works_on = [&](const char* fault) {
     INFO(fault << ": " << driver.err());
@@ -214,7 +222,7 @@ TEMPLATE_TEST_CASE("a driver works on over a bad line", "[system][hardware]", Pi
 }
 
 TEMPLATE_TEST_CASE("a driver whose frames are all spoiled stops its base, and comes back with a good line",
-                   "[system][hardware]", Pioneer, Scout, Create, Laser, Lidar) {
+                   "[system][hardware]", Pioneer, Scout, Create, Nomad, Laser, Lidar) {
   AtWork<TestType> driver;
   driver.spoil(one_frame_spoiled_in(1, TestType::protocol));
   const bool says = driver.says("is it still connected and switched on?", 20s);
@@ -226,7 +234,7 @@ TEMPLATE_TEST_CASE("a driver whose frames are all spoiled stops its base, and co
 }
 
 TEMPLATE_TEST_CASE("a base whose line is held back stops where it can, and is told nothing late",
-                   "[system][hardware]", Pioneer, Scout, Create) {
+                   "[system][hardware]", Pioneer, Scout, Create, Nomad) {
   AtWork<TestType> driver;
   const Descriptor terminal = terminal_at(driver.path());
   REQUIRE(tcflow(terminal.number(), TCOOFF) == 0);
@@ -249,7 +257,7 @@ TEMPLATE_TEST_CASE("a laser whose line is held back goes on to send scans", "[sy
 }
 
 TEMPLATE_TEST_CASE("a device that is unplugged and comes back under another name is found again",
-                   "[system][hardware]", Pioneer, Scout, Create, Laser, Lidar) {
+                   "[system][hardware]", Pioneer, Scout, Create, Nomad, Laser, Lidar) {
   AtWork<TestType> driver;
   const std::string before = std::filesystem::canonical(driver.path());
   driver.desk().unplug();

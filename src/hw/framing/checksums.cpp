@@ -33,4 +33,14 @@ std::uint8_t sum_of_bytes(std::span<const std::uint8_t> bytes) {
   return static_cast<std::uint8_t>(sum & 0xFF);
 }
 
+std::uint16_t crc_ccitt(std::span<const std::uint8_t> bytes) {
+  constexpr std::uint32_t kGenerator = 0x1021;
+  std::uint32_t crc = 0xFFFF;
+  for (const std::uint8_t byte : bytes) {
+    crc ^= std::uint32_t{byte} << 8;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc << 1) ^ ((crc & 0x8000) != 0 ? kGenerator : 0);
+  }
+  return static_cast<std::uint16_t>(crc & 0xFFFF);
+}
+
 }  // namespace orca::hw::framing

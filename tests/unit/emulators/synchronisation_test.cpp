@@ -16,11 +16,13 @@
 #include "orca/emulators/nomad_scout_firmware.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
+#include "orca/emulators/xr4000_firmware.hpp"
 #include "orca/geometry/arc.hpp"
 #include "orca/hw/create2/stream.hpp"
 #include "orca/hw/nomad_scout/packet.hpp"
 #include "orca/hw/p2os/packet.hpp"
 #include "orca/hw/sick_lms/telegram.hpp"
+#include "orca/hw/xr4000/frame.hpp"
 
 using namespace orca;
 using namespace std::chrono_literals;
@@ -33,6 +35,7 @@ using hw::test::hex;
 namespace {
 
 constexpr Duration kStep = 100ms;
+constexpr int kDevices = 5;
 
 // Drives in curves, and hears and sees something else each time.
 class RestlessBody final : public emulators::Body, public emulators::Mirror {
@@ -88,6 +91,13 @@ Device make_device(int which, RestlessBody& body) {
     case 2:
       return {"Create", std::make_unique<Create2Firmware>(body), hw::create2::kProtocol,
               115200,   {"80", "94 07 07 13 14 15 16 2B 2C"},    ""};
+    case 3:
+      return {"XR4000",
+              std::make_unique<Xr4000Firmware>(body),
+              hw::xr4000::kProtocol,
+              115200,
+              {"58 52 01 00 01 01 64 D1"},
+              "58 52 00 00 02 DE EC 58 52 00 00 07 7B BC"};
     default:
       return {"LMS",
               std::make_unique<SickLmsFirmware>(body, SickLmsSettings{.power_up = 0s}),
@@ -171,7 +181,7 @@ void let_send(Device& device, RestlessBody& body, Duration time, Comparison& com
 }
 
 void check_never_lost(Duration time) {
-  for (int which = 0; which < 4; ++which) {
+  for (int which = 0; which < kDevices; ++which) {
     RestlessBody body;
     Device device = make_device(which, body);
     Comparison comparison(device.protocol, 0);
@@ -199,7 +209,7 @@ TEST_CASE("the frames of a device are found without a loss, for a thousand hours
 
 TEST_CASE("when one frame in a hundred is spoiled, at most one good one is lost with it",
           "[emulators][framing]") {
-  for (int which = 0; which < 4; ++which) {
+  for (int which = 0; which < kDevices; ++which) {
     RestlessBody body;
     Device device = make_device(which, body);
     Comparison comparison(device.protocol, 100);

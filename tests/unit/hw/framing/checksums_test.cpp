@@ -32,6 +32,11 @@ TEST_CASE("the sum of bytes is that of the Scout's packets", "[hw][framing]") {
   CHECK(sum_of_bytes(ChecksumInput{0xFF, 0x02}) == 0x01);
 }
 
+TEST_CASE("the CRC-16 of the digits 1 to 9 is the catalogue's check value", "[hw][framing]") {
+  CHECK(crc_ccitt(ChecksumInput{'1', '2', '3', '4', '5', '6', '7', '8', '9'}) == 0x29B1);
+  CHECK(crc_ccitt({}) == 0xFFFF);
+}
+
 TEST_CASE("the checksum of nothing is 0", "[hw][framing]") {
   CHECK(sum_of_words({}) == 0);
   CHECK(crc_of_pairs({}) == 0);

@@ -28,7 +28,7 @@ TEST_CASE(
     "[plugin][virtual]") {
   const std::set<std::string> real_time_only{"create2.so",  "emulated.so",      "nomad_scout.so",
                                              "p2os.so",     "player_server.so", "rplidar.so",
-                                             "sick_lms.so", "teleop.so"};
+                                             "sick_lms.so", "teleop.so",        "xr4000.so"};
   for (const std::string& path : plugins_in(kShipped)) {
     CAPTURE(path);
     const auto library = loaded(path);

@@ -20,4 +20,8 @@ namespace orca::hw::framing {
 /// @source  Nomad Scout host protocol.
 [[nodiscard]] std::uint8_t sum_of_bytes(std::span<const std::uint8_t> bytes);
 
+/// Returns the CRC-16 with generator 1021h that begins with FFFFh and takes the highest bit of each byte first.
+/// @source  Catalogue of parametrised CRC algorithms, "CRC-16/IBM-3740", also called CCITT-FALSE.
+[[nodiscard]] std::uint16_t crc_ccitt(std::span<const std::uint8_t> bytes);
+
 }  // namespace orca::hw::framing

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+#include "orca/hw/framing/scanner.hpp"
+#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/xr4000/answers.hpp"
+
+namespace orca::hw::xr4000 {
+
+/// The connection to the agent of an XR4000: finds out whether there is one, and then sends one request after the other, each
+/// when the one before it was answered or has waited too long.
+///
+/// What a line sends back to us (local echo) is ignored.
+///
+/// Thread contract: not synchronised; the container's strand.
+/// @source  docs/hardware/xr4000.md
+class XrSession {
+ public:
+  /// A function that takes an answer, and when its first byte arrived. The answer is valid only during the call.
+  using Take = std::function<void(const Message& answer, TimePoint stamp)>;
+
+  /// @param link  outlives the object.
+  explicit XrSession(link::ByteLink& link) : link_(link) {}
+
+  /// Begins anew. @pre  the link is open.
+  Status begin(TimePoint now);
+  /// Goes on with the search for the agent.
+  /// @return whether it has answered.
+  /// @errors  not_found if nothing answers, with what to do; unavailable if it is an agent of another version or robot, or if its
+  /// library has failed; those of the link.
+  Result<bool> advance(TimePoint now);
+
+  /// Reads what there is and hands out the answers. @pre  the agent has been found.
+  /// @errors  those of the link.
+  Status receive(TimePoint now, const Take& take);
+
+  /// Returns whether a request may be sent: the last one was answered, or had waited too long when receive() was called.
+  [[nodiscard]] bool is_free() const { return !asked_; }
+  /// Returns when the request that waits for its answer has waited too long; kForever if none waits.
+  [[nodiscard]] TimePoint deadline() const { return asked_ ? deadline_ : kForever; }
+  /// Sends a request, whose answer is awaited. One that was asked before is not awaited any more, but its answer is taken if it
+  /// comes.
+  /// @errors  those of ByteLink::write().
+  Status ask(const Frame& request, TimePoint now);
+  /// Sends a request whose answer is of no interest.
+  Status tell(const Frame& request) { return link_.write(request.view()); }
+
+  [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }
+
+ private:
+  Status meet(const Message& answer);
+  Status call(TimePoint now);
+  [[nodiscard]] Error nobody() const;
+  void take_frame(const framing::Frame& frame, TimePoint stamp, const Take& take);
+
+  link::ByteLink& link_;
+  framing::Scanner scanner_{kProtocol};
+  int tries_ = 0;
+  bool found_ = false;
+  bool echoes_ = false;  // something that we have sent came back
+  std::optional<Type> asked_{};
+  TimePoint deadline_{};
+};
+
+}  // namespace orca::hw::xr4000
