@@ -133,7 +133,8 @@ class Xr4000Base final : public orca::hw::LineDriver {
     }
     is_told_ = !powered_;  // there is nothing to tell to axes that are limp
     say_at_ = host().now();
-    return setpoint.at_once && powered_ ? say() : go_on();
+    if (setpoint.at_once && powered_) return session_->ask(say(host().now()), host().now());
+    return go_on();
   }
 
  private:
@@ -256,22 +257,28 @@ class Xr4000Base final : public orca::hw::LineDriver {
     return orca::ok();
   }
 
-  // Says the next thing if the agent has answered the last one.
+  // Sends all that is due, if the agent has answered all that was sent before. It answers in the order of the requests.
   Status go_on() {
-    const TimePoint now = host().now();
-    if (!session_->is_free()) return line().flush();
+    if (session_->is_free())
+      for (const Frame& request : due(host().now()))
+        if (Status asked = session_->ask(request, host().now()); !asked.ok()) return asked;
+    return line().flush();
+  }
+
+  std::vector<Frame> due(TimePoint now) {
+    std::vector<Frame> requests;
     if (powered_ && now >= feed_at_) {
       feed_at_ = now + kFeedPeriod;
-      return session_->ask(ask(Type::reset_motion_timer), now);
+      requests.push_back(ask(Type::reset_motion_timer));
     }
-    if (must_say() && now >= say_at_) return say();
-    if (!chores_.empty()) return session_->ask(chores_.front(), now);
+    if (must_say() && now >= say_at_) requests.push_back(say(now));
+    if (!chores_.empty()) requests.push_back(chores_.front());
     for (Question& question : questions_) {
       if (now < question.next) continue;
       question.next = now + question.period;
-      return session_->ask(ask(question.type), now);
+      requests.push_back(ask(question.type));
     }
-    return line().flush();
+    return requests;
   }
 
   // Whether the axes are, or may be, doing something else than they are to do.
@@ -279,10 +286,10 @@ class Xr4000Base final : public orca::hw::LineDriver {
     return powered_ && (!is_told_ || !wish_.stands() || senses_->moves());
   }
 
-  Status say() {
+  Frame say(TimePoint now) {
     said_ = wish_;
-    say_at_ = host().now() + kSayAgain;
-    return session_->ask(drive_axes(wish_), host().now());
+    say_at_ = now + kSayAgain;
+    return drive_axes(wish_);
   }
 
   // An emergency brakes with all that the axes can, and so harder than the library's stop mode.

@@ -12,8 +12,8 @@
 
 namespace orca::hw::xr4000 {
 
-/// The connection to the agent of an XR4000: finds out whether there is one, and then sends one request after the other, each
-/// when the one before it was answered or has waited too long.
+/// The connection to the agent of an XR4000: finds out whether there is one, and then sends requests and takes their
+/// answers, which come in the order of the requests.
 ///
 /// What a line sends back to us (local echo) is ignored.
 ///
@@ -39,12 +39,11 @@ class XrSession {
   /// @errors  those of the link.
   Status receive(TimePoint now, const Take& take);
 
-  /// Returns whether a request may be sent: the last one was answered, or had waited too long when receive() was called.
+  /// Returns whether requests may be sent: the last one was answered, or had waited too long when receive() was called.
   [[nodiscard]] bool is_free() const { return !asked_; }
-  /// Returns when the request that waits for its answer has waited too long; kForever if none waits.
+  /// Returns when the last request has waited too long for its answer; kForever if it was answered.
   [[nodiscard]] TimePoint deadline() const { return asked_ ? deadline_ : kForever; }
-  /// Sends a request, whose answer is awaited. One that was asked before is not awaited any more, but its answer is taken if it
-  /// comes.
+  /// Sends a request, whose answer is awaited, behind those of the requests before it.
   /// @errors  those of ByteLink::write().
   Status ask(const Frame& request, TimePoint now);
   /// Sends a request whose answer is of no interest.
