@@ -256,6 +256,12 @@ const std::vector<Unknown> kUnknown{
     {"pioneer_2dx", "sonar", "vendor", kMakerUnnamed},
     {"pioneer_2dx", "sonar", "model", kMakerUnnamed},
 
+    {"nomad_xr4000", "drive", "model", kPartOfTheBase},
+    {"nomad_xr4000", "bumper", "model", kPartOfTheBase},
+    {"nomad_xr4000", "odometry", "model", kPartOfTheBase},
+    {"nomad_xr4000", "sonar", "vendor", kMakerUnnamed},
+    {"nomad_xr4000", "sonar", "model", kMakerUnnamed},
+
     {"create2", "drive", "model", kPartOfTheBase},
     {"create2", "bumper", "model", kPartOfTheBase},
     {"create2", "odometry", "model", kPartOfTheBase},
