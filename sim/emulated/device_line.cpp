@@ -48,6 +48,7 @@ bool DeviceLine::exchange(TimePoint now) {
   std::array<std::uint8_t, 512> bytes{};
   const std::uint32_t baud = link_.line() ? link_.line()->baud : 0;
   auto count = link_.read(bytes);
+  firmware_->note_host(static_cast<bool>(count), now);
   for (; count && *count > 0; count = link_.read(bytes)) firmware_->take({bytes.data(), *count}, baud, now);
   const std::vector<std::uint8_t> sent = firmware_->advance(now);
   if (!sent.empty()) (void)link_.write(sent);

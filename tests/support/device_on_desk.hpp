@@ -161,7 +161,9 @@ class DeviceOnDesk {
   }
   void exchange(TimePoint now) {
     std::array<std::uint8_t, 256> bytes{};
-    if (const auto count = link_->read(bytes); count && *count > 0 && !silent_) {
+    const auto count = link_->read(bytes);
+    firmware_.note_host(static_cast<bool>(count), now);
+    if (count && *count > 0 && !silent_) {
       if (echoes_) (void)link_->write({bytes.data(), *count});
       firmware_.take({bytes.data(), *count}, pty_.line() ? pty_.line()->baud : 0, now);
     }
