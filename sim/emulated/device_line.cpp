@@ -35,7 +35,7 @@ Status DeviceLine::open() {
                                           " is offered by another system that runs; stop it, or choose "
                                           "another name here and in the driver's device");
   const Result<hw::link::Opening> opened = link_.open();
-  return opened ? ok() : Status(opened.error());
+  return opened ? link_.await_driver() : Status(opened.error());
 }
 
 void DeviceLine::close() {

@@ -123,7 +123,7 @@ class DeviceOnDesk {
   }
   void plug_in() {
     const std::lock_guard lock(mutex_);
-    REQUIRE(link_->open());
+    open();
   }
   /// Nothing that it sends or is sent arrives any more.
   void fall_silent(bool silent) { silent_ = silent; }
@@ -146,8 +146,13 @@ class DeviceOnDesk {
       faulty_ = faulty.get();
       link_ = std::move(faulty);
     }
-    REQUIRE(link_->open());
+    open();
     thread_ = std::thread([this] { run(); });
+  }
+
+  void open() {
+    REQUIRE(link_->open());
+    if (faulty_ == nullptr) REQUIRE(pty_.await_driver().ok());
   }
 
   void run() {
