@@ -89,7 +89,12 @@ std::optional<PlayerRobot::Bytes> PlayerRobot::request_of_base(std::uint32_t sub
       power_ = player_word(payload, 0) != 0;
       drive();
       break;
-    case 5: define({player_real(payload, 0), player_real(payload, 8), player_real(payload, 16)}); break;
+    case 5: {
+      const Pose2 here{player_real(payload, 0), player_real(payload, 8), player_real(payload, 16)};
+      if (!std::isfinite(here.x) || !std::isfinite(here.y) || !std::isfinite(here.yaw)) return std::nullopt;
+      define(here);
+      break;
+    }
     default: define({}); break;
   }
   return answer.bytes();

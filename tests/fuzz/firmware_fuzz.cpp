@@ -7,6 +7,7 @@
 
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
+#include "orca/emulators/player_firmware.hpp"
 
 using namespace orca;
 
@@ -53,5 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   talk(scout, {data, size}, 38400);
   emulators::Create2Firmware create(body);
   talk(create, {data, size}, 115200);
+  emulators::PlayerFirmware player(body);
+  talk(player, {data, size}, 0);
   return 0;
 }

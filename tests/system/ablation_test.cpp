@@ -103,8 +103,10 @@ const std::set<std::string> kElsewhere{"scout_teleop", "scout_goto_processes", "
                                        "two_machines"};
 
 // Graphs of robots that exist, and those whose components they have, one for one.
-const std::map<std::string, std::string> kOfRealRobots{
-    {"nomad_scout", "scout_goto"}, {"peoplebot", "scout_goto"}, {"pioneer2dx_sick", "pioneer_laser_goto"}};
+const std::map<std::string, std::string> kOfRealRobots{{"nomad_scout", "scout_goto"},
+                                                       {"peoplebot", "scout_goto"},
+                                                       {"pioneer2dx_sick", "pioneer_laser_goto"},
+                                                       {"player_robot", "pioneer_laser_goto"}};
 
 // Shipped graphs of several robots, and of how many. Each robot has the components of scout_goto under its own prefix.
 const std::map<std::string, std::size_t> kOfSeveral{{"two_robots", 2}, {"five_robots", 5}};

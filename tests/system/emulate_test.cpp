@@ -27,10 +27,11 @@ struct Robot {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// A Scout tells 0.1 inch and a tenth of a degree.
+// A Scout tells 0.1 inch and a tenth of a degree, a Player server all digits.
 const std::vector<Robot> kRobots{{"peoplebot", 0.000424, 360.0 / 4096.0 * kDegree},
                                  {"nomad_scout", 0.00254, 0.1 * kDegree},
-                                 {"pioneer2dx_sick", 0.00084, 360.0 / 4096.0 * kDegree}};
+                                 {"pioneer2dx_sick", 0.00084, 360.0 / 4096.0 * kDegree},
+                                 {"player_robot", 1e-9, 1e-9}};
 
 std::string graph_of(const Robot& robot) {
   return source_file("graphs/" + std::string(robot.graph) + ".xml");

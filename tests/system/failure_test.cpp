@@ -36,6 +36,7 @@ const std::vector<Robot> kRobots{
     {"scout_hospital", "", {"goto", "avoid"}},
     {"pioneer_laser_goto", "", {"goto", "avoid"}},
     {"pioneer2dx_sick", "", {"goto", "avoid"}},
+    {"player_robot", "", {"goto", "avoid"}},
     {"peoplebot", "", {"goto", "avoid"}},
     {"nomad_scout", "", {"goto", "avoid"}},
     {"pioneer_planner", "", {"planner"}},

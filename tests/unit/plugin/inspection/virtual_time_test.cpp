@@ -24,8 +24,8 @@ std::string virtual_time_faults_of(const std::string& plugin) {
 
 TEST_CASE("every shipped plugin may run in virtual time, except teleop and what talks to real devices",
           "[plugin][virtual]") {
-  const std::set<std::string> real_time_only{"create2.so", "emulated.so", "nomad_scout.so",
-                                             "p2os.so",    "sick_lms.so", "teleop.so"};
+  const std::set<std::string> real_time_only{"create2.so", "emulated.so", "nomad_scout.so", "p2os.so",
+                                             "player.so",  "sick_lms.so", "teleop.so"};
   for (const std::string& path : plugins_in(kShipped)) {
     CAPTURE(path);
     const auto library = loaded(path);
