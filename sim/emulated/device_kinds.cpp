@@ -11,6 +11,7 @@
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
+#include "orca/emulators/player_firmware.hpp"
 #include "orca/emulators/rplidar_firmware.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
 #include "orca/emulators/xr4000_firmware.hpp"
@@ -32,6 +33,11 @@ Error no_model(const DeviceWish& wish, const std::vector<std::string>& models) {
                                           xml::did_you_mean(xml::nearest_name(wish.model, models)));
 }
 
+Error only_one_model(const DeviceWish& wish) {
+  return fail(Code::invalid_argument,
+              wish.kind + " has no models; write " + in_quotes(wish.kind + " " + wish.name));
+}
+
 Made make_p2os(const DeviceWish& wish, WorldBody& body) {
   const std::string subclass = wish.model.empty() ? "p2dx" : wish.model;
   const auto settings = emulators::p2os_settings(subclass);
@@ -39,18 +45,23 @@ Made make_p2os(const DeviceWish& wish, WorldBody& body) {
   return Made(std::make_unique<emulators::P2osFirmware>(body, *settings));
 }
 
+// The whole robot, with its laser.
+Made make_player(const DeviceWish& wish, WorldBody& body) {
+  if (!wish.model.empty()) return only_one_model(wish);
+  return Made(std::make_unique<emulators::PlayerFirmware>(body, emulators::PlayerSettings{}, &body));
+}
+
 // Makes the firmware of a device of which there is one model.
 template <class Firmware>
 Made make_only(const DeviceWish& wish, WorldBody& body) {
-  if (!wish.model.empty())
-    return fail(Code::invalid_argument,
-                wish.kind + " has no models; write " + in_quotes(wish.kind + " " + wish.name));
+  if (!wish.model.empty()) return only_one_model(wish);
   return Made(std::make_unique<Firmware>(body));
 }
 
 constexpr std::array kKinds = {Kind{"create2", make_only<emulators::Create2Firmware>},
                                Kind{"nomad_scout", make_only<emulators::NomadScoutFirmware>},
                                Kind{"p2os", make_p2os},
+                               Kind{"player", make_player},
                                Kind{"rplidar", make_only<emulators::RplidarFirmware>},
                                Kind{"sick_lms", make_only<emulators::SickLmsFirmware>},
                                Kind{"xr4000", make_only<emulators::Xr4000Firmware>}};

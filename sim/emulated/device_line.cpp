@@ -35,7 +35,7 @@ Status DeviceLine::open() {
                                           " is offered by another system that runs; stop it, or choose "
                                           "another name here and in the driver's device");
   const Result<hw::link::Opening> opened = link_.open();
-  return opened ? ok() : Status(opened.error());
+  return opened ? link_.await_driver() : Status(opened.error());
 }
 
 void DeviceLine::close() {
@@ -48,6 +48,7 @@ bool DeviceLine::exchange(TimePoint now) {
   std::array<std::uint8_t, 512> bytes{};
   const std::uint32_t baud = link_.line() ? link_.line()->baud : 0;
   auto count = link_.read(bytes);
+  firmware_->note_host(static_cast<bool>(count), now);
   for (; count && *count > 0; count = link_.read(bytes)) firmware_->take({bytes.data(), *count}, baud, now);
   const std::vector<std::uint8_t> sent = firmware_->advance(now);
   if (!sent.empty()) (void)link_.write(sent);

@@ -8,6 +8,7 @@
 
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
+#include "orca/emulators/player_firmware.hpp"
 #include "orca/emulators/rplidar_firmware.hpp"
 #include "orca/emulators/xr4000_firmware.hpp"
 
@@ -72,5 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   talk(laser, {data, size}, 115200, 300ms);  // it may send 2000 points a second
   emulators::Xr4000Firmware xr4000(body);
   talk(xr4000, {data, size}, 115200);
+  emulators::PlayerFirmware player(body);
+  talk(player, {data, size}, 0);
   return 0;
 }

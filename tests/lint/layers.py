@@ -74,6 +74,7 @@ LAYERS = (
     Layer("create2_driver", ("src/hw/create2/driver",), (), ("hw_create2", *DRIVER), ("fmt",)),
     Layer("nomad_scout_driver", ("src/hw/nomad_scout/driver",), (), ("hw_nomad_scout", *DRIVER), ("fmt",)),
     Layer("p2os_driver", ("src/hw/p2os/driver",), (), ("hw_p2os", *DRIVER), ("fmt",)),
+    Layer("player_driver", ("src/hw/player/driver",), (), ("hw_player", *DRIVER), ("fmt",)),
     Layer("hw_sick_lms", ("src/hw/sick_lms",), ("orca/hw/sick_lms/",), ("hw_framing", "base")),
     Layer("sick_lms_driver", ("src/hw/sick_lms/driver",), (), ("hw_sick_lms", *DRIVER), ("fmt",)),
     Layer("hw_player", ("src/hw/player",), ("orca/hw/player/",), ("base",)),

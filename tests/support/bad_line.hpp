@@ -42,6 +42,7 @@ class BadLine final : public emulators::Firmware {
     return sent;
   }
   void reset(TimePoint now) override { device_.reset(now); }
+  void note_host(bool is_there, TimePoint now) override { device_.note_host(is_there, now); }
 
  private:
   Device device_;

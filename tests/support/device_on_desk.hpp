@@ -123,7 +123,7 @@ class DeviceOnDesk {
   }
   void plug_in() {
     const std::lock_guard lock(mutex_);
-    REQUIRE(link_->open());
+    open();
   }
   /// Nothing that it sends or is sent arrives any more.
   void fall_silent(bool silent) { silent_ = silent; }
@@ -146,8 +146,13 @@ class DeviceOnDesk {
       faulty_ = faulty.get();
       link_ = std::move(faulty);
     }
-    REQUIRE(link_->open());
+    open();
     thread_ = std::thread([this] { run(); });
+  }
+
+  void open() {
+    REQUIRE(link_->open());
+    if (faulty_ == nullptr) REQUIRE(pty_.await_driver().ok());
   }
 
   void run() {
@@ -161,7 +166,9 @@ class DeviceOnDesk {
   }
   void exchange(TimePoint now) {
     std::array<std::uint8_t, 256> bytes{};
-    if (const auto count = link_->read(bytes); count && *count > 0 && !silent_) {
+    const auto count = link_->read(bytes);
+    firmware_.note_host(static_cast<bool>(count), now);
+    if (count && *count > 0 && !silent_) {
       if (echoes_) (void)link_->write({bytes.data(), *count});
       firmware_.take({bytes.data(), *count}, pty_.line() ? pty_.line()->baud : 0, now);
     }

@@ -107,6 +107,7 @@ const std::map<std::string, std::string> kOfRealRobots{{"nomad_scout", "scout_go
                                                        {"nomad_xr4000", "scout_goto"},
                                                        {"peoplebot", "scout_goto"},
                                                        {"pioneer2dx_sick", "pioneer_laser_goto"},
+                                                       {"player_robot", "pioneer_laser_goto"},
                                                        {"create2_rplidar", "pioneer_laser_goto"}};
 
 // Shipped graphs of several robots, and of how many. Each robot has the components of scout_goto under its own prefix.

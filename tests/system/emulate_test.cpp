@@ -27,11 +27,12 @@ struct Robot {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// A Scout tells 0.1 inch and a tenth of a degree, an XR4000 millimetres and milliradians. A Create 2 counts its wheels' turns, of which each may be off by half a count.
+// A Scout tells 0.1 inch and a tenth of a degree, an XR4000 millimetres and milliradians, a Player server all digits. A Create 2 counts its wheels' turns, of which each may be off by half a count.
 constexpr double kCreateCount = std::numbers::pi * 0.072 / 508.8;  // [m]
 const std::vector<Robot> kRobots{{"peoplebot", 0.000424, 360.0 / 4096.0 * kDegree},
                                  {"nomad_scout", 0.00254, 0.1 * kDegree},
                                  {"nomad_xr4000", 0.001, 0.001},
+                                 {"player_robot", 1e-9, 1e-9},
                                  {"pioneer2dx_sick", 0.00084, 360.0 / 4096.0 * kDegree},
                                  {"create2_rplidar", kCreateCount, 2.0 * kCreateCount / 0.235}};
 

@@ -37,6 +37,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_laser_goto", "", {"goto", "avoid"}},
     {"pioneer2dx_sick", "", {"goto", "avoid"}},
     {"create2_rplidar", "", {"goto", "avoid"}},
+    {"player_robot", "", {"goto", "avoid"}},
     {"peoplebot", "", {"goto", "avoid"}},
     {"nomad_scout", "", {"goto", "avoid"}},
     {"nomad_xr4000", "", {"goto", "avoid"}},

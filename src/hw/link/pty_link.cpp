@@ -52,6 +52,12 @@ Result<Opening> PtyLink::open() {
   return Opening::done;
 }
 
+// The system tells that the other side is closed only if it was open once.
+Status PtyLink::await_driver() {
+  const Descriptor other_side(::open(device_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  return other_side ? ok() : Status(no_terminal(errno, name()));
+}
+
 Status PtyLink::place_symlink() const {
   if (symlink_.empty()) return ok();
   std::error_code failure;

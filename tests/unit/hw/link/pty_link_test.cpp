@@ -26,6 +26,22 @@ TEST_CASE("a line in a pseudo terminal has a path that leads to it while it is o
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
+TEST_CASE("a line that awaits its driver tells that there is none yet, and echoes nothing to it",
+          "[hw][link][pty]") {
+  const TempFolder folder;
+  PtyLink device(folder.file("line"));
+  must_open(device);
+  REQUIRE(device.await_driver().ok());
+  CHECK(error_of_reading(device) == Code::unavailable);
+  CHECK(error_of_writing(device) == Code::unavailable);
+  SerialLink driver(serial_at(folder, folder.file("line")));
+  must_open(driver);
+  CHECK(read_some(device).empty());
+  must_write(device, bytes_of("banner"));
+  CHECK(text_of(read_bytes(driver, 6)) == "banner");
+  CHECK(read_some(device).empty());
+}
+
 TEST_CASE("the path of a line replaces an old link, but no file", "[hw][link][pty]") {
   const TempFolder folder;
   std::filesystem::create_symlink("/dev/pts/99999", folder.file("old"));

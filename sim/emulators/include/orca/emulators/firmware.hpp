@@ -26,6 +26,10 @@ class Firmware {
   /// @return the bytes that have left the line by now; each takes its time at the device's rate.
   virtual std::vector<std::uint8_t> advance(TimePoint now) = 0;
 
+  /// Tells whether a host has the line open, at each look at the line. A device on a serial cable cannot know that; what listens in a
+  /// network begins with each host anew.
+  virtual void note_host(bool /*is_there*/, TimePoint /*now*/) {}
+
   /// Switches the device off and on.
   virtual void reset(TimePoint now) = 0;
 };

@@ -43,6 +43,12 @@ class PtyLink final : public ByteLink {
   /// Returns the path that a driver opens; empty: the link is closed.
   [[nodiscard]] const std::string& device() const { return device_; }
 
+  /// Lets the link tell whether a driver is there even before the first one: read() and write() give unavailable until one opens the other
+  /// side, as they do after one has closed it.
+  /// @pre  the link has just been opened.
+  /// @errors  unavailable with the system's reason.
+  [[nodiscard]] Status await_driver();
+
   /// Returns the line that the driver has set, so that an emulator can answer nonsense at a wrong rate; nothing: the link
   /// is closed. Linux keeps no parity for pseudo terminals.
   [[nodiscard]] std::optional<Line> line() const;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "orca/base/time.hpp"
+#include "orca/emulators/body.hpp"
+#include "orca/emulators/firmware.hpp"
+#include "orca/geometry/pose2.hpp"
+
+namespace orca::emulators {
+
+struct PlayerHeader;
+class PlayerRobot;
+
+/// Returns where the 16 sonars of a Pioneer 2 are, in the robot frame.
+[[nodiscard]] std::vector<Pose2> pioneer_sonars();
+
+/// What a server has, and how it behaves. Interfaces have their numbers: 2 power, 4 position2d, 5 sonar, 6 laser, 14 bumper.
+struct PlayerSettings {
+  std::string version = "3.1.1-dev";  ///< In its banner.
+  std::string banner{};               ///< What it sends first instead of a banner, if anything.
+  std::uint32_t port = 6665;          ///< That it names in addresses.
+  std::string base_driver = "p2os";   ///< Of all devices but the laser.
+  std::string laser_driver = "sicklms200";
+  std::vector<Pose2> sonars = pioneer_sonars();
+  unsigned front_bumpers = 5;
+  unsigned rear_bumpers = 5;
+  double length = 0.44;                 ///< [m]
+  double width = 0.38;                  ///< [m]
+  Pose2 laser_pose{0.017, 0.008, 0.0};  ///< In the robot frame.
+  double laser_height = 0.3;            ///< [m] of its beams.
+  double laser_range = 8.0;             ///< [m] what a beam without a return tells.
+  double voltage = 12.7;                ///< [V]
+  Duration cycle = 100ms;               ///< From data to data, but for the laser.
+  Duration scan_period = 25ms;          ///< Least time between two scans.
+  Duration accept_time = 50ms;          ///< From the connection to the banner.
+  std::set<std::uint32_t> missing{};    ///< Interfaces that it does not have.
+  std::set<std::uint32_t> refused{};    ///< Interfaces whose driver does not start.
+  std::set<std::uint32_t> silent{};     ///< Interfaces whose requests get no answer.
+};
+
+/// A Player server with one robot and for one client: it lists its devices, lets the client subscribe, answers requests, sends data by
+/// itself or when it is asked, and drives the body as it is commanded.
+///
+/// A connection begins when the line says that a host is there, with the banner, and ends when the host has gone: all devices are closed
+/// then, and the base stops. Bytes from a host of which the line has said nothing begin one too. The base has no watchdog: without another
+/// command it does for ever what it was told. Its motors turn while they have power and the last command says so. Messages to a device that
+/// is not open, or of a kind that is not known, are dropped, as are commands of a wrong size. Of a stream whose header is
+/// nonsense, what has come so far is forgotten.
+///
+/// No rate of a line is enforced. The configuration of the laser is told, and does not change. In pull mode the newest data of each device
+/// wait for the client.
+///
+/// Thread contract: not synchronised.
+/// @source  Player 3.1 server, TCP protocol in XDR.
+class PlayerFirmware final : public Firmware {
+ public:
+  /// @param body    outlives the object.
+  /// @param mirror  of its laser; outlives the object. Null: it has none.
+  explicit PlayerFirmware(Body& body, PlayerSettings settings = {}, const Mirror* mirror = nullptr);
+  ~PlayerFirmware() override;
+
+  void take(std::span<const std::uint8_t> bytes, std::uint32_t baud, TimePoint now) override;
+  std::vector<std::uint8_t> advance(TimePoint now) override;
+  /// The connection is lost then, as when the server is started anew. Where the odometry begins is forgotten, too.
+  void reset(TimePoint now) override;
+  void note_host(bool is_there, TimePoint now) override;
+
+  [[nodiscard]] bool has_power() const;
+  [[nodiscard]] bool is_subscribed(std::uint32_t interface) const { return open_.contains(interface); }
+  /// Returns how many connections there were.
+  [[nodiscard]] int connections() const { return connections_; }
+  /// Returns how many messages were dropped.
+  [[nodiscard]] int dropped() const { return dropped_; }
+
+ private:
+  using Bytes = std::span<const std::uint8_t>;
+
+  void connect(TimePoint now);
+  void disconnect();
+  void greet();
+  void obey(const PlayerHeader& header, Bytes payload);
+  void serve(const PlayerHeader& header, Bytes payload);
+  void subscribe(const PlayerHeader& header, Bytes payload);
+  void close(std::uint32_t interface);
+  void list_devices(const PlayerHeader& header);
+  void tell_driver(const PlayerHeader& header, Bytes payload);
+  void set_data_mode(const PlayerHeader& header, Bytes payload);
+  void give_data(const PlayerHeader& header);
+  [[nodiscard]] bool has(std::uint32_t interface, std::uint32_t index) const;
+  [[nodiscard]] const std::string& driver_of(std::uint32_t interface) const;
+  void publish(std::uint32_t interface, Bytes payload);
+  void answer(const PlayerHeader& header, std::uint32_t type, Bytes payload);
+  void send(const PlayerHeader& header, Bytes payload);
+
+  const PlayerSettings settings_;
+  const std::unique_ptr<PlayerRobot> robot_;
+  TimePoint now_{};
+  bool has_host_ = false;              // the line says so
+  std::optional<TimePoint> greet_at_;  // then the banner is due
+  bool connected_ = false;             // the banner was sent
+  std::vector<std::uint8_t> heard_;    // of a message whose rest is awaited
+  std::vector<std::uint8_t> out_;
+  std::set<std::uint32_t> open_;  // interfaces
+  bool pulls_ = false;
+  std::map<std::uint32_t, std::vector<std::uint8_t>> queue_;  // in pull mode, by interface
+  TimePoint next_cycle_{};
+  int connections_ = 0;
+  int dropped_ = 0;
+};
+
+}  // namespace orca::emulators

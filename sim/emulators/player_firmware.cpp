@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/emulators/player_firmware.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "player_robot.hpp"
+#include "player_wire.hpp"
+
+namespace orca::emulators {
+namespace {
+
+constexpr std::size_t kBannerBytes = 32;  // [bytes]
+// 127.0.0.1, as a server writes it.
+constexpr std::uint32_t kLoopback = 0x0100007F;
+constexpr std::uint32_t kAccessOpen = 1;
+constexpr std::uint32_t kAccessClose = 2;
+constexpr std::uint32_t kAccessRefused = 3;
+constexpr std::uint32_t kPullMode = 2;
+constexpr std::uint32_t kAskCapability = 255;
+
+PlayerWriter written_address(std::uint32_t port, std::uint32_t interface, std::uint32_t index) {
+  PlayerWriter out;
+  out.word(kLoopback).word(port).word(interface).word(index);
+  return out;
+}
+
+}  // namespace
+
+PlayerFirmware::PlayerFirmware(Body& body, PlayerSettings settings, const Mirror* mirror)
+    : settings_(std::move(settings)), robot_(std::make_unique<PlayerRobot>(body, mirror, settings_)) {}
+
+PlayerFirmware::~PlayerFirmware() = default;
+
+bool PlayerFirmware::has_power() const { return robot_->has_power(); }
+
+void PlayerFirmware::note_host(bool is_there, TimePoint now) {
+  if (is_there == has_host_) return;
+  has_host_ = is_there;
+  if (is_there)
+    connect(now);
+  else
+    disconnect();
+}
+
+void PlayerFirmware::connect(TimePoint now) {
+  disconnect();
+  greet_at_ = now + settings_.accept_time;
+}
+
+void PlayerFirmware::disconnect() {
+  while (!open_.empty()) close(*open_.begin());
+  greet_at_.reset();
+  connected_ = pulls_ = false;
+  heard_.clear();
+  out_.clear();
+  queue_.clear();
+}
+
+void PlayerFirmware::reset(TimePoint now) {
+  connect(now);
+  robot_->define({});
+}
+
+void PlayerFirmware::greet() {
+  greet_at_.reset();
+  connected_ = true;
+  ++connections_;
+  std::string text = settings_.banner.empty() ? "Player v." + settings_.version : settings_.banner;
+  text.resize(kBannerBytes);
+  out_.insert(out_.end(), text.begin(), text.end());
+}
+
+void PlayerFirmware::take(Bytes bytes, std::uint32_t /*baud*/, TimePoint now) {
+  now_ = now;
+  if (!connected_) greet();
+  heard_.insert(heard_.end(), bytes.begin(), bytes.end());
+  while (heard_.size() >= kPlayerHeader) {
+    const PlayerHeader header = read_player_header(heard_);
+    if (header.type < kPlayerData || header.type > kPlayerNack || header.size > kPlayerLongest) {
+      heard_.clear();
+      ++dropped_;
+      return;
+    }
+    const std::size_t size = kPlayerHeader + header.size;
+    if (heard_.size() < size) return;
+    obey(header, Bytes(heard_).subspan(kPlayerHeader, header.size));
+    heard_.erase(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(size));
+  }
+}
+
+void PlayerFirmware::obey(const PlayerHeader& header, Bytes payload) {
+  if (header.interface == kPlayerServer && header.index == 0 && header.type == kPlayerRequest)
+    return serve(header, payload);
+  const bool is_open = header.index == 0 && open_.contains(header.interface);
+  if (!is_open || settings_.silent.contains(header.interface)) {
+    ++dropped_;
+  } else if (header.type == kPlayerRequest && header.subtype == kAskCapability) {
+    const bool knows = PlayerRobot::knows(header.interface, player_word(payload, 0), player_word(payload, 4));
+    answer(header, knows ? kPlayerAck : kPlayerNack, {});
+  } else if (header.type == kPlayerRequest) {
+    const auto reply = robot_->request(header.interface, header.subtype, payload);
+    if (reply)
+      answer(header, kPlayerAck, *reply);
+    else
+      ++dropped_;
+  } else if (header.type != kPlayerCommand || header.interface != kPlayerPosition ||
+             !robot_->command(header.subtype, payload)) {
+    ++dropped_;
+  }
+}
+
+// The device that is the server itself.
+void PlayerFirmware::serve(const PlayerHeader& header, Bytes payload) {
+  if (settings_.silent.contains(kPlayerServer)) return;
+  switch (header.subtype) {
+    case 1: return list_devices(header);
+    case 2: return tell_driver(header, payload);
+    case 3: return subscribe(header, payload);
+    case 4: return give_data(header);
+    case 5: return set_data_mode(header, payload);
+    case 10: return answer(header, kPlayerAck, {});  // the newest data replace older ones in any case
+    default: ++dropped_; return;
+  }
+}
+
+void PlayerFirmware::list_devices(const PlayerHeader& header) {
+  const std::vector<std::uint32_t> all = robot_->interfaces();
+  PlayerWriter list;
+  list.count(all.size());
+  for (const std::uint32_t interface : all) list.word(kLoopback).word(settings_.port).word(interface).word(0);
+  answer(header, kPlayerAck, list.bytes());
+}
+
+void PlayerFirmware::tell_driver(const PlayerHeader& header, Bytes payload) {
+  const std::uint32_t interface = player_word(payload, 8);
+  if (!has(interface, player_word(payload, 12))) return answer(header, kPlayerNack, {});
+  PlayerWriter out = written_address(settings_.port, interface, 0);
+  answer(header, kPlayerAck, out.text(driver_of(interface)).bytes());
+}
+
+void PlayerFirmware::subscribe(const PlayerHeader& header, Bytes payload) {
+  const std::uint32_t interface = player_word(payload, 8);
+  std::uint32_t access = player_word(payload, 16);
+  if (!has(interface, player_word(payload, 12))) return answer(header, kPlayerNack, {});
+  if (access == kAccessClose)
+    close(interface);
+  else if (access != kAccessOpen || settings_.refused.contains(interface))
+    access = kAccessRefused;
+  else if (open_.empty())
+    next_cycle_ = now_ + settings_.cycle;
+  if (access == kAccessOpen) open_.insert(interface);
+  PlayerWriter out = written_address(settings_.port, interface, 0);
+  answer(header, kPlayerAck, out.word(access).text(driver_of(interface)).bytes());
+}
+
+// A base that nobody has open is stopped by its driver.
+void PlayerFirmware::close(std::uint32_t interface) {
+  if (open_.erase(interface) > 0 && interface == kPlayerPosition) robot_->rest();
+  queue_.erase(interface);
+}
+
+void PlayerFirmware::set_data_mode(const PlayerHeader& header, Bytes payload) {
+  const std::uint32_t mode = player_word(payload, 0);
+  if (mode < 1 || mode > kPullMode) return answer(header, kPlayerNack, {});
+  pulls_ = mode == kPullMode;
+  queue_.clear();
+  answer(header, kPlayerAck, {});
+}
+
+void PlayerFirmware::give_data(const PlayerHeader& header) {
+  answer(header, kPlayerAck, {});
+  for (const auto& [interface, payload] : std::exchange(queue_, {}))
+    send({.interface = interface, .type = kPlayerData, .subtype = 1}, payload);
+  send({.interface = kPlayerServer, .type = kPlayerSynch, .subtype = 1}, {});
+}
+
+bool PlayerFirmware::has(std::uint32_t interface, std::uint32_t index) const {
+  return index == 0 && std::ranges::count(robot_->interfaces(), interface) > 0;
+}
+
+const std::string& PlayerFirmware::driver_of(std::uint32_t interface) const {
+  return interface == kPlayerLaser ? settings_.laser_driver : settings_.base_driver;
+}
+
+std::vector<std::uint8_t> PlayerFirmware::advance(TimePoint now) {
+  now_ = now;
+  if (greet_at_ && now >= *greet_at_) greet();
+  for (; !open_.empty() && now >= next_cycle_; next_cycle_ += settings_.cycle)
+    for (const std::uint32_t interface : open_)
+      if (interface != kPlayerLaser) publish(interface, robot_->data(interface));
+  if (open_.contains(kPlayerLaser))
+    if (const auto scan = robot_->scan(now)) publish(kPlayerLaser, *scan);
+  return std::exchange(out_, {});
+}
+
+void PlayerFirmware::publish(std::uint32_t interface, Bytes payload) {
+  if (pulls_)
+    queue_[interface].assign(payload.begin(), payload.end());
+  else
+    send({.interface = interface, .type = kPlayerData, .subtype = 1}, payload);
+}
+
+void PlayerFirmware::answer(const PlayerHeader& header, std::uint32_t type, Bytes payload) {
+  PlayerHeader reply = header;
+  reply.type = type;
+  send(reply, payload);
+}
+
+void PlayerFirmware::send(const PlayerHeader& header, Bytes payload) {
+  PlayerWriter out = written_address(settings_.port, header.interface, header.index);
+  out.word(header.type).word(header.subtype).real(to_seconds(now_));
+  out.word(header.sequence).word(static_cast<std::uint32_t>(payload.size()));
+  out_.insert(out_.end(), out.bytes().begin(), out.bytes().end());
+  out_.insert(out_.end(), payload.begin(), payload.end());
+}
+
+}  // namespace orca::emulators

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "orca/base/text.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/hardware.hpp"
+#include "orca/hw/line_driver.hpp"
+#include "orca/hw/player/payload.hpp"
+#include "player_senses.hpp"
+#include "player_session.hpp"
+
+namespace {
+
+using orca::Duration;
+using orca::Result;
+using orca::Status;
+using orca::TimePoint;
+using orca::hw::DriveSetpoint;
+using namespace orca::hw::player;
+using namespace std::chrono_literals;
+
+constexpr Duration kSayAgain = 250ms;  // what it is to do; most drivers have no watchdog
+constexpr Duration kPowerAnswer = 1s;  // for the answer to the request for power
+constexpr double kSamePlace = 0.01;    // [m] and [rad]
+
+struct Use {
+  const char* word;
+  Interface interface;
+};
+constexpr Use kUses[] = {{"sonar", Interface::sonar},
+                         {"laser", Interface::laser},
+                         {"bumper", Interface::bumper},
+                         {"power", Interface::power}};
+
+/// A robot behind a Player server: its base (position2d), and its sonars, laser, bumpers and battery as far as the server has them.
+///
+/// Data come by themselves, as they arise. The motors get power with the first command to move, not before, and lose it when nobody uses the
+/// base. After a fault they stay off until an operator lets the base move again. What must be known before the connection, the shape of
+/// the robot and of its laser, are parameters; if the server says something else, that is told.
+class PlayerBase final : public orca::hw::LineDriver {
+ public:
+  explicit PlayerBase(orca::hw::HardwareHost& host) : LineDriver(host, "tcp:localhost:6665") {}
+
+  std::vector<orca::HardwareFault> prepare() override {
+    std::vector<orca::HardwareFault> faults = prepare_line();
+    read_uses(faults);
+    if (!faults.empty()) return faults;
+    senses_.emplace(uses_, PlayerRobotShape{.radius = *radius_, .sonar_range = *sonar_range_});
+    for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
+    motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
+                                          .max_turn_rate = *max_turn_rate_,
+                                          .big_turn_angle = 1.0,
+                                          .big_turn_speed = 0.1},
+                    orca::from_seconds(*max_command_age_));
+    set_motion(*motion_);
+    return faults;
+  }
+
+  [[nodiscard]] orca::idl::Robot description() const override {
+    orca::idl::Robot robot;
+    robot.name(*name_);
+    robot.vendor("Player");
+    robot.model("position2d");
+    robot.radius(*radius_);
+    robot.bumper_radius(*radius_);
+    robot.length(*length_);
+    robot.width(*width_);
+    robot.drives().push_back(describe_wheels());
+    if (does_use(Interface::laser)) robot.laser_sensors().push_back(describe_laser());
+    return robot;
+  }
+
+ protected:
+  Status begin(TimePoint now) override {
+    session_.emplace(line(), uses_, orca::from_seconds(*patience_));
+    return session_->begin(now);
+  }
+
+  Result<bool> advance(TimePoint now) override {
+    Result<bool> done = session_->advance(now);
+    if (!done || !*done) return done;
+    if (Status met = meet(); !met.ok()) return met.error();
+    return true;
+  }
+
+  [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
+  [[nodiscard]] TimePoint next_turn() const override { return say_again_; }
+  [[nodiscard]] orca::hw::LineCounts counts() const override {
+    return session_ ? session_->counts() : orca::hw::LineCounts{};
+  }
+  [[nodiscard]] Duration longest_silence() const override { return 1s; }
+
+  void stop() override {
+    (void)say({});
+    (void)switch_motors(false);
+  }
+
+  void take_leave() override {
+    if (!session_) return;
+    stop();
+    applied_ = {};
+  }
+
+  Status poll() override {
+    const TimePoint now = host().now();
+    if (Status read = session_->receive([&](const Message& message) { take(message, now); }); !read.ok())
+      return read;
+    miss_power(now);
+    if (now < say_again_) return line().flush();
+    return powered_ ? say(applied_) : rest();
+  }
+
+  Status drive(const DriveSetpoint& setpoint) override {
+    applied_ = setpoint;
+    if (!setpoint.stands() && !powered_)
+      if (Status on = switch_motors(true); !on.ok()) return on;
+    return say(setpoint);
+  }
+
+ private:
+  void read_uses(std::vector<orca::HardwareFault>& faults) {
+    uses_.clear();
+    std::istringstream words(*uses_text_);
+    for (std::string word; words >> word;) {
+      const auto* const use =
+          std::ranges::find_if(kUses, [&](const Use& known) { return known.word == word; });
+      if (use == std::end(kUses))
+        faults.push_back({"uses", orca::in_quotes(word) +
+                                      " is none of sonar, laser, bumper, power; write some "
+                                      "of them with blanks between"});
+      else if (!does_use(use->interface))
+        uses_.push_back(use->interface);
+    }
+  }
+
+  [[nodiscard]] bool does_use(Interface interface) const { return std::ranges::count(uses_, interface) > 0; }
+
+  [[nodiscard]] orca::idl::LaserSensor describe_laser() const {
+    const double step = *laser_beams_ > 1 ? *laser_angle_ / static_cast<double>(*laser_beams_ - 1) : 0.0;
+    orca::idl::LaserSensor laser;
+    laser.name("laser");
+    laser.vendor("Player");
+    laser.model("laser");
+    laser.port(device());
+    laser.type("LaserRangeReadings");
+    laser.update_interval(0.1);
+    laser.mount(orca::level_frame({*laser_x_, *laser_y_, 0.0}, *laser_z_));
+    laser.number(static_cast<std::uint32_t>(*laser_beams_));
+    laser.angle_start(-0.5 * *laser_angle_);
+    laser.angle_increment(step);
+    laser.min_range(0.0);
+    laser.max_range(*laser_range_);
+    return laser;
+  }
+
+  // The server has opened all that it has. What an earlier client has told the base may still go on.
+  Status meet() {
+    const PlayerRobotFacts& facts = session_->facts();
+    host().write_log(orca::log::Level::info,
+                     "connected to a Player server " + orca::in_quotes(orca::printable(facts.version)) +
+                         " with a base of its driver " + orca::in_quotes(facts.driver));
+    for (const std::string& shortcoming : facts.shortcomings) warn(shortcoming);
+    compare_shape(facts);
+    is_scan_compared_ = false;
+    senses_->connect(facts);
+    powered_ = false;
+    return say({});
+  }
+
+  void compare_shape(const PlayerRobotFacts& facts) {
+    if (facts.base) {
+      compare("length", *length_, facts.base->size.length);
+      compare("width", *width_, facts.base->size.width);
+    }
+    if (!facts.laser) return;
+    compare("laser_x", *laser_x_, facts.laser->pose.x);
+    compare("laser_y", *laser_y_, facts.laser->pose.y);
+    compare("laser_z", *laser_z_, facts.laser->pose.z);
+  }
+
+  // A server that says 0 for a length does not know it.
+  void compare(const std::string& param, double here, double there) {
+    const bool is_known = std::isfinite(there) && (there > 0.0 || param.starts_with("laser"));
+    if (is_known && std::abs(there - here) > kSamePlace)
+      warn("the server says " + shown(there) + " and this graph " + shown(here) + "; write " + param + "=\"" +
+           shown(there) + "\" if the server is right");
+  }
+
+  void compare_scan(const LaserScan& scan) {
+    if (std::exchange(is_scan_compared_, true)) return;
+    compare("laser_beams", static_cast<double>(*laser_beams_), static_cast<double>(scan.ranges.size()));
+    compare("laser_angle", *laser_angle_, static_cast<double>(scan.max_angle) - scan.min_angle);
+  }
+
+  static std::string shown(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", number);
+    return text;
+  }
+
+  void warn(const std::string& text) { host().write_log(orca::log::Level::warning, text); }
+
+  void take(const Message& message, TimePoint now) {
+    const MessageId id = id_of(message.header);
+    if (message.header.address.index != 0) return;
+    if (id == kPosition2dState) {
+      take_state(message, now);
+    } else if (id == kSonarRanges) {
+      take_data<SonarRanges>(message, now);
+    } else if (id == kLaserScan) {
+      take_data<LaserScan>(message, now);
+    } else if (id == kBumperState) {
+      take_bumpers(message, now);
+    } else if (id == kPowerState) {
+      take_data<PowerState>(message, now);
+    } else if (id.interface == Interface::position2d && id.subtype == kPosition2dMotorPower.subtype &&
+               (id.type == MessageType::ack || id.type == MessageType::nack)) {
+      power_due_ = orca::kForever;
+      if (id.type == MessageType::nack && powered_)
+        warn("the server refuses power for the motors; is an emergency button pressed?");
+    }
+  }
+
+  [[nodiscard]] bool is_active() const { return state() == orca::hw::HardwareState::active; }
+
+  void take_state(const Message& message, TimePoint now) {
+    const Result<Position2dState> state = decode<Position2dState>(message.payload);
+    if (!state || !senses_->take(*state, now, is_active())) return session_->note_bad();
+    heard(now);
+    if (state->stall && is_active()) motion_->obstruct("its motors are stalled");
+  }
+
+  void take_bumpers(const Message& message, TimePoint now) {
+    const Result<BumperState> bumpers = decode<BumperState>(message.payload);
+    if (!bumpers || !senses_->take(*bumpers, applied_.velocity.forward, now, is_active()))
+      return session_->note_bad();
+    if (is_active()) motion_->press(senses_->pressed());
+  }
+
+  template <class Data>
+  void take_data(const Message& message, TimePoint now) {
+    const Result<Data> data = decode<Data>(message.payload);
+    if (!data || !senses_->take(*data, now, is_active())) return session_->note_bad();
+    if constexpr (std::is_same_v<Data, LaserScan>) compare_scan(*data);
+  }
+
+  // A driver that does not know the request drops it, and its motors may have power all the time.
+  void miss_power(TimePoint now) {
+    if (now < power_due_) return;
+    power_due_ = orca::kForever;
+    warn(
+        "the server has not answered the request for motor power within 1 s; if the base does not move, see "
+        "what the server has printed");
+  }
+
+  Status rest() {
+    say_again_ = host().now() + kSayAgain;
+    return line().flush();
+  }
+
+  Status say(const DriveSetpoint& setpoint) {
+    say_again_ = host().now() + kSayAgain;
+    const orca::Twist2& velocity = setpoint.velocity;
+    return session_->send(
+        kPosition2dVelocity,
+        encode(VelocityCommand{.velocity = {velocity.forward, 0.0, velocity.turn_rate}, .motors_on = true}));
+  }
+
+  Status switch_motors(bool on) {
+    powered_ = on;
+    power_due_ = on ? host().now() + kPowerAnswer : orca::kForever;
+    return session_->send(kPosition2dMotorPower, encode(Switch{on}));
+  }
+
+  orca::Param<std::string> name_{*this, "name", "Player", {.text = "Name of this robot, one word."}};
+  orca::Param<std::string> uses_text_{
+      *this,
+      "uses",
+      "sonar laser bumper power",
+      {.text = "Devices of the server that are used beside its position2d, with blanks between."}};
+  orca::Param<double> max_speed_{
+      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Greatest speed."}};
+  orca::Param<double> max_turn_rate_{
+      *this, "max_turn_rate", 1.5, {.unit = "rad/s", .min = 0.0, .text = "Greatest turn rate."}};
+  orca::Param<double> max_command_age_{
+      *this,
+      "max_command_age",
+      0.2,
+      {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}};
+  orca::Param<double> patience_{
+      *this,
+      "patience",
+      8.0,
+      {.unit = "s",
+       .min = 0.1,
+       .max = 600.0,
+       .text = "Longest time in which a device opens; a laser may need half a minute. The deployer gives up "
+               "after 10 s."}};
+  orca::Param<double> radius_{
+      *this, "radius", 0.26, {.unit = "m", .min = 0.0, .text = "Of the circle that holds the body."}};
+  orca::Param<double> length_{
+      *this, "length", 0.44, {.unit = "m", .min = 0.0, .text = "Of the body; 0: it is round."}};
+  orca::Param<double> width_{
+      *this, "width", 0.38, {.unit = "m", .min = 0.0, .text = "Of the body; 0: it is round."}};
+  orca::Param<double> sonar_range_{
+      *this, "sonar_range", 5.0, {.unit = "m", .min = 0.1, .text = "Longest range of the sonars."}};
+  orca::Param<std::int64_t> laser_beams_{
+      *this, "laser_beams", 181, {.min = 1, .max = 100'000, .text = "Number of beams of the laser."}};
+  orca::Param<double> laser_angle_{
+      *this,
+      "laser_angle",
+      3.141592653589793,
+      {.unit = "rad", .min = 0.0, .text = "From its first beam to the last; ahead is in the middle."}};
+  orca::Param<double> laser_range_{
+      *this, "laser_range", 8.0, {.unit = "m", .min = 0.1, .text = "Longest range of the laser."}};
+  orca::Param<double> laser_x_{
+      *this, "laser_x", 0.0, {.unit = "m", .text = "Where the laser sits: ahead of the middle."}};
+  orca::Param<double> laser_y_{*this, "laser_y", 0.0, {.unit = "m", .text = "To the left of the middle."}};
+  orca::Param<double> laser_z_{
+      *this, "laser_z", 0.0, {.unit = "m", .text = "Height of its beams above the floor."}};
+
+  std::vector<Interface> uses_;
+  std::optional<PlayerSenses> senses_;
+  std::optional<orca::hw::MotionHW> motion_;
+  std::optional<PlayerSession> session_;
+  bool powered_ = false;                  // the motors
+  bool is_scan_compared_ = false;         // with what the parameters say
+  DriveSetpoint applied_;                 // what the wheels were told last
+  TimePoint power_due_ = orca::kForever;  // the answer to the request for power
+  TimePoint say_again_{};
+};
+
+}  // namespace
+
+ORCA_HARDWARE(PlayerBase, "orca.hw.Player")
+ORCA_STEADY_CLOCK_ONLY("its robot lives in real time")

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "orca/geometry/pose2.hpp"
+#include "orca/hw/endpoints.hpp"
+#include "orca/hw/player/bumper.hpp"
+#include "orca/hw/player/laser.hpp"
+#include "orca/hw/player/message.hpp"
+#include "orca/hw/player/position2d.hpp"
+#include "orca/hw/player/power.hpp"
+#include "orca/hw/player/sonar.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/sensing.hpp"
+#include "player_session.hpp"
+
+namespace orca::hw::player {
+
+/// What is not said over the line.
+struct PlayerRobotShape {
+  double radius = 0.0;       ///< [m] at which bumpers are taken to lie.
+  double sonar_range = 0.0;  ///< [m] longest that a sonar hears.
+};
+
+/// What the devices of a Player server sense, as endpoints. Each is published as it comes, in active hardware.
+///
+/// Where bumpers lie is not said over the line. They are taken to lie evenly around the robot, counted from ahead to the left, and one that
+/// is touched in motion to lie where the robot drives to.
+///
+/// Thread contract: not synchronised; the container's strand.
+class PlayerSenses {
+ public:
+  /// @param uses  devices beside the base.
+  PlayerSenses(const std::vector<Interface>& uses, const PlayerRobotShape& shape);
+
+  [[nodiscard]] const std::vector<SensorEndpoint*>& endpoints() const { return endpoints_; }
+
+  /// Begins anew with a robot. The pose of the odometry goes on from where it was.
+  void connect(const PlayerRobotFacts& facts);
+
+  /// Takes data. @return whether they have numbers that mean something.
+  /// @param stamp    when they came.
+  /// @param publish  whether they are passed on.
+  bool take(const Position2dState& state, TimePoint stamp, bool publish);
+  bool take(const SonarRanges& ranges, TimePoint stamp, bool publish);
+  bool take(const LaserScan& scan, TimePoint stamp, bool publish);
+  /// @param forward  [m/s] that the wheels are told.
+  bool take(const BumperState& bumpers, double forward, TimePoint stamp, bool publish);
+  bool take(const PowerState& power, TimePoint stamp, bool publish);
+
+  /// Returns the bumpers that are pressed, for MotionHW::press().
+  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const;
+
+ private:
+  void publish_sonars(TimePoint stamp);
+  void publish_bumpers(TimePoint stamp);
+  [[nodiscard]] Vec2 outwards(std::size_t bumper) const;
+
+  const PlayerRobotShape shape_;
+  SensorHW<idl::Odometry> odometry_;
+  SensorHW<idl::SonarRangeReadings> sonar_;
+  SensorHW<idl::LaserRangeReadings> laser_;
+  SensorHW<idl::BumperReadings> bumpers_;
+  SensorHW<idl::Battery> battery_;
+  std::vector<SensorEndpoint*> endpoints_;
+
+  PlayerRobotFacts facts_;
+  Pose2 pose_;  // in the frame of the odometry
+  std::optional<Pose2>
+      server_zero_;             // where the server's odometry begins, in that frame; nothing: not heard yet
+  std::vector<double> ranges_;  // [m] of the sonars
+  std::vector<TimePoint> stamps_;  // when they were measured
+  std::vector<std::uint8_t> touched_;
+  std::vector<Vec2> touched_at_;  // outwards, of each that is touched
+};
+
+}  // namespace orca::hw::player

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+#include "orca/hw/line_counts.hpp"
+#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/player/geometry.hpp"
+#include "orca/hw/player/message_reader.hpp"
+#include "orca/hw/player/session.hpp"
+#include "orca/hw/player/sonar.hpp"
+
+namespace orca::hw::player {
+
+/// Returns what a device is called in a server's configuration, for people: "position2d:0".
+[[nodiscard]] std::string device_name(Interface interface);
+
+/// What a server has said of its robot.
+struct PlayerRobotFacts {
+  std::string version;                    ///< Of the server.
+  std::string driver;                     ///< Of the base.
+  std::vector<Interface> open;            ///< Devices that are open.
+  std::vector<std::string> shortcomings;  ///< What is missing, for people, with what to do.
+  std::optional<Geometry> base;           ///< Nothing: it does not say.
+  std::optional<SonarGeometry> sonars;    ///< Likewise.
+  std::optional<Geometry> laser;          ///< Likewise.
+
+  [[nodiscard]] bool has(Interface interface) const;
+};
+
+/// The connection to a Player server: waits for the banner, lets data come by themselves, asks what devices there are, opens the base and
+/// those others that are wished, and asks where they are. Then it passes messages on.
+///
+/// One request is made at a time. Without a base there is no hope; without another device, or its place, it goes on.
+///
+/// Thread contract: not synchronised; the container's strand.
+/// @source  Player 3.1 server and its client library libplayerc.
+class PlayerSession {
+ public:
+  using Take = std::function<void(const Message&)>;
+
+  /// @param link      outlives the object.
+  /// @param wishes    devices that are used beside the base, as far as the server has them.
+  /// @param patience  [s] for the answer when a device is opened, whose driver starts then.
+  PlayerSession(link::ByteLink& link, std::vector<Interface> wishes, Duration patience);
+
+  /// Begins anew. @pre  the link has just been opened: what it has brought since is not dropped, for that is the banner.
+  Status begin(TimePoint now);
+
+  /// Goes on until all is open.
+  /// @return whether it is.
+  /// @errors  not_found if nothing or something else than a Player server speaks, or if there is no base; unavailable if the base is refused;
+  ///          deadline_exceeded if a request gets no answer; each with what to do. Those of the link and of MessageReader.
+  Result<bool> advance(TimePoint now);
+  /// Returns when advance() has something to do, even if nothing comes.
+  [[nodiscard]] TimePoint next() const { return deadline_; }
+
+  /// Reads what there is and hands out the messages.
+  /// @errors  those of the link and of MessageReader.
+  Status receive(const Take& take);
+
+  /// Sends a message to the device 0 of an interface.
+  /// @errors  those of ByteLink::write().
+  Status send(const MessageId& id, std::span<const std::uint8_t> payload);
+
+  /// Counts a message that could not be read.
+  void note_bad() { ++bad_; }
+  [[nodiscard]] LineCounts counts() const { return {.frames = messages_ - bad_, .bad_checksums = bad_}; }
+  [[nodiscard]] const PlayerRobotFacts& facts() const { return facts_; }
+
+ private:
+  // A request whose answer is awaited, or will be.
+  struct Question {
+    MessageId id;
+    std::vector<std::uint8_t> payload;
+    Interface about;  // which device
+  };
+
+  void add(const MessageId& id, Interface about, std::vector<std::uint8_t> payload = {});
+  Status ask(TimePoint now);
+  Status take(const Message& message, TimePoint now);
+  [[nodiscard]] bool is_late(const Message& message) const;
+  Status take_answer(const Question& question, std::span<const std::uint8_t> payload);
+  Status take_devices(std::span<const std::uint8_t> payload);
+  Status take_subscription(Interface about, std::span<const std::uint8_t> payload);
+  Status take_geometry(const Question& question, std::span<const std::uint8_t> payload);
+  Status refuse(const Question& question);
+  Status miss(const Question& question);
+  Status go_without(Interface about, const std::string& why);
+
+  link::ByteLink& link_;
+  const std::vector<Interface> wishes_;
+  const Duration patience_;
+  MessageReader reader_{MessageReader::Side::client};
+  std::deque<Question> questions_;  // the first one was asked
+  bool greeted_ = false;
+  TimePoint deadline_{};
+  PlayerRobotFacts facts_;
+  std::uint64_t messages_ = 0;
+  std::uint64_t bad_ = 0;  // of them
+};
+
+}  // namespace orca::hw::player

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bytes are those of the protocol's description, written out by hand.
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hex_bytes.hpp"
+#include "orca/emulators/player_firmware.hpp"
+#include "orca/geometry/arc.hpp"
+
+using namespace orca;
+using namespace std::chrono_literals;
+using emulators::PlayerFirmware;
+using emulators::PlayerSettings;
+using hw::test::Bytes;
+
+namespace {
+
+// Of "Player v.3.1.1-dev", filled up to 32 bytes.
+constexpr const char* kBanner = "506C6179 65722076 2E332E31 2E312D64 65760000 00000000 00000000 00000000";
+
+// Returns the bytes of e.g. "0000003E 01"; blanks mean nothing.
+Bytes from_words(const std::string& text) {
+  Bytes bytes;
+  std::string digits;
+  for (const char c : text)
+    if (c != ' ') digits += c;
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
+    bytes.push_back(static_cast<std::uint8_t>(std::stoi(digits.substr(i, 2), nullptr, 16)));
+  return bytes;
+}
+
+// Returns words of four bytes with blanks between them.
+std::string in_words(std::span<const std::uint8_t> bytes) {
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (i > 0 && i % 4 == 0) text += ' ';
+    text += kDigits[bytes[i] / 16];
+    text += kDigits[bytes[i] % 16];
+  }
+  return text;
+}
+
+class WheeledBody final : public emulators::Body {
+ public:
+  void drive(const Twist2& velocity) override { told = velocity; }
+  [[nodiscard]] Pose2 odometry() const override { return pose; }
+  [[nodiscard]] Twist2 velocity() const override { return told; }
+  [[nodiscard]] std::optional<double> sonar(int number) const override {
+    return number == 1 ? std::optional(0.5) : std::nullopt;
+  }
+  [[nodiscard]] std::uint16_t bumpers() const override { return pressed; }
+  [[nodiscard]] bool is_stalled() const override { return stalled; }
+
+  Twist2 told;
+  Pose2 pose;
+  std::uint16_t pressed = 0;
+  bool stalled = false;
+};
+
+class StillMirror final : public emulators::Mirror {
+ public:
+  [[nodiscard]] std::optional<emulators::MirrorTurn> last_turn() const override {
+    if (!stamp) return std::nullopt;
+    return emulators::MirrorTurn{*stamp, -0.5, 0.5, ranges};
+  }
+  std::optional<TimePoint> stamp;
+  std::array<double, 3> ranges{1.0, 2.0, std::numeric_limits<double>::infinity()};
+};
+
+PlayerSettings with_two_sonars() {
+  PlayerSettings settings;
+  settings.sonars = {{0.0, 0.5, 1.0}, {0.0, -0.5, -1.0}};
+  return settings;
+}
+
+/// A server and its client, which hears everything that it sends.
+struct PlayerDesk {
+  explicit PlayerDesk(PlayerSettings settings = with_two_sonars())
+      : server(body, std::move(settings), &mirror) {
+    (void)server.advance(now);
+  }
+  /// Connects, and returns what the server sends by itself.
+  std::string connect() {
+    server.note_host(true, now);
+    return in_words(pass(100ms));
+  }
+  Bytes pass(Duration time) {
+    now += time;
+    return server.advance(now);
+  }
+  /// Sends a message, whose header begins with host 0, robot 0, and has time 0 and a sequence. @param kind  interface, index,
+  /// type, subtype. @return what comes back at once.
+  Bytes say(const std::string& kind, const std::string& payload = "") {
+    Bytes message = from_words("00000000 00000000" + kind + "0000000000000000 0000002A");
+    const Bytes content = from_words(payload);
+    for (int shift = 24; shift >= 0; shift -= 8)
+      message.push_back(static_cast<std::uint8_t>((content.size() >> shift) & 0xFF));
+    message.insert(message.end(), content.begin(), content.end());
+    server.take(message, 0, now);
+    return server.advance(now);
+  }
+  /// Opens a device. @return the answer's payload.
+  std::string open(const std::string& interface) {
+    const Bytes answer = say("00000001 00000000 00000003 00000003",
+                             "00000000 00000000" + interface + "00000000 00000001 00000000 00000000");
+    return in_words(std::span(answer).subspan(40));
+  }
+
+  WheeledBody body;
+  StillMirror mirror;
+  TimePoint now{100s};
+  PlayerFirmware server;
+};
+
+// Header and payload of the only message in these bytes; the time stamp, which is the server's, is left out.
+struct Parts {
+  explicit Parts(const Bytes& bytes) {
+    REQUIRE(bytes.size() >= 40);
+    head = in_words(std::span(bytes).first(24));
+    tail = in_words(std::span(bytes).subspan(32, 8));
+    payload = in_words(std::span(bytes).subspan(40));
+    size = bytes.size();
+  }
+  std::string head, tail, payload;
+  std::size_t size = 0;
+};
+
+constexpr const char* kMotorsOn = "00000004 00000000 00000003 00000002";
+constexpr const char* kVelocity = "00000004 00000000 00000002 00000001";
+// 0.2 m/s, 0.1 rad/s, motors on.
+constexpr const char* kAheadLeft = "3FC999999999999A 0000000000000000 3FB999999999999A 00000001";
+
+}  // namespace
+
+TEST_CASE("a Player server greets each client with its banner, a moment after it has come", "[emulators]") {
+  PlayerDesk desk;
+  CHECK(desk.pass(1s).empty());
+  desk.server.note_host(true, desk.now);
+  CHECK(desk.pass(10ms).empty());
+  CHECK(in_words(desk.pass(40ms)) == kBanner);
+  desk.server.note_host(true, desk.now);  // still there
+  CHECK(desk.pass(1s).empty());
+  desk.server.note_host(false, desk.now);
+  CHECK(desk.pass(1s).empty());
+  CHECK(desk.connect() == kBanner);
+  CHECK(desk.server.connections() == 2);
+}
+
+TEST_CASE("a Player server that hears from a client of which the line said nothing greets it first",
+          "[emulators]") {
+  PlayerDesk desk;
+  const Bytes said = desk.say("00000001 00000000 00000003 00000005", "00000001");
+  REQUIRE(said.size() == 32 + 40);
+  CHECK(in_words(std::span(said).first(32)) == kBanner);
+}
+
+TEST_CASE("a Player server lists its devices, and repeats the address, subtype and sequence of a request",
+          "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  const Parts list(desk.say("00000001 00000000 00000003 00000001"));
+  CHECK(list.head == "0100007F 00001A09 00000001 00000000 00000004 00000001");
+  CHECK(list.tail == "0000002A 00000058");
+  CHECK(list.payload ==
+        "00000005 00000005 "
+        "0100007F 00001A09 00000004 00000000 0100007F 00001A09 00000005 00000000 "
+        "0100007F 00001A09 0000000E 00000000 0100007F 00001A09 00000002 00000000 "
+        "0100007F 00001A09 00000006 00000000");
+}
+
+TEST_CASE("a Player server names the drivers of its devices", "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  const std::string ask = "00000001 00000000 00000003 00000002";
+  CHECK(Parts(desk.say(ask, "00000000 00000000 00000006 00000000 00000000 00000000")).payload ==
+        "0100007F 00001A09 00000006 00000000 0000000B 0000000B 7369636B 6C6D7332 30300000");
+  const Parts unknown(desk.say(ask, "00000000 00000000 0000003E 00000000 00000000 00000000"));
+  CHECK(unknown.head == "0100007F 00001A09 00000001 00000000 00000006 00000002");  // NACK
+  CHECK(unknown.payload.empty());
+}
+
+TEST_CASE("a Player server opens devices, refuses those that do not start, and knows no others",
+          "[emulators]") {
+  PlayerSettings settings = with_two_sonars();
+  settings.refused = {5};
+  settings.missing = {14};
+  PlayerDesk desk(settings);
+  (void)desk.connect();
+  CHECK(desk.open("00000004") ==
+        "0100007F 00001A09 00000004 00000000 00000001 00000005 00000005 70326F73 00000000");
+  CHECK(desk.server.is_subscribed(4));
+  CHECK(desk.open("00000005") ==
+        "0100007F 00001A09 00000005 00000000 00000003 00000005 00000005 70326F73 00000000");
+  CHECK_FALSE(desk.server.is_subscribed(5));
+  const Parts missing(desk.say("00000001 00000000 00000003 00000003",
+                               "00000000 00000000 0000000E 00000000 00000001 00000000 00000000"));
+  CHECK(missing.head == "0100007F 00001A09 00000001 00000000 00000006 00000003");
+  const Parts closed(desk.say("00000001 00000000 00000003 00000003",
+                              "00000000 00000000 00000004 00000000 00000002 00000000 00000000"));
+  CHECK(closed.payload == "0100007F 00001A09 00000004 00000000 00000002 00000005 00000005 70326F73 00000000");
+  CHECK_FALSE(desk.server.is_subscribed(4));
+}
+
+TEST_CASE("an emulated Player base turns its wheels when its motors have power, and says where it is",
+          "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  (void)desk.open("00000004");
+  CHECK(desk.say(kVelocity, kAheadLeft).empty());
+  CHECK(desk.body.told == Twist2{});
+  const Parts on(desk.say(kMotorsOn, "00000001"));
+  CHECK(on.head == "0100007F 00001A09 00000004 00000000 00000004 00000002");
+  CHECK(on.tail == "0000002A 00000000");
+  CHECK(desk.server.has_power());
+  CHECK(desk.body.told == Twist2{0.2, 0.0, 0.1});
+  desk.body.pose = {1.0, 2.0, 0.5};
+  const Parts state(desk.pass(100ms));
+  CHECK(state.head == "0100007F 00001A09 00000004 00000000 00000001 00000001");
+  CHECK(state.payload ==
+        "3FF00000 00000000 40000000 00000000 3FE00000 00000000 3FC99999 9999999A 00000000 00000000 3FB99999 "
+        "9999999A 00000000");
+  CHECK(desk.pass(99ms).empty());
+  desk.body.stalled = true;
+  CHECK(Parts(desk.pass(1ms)).payload.ends_with("9999999A 00000001"));
+  (void)desk.say(kVelocity, "3FC999999999999A 0000000000000000 3FB999999999999A 00000000");
+  CHECK(desk.body.told == Twist2{});  // the command itself lets them rest
+}
+
+TEST_CASE("an emulated Player base drives on without commands, until its client has gone", "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  (void)desk.open("00000004");
+  (void)desk.say(kMotorsOn, "00000001");
+  (void)desk.say(kVelocity, kAheadLeft);
+  (void)desk.pass(60s);
+  CHECK(desk.body.told == Twist2{0.2, 0.0, 0.1});
+  desk.server.note_host(false, desk.now);
+  CHECK(desk.body.told == Twist2{});
+  CHECK_FALSE(desk.server.has_power());
+  CHECK_FALSE(desk.server.is_subscribed(4));
+}
+
+TEST_CASE("an emulated Player base takes the pose that it is told, and tells its size", "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  (void)desk.open("00000004");
+  const Parts set(
+      desk.say("00000004 00000000 00000003 00000005", "3FF0000000000000 4000000000000000 0000000000000000"));
+  CHECK(set.head == "0100007F 00001A09 00000004 00000000 00000004 00000005");
+  CHECK(Parts(desk.pass(100ms)).payload.starts_with("3FF00000 00000000 40000000 00000000 00000000 00000000"));
+  (void)desk.say("00000004 00000000 00000003 00000006");
+  CHECK(Parts(desk.pass(100ms)).payload.starts_with("00000000 00000000 00000000 00000000 00000000 00000000"));
+  const Parts size(desk.say("00000004 00000000 00000003 00000001"));
+  CHECK(size.tail == "0000002A 00000048");
+  CHECK(size.payload.ends_with("3FD851EB 851EB852 3FDC28F5 C28F5C29 00000000 00000000"));  // 0.38 m, 0.44 m
+}
+
+TEST_CASE("emulated Player sonars tell ranges and places", "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  (void)desk.open("00000005");
+  const Parts ranges(desk.pass(100ms));
+  CHECK(ranges.head == "0100007F 00001A09 00000005 00000000 00000001 00000001");
+  CHECK(ranges.payload == "00000002 00000002 40A00000 3F000000");  // no echo: 5 m; 0.5 m
+  const Parts places(desk.say("00000005 00000000 00000003 00000001"));
+  CHECK(places.tail == "0000002A 00000068");
+  CHECK(places.payload.starts_with("00000002 00000002 00000000 00000000 3FE00000 00000000"));
+  CHECK(places.payload.ends_with("BFF00000 00000000"));
+  CHECK(Parts(desk.say("00000005 00000000 00000003 00000002", "00000001")).payload.empty());
+}
+
+TEST_CASE("an emulated Player laser sends each scan once, and what comes back from nowhere has its range",
+          "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  (void)desk.open("00000006");
+  CHECK(desk.pass(100ms).empty());  // its mirror does not turn yet
+  desk.mirror.stamp = TimePoint(1s);
+  const Parts scan(desk.pass(100ms));
+  CHECK(scan.head == "0100007F 00001A09 00000006 00000000 00000001 00000001");
+  CHECK(scan.payload ==
+        "BF000000 3F000000 3F000000 41000000 00000003 00000003 3F800000 40000000 41000000 00000003 00000003 "
+        "00000000 00000000");
+  CHECK(desk.pass(100ms).empty());
+  desk.mirror.stamp = TimePoint(1013ms);
+  CHECK(Parts(desk.pass(100ms)).payload.ends_with("00000000 00000001"));  // its number
+  CHECK(Parts(desk.say("00000006 00000000 00000003 00000003"))
+            .payload.starts_with("BF000000 3F000000 3F000000 41000000"));
+  CHECK(Parts(desk.say("00000006 00000000 00000003 00000001")).tail == "0000002A 00000048");
+}
+
+TEST_CASE("emulated Player bumpers lie in front first, and a battery tells its voltage", "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  (void)desk.open("0000000E");
+  desk.body.pressed = 0x0201;  // the first in front, the second behind
+  CHECK(Parts(desk.pass(100ms)).payload == "0000000A 0000000A 01000000 00000100 00000000");
+  PlayerDesk other;
+  (void)other.connect();
+  (void)other.open("00000002");
+  CHECK(Parts(other.pass(100ms)).payload == "00000001 414B3333 00000000 00000000 00000000 00000000");
+}
+
+TEST_CASE("in pull mode the newest data wait until they are asked for, and a synch ends them",
+          "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  (void)desk.open("00000005");
+  CHECK(Parts(desk.say("00000001 00000000 00000003 00000005", "00000002")).head ==
+        "0100007F 00001A09 00000001 00000000 00000004 00000005");
+  CHECK(desk.pass(350ms).empty());
+  const std::string ask = "00000001 00000000 00000003 00000004";
+  const Bytes round = desk.say(ask);
+  REQUIRE(round.size() == 40 + 56 + 40);
+  CHECK(in_words(std::span(round).subspan(16, 8)) == "00000004 00000004");
+  CHECK(in_words(std::span(round).subspan(40 + 16, 8)) == "00000001 00000001");
+  CHECK(in_words(std::span(round).subspan(96 + 8, 16)) == "00000001 00000000 00000005 00000001");
+  CHECK(desk.say(ask).size() == 80);  // nothing new: answer and synch alone
+}
+
+TEST_CASE("a Player server says which messages a device knows", "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  (void)desk.open("00000004");
+  const std::string ask = "00000004 00000000 00000003 000000FF";
+  CHECK(Parts(desk.say(ask, "00000002 00000001")).head.ends_with("00000004 000000FF"));
+  CHECK(Parts(desk.say(ask, "00000002 00000002")).head.ends_with("00000006 000000FF"));
+}
+
+TEST_CASE("a Player server drops what no open device knows, and hears the rest", "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  CHECK(desk.say(kMotorsOn, "00000001").empty());  // not open
+  (void)desk.open("00000004");
+  CHECK(desk.say("00000004 00000000 00000003 00000063").empty());
+  CHECK(desk.say("00000004 00000000 00000003 00000002").empty());  // no payload
+  (void)desk.say(kMotorsOn, "00000001");
+  (void)desk.say(kVelocity, "7FF8000000000000 0000000000000000 0000000000000000 00000001");  // not a number
+  CHECK(desk.body.told == Twist2{});
+  CHECK(desk.server.dropped() == 4);
+  desk.server.take(from_words(std::string(80, 'F')), 0, desk.now);  // no header
+  CHECK(desk.server.dropped() == 5);
+  (void)desk.say(kVelocity, kAheadLeft);
+  CHECK(desk.body.told == Twist2{0.2, 0.0, 0.1});
+}
+
+TEST_CASE("messages to a Player server may come byte by byte", "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  const Bytes message = from_words(
+      "00000000 00000000 00000001 00000000 00000003 00000005 0000000000000000 00000007 00000004 00000001");
+  for (std::size_t i = 0; i + 1 < message.size(); ++i) {
+    desk.server.take(std::span(message).subspan(i, 1), 0, desk.now);
+    REQUIRE(desk.server.advance(desk.now).empty());
+  }
+  desk.server.take(std::span(message).last(1), 0, desk.now);
+  CHECK(Parts(desk.server.advance(desk.now)).tail == "00000007 00000000");
+}
+
+TEST_CASE("a Player server that is started anew greets its client again and has stopped the base",
+          "[emulators]") {
+  PlayerDesk desk;
+  (void)desk.connect();
+  (void)desk.open("00000004");
+  (void)desk.say(kMotorsOn, "00000001");
+  (void)desk.say(kVelocity, kAheadLeft);
+  desk.server.reset(desk.now);
+  CHECK(desk.body.told == Twist2{});
+  CHECK(in_words(desk.pass(100ms)) == kBanner);
+}
