@@ -22,12 +22,12 @@ Field field(std::string_view text) {
 // Returns the fields of a layout: the text between its outermost braces, cut at the commas that no bracket
 // encloses. None if it has no fields; the braces of a unit hold no colon.
 std::vector<Field> fields_of(std::string_view layout) {
-  std::vector<Field> fields;
   const std::size_t open = layout.find('{');
   const std::size_t close = layout.rfind('}');
   if (open == std::string_view::npos || close == std::string_view::npos || close < open ||
       layout.find(':') == std::string_view::npos)
-    return fields;
+    return {};
+  std::vector<Field> fields;
   int depth = 0;
   std::size_t start = open + 1;
   for (std::size_t i = start; i <= close; ++i) {

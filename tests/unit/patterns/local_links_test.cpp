@@ -130,6 +130,23 @@ TEST_CASE("the edges of a port array are told apart by their sources and subscri
   });
 }
 
+TEST_CASE("what each source of a port array has brought is counted by itself", "[patterns][local]") {
+  with_ends([](Ends& a, Ends& b) {
+    REQUIRE(connect(a, "push_out", b, "many").ok());
+    REQUIRE(connect(b, "push_out", b, "many").ok());
+    for (const auto& source : b.many.sources()) source.subscribe();
+    a.push_out.push(head(0.0, 1.0));
+    a.push_out.push(head(0.0, 2.0));
+    b.push_out.push(head(0.0, 3.0));
+    const auto& many = static_cast<const PushClientEndpoint&>(b.endpoint("many"));
+    REQUIRE(many.counters_from("a.push_out"));
+    REQUIRE(many.counters_from("b.push_out"));
+    CHECK(many.counters_from("a.push_out")->delivered == 2);
+    CHECK(many.counters_from("b.push_out")->delivered == 1);
+    CHECK_FALSE(many.counters_from("c.push_out"));
+  });
+}
+
 TEST_CASE("no edge can make a device wait", "[patterns][local]") {
   run_on({}, [](Executive& executive) {
     struct Driver : Peer {
