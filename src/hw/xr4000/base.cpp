@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/angle.hpp"
 
 namespace orca::hw::xr4000 {
@@ -55,7 +56,7 @@ Pose2 sonar_place(std::size_t number) {
   const Place& place = kPlaces[kPerSet * door_of(number / kPerSet) + number % kPerSet];
   const double x = kMilli * place.y;
   const double y = -kMilli * place.x;
-  return {x, y, std::atan2(y, x)};
+  return {x, y, portable::atan2(y, x)};
 }
 
 double door_direction(std::size_t door) {
