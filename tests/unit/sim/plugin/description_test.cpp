@@ -250,12 +250,6 @@ const std::vector<Unknown> kUnknown{
     {"nomad_200", "infrared", "vendor", kMakerUnnamed},
     {"nomad_200", "infrared", "model", kMakerUnnamed},
 
-    {"nomad_xr4000", "drive", "model", kPartOfTheBase},
-    {"nomad_xr4000", "bumper", "model", kPartOfTheBase},
-    {"nomad_xr4000", "odometry", "model", kPartOfTheBase},
-    {"nomad_xr4000", "sonar", "vendor", kMakerUnnamed},
-    {"nomad_xr4000", "sonar", "model", kMakerUnnamed},
-
     {"pioneer_2dx", "drive", "model", kPartOfTheBase},
     {"pioneer_2dx", "bumper", "model", kPartOfTheBase},
     {"pioneer_2dx", "odometry", "model", kPartOfTheBase},
