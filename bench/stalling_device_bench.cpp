@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: LGPL-3.0-or-later
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a loop that commands a base feels of a device that stalls, compared with the same loop beside one that works.
 #include <fcntl.h>
 #include <termios.h>

@@ -31,8 +31,7 @@ void P2osServo::cease() {
 Twist2 P2osServo::velocity(const Pose2& pose) {
   Twist2 velocity;
   if (goal_) {
-    const double done = (pose.x - goal_->from.x) * std::cos(goal_->from.yaw) +
-                        (pose.y - goal_->from.y) * std::sin(goal_->from.yaw);
+    const double done = seen_from(goal_->from, pose).x;
     velocity.forward = rate_for(goal_->way - done, kLeastSpeed, speed_, kWayEnough);
     if (velocity.forward == 0.0) goal_.reset();
   }

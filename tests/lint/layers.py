@@ -94,7 +94,7 @@ LAYERS = (
     Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",),
           ("geometry_objects", "geometry", *COMPONENT)),
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
-    Layer("components", ("src/components",), (), ("avoidance", "goals", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
+    Layer("components", ("src/components",), (), ("avoidance", "goals", "hw_player", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
     Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
         "event", "figures", "floor", "guesses", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "sensors", "shape", "snapshot", "walker", "world_model")),

@@ -122,22 +122,26 @@ void ClientSession::answer_device(const Message& message) {
   if (id == kSonarAskGeometry) return accept(header, encode(face_.sonar_poses));
   if (id == kLaserAskGeometry) return accept(header, encode(Geometry{.pose = face_.laser_pose}));
   if (id == kLaserAskConfig) return accept(header, encode(face_.laser_config));
-  if (id == kSonarPower || id == kPosition2dVelocityMode) return accept(header);
-  if (id == kPosition2dMotorPower) {
-    const Result<Switch> power = decode<Switch>(message.payload);
-    if (!power) return refuse(header);
-    motors_on_ = power->on;
-    if (!motors_on_) wish_.reset();
-    return accept(header);
-  }
-  if (id == kPosition2dResetOdometry || id == kPosition2dSetOdometry) {
-    const Result<Planar> wanted = id == kPosition2dSetOdometry ? decode<Planar>(message.payload) : Planar{};
-    if (!wanted || !is_finite_twist(*wanted)) return refuse(header);
-    const Pose2 here = face_.state ? pose_of(face_.state->pose) : Pose2{};
-    origin_ = pose_of(*wanted) * inverse(here);
-    return accept(header);
-  }
-  refuse(header);
+  const bool is_done = id == kSonarPower || id == kPosition2dVelocityMode ||
+                       (id == kPosition2dMotorPower && switch_motors(message.payload)) ||
+                       (id == kPosition2dResetOdometry && set_odometry(Planar{})) ||
+                       (id == kPosition2dSetOdometry && set_odometry(decode<Planar>(message.payload)));
+  return is_done ? accept(header) : refuse(header);
+}
+
+bool ClientSession::switch_motors(Payload payload) {
+  const Result<Switch> power = decode<Switch>(payload);
+  if (!power) return false;
+  motors_on_ = power->on;
+  if (!motors_on_) wish_.reset();
+  return true;
+}
+
+bool ClientSession::set_odometry(const Result<Planar>& wanted) {
+  if (!wanted || !is_finite_twist(*wanted)) return false;
+  const Pose2 here = face_.state ? pose_of(face_.state->pose) : Pose2{};
+  origin_ = pose_of(*wanted) * inverse(here);
+  return true;
 }
 
 bool ClientSession::knows(const MessageId& id) const {

@@ -61,6 +61,8 @@ class ClientSession {
   void answer(const hw::player::Message& message);
   void answer_server(const hw::player::Message& message);
   void answer_device(const hw::player::Message& message);
+  bool switch_motors(Payload payload);
+  bool set_odometry(const Result<hw::player::Planar>& wanted);
   void subscribe(const hw::player::Message& message);
   void tell_driver(const hw::player::Message& message);
   void send_round(const hw::player::Header& request);
