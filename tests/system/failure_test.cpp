@@ -23,6 +23,7 @@ struct Robot {
   std::string graph;
   std::string context;  // of its components, as "dewey/"
   std::vector<std::string> behaviours;
+  double deceleration = 3.0;  // [m/s^2] with which it stops in an emergency
 };
 
 const std::vector<Robot> kRobots{
@@ -38,7 +39,7 @@ const std::vector<Robot> kRobots{
     {"pioneer2dx_sick", "", {"goto", "avoid"}},
     {"peoplebot", "", {"goto", "avoid"}},
     {"nomad_scout", "", {"goto", "avoid"}},
-    {"nomad_xr4000", "", {"goto", "avoid"}},
+    {"nomad_xr4000", "", {"goto", "avoid"}, 1.5},
     {"pioneer_planner", "", {"planner"}},
     {"random_walk", "", {"walk", "avoid"}},
     {"two_robots", "dewey/", {"goto", "avoid"}},
@@ -59,7 +60,8 @@ constexpr double kFailsAt = 5.0;
 constexpr double kSeenFor = 10.0;
 // The longest silence of a behaviour that announces 100 ms, less what had passed of the period, and a watch period.
 constexpr double kStopLimit = 0.3 + 0.02;
-constexpr double kRestLimit = 0.5;  // [s] from the failure until the robot is at rest
+constexpr double kRestLimit = 0.5;  // [s] from the failure until a robot is at rest that brakes with 3 m/s^2
+constexpr double kSpeed = 0.5;      // [m/s] at which it fails
 
 // A behaviour that fails, and how.
 struct Failure {
@@ -121,7 +123,7 @@ void check_stops(const Run& run, const Failure& failure, double at, double slowd
   CHECK(*stopped >= *fails);
   CHECK(*stopped <= *fails + kStopLimit * slowdown);
   CHECK(*rests > *fails);
-  CHECK(*rests <= *fails + kRestLimit * slowdown);
+  CHECK(*rests <= *fails + (kRestLimit + kSpeed / robot.deceleration - kSpeed / 3.0) * slowdown);
   CHECK(last_time(run, " " + robot.context + "watch: moves after") < rests);
   CHECK(run.contacts().empty());
 }
