@@ -276,6 +276,26 @@ TEST_CASE(
   CHECK(look(nomad, [](Xr4000Firmware& robot) { return robot.timeout(); }) == 500ms);
 }
 
+TEST_CASE("an XR4000 that moves when it is found is braked before it is told to drive",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("nomad");
+  Nomad nomad(device);
+  // Velocity mode, y 200 mm/s at 1000 mm/s^2, from somebody else who has gone.
+  nomad.with([](BadNomad& line, PlainBody&) {
+    line.take(
+        std::vector<std::uint8_t>{0x58, 0x52, 0x1B, 0x00, 0x03, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
+                                  0x00, 0x00, 0x04, 0xC8, 0x00, 0x00, 0x00, 0xE8, 0x03, 0x00, 0x00, 0x00,
+                                  0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xB6, 0xB6},
+        0, steady_now());
+  });
+  REQUIRE(eventually([&] { return is_moving(nomad); }));
+  Subprocess program(deployer(drive(device, far_goal() + Words{"--fail", "goto=silent@0s"})));
+  REQUIRE(says(program, "connected to the agent of an XR4000"));
+  CHECK(eventually([&] { return stands(nomad); }));
+  CHECK(eventually([&] { return !has_power(nomad); }));  // by its time-out, which it has now
+}
+
 TEST_CASE("an XR4000 that touches something stands, and does not drive on towards it", "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("nomad");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -153,7 +152,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
     refusals_ = 0;
     complaint_.clear();
     senses_->connect();
-    chores_ = {set_timer(kLimpAfter)};
+    has_timer_ = false;
     questions_ = {{Type::get_state, kReadingPeriod, now},
                   {Type::get_bumper, kReadingPeriod, now},
                   {Type::get_sonar, kReadingPeriod, now}};
@@ -164,12 +163,10 @@ class Xr4000Base final : public orca::hw::LineDriver {
   void rest() {
     powered_ = false;
     is_told_ = true;
-    wants_stop_ = false;
-    chores_.clear();
+    wants_stop_ = brakes_ = false;
   }
 
   Status take(const Message& answer, TimePoint stamp) {
-    if (!chores_.empty() && answer.type == message_of(chores_.front().view()).type) chores_.pop_front();
     switch (answer.type) {
       case Type::get_state: return take_state(answer, stamp);
       case Type::set_axes: return take_told(answer);
@@ -204,7 +201,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
   void brake_what_moves() {
     if (!wants_stop_ || !is_ready()) return;
     wants_stop_ = false;
-    if (senses_->moves()) chores_.push_back(drive_axes({.at_once = true}));
+    brakes_ = senses_->moves();
   }
 
   // Stops the base where somebody else has taken it over. It moves on only for an operator.
@@ -236,9 +233,10 @@ class Xr4000Base final : public orca::hw::LineDriver {
   }
 
   // Without its motion timer it would drive on when we are gone.
-  static Status take_timer(const Message& answer) {
+  Status take_timer(const Message& answer) {
     const Result<Returned> returned = returned_of(answer);
     if (!returned) return returned.error();
+    if (answer.type == Type::set_timer) has_timer_ = *returned == Returned::ok;
     if (*returned == Returned::ok) return orca::ok();
     return orca::fail(Code::unavailable, "its motion timer does not work: the robot's library has returned " +
                                              text_of(*returned) + "; the base is not driven without it");
@@ -267,12 +265,13 @@ class Xr4000Base final : public orca::hw::LineDriver {
 
   std::vector<Frame> due(TimePoint now) {
     std::vector<Frame> requests;
+    if (!has_timer_) requests.push_back(set_timer(kLimpAfter));
     if (powered_ && now >= feed_at_) {
       feed_at_ = now + kFeedPeriod;
       requests.push_back(ask(Type::reset_motion_timer));
     }
     if (must_say() && now >= say_at_) requests.push_back(say(now));
-    if (!chores_.empty()) requests.push_back(chores_.front());
+    if (std::exchange(brakes_, false) && !powered_) requests.push_back(drive_axes({.at_once = true}));
     for (Question& question : questions_) {
       if (now < question.next) continue;
       question.next = now + question.period;
@@ -363,10 +362,11 @@ class Xr4000Base final : public orca::hw::LineDriver {
   std::optional<XrSenses> senses_;
   std::optional<orca::hw::MotionHW> motion_;
   std::optional<XrSession> session_;
-  std::deque<Frame> chores_;  // what it is still to be told
+  bool has_timer_ = false;  // it has accepted its time-out
   std::vector<Question> questions_;
   bool powered_ = false;     // it was told to move, and its motion timer is fed
   bool wants_stop_ = false;  // it is braked if it moves as soon as its axes are ready
+  bool brakes_ = false;      // it is braked with the next requests
   DriveSetpoint wish_;       // what the axes are to do
   DriveSetpoint said_;       // what they were told last
   bool is_told_ = true;      // whether they have accepted the wish

@@ -14,14 +14,10 @@
 /// Answers of the agent. Each begins with what the N_* function returned; if that is not 0, nothing else need follow.
 namespace orca::hw::xr4000 {
 
-/// What an N_* function returned. Others than these may come.
+/// What an N_* function returned. Others than these come too.
 enum class Returned : std::int8_t {
   ok = 0,
-  no_such_command = -4,
   axes_not_ready = -10,
-  unsupported = -12,
-  sensor_not_ready = -13,
-  device_not_found = -14,
 };
 
 /// Returns the value of a return code for people: "-6 (connection failed)".
