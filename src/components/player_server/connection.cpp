@@ -80,10 +80,12 @@ Status Listener::open(const std::string& address, std::uint16_t port) {
   const int on = 1;
   (void)setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   if (!socket || bind(socket.number(), reinterpret_cast<const sockaddr*>(&place), sizeof place) != 0 ||
-      listen(socket.number(), kBacklog) != 0)
-    return fail(Code::unavailable, "cannot listen at " + address + ":" + std::to_string(port) + ": " +
-                                       std::strerror(errno) +
-                                       "; does another Player server run? Then choose another port");
+      listen(socket.number(), kBacklog) != 0) {
+    const int reason = errno;
+    return fail(reason == EADDRINUSE ? Code::already_exists : Code::unavailable,
+                "cannot listen at " + address + ":" + std::to_string(port) + ": " + std::strerror(reason) +
+                    "; does another Player server run? Then choose another port");
+  }
   port_ = ntohs(end_of(socket, getsockname).sin_port);
   socket_ = std::move(socket);
   return ok();
