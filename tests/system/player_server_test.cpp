@@ -301,6 +301,29 @@ TEST_CASE("a robot that a client of Player drives is stopped when the server or 
     }
 }
 
+TEST_CASE("a client that comes at once is told where the sonars sit", "[system][player]") {
+  Robot robot;
+  Client client(robot.port);
+  const Answer poses = client.ask(kSonar, 1);
+  CHECK(poses.type == kAck);
+  CHECK(word_at(poses.payload, 0) == 16);
+}
+
+TEST_CASE("a system of Orca drives another one's robot by the driver for servers of Player",
+          "[system][player]") {
+  Robot robot;
+  const TempFolder folder;
+  Subprocess program(Words{"/usr/bin/env", "XDG_RUNTIME_DIR=" + folder.path().string()} +
+                     deployer({system_graph("player.xml"), "--set",
+                               "device=tcp:127.0.0.1:" + std::to_string(robot.port), "--set", "uses=sonar"}));
+  const Run run = finish(program, Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  REQUIRE(run.arrivals().size() == 2);
+  CHECK(std::abs(run.arrivals()[1].x - 0.6) < 0.3);
+  CHECK(std::abs(run.arrivals()[1].y - 0.4) < 0.3);
+}
+
 TEST_CASE("when the code of the server is exchanged, clients of Player find the robot again",
           "[system][player]") {
   Robot robot;

@@ -27,6 +27,7 @@ using orca::player_server::Connection;
 constexpr orca::Duration kLap = std::chrono::milliseconds(20);
 constexpr orca::Duration kBaseLimit = std::chrono::seconds(5);  // for the base to say what it is
 constexpr orca::Duration kPredecessorGoes = std::chrono::seconds(5);
+constexpr orca::Duration kFirstReadings = std::chrono::milliseconds(1500);
 constexpr std::size_t kMostClients = 16;
 
 template <class Object>
@@ -87,16 +88,22 @@ class PlayerServer final : public orca::Component {
     if (!listener_.is_open())
       if (const Status listens = listen(); !may_listen_later(listens))
         return orca::failed(listens.error().message);
-    while (clients_.size() < kMostClients) {
+    take_news();
+    while (is_known() && clients_.size() < kMostClients) {
       auto client = listener_.accept(face_);
       if (!client) break;
       log_info("a client of Player has come: " + client->peer());
       clients_.push_back(std::move(client));
     }
-    take_news();
     std::erase_if(clients_, [this](const auto& client) { return !exchange(*client); });
     drive();
     return orca::again();
+  }
+
+  // Clients ask once where sonars and laser sit, which the first readings tell. A sensor that is silent is not waited for longer.
+  [[nodiscard]] bool is_known() const {
+    const bool has_all = face_.state && (!face_.has_sonar || face_.sonar) && (!face_.has_laser || face_.scan);
+    return has_all || now() >= listens_by_ - kPredecessorGoes + kFirstReadings;
   }
 
   void stop() override {
