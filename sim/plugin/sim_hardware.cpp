@@ -28,8 +28,6 @@ class SimHardware final : public SimulatedRobot {
  private:
   std::vector<orca::HardwareFault> declare() override {
     std::vector<orca::HardwareFault> faults;
-    if (const std::string why = unserved(robot()); !why.empty())
-      return {{"robot", "\"" + robot_file() + "\": " + why}};
     declare_endpoints();
     for (const std::string& gap : gaps_at_own_sensors(robot()))
       faults.push_back({.param = "robot", .text = gap, .only_warns = true});

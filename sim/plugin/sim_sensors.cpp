@@ -9,10 +9,12 @@
 namespace orca::sim {
 namespace {
 
+// Only where there are several of a kind do ports need their names.
 template <class Devices, class Models>
 void make(Devices& devices, const Models& models) {
   for (const auto& model : models)
-    devices.push_back(std::make_unique<typename Devices::value_type::element_type>(model));
+    devices.push_back(std::make_unique<typename Devices::value_type::element_type>(
+        model, models.size() > 1 ? model.name : ""));
 }
 
 template <class Devices>
@@ -85,18 +87,6 @@ void SimSensors::publish(const SharedWorld::Inbox& inbox) {
 
 void SimSensors::skip(const SharedWorld::Inbox& inbox) {
   for (const OdometryReading& reading : inbox.odometry) uncertainty_->move_to(reading.pose);
-}
-
-std::string unserved(const RobotModel& robot) {
-  const std::pair<const char*, std::size_t> kinds[] = {{"sonar rings", robot.sonars.size()},
-                                                       {"lasers", robot.lasers.size()},
-                                                       {"infrared rings", robot.infrareds.size()},
-                                                       {"bumper rings", robot.bumpers.size()}};
-  for (const auto& [kind, count] : kinds)
-    if (count > 1)
-      return "it has " + std::to_string(count) + " " + kind +
-             ", but ports are named after what they carry, so one of each kind can be served";
-  return "";
 }
 
 }  // namespace orca::sim

@@ -36,7 +36,8 @@ class SimSensors {
   /// A device of the robot's file with its endpoint.
   template <class Object, class Model>
   struct Device {
-    explicit Device(const Model& made) : model(made), endpoint(made.period) {}
+    Device(const Model& made, std::string name)
+        : model(made), endpoint(made.period, hw::Source::sensor, std::move(name)) {}
     const Model model;
     hw::SensorHW<Object> endpoint;
   };
@@ -53,9 +54,5 @@ class SimSensors {
   std::unique_ptr<hw::SensorHW<idl::TurretAngle>> turret_;
   hw::SensorHW<idl::RobotPose> truth_{kTruthPeriod, hw::Source::truth};
 };
-
-/// Returns in words why the robot's sensors cannot be served; empty if they can. A server names its ports
-/// after the object type, so a robot can have only one device of each kind.
-[[nodiscard]] std::string unserved(const RobotModel& robot);
 
 }  // namespace orca::sim

@@ -38,7 +38,6 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   virtual void miss(const SharedWorld::Inbox& inbox) = 0;
 
   [[nodiscard]] const RobotModel& robot() const { return *robot_; }
-  [[nodiscard]] const std::string& robot_file() const { return *robot_file_; }
   [[nodiscard]] const std::string& robot_name() const { return *name_; }
   [[nodiscard]] Realism realism() const;
   /// Tells the robot's motors what to do, from now on.

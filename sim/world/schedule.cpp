@@ -11,6 +11,26 @@ Result<RobotId> robot_of(const World& world, const std::string& name) {
   return fail(Code::not_found, "there is no robot \"" + name + "\" in the world");
 }
 
+std::string name_of(SensorKind kind) { return std::string(kSensorKinds.at(static_cast<std::size_t>(kind))); }
+
+template <class Device>
+bool holds(const std::vector<Device>& devices, const std::string& name) {
+  return std::ranges::find(devices, name, &Device::name) != devices.end();
+}
+
+// Whether the robot has the device that is to fail.
+bool has(const RobotModel& model, const Outage& outage) {
+  if (outage.device.empty()) return true;
+  switch (outage.sensor) {
+    case SensorKind::sonar: return holds(model.sonars, outage.device);
+    case SensorKind::laser: return holds(model.lasers, outage.device);
+    case SensorKind::infrared: return holds(model.infrareds, outage.device);
+    case SensorKind::bumper: return holds(model.bumpers, outage.device);
+    case SensorKind::odometry: return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 Schedule::Schedule(const Events& events) : outages_(events.outages) {
@@ -50,12 +70,14 @@ void Schedule::add(const Kidnap& kidnap) {
 }
 
 void Schedule::add(const Outage& outage) {
-  const auto look = [name = outage.robot](World& world) -> Status {
-    const Result<RobotId> robot = robot_of(world, name);
-    return robot ? ok() : robot.error();
+  const auto look = [outage](World& world) -> Status {
+    const Result<RobotId> robot = robot_of(world, outage.robot);
+    if (!robot) return robot.error();
+    if (has(world.robot_model(*robot), outage)) return ok();
+    return fail(Code::not_found, outage.robot + " has no " + name_of(outage.sensor) + " of that name");
   };
-  const std::string who =
-      std::string(kSensorKinds.at(static_cast<std::size_t>(outage.sensor))) + " of " + outage.robot;
+  const std::string which = outage.device.empty() ? "" : " \"" + outage.device + "\"";
+  const std::string who = name_of(outage.sensor) + which + " of " + outage.robot;
   steps_.push_back({outage.from, who + " fails", look});
   if (outage.until) steps_.push_back({*outage.until, who + " works again", look});
 }
@@ -85,11 +107,13 @@ bool Schedule::take(Step& step, World& world, std::vector<std::string>& notes) {
   return !waits;
 }
 
-bool Schedule::is_out(std::string_view robot, SensorKind sensor, TimePoint now) const {
+bool Schedule::is_out(std::string_view robot, SensorKind sensor, std::string_view device,
+                      TimePoint now) const {
   const Duration time = now - TimePoint{};
   return std::ranges::any_of(outages_, [&](const Outage& one) {
-    return one.sensor == sensor && one.robot == robot && one.from <= time &&
-           (!one.until || time < *one.until);
+    const bool is_meant =
+        one.sensor == sensor && one.robot == robot && (one.device.empty() || one.device == device);
+    return is_meant && one.from <= time && (!one.until || time < *one.until);
   });
 }
 

@@ -20,8 +20,9 @@ class Schedule {
   // Does what is due, in the order of its times, and notes it in words.
   void run(World& world, std::vector<std::string>& notes);
 
-  // Returns whether those sensors are silent at a time of the world's clock.
-  [[nodiscard]] bool is_out(std::string_view robot, SensorKind sensor, TimePoint now) const;
+  // Returns whether the device, of that kind of sensors, is silent at a time of the world's clock.
+  [[nodiscard]] bool is_out(std::string_view robot, SensorKind sensor, std::string_view device,
+                            TimePoint now) const;
 
  private:
   struct Step {

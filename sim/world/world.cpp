@@ -96,9 +96,10 @@ struct World::Impl {
   // Returns what a sensor has read, nothing while it is out.
   template <class Reading>
   [[nodiscard]] const std::optional<Reading>& unless_out(RobotId id, SensorKind sensor,
+                                                         std::string_view device,
                                                          const std::optional<Reading>& reading) const {
     static const std::optional<Reading> nothing;
-    return schedule.is_out(robot(id).name, sensor, now) ? nothing : reading;
+    return schedule.is_out(robot(id).name, sensor, device, now) ? nothing : reading;
   }
 };
 
@@ -309,19 +310,27 @@ double World::clearance(RobotId robot, double limit) const {
 const std::vector<ContactEvent>& World::contacts() const { return impl_->contacts; }
 const std::vector<std::string>& World::happened() const { return impl_->notes; }
 const std::optional<SonarScan>& World::sonar(RobotId robot, std::size_t ring) const {
-  return impl_->unless_out(robot, SensorKind::sonar, impl_->robot(robot).sonars.at(ring).completed());
+  const auto& body = impl_->robot(robot);
+  return impl_->unless_out(robot, SensorKind::sonar, body.model.sonars.at(ring).name,
+                           body.sonars.at(ring).completed());
 }
 const std::optional<LaserScan>& World::laser(RobotId robot, std::size_t laser) const {
-  return impl_->unless_out(robot, SensorKind::laser, impl_->robot(robot).lasers.at(laser).completed());
+  const auto& body = impl_->robot(robot);
+  return impl_->unless_out(robot, SensorKind::laser, body.model.lasers.at(laser).name,
+                           body.lasers.at(laser).completed());
 }
 const std::optional<InfraredScan>& World::infrared(RobotId robot, std::size_t ring) const {
-  return impl_->unless_out(robot, SensorKind::infrared, impl_->robot(robot).infrareds.at(ring).completed());
+  const auto& body = impl_->robot(robot);
+  return impl_->unless_out(robot, SensorKind::infrared, body.model.infrareds.at(ring).name,
+                           body.infrareds.at(ring).completed());
 }
 const std::optional<BumperReading>& World::bumper(RobotId robot, std::size_t ring) const {
-  return impl_->unless_out(robot, SensorKind::bumper, impl_->robot(robot).bumpers.at(ring).completed());
+  const auto& body = impl_->robot(robot);
+  return impl_->unless_out(robot, SensorKind::bumper, body.model.bumpers.at(ring).name,
+                           body.bumpers.at(ring).completed());
 }
 const std::optional<OdometryReading>& World::odometry(RobotId robot) const {
-  return impl_->unless_out(robot, SensorKind::odometry, impl_->robot(robot).odometry);
+  return impl_->unless_out(robot, SensorKind::odometry, "odometry", impl_->robot(robot).odometry);
 }
 const WorldModel& World::model() const { return impl_->model; }
 const RobotModel& World::robot_model(RobotId robot) const { return impl_->robot(robot).model; }

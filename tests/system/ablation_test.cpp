@@ -89,6 +89,14 @@ const std::vector<Case> kCases{
     {"pioneer_laser_goto", "laser", How::crashed, Worse::nowhere},
     {"pioneer_laser_goto", "localizer", How::crashed, Worse::nowhere},
 
+    {"courier_depot", "command", How::silent, Worse::stands},
+    {"courier_depot", "goto", How::silent, Worse::nowhere},
+    {"courier_depot", "avoid", How::removed, Worse::contact},
+    {"courier_depot", "fuser", How::silent, Worse::stands},
+    {"courier_depot", "base", How::silent, Worse::stands},
+    {"courier_depot", "lasers", How::crashed, Worse::nowhere},
+    {"courier_depot", "localizer", How::crashed, Worse::nowhere},
+
     {"random_walk", "walk", How::silent, Worse::stands},
     {"random_walk", "avoid", How::removed, Worse::contact},
     {"random_walk", "fuser", How::silent, Worse::stands},

@@ -36,6 +36,7 @@ const std::vector<Robot> kRobots{
     {"scout_odometry", "", {"goto", "avoid"}},
     {"scout_hospital", "", {"goto", "avoid"}},
     {"pioneer_laser_goto", "", {"goto", "avoid"}},
+    {"courier_depot", "", {"goto", "avoid"}},
     {"pioneer2dx_sick", "", {"goto", "avoid"}},
     {"create2_rplidar", "", {"goto", "avoid"}},
     {"player_robot", "", {"goto", "avoid"}},

@@ -52,6 +52,13 @@ TEST_CASE("a LaserServer exports Push and Query of the laser's readings and its 
         std::set<std::string>{"LaserRangeReadingsPush", "LaserRangeReadingsQuery", "LaserSensorQuery"});
 }
 
+TEST_CASE("of two lasers each has its own ports, which begin with its name", "[system][laser]") {
+  CHECK(exported("graphs/courier_depot.xml", "lasers") ==
+        std::set<std::string>{"high_LaserRangeReadingsPush", "high_LaserRangeReadingsQuery",
+                              "low_LaserRangeReadingsPush", "low_LaserRangeReadingsQuery",
+                              "LaserSensorQuery"});
+}
+
 TEST_CASE("a RobotBaseServer around the same hardware exports all of its sensors", "[system][laser]") {
   CHECK(exported("graphs/pioneer_laser_goto.xml", "base").contains("LaserRangeReadingsPush"));
 }

@@ -316,6 +316,21 @@ TEST_CASE("the objects that pass a port can be seen, counted and timed", "[syste
   system.stop();
 }
 
+TEST_CASE("of a robot with two lasers each is described by its name", "[system][orcactl]") {
+  System system({source_file("graphs/courier_depot.xml")});
+  system.await_work();
+  const auto ask = [](const std::string& about) {
+    return run_orcactl({"query", "lasers.LaserSensorQuery", "<Ask about=\"" + about + "\"/>"});
+  };
+  const Run low = ask("low");
+  INFO(low.err);
+  CHECK(low.exit_code() == 0);
+  CHECK_THAT(low.out, Contains("name=\"low\"") && Contains("max_range=\"4\""));
+  CHECK_THAT(ask("").out, Contains("name=\"high\""));
+  CHECK(ask("middle").says("its hardware has no laser \"middle\"; lasers: high, low"));
+  system.stop();
+}
+
 TEST_CASE("an operator sends objects and asks questions", "[system][orcactl]") {
   System system({kScout});
   system.await_work();

@@ -15,13 +15,15 @@ namespace {
 
 struct Type {
   std::string robot;
-  bool has_laser;            // Driven by LaserAvoid, else by SonarAvoid.
+  std::string graph;         // That drives it.
   bool is_seen_wide = true;  // Where its own sensors look, it is about as wide as all of it.
 };
 
-const std::vector<Type> kTypes{{"nomad_scout", false},  {"nomad_200", false}, {"omni", true},
-                               {"pioneer_2dx", true},   {"barn_base", true},  {"peoplebot", true},
-                               {"create2", true, false}};
+constexpr const char* kSonars = "scout_goto";
+constexpr const char* kLaser = "pioneer_laser_goto";
+const std::vector<Type> kTypes{{"nomad_scout", kSonars},   {"nomad_200", kSonars},      {"omni", kLaser},
+                               {"pioneer_2dx", kLaser},    {"barn_base", kLaser},       {"peoplebot", kLaser},
+                               {"create2", kLaser, false}, {"courier", "courier_depot"}};
 
 struct Start {
   double x, y;     // [m]
@@ -45,9 +47,8 @@ std::string use_of(const Type& type, const std::string& prefix, const std::strin
   const auto arg = [](const std::string& name, const std::string& value) {
     return "<arg name=\"" + name + "\" value=\"" + value + "\"/>";
   };
-  return "<use graph=\"" +
-         source_file(type.has_laser ? "graphs/pioneer_laser_goto.xml" : "graphs/scout_goto.xml") +
-         "\" prefix=\"" + prefix + "\">" + arg("robot", source_file("sim/robots/" + type.robot + ".urdf")) +
+  return "<use graph=\"" + source_file("graphs/" + type.graph + ".xml") + "\" prefix=\"" + prefix + "\">" +
+         arg("robot", source_file("sim/robots/" + type.robot + ".urdf")) +
          arg("world", source_file("sim/worlds/hall.xml")) + arg("name", prefix) + arg("place", "") +
          arg("goals", goal) + "</use>\n";
 }
@@ -74,7 +75,8 @@ Run meet(const Type& type, const Meeting& meeting, int seed) {
   const double share = std::remainder(0.618034 * seed, 1.0);  // Even over -0.5 to 0.5.
   one.x += 2.0 * share * meeting.spread.x;
   one.y += 2.0 * share * meeting.spread.y;
-  const std::string device = type.has_laser ? "/pioneer" : "/scout";
+  // Each of these graphs is named after its hardware: scout_goto.
+  const std::string device = "/" + type.graph.substr(0, type.graph.find('_'));
   Words words{folder.write("pair.xml", graph_of(type, meeting)), "--seed", std::to_string(seed), "--until",
               "150 s"};
   words = words + start_words("one" + device, one) + start_words("other" + device, meeting.other);
@@ -141,7 +143,7 @@ TEST_CASE("two robots whose lasers look over each other touch", "[system][pairs]
   text.erase(begin, text.find(end, begin) + end.size() - begin);
   const std::string robot = folder.write("low.urdf", text);
   const std::string shipped = source_file("sim/robots/pioneer_2dx.urdf");
-  std::string graph = graph_of({"pioneer_2dx", true}, kHeadOn);
+  std::string graph = graph_of({"pioneer_2dx", kLaser}, kHeadOn);
   for (auto at = graph.find(shipped); at != std::string::npos; at = graph.find(shipped))
     graph.replace(at, shipped.size(), robot);
   const Words words = Words{folder.write("low.xml", graph)} + start_words("one/pioneer", kHeadOn.one) +

@@ -75,7 +75,8 @@ void EventReader::outage(const xml::Attributes& element) {
   const auto sensor = read_sensor(element);
   const auto at = element.duration("at");
   if (!robot || !sensor || !at) return;
-  events_.outages.push_back({*robot, *sensor, *at, read_end(element, "until", *at)});
+  events_.outages.push_back(
+      {*robot, *sensor, *at, read_end(element, "until", *at), element.text("device").value_or("")});
 }
 
 Events EventReader::take() {

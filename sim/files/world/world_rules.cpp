@@ -80,7 +80,7 @@ constexpr std::array kMove{required("of", kName), required("at", kTime), require
 constexpr std::array kKidnap{required("robot", kText), required("at", kTime), required("x", kCoordinate),
                              required("y", kCoordinate), optional("yaw", kAngle)};
 constexpr std::array kOutage{required("robot", kText), required("sensor", one_of(kSensorKinds)),
-                             required("at", kTime), optional("until", kTime)};
+                             required("at", kTime), optional("until", kTime), optional("device", kName)};
 
 constexpr ElementRule kDoorRule{.name = "door", .attributes = kDoor};
 constexpr ElementRule kRoomDoorRule{.name = "door", .attributes = kRoomDoor};

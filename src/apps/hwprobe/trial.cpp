@@ -42,7 +42,7 @@ class FirstData {
     const std::lock_guard lock(mutex_);
     for (std::size_t i = 0; i < texts_.size(); ++i) {
       if (texts_[i].empty())
-        finding.silent.emplace_back(driver_.sensors()[i]->type().name);
+        finding.silent.push_back(driver_.sensors()[i]->port_stem());
       else
         finding.data.push_back(texts_[i]);
     }

@@ -165,6 +165,7 @@ Outcome Avoider::work() {
     heard_at_ = now();
     listen(memory_);
   }
+  listen_aside(memory_);
   advise();
   return again();
 }
@@ -182,7 +183,8 @@ void Avoider::follow(const idl::Odometry& odometry) {
 Vec2 Avoider::moved_since(Vec2 point, double age) const { return seen_from(moved(twist_, age), point); }
 
 void Avoider::advise() {
-  if (question_ || !heard_at_ || to_seconds(now() - *heard_at_) > deaf_after()) {
+  const bool hears = heard_at_ && to_seconds(now() - *heard_at_) <= deaf_after() && hears_aside(deaf_after());
+  if (question_ || !hears) {
     motion_.push(full_stop());
     return;
   }

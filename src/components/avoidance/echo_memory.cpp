@@ -10,7 +10,8 @@
 namespace orca::avoid {
 namespace {
 
-constexpr std::size_t kMostEchoes = 256;
+constexpr std::size_t kMostEchoes = 256;  // of a sensor
+constexpr std::size_t kSensors = 4;
 constexpr double kFarOff = std::numeric_limits<double>::infinity();
 
 double squared_distance(Vec2 one, Vec2 other) { return dot(one - other, one - other); }
@@ -24,8 +25,8 @@ std::optional<Vec2> echo_of(double range, double min_range, double max_range, co
 }
 
 EchoMemory::EchoMemory() {
-  echoes_.reserve(kMostEchoes);
-  traces_.reserve(kMostEchoes);
+  echoes_.reserve(kSensors * kMostEchoes);
+  traces_.reserve(kSensors * kMostEchoes);
 }
 
 void EchoMemory::advance(const Pose2& X_RN, double time, const Limits& limits) {
@@ -40,6 +41,7 @@ void EchoMemory::hear(Vec2 echo, const Limits& limits) {
   std::size_t nearest = echoes_.size();
   double least = kFarOff;
   for (std::size_t i = 0; i < echoes_.size(); ++i) {
+    if (traces_[i].sensor != limits.sensor) continue;
     if (const double here = squared_distance(echo, echoes_[i]); here < least) {
       nearest = i;
       least = here;
@@ -47,14 +49,14 @@ void EchoMemory::hear(Vec2 echo, const Limits& limits) {
   }
   const double off = std::sqrt(least);
   const bool near = portable::hypot(echo.x, echo.y) < limits.range;
-  const Trace trace{0.0, near && off < limits.same_place};
+  const Trace trace{0.0, near && off < limits.same_place, limits.sensor};
   if (trace.confirmed) traces_[nearest].confirmed = true;
   if (off < limits.no_news) {
     echoes_[nearest] = echo;
     traces_[nearest] = trace;
     return;
   }
-  if (echoes_.size() == kMostEchoes) erase(0);
+  make_room(limits.sensor);
   echoes_.push_back(echo);
   traces_.push_back(trace);
 }
@@ -71,6 +73,13 @@ double EchoMemory::kept_for(const Trace& trace, const Limits& limits) {
 void EchoMemory::clear() {
   echoes_.clear();
   traces_.clear();
+}
+
+// A sensor with as many echoes as there may be loses its oldest one.
+void EchoMemory::make_room(std::uint32_t sensor) {
+  const auto is_its = [sensor](const Trace& trace) { return trace.sensor == sensor; };
+  if (static_cast<std::size_t>(std::ranges::count_if(traces_, is_its)) < kMostEchoes) return;
+  erase(static_cast<std::size_t>(std::ranges::find_if(traces_, is_its) - traces_.begin()));
 }
 
 void EchoMemory::erase(std::size_t i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/avoidance/laser_avoider.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "orca/avoidance/scan.hpp"
@@ -57,16 +58,61 @@ Limits LaserAvoider::with_body(const EchoMemory& memory, const Situation& situat
 
 const ObjectType& LaserAvoider::sensed() const { return object_type<idl::LaserRangeReadings>(); }
 
+Status LaserAvoider::configure() {
+  if (!remembers() && !more_lasers_.sources().empty())
+    return fail(Code::failed_precondition,
+                "with further lasers, connect its port odometry too: their scans come at other times");
+  return Avoider::configure();
+}
+
+Status LaserAvoider::start() {
+  further_.clear();
+  for (const MoreLasers::Source& source : more_lasers_.sources()) (void)further(source);
+  return Avoider::start();
+}
+
+void LaserAvoider::stop() {
+  more_lasers_.unsubscribe_all();
+  Avoider::stop();
+}
+
+void LaserAvoider::listen(EchoMemory& memory) { put_into(memory, *laser_.get_update(), 0); }
+
+// Sources of other processes come, and all of them may go, while the robot drives.
+void LaserAvoider::listen_aside(EchoMemory& memory) {
+  for (const MoreLasers::Source& source : more_lasers_.sources()) {
+    Further& laser = further(source);
+    if (!source.new_data_arrived()) continue;
+    put_into(memory, *source.take_latest(), laser.number);
+    laser.heard = now();
+  }
+}
+
+bool LaserAvoider::hears_aside(double longest) const {
+  return std::ranges::all_of(more_lasers_.sources(), [&](const MoreLasers::Source& source) {
+    const auto laser = std::ranges::find(further_, source, &Further::source);
+    return laser != further_.end() && laser->heard && to_seconds(now() - *laser->heard) <= longest;
+  });
+}
+
+LaserAvoider::Further& LaserAvoider::further(const MoreLasers::Source& source) {
+  const auto known = std::ranges::find(further_, source, &Further::source);
+  if (known != further_.end()) return *known;
+  source.subscribe();
+  return further_.emplace_back(Further{source, static_cast<std::uint32_t>(further_.size()) + 1});
+}
+
 // The scan was taken a moment ago, from the robot's pose at that time.
-void LaserAvoider::listen(EchoMemory& memory) {
-  const auto readings = laser_.get_update();
-  const Pose2 mount = plane_pose(readings->pose());
-  const double age = to_seconds(now() - to_time_point(readings->stamp()));
+void LaserAvoider::put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings,
+                            std::uint32_t number) {
+  const Pose2 mount = plane_pose(readings.pose());
+  const double age = to_seconds(now() - to_time_point(readings.stamp()));
   const Vec2 place = moved_since(mount.position(), age);
   const double yaw = mount.yaw - turned_since(age);
-  const Scan scan{readings->ranges(),      readings->min_range(),       readings->max_range(),
-                  readings->angle_start(), readings->angle_increment(), {place.x, place.y, yaw}};
+  const Scan scan{readings.ranges(),      readings.min_range(),       readings.max_range(),
+                  readings.angle_start(), readings.angle_increment(), {place.x, place.y, yaw}};
   EchoMemory::Limits kept = keep();
+  kept.sensor = number;
   kept.hidden = remembers_.hidden;
   if (remembers_.hidden || remembers_.shapes) kept.no_news = kErrorOfReading;
   const auto corners = remembers_.shapes ? body() : std::nullopt;

@@ -59,7 +59,7 @@ std::optional<Vec2> nearest_of(const Scan& scan, std::size_t first, std::size_t 
 
 void see(const Scan& scan, const Detail& detail, const EchoMemory::Limits& keep, EchoMemory& memory) {
   if (scan.ranges.empty()) return;
-  memory.forget_if([&](Vec2 echo) { return is_replaced(scan, echo, keep.hidden); });
+  memory.forget_if(keep.sensor, [&](Vec2 echo) { return is_replaced(scan, echo, keep.hidden); });
   const std::size_t step = beams_in(detail.sector, scan);
   const std::size_t fine = beams_in(detail.fine, scan);
   for (std::size_t first = 0; first < scan.ranges.size(); first += step) {

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <string>
+#include <vector>
+
+#include "orca/base/text.hpp"
 #include "orca/component.hpp"
 #include "orca/hw/server.hpp"
 #include "orca/idl/hardware.hpp"
@@ -22,16 +26,24 @@ class LaserServer final : public orca::hw::HardwareServer {
     return HardwareServer::configure();
   }
 
-  orca::Result<orca::Loan<orca::idl::LaserSensor>> on_describe(
-      const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
-    return orca::make_object<orca::idl::LaserSensor>(seat()->description().laser_sensors().front());
+  orca::Result<orca::Loan<orca::idl::LaserSensor>> on_describe(const orca::ObjectPtr<orca::idl::Ask>& ask) {
+    const orca::idl::Robot robot = seat()->description();
+    std::vector<std::string> names;
+    for (const orca::idl::LaserSensor& laser : robot.laser_sensors()) {
+      if (ask->about().empty() || ask->about() == laser.name())
+        return orca::make_object<orca::idl::LaserSensor>(laser);
+      names.push_back(laser.name());
+    }
+    return orca::fail(orca::Code::not_found, "its hardware has no laser " + orca::in_quotes(ask->about()) +
+                                                 "; lasers: " + orca::listed(names));
   }
 
   orca::QueryServer<orca::idl::Ask, orca::idl::LaserSensor> description_{
       *this,
       "LaserSensorQuery",
       &LaserServer::on_describe,
-      {.text = "Description of the laser: mounting pose, beams and range."}};
+      {.text =
+           "Description of the first laser, or of the one that is named: mounting pose, beams and range."}};
 };
 
 }  // namespace

@@ -9,6 +9,11 @@
 
 namespace orca::hw {
 
+std::string SensorEndpoint::port_stem() const {
+  const std::string type(type_.name);
+  return device_.empty() ? type : device_ + "_" + type;
+}
+
 void SensorEndpoint::set_sink(const void* owner, Sink sink) {
   const std::lock_guard lock(mutex_);
   std::erase_if(sinks_, [owner](const auto& entry) { return entry.first == owner; });

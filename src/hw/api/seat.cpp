@@ -7,10 +7,9 @@
 namespace orca::hw {
 namespace {
 
-// Types are compared by name, because a plugin may have its own copy of the type's description.
 SensorEndpoint* endpoint_of(const HardwareSeat::Sensor& wanted, const HardwareContainer& driver) {
   for (SensorEndpoint* const sensor : driver.sensors())
-    if (sensor->type().name == wanted.type->name && sensor->source() == wanted.source) return sensor;
+    if (sensor->port_stem() == wanted.port_stem && sensor->source() == wanted.source) return sensor;
   return nullptr;
 }
 
@@ -20,7 +19,7 @@ std::vector<HardwareSeat::Sensor> HardwareSeat::sensors() const {
   const std::lock_guard lock(mutex_);
   std::vector<Sensor> all;
   for (const SensorEndpoint* const sensor : driver_->sensors())
-    all.push_back({&sensor->type(), sensor->source(), sensor->period()});
+    all.push_back({&sensor->type(), sensor->source(), sensor->port_stem(), sensor->period()});
   return all;
 }
 

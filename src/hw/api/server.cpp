@@ -48,8 +48,8 @@ class HardwareServer::SensorPorts {
   SensorPorts(HardwareServer& server, const HardwareSeat::Sensor& sensor)
       : server_(server),
         sensor_(sensor),
-        push_(server, std::string(sensor.type->name) + "Push", sensor),
-        query_(server, std::string(sensor.type->name) + "Query", type_id(object_type<idl::AskReading>()),
+        push_(server, sensor.port_stem + "Push", sensor),
+        query_(server, sensor.port_stem + "Query", type_id(object_type<idl::AskReading>()),
                type_id(*sensor.type),
                [this](const ObjectRef& ask) {
                  return answer(to_time_point(object_cast<idl::AskReading>(ask)->since()));

@@ -59,6 +59,31 @@ TEST_CASE("the memory is bounded: the oldest echo makes room", "[avoidance][memo
   CHECK(memory.echoes().back().x == Approx(0.2 * 999));
 }
 
+TEST_CASE("what one sensor has heard is not confirmed, moved or forgotten by another one",
+          "[avoidance][memory]") {
+  EchoMemory::Limits other = kMemoryLimits;
+  other.sensor = 1;
+  EchoMemory memory;
+  memory.hear({0.5, 0.0}, kMemoryLimits);
+  memory.hear({0.51, 0.0}, other);
+  REQUIRE(memory.echoes().size() == 2);
+  memory.forget_if(1, [](orca::Vec2) { return true; });
+  REQUIRE(memory.echoes().size() == 1);
+  CHECK(memory.echoes()[0].x == Approx(0.5));
+  memory.advance(kStill, 0.3, kMemoryLimits);
+  CHECK(memory.echoes().empty());
+}
+
+TEST_CASE("each sensor has room for as many echoes as if it were alone", "[avoidance][memory]") {
+  EchoMemory::Limits other = kMemoryLimits;
+  other.sensor = 1;
+  EchoMemory memory;
+  memory.hear({0.0, 0.5}, other);
+  for (int i = 0; i < 1000; ++i) memory.hear({0.2 * i, 0.0}, kMemoryLimits);
+  CHECK(memory.echoes().size() == 257);
+  CHECK(memory.echoes()[0].y == Approx(0.5));
+}
+
 TEST_CASE("an echo is certain when it was just heard, and less and less until it is forgotten",
           "[avoidance][memory]") {
   EchoMemory memory;

@@ -185,3 +185,18 @@ TEST_CASE("where all beams point one way, none is beside another that could hide
   see({ranges, 0.05, kMaxRange, 0.0, 0.0, {}}, {.sector = kSector, .range = 2.0}, keep, memory);
   CHECK(std::ranges::none_of(memory.echoes(), [](orca::Vec2 echo) { return echo.x > 1.1; }));
 }
+
+TEST_CASE("a laser that looks over something leaves what another one sees of it", "[avoidance][laser]") {
+  EchoMemory::Limits low = kKeep;
+  low.sensor = 1;
+  constexpr Detail kDetail{.sector = kSector, .range = 2.0};
+  EchoMemory memory;
+  see(scan_of(scan_of_wall(0.6, 0.3)), kDetail, low, memory);
+  const std::size_t seen = memory.echoes().size();
+  REQUIRE(seen > 0);
+  see(scan_of(nothing()), kDetail, kKeep, memory);
+  CHECK(memory.echoes().size() == seen);
+  CHECK(avoid(memory.echoes(), {}, kLimits).needed);
+  see(scan_of(nothing()), kDetail, low, memory);
+  CHECK(memory.echoes().empty());
+}

@@ -157,6 +157,9 @@ FakeCatalogue::FakeCatalogue() {
   add(::component("orca.LaserAvoid",
                   {required(derived(receives("laser", "LaserRangeReadings"), "RangeReadings")),
                    receives("sonar", "SonarRangeReadings"), pushes("motion", "MotionCommand")}));
+  add(::component("orca.TwoRingAvoid",
+                  {required(receives("sonar", "SonarRangeReadings")),
+                   many(receives("more_sonars", "SonarRangeReadings")), pushes("motion", "MotionCommand")}));
   add(::component(
       "orca.Command",
       {sends("goal", "GoalPoint"), sends("clients", "ClientList"), receives("arrived", "Arrived")},

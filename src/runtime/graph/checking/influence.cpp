@@ -152,9 +152,17 @@ class Influence {
 
   // --- Ports that get nothing -----------------------------------------------------------------------------
 
+  // An array may be empty where the component listens to something else, too.
   void check_arrays(const CheckedComponent& component, const Names& connected) {
-    for (const PortContract& port : component.contract->ports) {
-      if (!port.many || port.pattern != Pattern::push || connected.contains(port.name)) continue;
+    const auto is_heard = [](const PortContract& port) {
+      return port.pattern == Pattern::push && port.role == Role::proxy;
+    };
+    const std::vector<PortContract>& ports = component.contract->ports;
+    if (std::ranges::any_of(
+            ports, [&](const PortContract& port) { return is_heard(port) && connected.contains(port.name); }))
+      return;
+    for (const PortContract& port : ports) {
+      if (!port.many || !is_heard(port)) continue;
       report_.warning(codes::kNothingToCollect, component.value.position,
                       "component " + in_quotes(component.value.name) + ": its port " + in_quotes(port.name) +
                           " collects " + port.type.name +

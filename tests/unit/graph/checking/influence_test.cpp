@@ -102,6 +102,12 @@ TEST_CASE("a fuser without behaviours is warned about, by the author's name of t
   CHECK(said(fuser("<port name='motion' disabled='true'/>")).empty());
 }
 
+TEST_CASE("a component that listens to something else may have nothing to collect", "[graph][influence]") {
+  const std::string avoid =
+      kSonarBase + "<component name='avoid' type='orca.TwoRingAvoid' autonomous='true'/>";
+  CHECK(said(avoid + kSonarEdge).empty());
+}
+
 TEST_CASE("warnings about influence wait until there are no errors", "[graph][influence]") {
   const std::string all = said(kSonarBase + "<component name='a' type='orca.Localizer' priority='1000'/>");
   CHECK(all.find("G032") != std::string::npos);

@@ -102,6 +102,14 @@ class PlainFile {
     for (std::string word; words >> word;) unit = word;
     return text_of(number * kUnits.at(unit));
   }
+  // Returns the names of all elements of a kind.
+  [[nodiscard]] std::vector<std::string> names(const std::string& element) const {
+    std::vector<std::string> all;
+    const std::regex wanted("<" + element + " name=\"([^\"]*)\"");
+    for (std::sregex_iterator found(text_.begin(), text_.end(), wanted), end; found != end; ++found)
+      all.push_back((*found)[1]);
+    return all;
+  }
   // Returns the place of a fixed joint, "x y z".
   [[nodiscard]] std::string origin(const std::string& joint) const {
     std::smatch found;
@@ -168,21 +176,22 @@ Fields sonar_ring(const PlainFile& file) {
   return fields;
 }
 
-Fields laser(const PlainFile& file) {
-  const std::string path = "laser_sensors.0.";
-  Fields fields = sensor(file, path, "laser", file.get("laser", "name"), "LaserRangeReadings");
-  std::istringstream place(file.origin("laser_joint"));
+Fields laser(const PlainFile& file, std::size_t index, const std::string& name) {
+  const std::string path = "laser_sensors." + std::to_string(index) + ".";
+  const std::string element = "laser name=\"" + name + "\"";
+  Fields fields = sensor(file, path, element, name, "LaserRangeReadings");
+  std::istringstream place(file.origin(name + "_joint"));
   for (const char* axis : {"x", "y", "z"}) {
     double number = -1.0;
     place >> number;
     fields[path + "mount.position." + axis] = text_of(number);
   }
   for (const char* angle : {"roll", "pitch", "yaw"}) fields[path + "mount.rotation." + angle] = "0";
-  fields[path + "number"] = file.get("laser", "count");
-  fields[path + "angle_start"] = file.si("laser", "first_angle");
-  fields[path + "angle_increment"] = file.si("laser", "pitch");
-  fields[path + "min_range"] = file.si("laser", "min_range");
-  fields[path + "max_range"] = file.si("laser", "max_range");
+  fields[path + "number"] = file.get(element, "count");
+  fields[path + "angle_start"] = file.si(element, "first_angle");
+  fields[path + "angle_increment"] = file.si(element, "pitch");
+  fields[path + "min_range"] = file.si(element, "min_range");
+  fields[path + "max_range"] = file.si(element, "max_range");
   return fields;
 }
 
@@ -196,7 +205,8 @@ Fields expected(const PlainFile& file) {
              {"bumper_radius", file.si("orca", "bumper_radius", file.get("orca", "radius"))}};
   all.merge(drive(file));
   if (file.has("sonar_ring")) all.merge(sonar_ring(file));
-  if (file.has("laser")) all.merge(laser(file));
+  const std::vector<std::string> lasers = file.names("laser");
+  for (std::size_t i = 0; i < lasers.size(); ++i) all.merge(laser(file, i, lasers[i]));
   if (file.has("turret")) all.merge(device(file, "actuators.0.", "turret", file.get("turret", "joint")));
   int k = 0;
   const auto add = [&](const std::string& element, const std::string& name, const std::string& type) {
@@ -280,6 +290,15 @@ const std::vector<Unknown> kUnknown{
     {"omni", "odometry", "model", kNeverBuilt},
     {"omni", "odometry", "port", kNeverBuilt},
 
+    {"courier", "drive", "model", kNeverBuilt},
+    {"courier", "drive", "port", kNeverBuilt},
+    {"courier", "high", "model", kNeverBuilt},
+    {"courier", "high", "port", kNeverBuilt},
+    {"courier", "low", "model", kNeverBuilt},
+    {"courier", "low", "port", kNeverBuilt},
+    {"courier", "odometry", "model", kNeverBuilt},
+    {"courier", "odometry", "port", kNeverBuilt},
+
     {"barn_base", "drive", "model", kNeverBuilt},
     {"barn_base", "drive", "port", kNeverBuilt},
     {"barn_base", "laser", "model", kNeverBuilt},
@@ -316,6 +335,7 @@ TEST_CASE("each field of the description of a shipped robot is what its file say
       GENERATE(table<std::string, std::string, std::string>({{"nomad_scout", "0", "0"},
                                                              {"nomad_200", "0", "0"},
                                                              {"create2", "0", "0"},
+                                                             {"courier", "0", "0"},
                                                              {"pioneer_2dx", "0.6", "0.425"},
                                                              {"peoplebot", "0.602", "0.425"}}));
   CAPTURE(robot);

@@ -12,8 +12,8 @@ using namespace orca::sim::test;
 using Catch::Contains;
 
 TEST_CASE("each shipped robot is solid at the height of each sensor of its own", "[sim][robots]") {
-  const std::string name = GENERATE("barn_base", "create2", "nomad_200", "nomad_scout", "nomad_xr4000",
-                                    "omni", "peoplebot", "pioneer_2dx");
+  const std::string name = GENERATE("barn_base", "courier", "create2", "nomad_200", "nomad_scout",
+                                    "nomad_xr4000", "omni", "peoplebot", "pioneer_2dx");
   INFO(name);
   CHECK(gaps_at_own_sensors(shipped(name)).empty());
 }
@@ -47,8 +47,8 @@ TEST_CASE("infrared rings are judged too", "[sim][robots]") {
 }
 
 TEST_CASE("where a gap is reported, a laser does not see the robot, and else it does", "[sim][robots]") {
-  RobotModel robot = shipped(GENERATE("barn_base", "create2", "nomad_200", "nomad_scout", "nomad_xr4000",
-                                      "omni", "peoplebot", "pioneer_2dx"));
+  RobotModel robot = shipped(GENERATE("barn_base", "courier", "create2", "nomad_200", "nomad_scout",
+                                      "nomad_xr4000", "omni", "peoplebot", "pioneer_2dx"));
   const LaserScanner laser = shipped("pioneer_2dx").lasers.at(0);
   robot.sonars.clear();
   robot.infrareds.clear();

@@ -5,6 +5,7 @@
 #include "orca/sim/world.hpp"
 #include "orca/sim/world_file.hpp"
 #include "scout.hpp"
+#include "shipped.hpp"
 
 using namespace orca;
 using namespace orca::sim;
@@ -136,6 +137,28 @@ TEST_CASE("sensors that are out read nothing, and others go on", "[sim][event]")
   CHECK(out.first == 0);
   CHECK(out.second > 0);
   CHECK(count(2.99).first > 0);
+}
+
+TEST_CASE("of several sensors of a kind one can be out alone", "[sim][event]") {
+  World world = world_with({.outages = {{"courier", SensorKind::laser, seconds(1), {}, "low"},
+                                        {"courier", SensorKind::laser, seconds(1), {}, "lower"}}});
+  const RobotModel courier = shipped("courier");
+  const RobotId robot = world.add_robot("courier", courier, {0.0, 0.0, 0.0}).value();
+  REQUIRE(courier.lasers.at(1).name == "low");
+  std::pair<int, int> read;
+  std::vector<std::string> notes;
+  while (to_seconds(world.time() - TimePoint{}) < 1.99 - 1e-6) {
+    world.step();
+    const bool later = to_seconds(world.time() - TimePoint{}) > 1.0;
+    read.first += later && world.laser(robot, 0) ? 1 : 0;
+    read.second += later && world.laser(robot, 1) ? 1 : 0;
+    for (const std::string& note : world.happened()) notes.push_back(note);
+  }
+  CHECK(read.first > 0);
+  CHECK(read.second == 0);
+  CHECK(notes == std::vector<std::string>{
+                     "laser \"low\" of courier fails",
+                     "laser \"lower\" of courier fails not at all: courier has no laser of that name"});
 }
 
 TEST_CASE("events of a file happen, and two runs of them agree bit for bit", "[sim][event]") {

@@ -43,12 +43,13 @@ struct Kidnap {
   Pose2 X_WB;
 };
 
-/// All sensors of a kind of a robot are silent.
+/// All sensors of a kind of a robot are silent, or one of them.
 struct Outage {
   std::string robot;
   SensorKind sensor = SensorKind::laser;
   Duration from{0};
   std::optional<Duration> until{};
+  std::string device{};  ///< Name of the one; empty: all.
 };
 
 /// What happens in a world while it runs, besides people who walk about; times count from its start. What a robot is in the way of

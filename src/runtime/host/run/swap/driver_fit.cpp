@@ -16,7 +16,7 @@ std::string seconds(Duration time) { return xml::number_text(to_seconds(time)) +
 const hw::SensorEndpoint* sensor_like(const hw::SensorEndpoint& wanted,
                                       const hw::HardwareContainer& offered) {
   const auto found = std::ranges::find_if(offered.sensors(), [&](const hw::SensorEndpoint* sensor) {
-    return sensor->type().name == wanted.type().name && sensor->source() == wanted.source();
+    return sensor->port_stem() == wanted.port_stem() && sensor->source() == wanted.source();
   });
   return found == offered.sensors().end() ? nullptr : *found;
 }
@@ -24,7 +24,7 @@ const hw::SensorEndpoint* sensor_like(const hw::SensorEndpoint& wanted,
 void compare_sensors(const hw::HardwareContainer& present, const hw::HardwareContainer& offered,
                      Texts& faults) {
   for (const hw::SensorEndpoint* const sensor : present.sensors()) {
-    const std::string type(sensor->type().name);
+    const std::string type = sensor->port_stem();
     const hw::SensorEndpoint* const other = sensor_like(*sensor, offered);
     if (other == nullptr) {
       faults.push_back(std::string("it has no ") +

@@ -51,6 +51,10 @@ class Avoider : public Component {
   /// Puts the newest readings of the sensor into the memory.
   /// @pre  sensor() has new data.
   virtual void listen(EchoMemory& memory) = 0;
+  /// Does the same for sensors besides it, if the class has any. Called once a lap.
+  virtual void listen_aside(EchoMemory& /*memory*/) {}
+  /// Returns whether each of those has been heard in the last `longest` seconds.
+  [[nodiscard]] virtual bool hears_aside(double /*longest*/) const { return true; }
   /// Returns what the robot should do. Called once a lap, unless the robot must stand anyway.
   /// @param limits  those of the parameters, with a side distance of 0.
   [[nodiscard]] virtual Advice advice(const EchoMemory& memory, const Situation& situation,
@@ -58,7 +62,12 @@ class Avoider : public Component {
 
   // A derived class that overrides these calls them too.
   Status params_changed() override;
+  Status configure() override;
   Status start() override;
+  void stop() override;
+
+  /// Returns whether it carries echoes along, because it hears of the robot's motion.
+  [[nodiscard]] bool remembers() const { return odometry_.connected(); }
 
   /// Moves a point seen `age` [s] ago into the robot's current frame, using odometry.
   [[nodiscard]] Vec2 moved_since(Vec2 point, double age) const;
@@ -73,7 +82,7 @@ class Avoider : public Component {
   [[nodiscard]] double farthest() const;
 
  private:
-  static constexpr std::uint32_t kStateVersion = 2;
+  static constexpr std::uint32_t kStateVersion = 3;
 
   // What the base says about the robot.
   struct Body {
@@ -83,9 +92,7 @@ class Avoider : public Component {
     double width;            // [m]
   };
 
-  Status configure() override;
   Outcome work() override;
-  void stop() override;
   void save_state(StateWriter& state) const override;
   Status load_state(StateReader& state) override;
   [[nodiscard]] std::uint32_t state_version() const override { return kStateVersion; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -23,7 +24,10 @@ namespace orca::avoid {
 /// A single echo counts for a moment only, because a sonar also reports false ones. An echo that was heard
 /// near the same place before is kept for longer.
 ///
-/// Thread contract: not synchronised. Allocates nothing after construction.
+/// Sensors that hear different things, because one looks over what another one sees, each have echoes of their own: none of
+/// them moves, confirms or forgets those of another.
+///
+/// Thread contract: not synchronised. Allocates nothing after construction for up to four sensors.
 class EchoMemory {
  public:
   struct Limits {
@@ -34,6 +38,7 @@ class EchoMemory {
                                   ///< is too uncertain to keep it for longer.
     double no_news = 0.04;        ///< [m] an echo this near to a known one moves it, and adds none.
     bool hidden = false;          ///< Whether a scan leaves echoes that lie behind what it sees.
+    std::uint32_t sensor = 0;     ///< Which of the robot's sensors hears.
   };
 
   EchoMemory();
@@ -46,11 +51,11 @@ class EchoMemory {
   /// Adds an echo, given in the robot frame.
   void hear(Vec2 echo, const Limits& limits);
 
-  /// Forgets the echoes for which `unwanted(echo)` is true.
+  /// Forgets the echoes of a sensor for which `unwanted(echo)` is true.
   template <class Predicate>
-  void forget_if(Predicate unwanted) {
+  void forget_if(std::uint32_t sensor, Predicate unwanted) {
     for (std::size_t i = echoes_.size(); i-- > 0;)
-      if (unwanted(echoes_[i])) erase(i);
+      if (traces_[i].sensor == sensor && unwanted(echoes_[i])) erase(i);
   }
 
   void clear();
@@ -69,8 +74,10 @@ class EchoMemory {
   struct Trace {
     double age = 0.0;  // [s]
     bool confirmed = false;
+    std::uint32_t sensor = 0;
   };
   static double kept_for(const Trace& trace, const Limits& limits);
+  void make_room(std::uint32_t sensor);
   void erase(std::size_t i);
 
   // Side by side, so that the echoes can be handed out as they are.

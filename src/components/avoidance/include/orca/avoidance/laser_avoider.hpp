@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "orca/avoidance/avoider.hpp"
 
 namespace orca::avoid {
 
-/// The common part of avoid behaviours that listen to a laser at a port `laser`. A derived class chooses the
-/// direction.
+/// The common part of avoid behaviours that listen to a laser at a port `laser`, and to any number of further ones at a port
+/// `more_lasers`: one that looks back, or one near the floor. A derived class chooses the direction.
 ///
 /// Thread contract: as every component.
 class LaserAvoider : public Avoider {
@@ -33,16 +35,38 @@ class LaserAvoider : public Avoider {
   /// the base describes; without one, that of the parameters.
   [[nodiscard]] Limits with_body(const EchoMemory& memory, const Situation& situation, Limits limits) const;
 
+  // A derived class that overrides these calls them too.
+  Status configure() override;
+  Status start() override;
+  void stop() override;
+
  private:
+  using MoreLasers = PushProxyArray<idl::LaserRangeReadings>;
+  struct Further {
+    MoreLasers::Source source;
+    std::uint32_t number;              // Of the sensor, for the memory.
+    std::optional<TimePoint> heard{};  // When its last scan came.
+  };
+
   PushProxyHandle& sensor() override { return laser_; }
   [[nodiscard]] const ObjectType& sensed() const override;
   void listen(EchoMemory& memory) override;
+  void listen_aside(EchoMemory& memory) override;
+  [[nodiscard]] bool hears_aside(double longest) const override;
+  [[nodiscard]] Further& further(const MoreLasers::Source& source);
+  void put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings, std::uint32_t number);
 
   Memory remembers_;
   Param<bool> squeeze_;
   Param<double> robot_length_;
   Param<double> robot_width_;
   PushProxy<idl::LaserRangeReadings> laser_{*this, "laser", {.text = "Scans of the laser."}};
+  MoreLasers more_lasers_{
+      *this,
+      "more_lasers",
+      {.text = "Scans of further lasers; needs odometry. The robot stands while one of them is silent.",
+       .optional = true}};
+  std::vector<Further> further_;
 };
 
 }  // namespace orca::avoid

@@ -25,8 +25,8 @@ struct Detail {
   double fine = 0.0;    ///< [rad] each such part.
 };
 
-/// Replaces the echoes remembered in the scan's field of view by those in the scan, which misses nothing
-/// there. With `keep.hidden` it replaces only those that its beams reach.
+/// Replaces the echoes that the same sensor (`keep.sensor`) has left in the scan's field of view by those in the scan, which
+/// misses nothing there. With `keep.hidden` it replaces only those that its beams reach.
 ///
 /// A scan of many beams costs no more than a ring of sonars where nothing is near.
 void see(const Scan& scan, const Detail& detail, const EchoMemory::Limits& keep, EchoMemory& memory);

@@ -24,7 +24,8 @@ namespace orca::hw {
 enum class Source { sensor, truth };
 
 /// One kind of reading that a hardware container delivers, whatever its type (thesis 10.2, Fig. 10.5). The
-/// server that wraps the container turns it into a Push and a Query port named after the object type.
+/// server that wraps the container turns it into a Push and a Query port named after the object type and, where several
+/// devices deliver that type, the device.
 ///
 /// Thread contract: publish() from the container's strand; the rest from any strand.
 class SensorEndpoint {
@@ -32,8 +33,10 @@ class SensorEndpoint {
   /// A function that pushes the reading on and returns the object that it sealed.
   using Sink = std::function<ObjectRef(ObjectLoan)>;
 
-  SensorEndpoint(const ObjectType& type, Duration period, Source source)
-      : type_(type), period_(period), source_(source) {}
+  /// @param device  its name, where the container has several sensors of this type and source; empty: it has only this one.
+  ///                Letters, digits and _, since names of ports begin with it.
+  SensorEndpoint(const ObjectType& type, Duration period, Source source, std::string device)
+      : type_(type), period_(period), source_(source), device_(std::move(device)) {}
   SensorEndpoint(const SensorEndpoint&) = delete;
   SensorEndpoint& operator=(const SensorEndpoint&) = delete;
 
@@ -41,6 +44,10 @@ class SensorEndpoint {
   /// Returns the time between two readings [s]; subscribers may ask for multiples of it.
   [[nodiscard]] Duration period() const { return period_; }
   [[nodiscard]] Source source() const { return source_; }
+  /// Returns the name of its device among several that deliver this type; empty: it is the only one.
+  [[nodiscard]] const std::string& device() const { return device_; }
+  /// Returns what the names of its ports begin with: LaserRangeReadings; of several: rear_LaserRangeReadings.
+  [[nodiscard]] std::string port_stem() const;
 
   /// Sets where readings go for `owner`, which has at most one sink; null removes it. Several servers may
   /// wrap one sensor: each gets its own object.
@@ -59,6 +66,7 @@ class SensorEndpoint {
   const ObjectType& type_;
   const Duration period_;
   const Source source_;
+  const std::string device_;
   mutable std::mutex mutex_;
   std::vector<std::pair<const void*, Sink>> sinks_;  // in the order in which they came
   ObjectRef latest_;
@@ -68,8 +76,8 @@ class SensorEndpoint {
 template <class T>
 class SensorHW final : public SensorEndpoint {
  public:
-  explicit SensorHW(Duration period, Source source = Source::sensor)
-      : SensorEndpoint(object_type<T>(), period, source) {}
+  explicit SensorHW(Duration period, Source source = Source::sensor, std::string device = "")
+      : SensorEndpoint(object_type<T>(), period, source, std::move(device)) {}
 
   [[nodiscard]] Loan<T> loan() const { return make_object<T>(); }
   void publish(Loan<T> reading) { publish_loan(std::move(reading)); }

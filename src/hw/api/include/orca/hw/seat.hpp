@@ -25,9 +25,10 @@ class HardwareSeat final : public Device {
  public:
   /// A sensor, whichever driver reads it.
   struct Sensor {
-    const ObjectType* type;  ///< One sensor of each source delivers it.
+    const ObjectType* type;
     Source source;
-    Duration period;  ///< [s] Between two readings.
+    std::string port_stem;  ///< As SensorEndpoint::port_stem(); no other sensor of the source has it.
+    Duration period;        ///< [s] Between two readings.
   };
 
   /// @param driver       prepared before a server is constructed. Outlives the object, or its time in the seat.

@@ -19,7 +19,7 @@ namespace orca::hw {
 
 /// A component that wraps a hardware container, whatever endpoints it has (thesis 10.2-10.3). Each sensor of
 /// the chosen source becomes a Push and a Query port named after its object type (`OdometryPush`,
-/// `OdometryQuery`). The motion endpoint becomes a Send port `MotionCommandSend`. Abilities of some bases
+/// `OdometryQuery`); where several devices deliver one type, their names come first (`rear_LaserRangeReadingsPush`). The motion endpoint becomes a Send port `MotionCommandSend`. Abilities of some bases
 /// become ports on those bases alone: `HolonomicVelocitySend` on one that moves sideways, `TurretCommandSend`
 /// on one with a turret, and `DeviceStatisticsQuery` on a device that hangs on a line. A new sensor type needs no
 /// change here. A Query is answered with the latest reading, unless it was sensed before the time that the client
