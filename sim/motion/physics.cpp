@@ -16,10 +16,11 @@
 namespace orca::sim::detail {
 namespace {
 
-constexpr double kGravity = 9.81;  // [m/s2]
-constexpr double kRest = 1e-5;     // [m] Bodies that are pushed together stay that far apart.
-constexpr double kFelt = 0.002;    // [m] What is so near is listed by touches().
-constexpr int kMostParts = 16;     // Parts of a step that is cut by touches.
+constexpr double kGravity = 9.81;   // [m/s2]
+constexpr double kRest = 1e-5;      // [m] Bodies that are pushed together stay that far apart.
+constexpr double kFelt = 0.002;     // [m] What is so near is listed by touches().
+constexpr double kImmovable = 1e9;  // [kg] and [kg m2] Of what is fixed to the building.
+constexpr int kMostParts = 16;      // Parts of a step that is cut by touches.
 
 // Bullet uses what it gets without a look.
 void* allocate(std::size_t size) {
@@ -32,12 +33,17 @@ void report_lack_of_memory() { btAlignedAllocSetCustom(allocate, std::free); }
 
 struct RobotBody {
   explicit RobotBody(const RobotModel& robot)
-      : outline(robot.parts), mass(robot.mass), yaw_inertia(robot.yaw_inertia), drive(robot.drive) {}
+      : outline(robot.parts),
+        mass(robot.fixed ? kImmovable : robot.mass),
+        yaw_inertia(robot.fixed ? kImmovable : robot.yaw_inertia),
+        drive(robot.drive),
+        fixed(robot.fixed) {}
 
   RobotOutline outline;
   MovingBody body;
   double mass, yaw_inertia;
   orca::sim::Drive drive;
+  bool fixed;
   Drift wanted;
   bool touches = false;  // In the present part of the step.
   std::vector<Touch> felt;
@@ -166,6 +172,7 @@ void Physics::Impl::meet(double seconds, double margin) {
 
 void Physics::Impl::meet_solids(std::size_t robot, double margin) {
   RobotBody& r = robots[robot];
+  if (r.fixed) return;  // It may be screwed to a wall.
   solids.visit(around(r.body, margin), [&](const Solid& solid) {
     Encounter e{{robot, Kind::obstacle, solid.obstacle}, &r.body, nullptr, nullptr, solid.plan};
     if (solid.triangle != nullptr) return meet_triangle(solid, e);

@@ -83,7 +83,7 @@ idl::Robot describe(const RobotModel& model, const std::string& name) {
   const Vec2 size = size_of(model.footprint);
   robot.length(size.x);
   robot.width(size.y);
-  robot.drives({describe(model.drive)});
+  if (!model.fixed) robot.drives({describe(model.drive)});
   if (model.turret) robot.actuators({describe(*model.turret)});
   describe_sensors(model, robot);
   return robot;

@@ -23,6 +23,10 @@ void fill(idl::Odometry& object, const OdometryReading& reading, const std::arra
 void fill(idl::TurretAngle& object, const TurretReading& reading);
 void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
 
+/// Returns the readings of sensors without a robot, in whose frame nobody lives: seen from the world's.
+/// @param X_WF  where they are fixed.
+[[nodiscard]] SharedWorld::Inbox in_world(SharedWorld::Inbox inbox, const Pose2& X_WF);
+
 /// Returns the framework's word for a kind of drive.
 [[nodiscard]] idl::DriveType type_of(DriveKind kind);
 

@@ -41,6 +41,7 @@ std::set<double> heights_of(const SonarRing& ring) {
 }  // namespace
 
 std::vector<std::string> gaps_at_own_sensors(const RobotModel& robot) {
+  if (robot.fixed) return {};
   Gaps gaps(robot);
   for (const SonarRing& ring : robot.sonars)
     for (const double height : heights_of(ring)) gaps.look("sonar ring", ring.name, height);

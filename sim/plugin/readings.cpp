@@ -79,4 +79,17 @@ void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth) {
   object.stamp(to_time_value(truth.stamp));
 }
 
+SharedWorld::Inbox in_world(SharedWorld::Inbox inbox, const Pose2& X_WF) {
+  const auto move = [&X_WF](auto& readings) {
+    for (auto& [number, reading] : readings) reading.X_RB = X_WF * reading.X_RB;
+  };
+  move(inbox.sonar);
+  move(inbox.laser);
+  move(inbox.infrared);
+  move(inbox.bumper);
+  for (auto& [ring, scan] : inbox.sonar)
+    for (SonarReading& reading : scan.readings) reading.sensor = X_WF * reading.sensor;
+  return inbox;
+}
+
 }  // namespace orca::sim

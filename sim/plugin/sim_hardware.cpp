@@ -37,6 +37,7 @@ class SimHardware final : public SimulatedRobot {
   void declare_endpoints() {
     sensors_ = std::make_unique<SimSensors>(robot(), realism());
     for (orca::hw::SensorEndpoint* endpoint : sensors_->endpoints()) add_sensor(*endpoint);
+    if (robot().fixed) return;
     motion_ = std::make_unique<orca::hw::MotionHW>(limits_of(robot()), kMaxCommandAge);
     set_motion(*motion_);
     if (*stop_on_touch_) guard_.emplace(robot(), *motion_);
@@ -57,7 +58,7 @@ class SimHardware final : public SimulatedRobot {
   void sense(const SharedWorld::Inbox& inbox) override {
     if (guard_) guard_->look(inbox);
     if (state() == orca::hw::HardwareState::active) {
-      sensors_->publish(inbox);
+      sensors_->publish(robot().fixed ? in_world(inbox, start()) : inbox);
     } else {
       sensors_->skip(inbox);
     }

@@ -93,6 +93,7 @@ void SimulatedRobot::find_start(std::vector<HardwareFault>& errors) {
 }
 
 void SimulatedRobot::check_start_is_free(std::vector<HardwareFault>& errors) const {
+  if (robot_->fixed) return;
   const Obstacle* hit = world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom, robot_->top);
   if (hit == nullptr) return;
   errors.push_back({start_param(),

@@ -38,6 +38,8 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   virtual void miss(const SharedWorld::Inbox& inbox) = 0;
 
   [[nodiscard]] const RobotModel& robot() const { return *robot_; }
+  /// Returns where the graph puts the robot, in the world frame.
+  [[nodiscard]] const Pose2& start() const { return start_; }
   [[nodiscard]] const std::string& robot_name() const { return *name_; }
   [[nodiscard]] Realism realism() const;
   /// Tells the robot's motors what to do, from now on.

@@ -29,6 +29,7 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
 }
 
 Travel2 Robot::set_off(const Floor& floor) {
+  if (model.fixed) return {};
   driving_ = drive.step();
   return wheels_.over_ground(driving_ * to_seconds(tick_), steer_, footing(floor), slip_);
 }
@@ -51,7 +52,7 @@ void Robot::moved(const Pose2& X_WB, TimePoint now, bool blocked) {
   const Travel2 real = arc_between(pose, X_WR);
   velocity = real / seconds;
   Travel2 rolled = driving_ * seconds;
-  if (blocked) {
+  if (blocked && !model.fixed) {
     rolled = wheels_.rolled(real);
     if (steers()) rolled.turn = driving_.turn_rate * seconds;  // An obstacle does not hold the steering.
     drive.held_to(rolled / seconds);

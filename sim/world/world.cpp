@@ -121,7 +121,9 @@ Status World::Impl::check_stand(const std::string& name, const RobotModel& robot
   for (const detail::Robot& other : robots)
     if (other.name != name && overlap(body, placed(other.model.footprint, other.body)))
       return fail(Code::failed_precondition, there + "robot '" + other.name + "'" + remedy);
-  if (const Obstacle* o = model.obstacle_at(body, robot_model.bottom, robot_model.top))
+  const Obstacle* const o =
+      robot_model.fixed ? nullptr : model.obstacle_at(body, robot_model.bottom, robot_model.top);
+  if (o != nullptr)
     return fail(Code::failed_precondition,
                 there + "obstacle '" + o->name + "' of world '" + model.name + "'" + remedy);
   if (const std::string* name_there = movers.at(body, robot_model.bottom))
@@ -179,6 +181,7 @@ void World::Impl::report_contacts() {
   contacts.clear();
   for (const detail::Pair& p : contact_log.update(physics)) {
     const detail::Robot& r = robots[p.robot];
+    if (r.model.fixed) continue;  // What has driven into it says so.
     contacts.push_back({r.name, now, name_of(p), r.speed()});
   }
 }
@@ -276,6 +279,7 @@ Status World::set_velocity_command(RobotId robot, const Twist2& wanted) {
   if (wanted.left != 0.0 && r.model.drive.kind != DriveKind::holonomic)
     return fail(Code::failed_precondition, "this base cannot move sideways; only a holonomic one can",
                 r.name);
+  if (r.model.fixed) return fail(Code::failed_precondition, "it has no drive", r.name);
   r.drive.command(wanted);
   return ok();
 }

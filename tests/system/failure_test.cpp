@@ -44,6 +44,7 @@ const std::vector<Robot> kRobots{
     {"nomad_scout", "", {"goto", "avoid"}},
     {"nomad_xr4000", "", {"goto", "avoid"}, 1.5},
     {"pioneer_planner", "", {"planner"}},
+    {"warehouse_scanner", "", {"planner"}},
     {"random_walk", "", {"walk", "avoid"}},
     {"two_robots", "dewey/", {"goto", "avoid"}},
     {"two_robots", "huey/", {"goto", "avoid"}},

@@ -38,6 +38,17 @@ void read_robot_attributes(const xml::Attributes& e, RobotModel& model) {
                "bumper_radius must not be less than radius: the bumper is outside");
 }
 
+// Sensors without a robot need no drive.
+void check_fixed(const xml::Attributes& orca, const std::set<const xml::ElementRule*>& parts) {
+  for (const xml::ElementRule* const rule : {&kOdometryRule, &kTurretRule})
+    if (parts.contains(rule))
+      orca.error(robot_codes::kMissing,
+                 "<orca> needs the element <drive>, because it has <" + std::string(rule->name) + ">");
+  if (parts.empty())
+    orca.error(robot_codes::kMissing,
+               "<orca> needs the element <drive>, or at least a sensor that is to stay in one place");
+}
+
 }  // namespace
 
 void check_period(const xml::Attributes& e, Duration period) {
@@ -60,7 +71,8 @@ void read_extension(const xml::Element& orca, RobotModel& model, xml::Reporter& 
       kind->read({*child, *rule, kRobotFile, reporter}, model);
     }
   }
-  if (!seen.contains(&kDriveRule)) e.error(robot_codes::kMissing, "<orca> needs the element <drive>");
+  if (!seen.contains(&kDriveRule)) check_fixed(e, seen);
+  model.fixed = !seen.contains(&kDriveRule);
 }
 
 }  // namespace orca::sim::detail

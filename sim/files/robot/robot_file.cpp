@@ -27,7 +27,7 @@ double reach_of(const Shape& footprint) {
 }
 
 void check_body(const RobotModel& model, const xml::Attributes& robot, const xml::Attributes& extension) {
-  if (model.mass <= 0.0)
+  if (model.mass <= 0.0 && !model.fixed)
     robot.error(robot_codes::kMass, "no link of the robot has a mass; give its main link an <inertial>");
   if (model.parts.empty())
     return robot.error(robot_codes::kMissing,

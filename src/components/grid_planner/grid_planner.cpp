@@ -33,6 +33,8 @@ class GridPlanner final : public orca::go::GoalFollower {
  private:
   static constexpr double kBlockedAfter = 60.0;  // [s]
   static constexpr double kBrakes = 0.8;         // of the change of speed that the base is capable of
+  static constexpr double kOwnEcho = 0.1;        // [m] what scanners see so near to the robot is the robot
+  using Scanners = orca::PushProxyArray<orca::idl::LaserRangeReadings>;
 
   // What the base says about the robot. Zero: it does not say.
   struct Body {
@@ -46,6 +48,9 @@ class GridPlanner final : public orca::go::GoalFollower {
 
   Status configure() override {
     const Status sound = GoalFollower::configure();
+    if (!localizer().connected() && !scanners_.sources().empty())
+      return orca::fail(orca::Code::failed_precondition,
+                        "with scanners, connect its port localizer too: they see places of the world");
     if (odometry().connected()) lap_on("odometry");
     return sound;
   }
@@ -57,12 +62,14 @@ class GridPlanner final : public orca::go::GoalFollower {
     scan_ = {};
     heard_at_.reset();
     navigator_.reset();
+    listened_.clear();
     return ask_robot();
   }
 
   void stop() override {
     if (question_) robot_.query_forget(*question_);
     question_.reset();
+    scanners_.unsubscribe_all();
     GoalFollower::stop();
   }
 
@@ -123,6 +130,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     if (laser_.new_data_arrived()) scan_ = laser_.get_update();
     const Pose2 pose = in_map(history_.at(posed_at()).value_or(Pose2{}));
     if (navigator_ && scan_) hear(pose);
+    if (navigator_) hear_scanners(pose);
     return pose;
   }
 
@@ -157,6 +165,29 @@ class GridPlanner final : public orca::go::GoalFollower {
                         *map_range_, beams_);
     navigator_->hear(beams_, pose);
     heard_at_ = now();
+  }
+
+  void hear_scanners(const Pose2& pose) {
+    for (const Scanners::Source& scanner : scanners_.sources()) {
+      if (std::ranges::find(listened_, scanner) == listened_.end()) {
+        scanner.subscribe();
+        listened_.push_back(scanner);
+      }
+      if (scanner.new_data_arrived()) hear(*scanner.take_latest(), pose);
+    }
+  }
+
+  // Puts what a scanner that stands somewhere sees into the map, but for the robot.
+  void hear(const orca::idl::LaserRangeReadings& scan, const Pose2& pose) {
+    const auto then = history_.at(orca::to_time_point(scan.stamp()));
+    const Vec2 robot = then ? in_map(*then).position() : pose.position();
+    const Pose2 mount = orca::plane_pose(scan.pose());
+    orca::nav::beams_of({scan.ranges(), scan.min_range(), scan.max_range(), scan.angle_start(),
+                         scan.angle_increment(), mount, mount},
+                        scan.max_range(), beams_);
+    const double near = footprint().outer_radius() + kOwnEcho;
+    std::erase_if(beams_, [&](const orca::nav::Beam& beam) { return norm(beam.to - robot) < near; });
+    navigator_->hear(beams_, pose);
   }
 
   void idle() override {
@@ -226,6 +257,11 @@ class GridPlanner final : public orca::go::GoalFollower {
   }
 
   orca::PushProxy<orca::idl::LaserRangeReadings> laser_{*this, "laser", {.text = "Scans of the laser."}};
+  Scanners scanners_{*this,
+                     "scanners",
+                     {.text = "Scans of lasers that stand somewhere and tell their places in the world; "
+                              "needs a localizer.",
+                      .optional = true}};
   orca::QueryProxy<orca::idl::Ask, orca::idl::Robot> robot_{
       *this,
       "robot",
@@ -332,6 +368,7 @@ class GridPlanner final : public orca::go::GoalFollower {
   std::optional<Pose2> X_MO_;  // the frame of the odometry in that of the goals; nothing: they are the same
   ObjectPtr<orca::idl::LaserRangeReadings> scan_;  // waits for the pose of its last beam
   std::vector<orca::nav::Beam> beams_;
+  std::vector<Scanners::Source> listened_;
   orca::Twist2 twist_;
   std::optional<orca::TimePoint> heard_at_;
 };

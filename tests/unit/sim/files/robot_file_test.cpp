@@ -102,8 +102,9 @@ TEST_CASE("a file without robot, links, drive or extension is reported", "[sim][
              Catch::Contains("r.urdf:1:1: error R001: the root element is <world>"));
   CHECK_THAT(errors_of_robot("<robot name='r'/>"), Catch::Contains("error R011: the robot has no <link>") &&
                                                        Catch::Contains("needs the element <orca"));
-  CHECK_THAT(errors_of_robot(robot(kBase, "")),
-             Catch::Contains("r.urdf:3:1: error R004: <orca> needs the element <drive>"));
+  CHECK_THAT(
+      errors_of_robot(robot(kBase, "")),
+      Catch::Contains("r.urdf:3:1: error R004: <orca> needs the element <drive>, or at least a sensor"));
   CHECK_THAT(errors_of_robot(robot("<link name='base'/>")),
              Catch::Contains("error R018: no link of the robot has a mass") &&
                  Catch::Contains("no link of the robot has a <collision>"));
@@ -234,4 +235,19 @@ TEST_CASE("a missing robot file is reported with its name", "[sim][robot_file]")
   orca::xml::Diagnostics diagnostics;
   CHECK_FALSE(read_robot("no/robot.urdf", diagnostics).has_value());
   CHECK_THAT(diagnostics.text(), Catch::StartsWith("no/robot.urdf"));
+}
+
+TEST_CASE("sensors without a drive are fixed, and need no mass", "[sim][robot_file]") {
+  const std::string laser = R"(<laser name="l" link="base" count="3" first_angle="0 deg" pitch="1 deg")"
+                            R"( max_range="8 m" period="100 ms"/>)";
+  std::string errors;
+  const auto scanner = read(robot("<link name='base'>" + kCollision + "</link>", laser), errors);
+  INFO(errors);
+  REQUIRE(scanner);
+  CHECK(scanner->fixed);
+  const auto driven = read(robot(kBase, kDrive + laser), errors);
+  REQUIRE(driven);
+  CHECK_FALSE(driven->fixed);
+  CHECK_THAT(errors_of_robot(robot(kBase, laser + R"(<odometry period="50 ms"/>)")),
+             Catch::Contains("error R004: <orca> needs the element <drive>, because it has <odometry>"));
 }

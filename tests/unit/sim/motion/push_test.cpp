@@ -188,3 +188,25 @@ TEST_CASE("a robot at an obstacle's height touches it with the parts that are at
   CHECK(rests_at(1.4, 2.0) > 4.0);                               // a lamp, over all of it
   CHECK(rests_at(0.0, 0.04) > 4.0);                              // a sill, under the body
 }
+
+TEST_CASE("what is fixed stays where it is, whoever drives into it, and may stand in a wall",
+          "[sim][contact][fixed]") {
+  RobotModel post = base_of(DriveKind::differential);
+  post.fixed = true;
+  World world(test_room(), {.seed = 1, .realism = Realism::nominal});
+  const Pose2 place{1.0, 0.0, 0.5};
+  const RobotId fixed = world.add_robot("post", post, place).value();
+  const RobotId robot = world.add_robot("robot", base_of(DriveKind::differential), {}).value();
+  REQUIRE(world.set_velocity_command(robot, 0.5, 0.0));
+  std::size_t contacts = 0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    world.step();
+    contacts += world.contacts().size();
+  }
+  CHECK(contacts == 1);
+  CHECK(norm(world.pose(fixed).position() - place.position()) < 1e-6);
+  CHECK(world.pose(robot).x < 1.0 - 2.0 * kReach + 0.001);
+  CHECK_FALSE(world.set_velocity_command(fixed, 0.5, 0.0));
+  CHECK_FALSE(world.add_robot("in a wall", base_of(DriveKind::differential), {0.0, 5.0, 0.0}));
+  CHECK(world.add_robot("screwed to a wall", post, {0.0, 5.0, 0.0}));
+}

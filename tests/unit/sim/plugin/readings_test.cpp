@@ -64,3 +64,20 @@ TEST_CASE("a scan of a laser says where the scanner was at the first reading", "
   CHECK(readings.stamp() == readings.pose().stamp());
   CHECK(sensed_at(readings) == kStamp);
 }
+
+TEST_CASE("readings of sensors without a robot are in the world frame", "[sim][readings]") {
+  constexpr Pose2 kPlace{3.0, 4.0, 1.5};
+  SharedWorld::Inbox inbox;
+  inbox.laser.push_back({0, LaserScan{.stamp = kStamp, .ranges = {1.0, 1.0, 1.0}, .X_RB = {}}});
+  SonarReading reading;
+  reading.sensor = kMount;
+  inbox.sonar.push_back({0, SonarScan{.readings = {reading}, .stamp = kStamp}});
+  const SharedWorld::Inbox seen = in_world(inbox, kPlace);
+  idl::LaserRangeReadings scan;
+  fill(scan, seen.laser.at(0).second, mounted<LaserScanner>());
+  const Pose2 expected = kPlace * kMount;
+  CHECK(scan.pose().position().x() == expected.x);
+  CHECK(scan.pose().position().y() == expected.y);
+  CHECK(scan.pose().rotation().yaw() == expected.yaw);
+  CHECK(seen.sonar.at(0).second.readings.at(0).sensor == expected);
+}

@@ -123,7 +123,7 @@ struct Odometer {
   Guesses<WheelErrorGuess> errors{};
 };
 
-/// The description of a type of robot for the simulation. A plain value; see read_robot().
+/// The description of a type of robot for the simulation, or of sensors without a robot. A plain value; see read_robot().
 struct RobotModel {
   std::string name;  ///< Name of the URDF's <robot>.
   std::string vendor;
@@ -136,6 +136,8 @@ struct RobotModel {
   Shape footprint;             ///< The parts' plan in the base frame: a circle or a convex outline.
   double bottom = 0.0;         ///< [m] Lowest point of the parts.
   double top = 0.0;            ///< [m] Highest point of the parts.
+  /// Whether it has no drive: it stays where it is put, as a scanner on a wall, and nothing pushes it.
+  bool fixed = false;
   Drive drive;
   std::optional<Turret> turret;
   std::vector<SonarRing> sonars;
