@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "device_line.hpp"
 #include "orca/base/text.hpp"
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
@@ -15,6 +16,7 @@
 #include "orca/emulators/rplidar_firmware.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
 #include "orca/emulators/xr4000_firmware.hpp"
+#include "orca/hw/link/make_link.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::sim {
@@ -35,7 +37,7 @@ Error no_model(const DeviceWish& wish, const std::vector<std::string>& models) {
 
 Error only_one_model(const DeviceWish& wish) {
   return fail(Code::invalid_argument,
-              wish.kind + " has no models; write " + in_quotes(wish.kind + " " + wish.name));
+              wish.kind + " has no models; write " + in_quotes(wish.kind + " " + wish.place));
 }
 
 Made make_p2os(const DeviceWish& wish, WorldBody& body) {
@@ -70,23 +72,28 @@ Error wrong(const std::string& what) {
   return fail(Code::invalid_argument,
               what +
                   "; lines are a list such as \"p2os pioneer; sick_lms pioneer_laser\": the kind of each "
-                  "device and the name of its line, which is emulated:NAME to the driver");
+                  "device and the name of its line, which is emulated:NAME to the driver, or listen:PORT, "
+                  "which is emulated:tcp:PORT to it");
 }
 
 Result<DeviceWish> read_device(const std::string& item) {
   std::istringstream words(item);
   DeviceWish wish;
   std::string more;
-  words >> wish.kind >> wish.name;
-  if (wish.name.empty() || words >> more) return wrong(in_quotes(item) + " is no kind and name");
+  words >> wish.kind >> wish.place;
+  if (wish.place.empty() || words >> more) return wrong(in_quotes(item) + " is no kind and name");
   if (const std::size_t colon = wish.kind.find(':'); colon != std::string::npos) {
     wish.model = wish.kind.substr(colon + 1);
     wish.kind.resize(colon);
   }
-  const bool is_plain = std::ranges::all_of(wish.name, [](char c) {
+  if (wish.place.starts_with(kListens)) {
+    const auto link = hw::link::make_link(wish.place);
+    return link ? Result<DeviceWish>(wish) : wrong(link.error().message);
+  }
+  const bool is_plain = std::ranges::all_of(wish.place, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
-  if (!is_plain) return wrong(in_quotes(wish.name) + " is no name of a line: letters, digits, _ and -");
+  if (!is_plain) return wrong(in_quotes(wish.place) + " is no name of a line: letters, digits, _ and -");
   return wish;
 }
 
@@ -100,7 +107,7 @@ Result<std::vector<DeviceWish>> read_devices(std::string_view text) {
     if (item.find_first_not_of(" \t\n") == std::string::npos) continue;
     Result<DeviceWish> wish = read_device(item);
     if (!wish) return wish.error();
-    if (!names.insert(wish->name).second) return wrong("two lines have the name " + in_quotes(wish->name));
+    if (!names.insert(wish->place).second) return wrong("two lines have the name " + in_quotes(wish->place));
     wishes.push_back(std::move(*wish));
   }
   if (wishes.empty()) return wrong("no device is named");

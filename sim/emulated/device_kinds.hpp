@@ -16,10 +16,10 @@ namespace orca::sim {
 struct DeviceWish {
   std::string kind;   ///< "p2os"
   std::string model;  ///< "p2dx"; empty: the usual one.
-  std::string name;   ///< Of its line.
+  std::string place;  ///< Name of its line, or listen:[ADDRESS:]PORT.
 };
 
-/// Reads a list of devices: KIND NAME or KIND:MODEL NAME, with semicolons between them.
+/// Reads a list of devices: KIND PLACE or KIND:MODEL PLACE, with semicolons between them.
 /// @errors  invalid_argument with what is wrong, and how such a list is written.
 [[nodiscard]] Result<std::vector<DeviceWish>> read_devices(std::string_view text);
 

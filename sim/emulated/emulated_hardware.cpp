@@ -35,7 +35,7 @@ class EmulatedHardware final : public SimulatedRobot {
     for (const DeviceWish& wish : *wishes) {
       auto firmware = make_firmware(wish, *body_);
       if (!firmware) return {{"lines", firmware.error().message}};
-      lines_.push_back(std::make_unique<DeviceLine>(wish.name, std::move(*firmware)));
+      lines_.push_back(std::make_unique<DeviceLine>(wish.place, std::move(*firmware)));
     }
     return {};
   }
@@ -88,12 +88,14 @@ class EmulatedHardware final : public SimulatedRobot {
 
   void miss(const SharedWorld::Inbox& inbox) override { body_->sense(inbox); }
 
-  orca::Param<std::string> lines_text_{*this,
-                                       "lines",
-                                       "",
-                                       {.text = "Its devices, e.g. \"p2os pioneer\": the kind of each (with "
-                                                "a model: p2os:p3dx) and the name of its "
-                                                "line, which is emulated:NAME to the driver."}};
+  orca::Param<std::string> lines_text_{
+      *this,
+      "lines",
+      "",
+      {.text = "Its devices, e.g. \"p2os pioneer\": the kind of each (with "
+               "a model: p2os:p3dx) and the name of its "
+               "line, which is emulated:NAME to the driver, or listen:PORT, which "
+               "is emulated:tcp:PORT to it."}};
 
   orca::hw::SensorHW<orca::idl::RobotPose> truth_{kTruthPeriod, orca::hw::Source::truth};
   std::optional<WorldBody> body_;

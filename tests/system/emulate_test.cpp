@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "deployer.hpp"
+#include "free_port.hpp"
 #include "record_table.hpp"
 #include "temp_folder.hpp"
 
@@ -40,10 +41,11 @@ std::string graph_of(const Robot& robot) {
   return source_file("graphs/" + std::string(robot.graph) + ".xml");
 }
 
-// Two systems of other tests may run at the same time.
+// Two systems of other tests may run at the same time. Lines have names, the server listens at a port.
 Words emulate(const Robot& robot, const TempFolder& folder) {
-  return {graph_of(robot), "--profile", "emulate", "--set",
-          "emulated=" + std::string(folder.path().filename())};
+  const bool is_server = robot.graph == std::string("player_robot");
+  const std::string place = is_server ? std::to_string(free_port()) : folder.path().filename().string();
+  return {graph_of(robot), "--profile", "emulate", "--set", "emulated=" + place};
 }
 
 // How the odometry of a robot that stands lies beside the truth there.

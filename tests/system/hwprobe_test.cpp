@@ -73,6 +73,18 @@ TEST_CASE("hwprobe says why no driver has found its device", "[system][hardware]
   CHECK_THAT(run.out, Contains("orca.hw.P2os: no Pioneer answers at serial:" + device + " at 9600, 38400"));
 }
 
+TEST_CASE("a driver of devices in the network is asked at a serial port only by name", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  pioneer.fall_silent(true);
+  const Run all = probe({device, "--limit", "1"});
+  CHECK_THAT(all.out,
+             Contains("orca.hw.P2os: ") && Contains("orca.hw.SickLms: ") && !Contains("orca.hw.Player: "));
+  const Run named = probe({device, "--limit", "3", "--driver", "orca.hw.Player"});
+  CHECK_THAT(named.out, Contains("orca.hw.Player: "));
+}
+
 TEST_CASE("hwprobe says what is wrong with a port before any driver tries it", "[system][hardware]") {
   const TempFolder folder;
   const Run missing = probe({folder.file("nothing")});

@@ -28,10 +28,11 @@ constexpr const char* kHelp =
     "  hwprobe --driver orca.hw.P2os      only one kind of device\n"
     "\n"
     "Each driver looks for its device in turn, at all rates that the device may have. It may take half a "
-    "minute per port. Nothing is\n"
-    "moved: motors get no power. A port that cannot be opened, and a device that does not answer, is told "
-    "with what to do. Stop a running\n"
-    "system first: a port belongs to one program at a time.\n"
+    "minute\n"
+    "per port. Drivers of devices in the network are asked at a serial port only if --driver names them.\n"
+    "Nothing is moved: motors get no power. A port that cannot be opened, and a device that does not answer, "
+    "is\n"
+    "told with what to do. Stop a running system first: a port belongs to one program at a time.\n"
     "\n"
     "  --driver TYPE     only this hardware type; may be repeated\n"
     "  --limit SECONDS   the longest wait for an answer, and for data (default 15)\n"
@@ -113,17 +114,28 @@ void show_device(const std::string& type, const std::string& port, const Finding
        "\"/></hardware>");
 }
 
+// Returns the drivers to be tried at a port. Those of devices in the network are asked at other ports only by name.
+std::vector<std::string> types_for(const std::string& port, const std::vector<DriverType>& known,
+                                   const Options& options) {
+  if (!options.types.empty()) return options.types;
+  std::vector<std::string> types;
+  for (const DriverType& driver : known)
+    if (!driver.in_network || is_in_network(port)) types.push_back(driver.name);
+  return types;
+}
+
 // Returns whether a device has answered.
-bool probe(host::PluginCatalogue& catalogue, const Options& options, const std::string& port) {
+bool probe(host::PluginCatalogue& catalogue, const std::vector<std::string>& types, double limit_s,
+           const std::string& port) {
   show(port);
   if (const Status opened = try_port(port); !opened.ok()) {
     show("  " + opened.error().text());
     return false;
   }
   std::vector<std::string> reasons;
-  for (const std::string& type : options.types) {
+  for (const std::string& type : types) {
     if (isatty(STDERR_FILENO) != 0) LiveLine::show(STDERR_FILENO, "  looking for " + type);
-    const Duration limit(static_cast<Duration::rep>(1e9 * options.limit));
+    const Duration limit(static_cast<Duration::rep>(1e9 * limit_s));
     const Result<Finding> finding = try_driver(catalogue, type, port, limit);
     LiveLine::erase();
     if (finding && finding->answers) {
@@ -141,7 +153,9 @@ ExitCode refuse(const Error& error) {
   return ExitCode::usage;
 }
 
-Status check_types(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
+Status check_types(const std::vector<std::string>& wanted, const std::vector<DriverType>& drivers) {
+  std::vector<std::string> known;
+  for (const DriverType& driver : drivers) known.push_back(driver.name);
   for (const std::string& type : wanted)
     if (std::find(known.begin(), known.end(), type) == known.end())
       return wrong("there is no driver " + in_quotes(type) + "; drivers: " + listed(known) +
@@ -151,9 +165,8 @@ Status check_types(const std::vector<std::string>& wanted, const std::vector<std
 
 ExitCode run(Options options) {
   host::PluginCatalogue catalogue(plugin::PluginIndex(plugin_folders(options)));
-  const std::vector<std::string> known = drivers(catalogue);
+  const std::vector<DriverType> known = drivers(catalogue);
   if (const Status checked = check_types(options.types, known); !checked.ok()) return refuse(checked.error());
-  if (options.types.empty()) options.types = known;
   if (options.ports.empty()) options.ports = serial_ports();
   if (options.ports.empty()) {
     show(
@@ -162,7 +175,8 @@ ExitCode run(Options options) {
     return ExitCode::some_silent;
   }
   bool all_answer = true;
-  for (const std::string& port : options.ports) all_answer = probe(catalogue, options, port) && all_answer;
+  for (const std::string& port : options.ports)
+    all_answer = probe(catalogue, types_for(port, known, options), options.limit, port) && all_answer;
   return all_answer ? ExitCode::all_answer : ExitCode::some_silent;
 }
 

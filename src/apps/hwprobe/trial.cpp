@@ -98,15 +98,20 @@ Finding looked(hw::HardwareContainer& driver, Executive& executive, Duration lim
 
 }  // namespace
 
-std::vector<std::string> drivers(host::PluginCatalogue& catalogue) {
-  std::vector<std::string> found;
+std::vector<DriverType> drivers(host::PluginCatalogue& catalogue) {
+  std::vector<DriverType> found;
   for (const std::string& type : catalogue.type_names(PluginKind::hardware)) {
     const Result<Contract> contract = catalogue.hardware(type);
-    const auto is_port = [](const ParamContract& param) { return param.name == "device"; };
-    if (contract && std::ranges::any_of(contract->params, is_port)) found.push_back(type);
+    if (!contract) continue;
+    const auto port = std::ranges::find(contract->params, "device", &ParamContract::name);
+    if (port == contract->params.end()) continue;
+    const auto* const usual = std::get_if<std::string>(&port->default_value);
+    found.push_back({type, usual != nullptr && is_in_network(*usual)});
   }
   return found;
 }
+
+bool is_in_network(std::string_view port) { return port.starts_with("tcp:"); }
 
 Result<Finding> try_driver(host::PluginCatalogue& catalogue, const std::string& type, const std::string& port,
                            Duration limit) {

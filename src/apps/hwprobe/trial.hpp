@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "orca/base/result.hpp"
@@ -23,8 +24,17 @@ struct Finding {
   idl::DeviceStatistics line{};
 };
 
-/// Returns the hardware types that drive a device at a port: those with a parameter "device".
-[[nodiscard]] std::vector<std::string> drivers(host::PluginCatalogue& catalogue);
+/// A hardware type that drives a device at a port: one with a parameter "device".
+struct DriverType {
+  std::string name;
+  bool in_network =
+      false;  ///< Whether its device is usually found in the network, by what that parameter is unless given.
+};
+
+[[nodiscard]] std::vector<DriverType> drivers(host::PluginCatalogue& catalogue);
+
+/// Returns whether a port leads into the network.
+[[nodiscard]] bool is_in_network(std::string_view port);
 
 /// Lets a driver look for its device at a port and, if that answers, waits for its first data. Motors get no power.
 /// @param limit  [s] for an answer, and once more for data.

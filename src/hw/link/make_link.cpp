@@ -3,12 +3,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <optional>
 #include <string>
 
 #include "orca/base/text.hpp"
+#include "orca/hw/link/listen_link.hpp"
 #include "orca/hw/link/pty_link.hpp"
 #include "orca/hw/link/replay_link.hpp"
 #include "orca/hw/link/serial_link.hpp"
@@ -22,8 +25,8 @@ using Made = Result<std::unique_ptr<ByteLink>>;
 constexpr Duration kEmulationStarts = 10s;  // another process may have to load a world first
 
 constexpr const char* kForms =
-    "; a link is serial:/dev/ttyUSB0 (or the path alone), tcp:HOST:PORT, emulated:NAME, pty:PATH or "
-    "replay:FILE";
+    "; a link is serial:/dev/ttyUSB0 (or the path alone), tcp:HOST:PORT, emulated:NAME, pty:PATH, "
+    "listen:PORT or replay:FILE";
 
 Error wrong(std::string_view text, const std::string& what) {
   return fail(Code::invalid_argument, in_quotes(printable(text)) + " is no link: " + what + kForms);
@@ -62,6 +65,15 @@ Made make_tcp(std::string_view text, std::string_view rest, const LinkOptions& o
   return Made(std::make_unique<TcpLink>(TcpOptions{std::string(place->host), *port, options.connect_limit}));
 }
 
+Made make_listener(std::string_view text, std::string_view rest) {
+  const bool is_port_alone = rest.find(':') == std::string_view::npos;
+  const std::optional<Place> place = is_port_alone ? Place{"127.0.0.1", rest} : split(rest);
+  if (!place) return wrong(text, "listen needs a port, or an address and a port: listen:0.0.0.0:6665");
+  const std::optional<std::uint16_t> port = read_port(place->port);
+  if (!port) return wrong(text, in_quotes(printable(place->port)) + " is no port; ports are 1 to 65535");
+  return Made(std::make_unique<ListenLink>(ListenOptions{std::string(place->host), *port}));
+}
+
 Made make_serial(std::string_view device, const LinkOptions& options) {
   SerialOptions serial;
   serial.device = device;
@@ -70,6 +82,15 @@ Made make_serial(std::string_view device, const LinkOptions& options) {
 }
 
 Made make_emulated(std::string_view text, std::string_view name, const LinkOptions& options) {
+  constexpr std::string_view kTcp = "tcp:";
+  if (name.starts_with(kTcp)) {
+    const std::optional<std::uint16_t> port = read_port(name.substr(kTcp.size()));
+    if (!port)
+      return wrong(text,
+                   in_quotes(printable(name.substr(kTcp.size()))) + " is no port; ports are 1 to 65535");
+    return Made(
+        std::make_unique<TcpLink>(TcpOptions{"127.0.0.1", *port, options.connect_limit, kEmulationStarts}));
+  }
   if (name.find('/') != std::string_view::npos || name.starts_with('.'))
     return wrong(text, "the name of an emulation is no path");
   SerialOptions serial;
@@ -98,12 +119,14 @@ Result<std::unique_ptr<ByteLink>> make_link(std::string_view text, const LinkOpt
   if (colon == std::string_view::npos) return wrong(text, "it is no path and names no kind of link");
   const std::string_view kind = text.substr(0, colon);
   const std::string rest(text.substr(colon + 1));
-  if (kind != "serial" && kind != "tcp" && kind != "emulated" && kind != "pty" && kind != "replay")
+  constexpr std::array<std::string_view, 6> kKinds{"serial", "tcp", "emulated", "pty", "listen", "replay"};
+  if (std::ranges::find(kKinds, kind) == kKinds.end())
     return wrong(text, "there is no kind " + in_quotes(printable(kind)));
   if (rest.empty()) return wrong(text, "nothing follows " + std::string(kind) + ":");
   if (kind == "serial") return make_serial(rest, options);
   if (kind == "tcp") return make_tcp(text, rest, options);
   if (kind == "emulated") return make_emulated(text, rest, options);
+  if (kind == "listen") return make_listener(text, rest);
   if (kind == "pty") return Made(std::make_unique<PtyLink>(rest));
   return Made(std::make_unique<ReplayLink>(ReplayOptions{rest, options.now}));
 }

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/link/tcp_link.hpp"
 
-#include <linux/sockios.h>
 #include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <poll.h>
-#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -19,27 +16,12 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "stream.hpp"
+#include "tcp_socket.hpp"
 
 namespace orca::hw::link {
 namespace {
 
-void set_number(int socket, int level, int option, int value) {
-  (void)setsockopt(socket, level, option, &value, sizeof value);
-}
-
-constexpr int kSendBuffer = 16384;  // [bytes]
-
-// By default, the system would keep megabytes of old commands for a device that is stuck, and wait hours for one whose
-// cable was pulled.
-void keep_fresh(int socket) {
-  set_number(socket, SOL_SOCKET, SO_SNDBUF, kSendBuffer);
-  set_number(socket, IPPROTO_TCP, TCP_NODELAY, 1);
-  set_number(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
-  set_number(socket, IPPROTO_TCP, TCP_KEEPIDLE, 2);   // [s]
-  set_number(socket, IPPROTO_TCP, TCP_KEEPINTVL, 1);  // [s]
-  set_number(socket, IPPROTO_TCP, TCP_KEEPCNT, 3);
-  set_number(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, 5000);  // [ms]
-}
+constexpr Duration kBetweenTries = 50ms;
 
 Error cannot_connect(int reason, std::uint16_t port) {
   const std::string why = std::strerror(reason);
@@ -141,17 +123,32 @@ TcpLink::~TcpLink() = default;
 
 Result<Opening> TcpLink::open() {
   if (stream_->is_attached()) return Opening::done;
+  if (!connecting_ && steady_now() < next_try_) return Opening::under_way;
   if (!connecting_) connecting_ = std::make_unique<Connecting>(options_);
   Result<Descriptor> socket = connecting_->go_on();
   if (socket && !*socket) return Opening::under_way;
   connecting_.reset();
-  if (!socket) return fail(socket.error().code, socket.error().message, name());
+  if (!socket) return fail_or_wait(socket.error());
+  waits_since_.reset();
   keep_fresh(socket->number());
   stream_->attach(std::move(*socket));
   return Opening::done;
 }
 
+Result<Opening> TcpLink::fail_or_wait(const Error& why) {
+  const TimePoint now = steady_now();
+  if (!waits_since_) waits_since_ = now;
+  if (why.code == Code::unavailable && now - *waits_since_ < options_.patience) {
+    next_try_ = now + kBetweenTries;
+    return Opening::under_way;
+  }
+  waits_since_.reset();
+  return fail(why.code, why.message, name());
+}
+
 void TcpLink::close() {
+  waits_since_.reset();
+  next_try_ = {};
   connecting_.reset();
   stream_->drain();  // or the system cuts the connection, and the device loses what was written last
   stream_->detach();
@@ -163,12 +160,7 @@ Status TcpLink::write(std::span<const std::uint8_t> bytes) { return stream_->wri
 
 Status TcpLink::flush() { return stream_->flush(); }
 
-std::size_t TcpLink::pending() const {
-  int unsent = 0;
-  if (!stream_->is_attached() || ioctl(stream_->descriptor(), SIOCOUTQNSD, &unsent) != 0 || unsent < 0)
-    unsent = 0;
-  return stream_->pending() + static_cast<std::size_t>(unsent);
-}
+std::size_t TcpLink::pending() const { return stream_->pending() + unsent_bytes(stream_->descriptor()); }
 
 void TcpLink::discard_input() { stream_->drain(); }
 
@@ -176,9 +168,6 @@ void TcpLink::discard_output() { stream_->discard_output(); }
 
 int TcpLink::descriptor() const { return stream_->descriptor(); }
 
-std::string TcpLink::name() const {
-  const bool v6 = options_.host.find(':') != std::string::npos;
-  return "tcp:" + (v6 ? "[" + options_.host + "]" : options_.host) + ":" + std::to_string(options_.port);
-}
+std::string TcpLink::name() const { return "tcp:" + with_port(options_.host, options_.port); }
 
 }  // namespace orca::hw::link

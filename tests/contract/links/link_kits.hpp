@@ -14,6 +14,7 @@
 #include "link_talk.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/hw/link/faulty_link.hpp"
+#include "orca/hw/link/listen_link.hpp"
 #include "orca/hw/link/logged_link.hpp"
 #include "orca/hw/link/memory_link.hpp"
 #include "orca/hw/link/pty_link.hpp"
@@ -94,6 +95,28 @@ struct TcpKit : LinkKit {
   }
 };
 
+/// The device's side of a connection; the "device" is a driver here.
+struct ListenKit : LinkKit {
+  static constexpr bool kHasDescriptor = true;
+  static constexpr bool kKeepsLastWords = true;
+  static constexpr bool kDeliversLastWords = true;
+  static constexpr bool kTellsPending = true;
+
+  ListenKit() {
+    hw::link::ListenOptions options;
+    hw::link::ListenLink free_port(options);
+    must_open(free_port);
+    options.port = free_port.port();
+    device = std::make_unique<hw::link::TcpLink>(hw::link::TcpOptions{"127.0.0.1", options.port, 5s});
+    link = std::make_unique<hw::link::ListenLink>(options);
+  }
+  void connect() {
+    must_open(*link);
+    must_open(*device);
+    REQUIRE(soon([this] { return link->flush().ok(); }));  // it has let the driver in
+  }
+};
+
 /// A line in memory.
 template <bool kDescriptors>
 struct MemoryKit : LinkKit {
@@ -134,5 +157,5 @@ struct FaultlessKit : MemoryKit<true> {
 
 #define ORCA_LINK_KITS                                                                                  \
   orca::test::SerialKit, orca::test::PtyKit, orca::test::TcpKit<AF_INET>, orca::test::TcpKit<AF_INET6>, \
-      orca::test::MemoryKit<false>, orca::test::MemoryKit<true>, orca::test::LoggedKit,                 \
-      orca::test::FaultlessKit
+      orca::test::ListenKit, orca::test::MemoryKit<false>, orca::test::MemoryKit<true>,                 \
+      orca::test::LoggedKit, orca::test::FaultlessKit

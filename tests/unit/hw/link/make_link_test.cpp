@@ -22,6 +22,9 @@ TEST_CASE("a link is made from its text, and its name leads to the same link aga
       {"tcp:127.0.0.1:65535", "tcp:127.0.0.1:65535"},
       {"tcp:[::1]:1", "tcp:[::1]:1"},
       {"pty:/tmp/scout", "pty:/tmp/scout"},
+      {"listen:6665", "listen:127.0.0.1:6665"},
+      {"listen:0.0.0.0:6665", "listen:0.0.0.0:6665"},
+      {"listen:[::1]:6665", "listen:[::1]:6665"},
       {"replay:run7.bytes", "replay:run7.bytes"}};
   for (const auto& [text, name] : texts) {
     const auto link = make_link(text);
@@ -58,6 +61,10 @@ TEST_CASE("a text that is no link is refused with what is wrong and how one is w
                                                                {":x", "there is no kind \"\""},
                                                                {"serial:", "nothing follows serial:"},
                                                                {"replay:", "nothing follows replay:"},
+                                                               {"emulated:tcp:", "\"\" is no port"},
+                                                               {"listen:", "nothing follows listen:"},
+                                                               {"listen:x", "\"x\" is no port"},
+                                                               {"listen::1", "needs a port, or an address"},
                                                                {"tcp:host", "needs a host and a port"},
                                                                {"tcp::4000", "needs a host and a port"},
                                                                {"tcp:::1:4000", "IPv6 address in brackets"},

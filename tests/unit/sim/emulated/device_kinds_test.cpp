@@ -13,10 +13,17 @@ TEST_CASE("a list of devices names the kind, the model and the line of each", "[
   REQUIRE(devices->size() == 2);
   CHECK((*devices)[0].kind == "p2os");
   CHECK((*devices)[0].model.empty());
-  CHECK((*devices)[0].name == "pioneer");
+  CHECK((*devices)[0].place == "pioneer");
   CHECK((*devices)[1].kind == "p2os");
   CHECK((*devices)[1].model == "p3dx");
-  CHECK((*devices)[1].name == "second-robot_2");
+  CHECK((*devices)[1].place == "second-robot_2");
+}
+
+TEST_CASE("a device may listen in the network instead", "[emulated]") {
+  const auto devices = read_devices("player listen:6665; p2os listen:0.0.0.0:8101");
+  REQUIRE(devices);
+  CHECK((*devices)[0].place == "listen:6665");
+  CHECK((*devices)[1].place == "listen:0.0.0.0:8101");
 }
 
 TEST_CASE("what is no list of devices is refused with what is wrong", "[emulated]") {
@@ -31,6 +38,7 @@ TEST_CASE("what is no list of devices is refused with what is wrong", "[emulated
   CHECK_THAT(refusal("p2os"), Contains("\"p2os\" is no kind and name"));
   CHECK_THAT(refusal("p2os a b"), Contains("\"p2os a b\" is no kind and name"));
   CHECK_THAT(refusal("p2os ../x"), Contains("\"../x\" is no name of a line: letters, digits, _ and -"));
+  CHECK_THAT(refusal("player listen:high"), Contains("\"high\" is no port; ports are 1 to 65535"));
   CHECK_THAT(refusal("p2os a; p2os a"), Contains("two lines have the name \"a\""));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "device_line.hpp"
+#include "free_port.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/hw/link/make_link.hpp"
 #include "temp_folder.hpp"
@@ -116,4 +117,31 @@ TEST_CASE("the name of an emulation is no path", "[emulated]") {
   const auto link = hw::link::make_link("emulated:../x");
   REQUIRE_FALSE(link);
   CHECK_THAT(link.error().message, Contains("the name of an emulation is no path"));
+}
+
+TEST_CASE("a driver finds an emulated device at its port, where no rate is set", "[emulated]") {
+  const std::string port = std::to_string(test::free_port());
+  auto firmware = std::make_unique<Counter>();
+  const Counter& counter = *firmware;
+  DeviceLine line("listen:" + port, std::move(firmware));
+  REQUIRE(line.open().ok());
+  CHECK_FALSE(line.exchange(steady_now()));  // nobody is there
+  const auto driver = driver_of(("tcp:127.0.0.1:" + port).c_str());
+  REQUIRE(open_within(*driver, 5s).ok());
+  const std::array<std::uint8_t, 2> sent{7, 41};
+  REQUIRE(driver->write(sent).ok());
+  std::vector<std::uint8_t> heard;
+  for (const TimePoint end = steady_now() + 5s; heard.size() < 2 && steady_now() < end;) {
+    (void)line.exchange(steady_now());
+    std::array<std::uint8_t, 8> bytes{};
+    const auto count = driver->read(bytes);
+    REQUIRE(count);
+    heard.insert(heard.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(*count));
+  }
+  CHECK(heard == std::vector<std::uint8_t>{8, 42});
+  CHECK(counter.heard_at == 0);
+  DeviceLine rival("listen:" + port, std::make_unique<Counter>());
+  const Status taken = rival.open();
+  REQUIRE_FALSE(taken.ok());
+  CHECK_THAT(taken.error().text(), Contains("another program listens there"));
 }

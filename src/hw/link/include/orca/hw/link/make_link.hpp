@@ -25,7 +25,9 @@ struct LinkOptions {
 /// | serial:usb-FTDI_FT232R-if00      | a name in /dev/serial/by-id, /dev/serial/by-path or /dev        |
 /// | tcp:scout.local:4000             | a connection; an IPv6 address stands in brackets: tcp:[::1]:4000 |
 /// | emulated:scout                   | the driver's side of an emulation, as a serial line; open() waits 10 s for it |
+/// | emulated:tcp:6665                | the same of one that listens on this machine, as a connection                 |
 /// | pty:/tmp/scout                   | the device's side of a line, which the driver opens at that path |
+/// | listen:6665                      | the device's side of connections from this machine; listen:0.0.0.0:6665: from anywhere |
 /// | replay:run7.bytes                | a recording                                                     |
 ///
 /// @errors  invalid_argument, with what is wrong and how a link is written.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "orca/hw/link/byte_link.hpp"
@@ -17,6 +18,8 @@ struct TcpOptions {
   std::uint16_t port = 0;
   /// Longest time that open() may be under way [s], from its first call.
   Duration limit = 3s;
+  /// For how long open() tries again where nothing listens yet [s], from its first call: a server that is being started.
+  Duration patience{0};
 };
 
 /// A connection to a device or device server in the network. Each write goes out at once, and a device that does not
@@ -42,9 +45,13 @@ class TcpLink final : public ByteLink {
   [[nodiscard]] std::string name() const override;
 
  private:
+  [[nodiscard]] Result<Opening> fail_or_wait(const Error& why);
+
   const TcpOptions options_;
   const std::unique_ptr<Stream> stream_;
   std::unique_ptr<Connecting> connecting_;  // while open() is under way
+  std::optional<TimePoint> waits_since_;    // for a server that is being started
+  TimePoint next_try_{};                    // then
 };
 
 }  // namespace orca::hw::link

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "orca/base/descriptor.hpp"
+#include "orca/hw/link/byte_link.hpp"
+
+namespace orca::hw::link {
+
+class Stream;
+
+struct ListenOptions {
+  /// An IPv4 or IPv6 address of this machine, without brackets. By default only programs of this machine get in.
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;  ///< 0: one that is free; port() tells which.
+};
+
+/// The device's side of connections over TCP, for emulators and tests. A driver connects as to a device or a device server.
+///
+/// It has one client at a time; others wait until that has gone. As long as there is none, read(), write() and flush() give unavailable; the link
+/// itself stays open.
+///
+/// Thread contract: one strand.
+class ListenLink final : public ByteLink {
+ public:
+  explicit ListenLink(ListenOptions options);
+  ~ListenLink() override;
+
+  /// Begins to listen; a client need not be there.
+  /// @errors  already_exists if the port is taken, invalid_argument for what is no address, not_found for one that this machine does not
+  ///          have, failed_precondition for a port that this user may not have; unavailable with the system's reason.
+  [[nodiscard]] Result<Opening> open() override;
+  void close() override;
+  [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into) override;
+  [[nodiscard]] Status write(std::span<const std::uint8_t> bytes) override;
+  [[nodiscard]] Status flush() override;
+  [[nodiscard]] std::size_t pending() const override;
+  void discard_input() override;
+  void discard_output() override;
+  /// Returns the descriptor of the client; without one that of the port, which becomes readable when one comes. It changes when the client is
+  /// let in, by the next call of read(), write() or flush().
+  [[nodiscard]] int descriptor() const override;
+  [[nodiscard]] std::string name() const override;
+
+  /// Returns the port at which it listens. @pre  it is open.
+  [[nodiscard]] std::uint16_t port() const { return port_; }
+
+ private:
+  Status admit();
+  [[nodiscard]] Error refused(int reason) const;
+
+  const ListenOptions options_;
+  const std::unique_ptr<Stream> stream_;
+  Descriptor listener_;
+  std::uint16_t port_;
+};
+
+}  // namespace orca::hw::link
