@@ -8,6 +8,7 @@
 #include "create2_senses.hpp"
 #include "create2_session.hpp"
 #include "orca/hardware.hpp"
+#include "orca/hw/base_figures.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 
@@ -38,13 +39,14 @@ class Create2Base final : public orca::hw::LineDriver {
 
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
+    for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
     if (!faults.empty()) return faults;
     for (orca::hw::SensorEndpoint* const sensor : senses_.endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
-                                          .max_turn_rate = *max_turn_rate_,
-                                          .big_turn_angle = 1.0,
-                                          .big_turn_speed = 0.1},
-                    std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*max_command_age_)));
+    motion_.emplace(base_.within({.max_speed = *max_speed_,
+                                  .max_turn_rate = *max_turn_rate_,
+                                  .big_turn_angle = 1.0,
+                                  .big_turn_speed = 0.1}),
+                    base_.max_command_age());
     set_motion(*motion_);
     return faults;
   }
@@ -56,6 +58,7 @@ class Create2Base final : public orca::hw::LineDriver {
     robot.model("Create 2");
     robot.radius(kRadius);
     robot.bumper_radius(kRadius);
+    base_.describe(robot);
     robot.drives().push_back(describe_wheels());
     robot.sensors() = describe_senses();
     return robot;
@@ -162,11 +165,7 @@ class Create2Base final : public orca::hw::LineDriver {
       "max_turn_rate",
       1.5,
       {.unit = "rad/s", .min = 0.0, .max = kMaxTurnRate, .text = "Greatest turn rate."}};
-  orca::Param<double> max_command_age_{
-      *this,
-      "max_command_age",
-      0.2,
-      {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}};
+  orca::hw::BaseFigures base_{*this};
 
   Create2Senses senses_;
   std::optional<orca::hw::MotionHW> motion_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orca/hardware.hpp"
+#include "orca/hw/base_figures.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/nomad_scout/command.hpp"
@@ -46,15 +47,16 @@ class ScoutBase final : public orca::hw::LineDriver {
 
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
+    for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
     if (!faults.empty()) return faults;
-    senses_.emplace(*track_, kSonars * as_duration(*sonar_interval_));
+    senses_.emplace(track(), kSonars * as_duration(*sonar_interval_));
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
-                                          .max_turn_rate = *max_turn_rate_,
-                                          .steer_gain = 2.0,
-                                          .big_turn_angle = std::numbers::pi / 3.0,
-                                          .big_turn_speed = 1.0},
-                    as_duration(*max_command_age_));
+    motion_.emplace(base_.within({.max_speed = *max_speed_,
+                                  .max_turn_rate = *max_turn_rate_,
+                                  .steer_gain = 2.0,
+                                  .big_turn_angle = std::numbers::pi / 3.0,
+                                  .big_turn_speed = 1.0}),
+                    base_.max_command_age());
     set_motion(*motion_);
     return faults;
   }
@@ -66,8 +68,9 @@ class ScoutBase final : public orca::hw::LineDriver {
     robot.model("SuperScout");
     robot.radius(kRadius);
     robot.bumper_radius(kBumperRadius);
+    base_.describe(robot);
     robot.drives().push_back(describe_wheels());
-    robot.drives().back().speed_change(*max_acceleration_);
+    robot.drives().back().speed_change(acceleration());
     robot.sensors() = describe_senses();
     robot.sonar_rings().push_back(senses_->describe_sonars());
     return robot;
@@ -145,7 +148,7 @@ class ScoutBase final : public orca::hw::LineDriver {
     const bool turns = !(session_->first().state.speeds == Wheels{});
     limp_due_ = turns;
     chores_ = {turns ? orca::hw::nomad_scout::stop() : limp(), set_watchdog(kWatchdog),
-               set_accelerations({.left = *max_acceleration_, .right = *max_acceleration_})};
+               set_accelerations({.left = acceleration(), .right = acceleration()})};
     senses_->connect();
     next_question_ = now;
   }
@@ -193,7 +196,13 @@ class ScoutBase final : public orca::hw::LineDriver {
     said_ = setpoint;
     say_again_ = host().now() + kSayAgain;
     if (setpoint.at_once) return ask(orca::hw::nomad_scout::stop());
-    return ask(orca::hw::nomad_scout::drive(wheels_of(setpoint.velocity, *track_)));
+    return ask(orca::hw::nomad_scout::drive(wheels_of(setpoint.velocity, track())));
+  }
+
+  [[nodiscard]] double acceleration() const { return base_.within(*max_acceleration_); }
+  [[nodiscard]] double track() const {
+    const orca::hw::RobotFigures* const file = base_.figures();
+    return file != nullptr && *track_ == kTrack ? file->wheels->track : *track_;
   }
 
   Status ask(const Packet& packet) {
@@ -214,11 +223,14 @@ class ScoutBase final : public orca::hw::LineDriver {
       "max_acceleration",
       0.76,
       {.unit = "m/s2", .min = 0.05, .max = 5.0, .text = "Greatest acceleration of a wheel."}};
-  orca::Param<double> track_{
-      *this,
-      "track",
-      kTrack,
-      {.unit = "m", .min = 0.2, .max = 0.5, .text = "Distance between the wheels; measure it by turning."}};
+  orca::Param<double> track_{*this,
+                             "track",
+                             kTrack,
+                             {.unit = "m",
+                              .min = 0.2,
+                              .max = 0.5,
+                              .text = "Distance between the wheels; measure it by turning. Unless it is set, "
+                                      "that of the robot's file counts, if there is one."}};
   orca::Param<double> sonar_interval_{
       *this,
       "sonar_interval",
@@ -230,11 +242,7 @@ class ScoutBase final : public orca::hw::LineDriver {
                "hear the "
                "one before it, which fires in another direction; with 16 sonars above 0.015, SonarAvoid has "
                "forgotten an echo before the next one comes."}};
-  orca::Param<double> max_command_age_{
-      *this,
-      "max_command_age",
-      0.2,
-      {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}};
+  orca::hw::BaseFigures base_{*this};
 
   std::optional<ScoutSenses> senses_;
   std::optional<orca::hw::MotionHW> motion_;

@@ -7,6 +7,7 @@
 
 #include "orca/base/text.hpp"
 #include "orca/hardware.hpp"
+#include "orca/hw/base_figures.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/p2os/model.hpp"
@@ -41,6 +42,7 @@ class P2osBase final : public orca::hw::LineDriver {
     const ModelChoice choice = choose_model(*model_name_);
     if (!choice.is_known)
       faults.push_back({"model", orca::in_quotes(*model_name_) + " is none of " + all_models()});
+    for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
     if (!faults.empty()) return faults;
     model_ = &choice.model;
     declare_endpoints();
@@ -56,6 +58,7 @@ class P2osBase final : public orca::hw::LineDriver {
     robot.bumper_radius(model_->radius);
     robot.length(model_->length);
     robot.width(model_->width);
+    base_.describe(robot);
     robot.drives().push_back(describe_wheels());
     robot.sensors() = describe_senses();
     if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);
@@ -117,11 +120,11 @@ class P2osBase final : public orca::hw::LineDriver {
   void declare_endpoints() {
     senses_.emplace(*model_);
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = within(*max_speed_, model_->max_speed),
-                                          .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
-                                          .big_turn_angle = 1.0,
-                                          .big_turn_speed = 0.1},
-                    std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*max_command_age_)));
+    motion_.emplace(base_.within({.max_speed = within(*max_speed_, model_->max_speed),
+                                  .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
+                                  .big_turn_angle = 1.0,
+                                  .big_turn_speed = 0.1}),
+                    base_.max_command_age());
     set_motion(*motion_);
   }
 
@@ -203,11 +206,7 @@ class P2osBase final : public orca::hw::LineDriver {
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Greatest speed."}};
   orca::Param<double> max_turn_rate_{
       *this, "max_turn_rate", 1.5, {.unit = "rad/s", .min = 0.0, .text = "Greatest turn rate."}};
-  orca::Param<double> max_command_age_{
-      *this,
-      "max_command_age",
-      0.2,
-      {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}};
+  orca::hw::BaseFigures base_{*this};
 
   const Model* model_ = nullptr;
   std::optional<Senses> senses_;

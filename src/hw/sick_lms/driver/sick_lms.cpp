@@ -10,6 +10,7 @@
 #include "orca/base/text.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/hardware.hpp"
+#include "orca/hw/laser_place.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/sick_lms/scan.hpp"
@@ -55,6 +56,7 @@ class SickLms final : public orca::hw::LineDriver {
 
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
+    for (orca::HardwareFault& fault : place_.read()) faults.push_back(std::move(fault));
     variant_ = {rounded(*angle_ / kDegree), rounded(100.0 * *resolution_ / kDegree)};
     if (!is_possible(variant_))
       faults.push_back(
@@ -83,7 +85,7 @@ class SickLms final : public orca::hw::LineDriver {
     laser.port(device());
     laser.type("LaserRangeReadings");
     laser.update_interval(orca::to_seconds(scan_period(variant_, expected_rate())));
-    laser.mount(orca::level_frame({*x_, *y_, *yaw_}, *z_));
+    laser.mount(orca::level_frame(place_.place(), place_.height()));
     laser.number(static_cast<std::uint32_t>(beams(variant_)));
     laser.angle_start(beam_angle(variant_, 0));
     laser.angle_increment(increment(variant_));
@@ -208,7 +210,7 @@ class SickLms final : public orca::hw::LineDriver {
     object->ranges().assign(scan_.ranges.begin(), scan_.ranges.end());
     object->min_range(0.0);
     object->max_range(scale_.max_range);
-    object->pose(orca::level_pose({*x_, *y_, *yaw_}, *z_, stamp));
+    object->pose(orca::level_pose(place_.place(), place_.height(), stamp));
     object->stamp(orca::to_time_value(stamp));
     object->angle_start(beam_angle(variant_, 0));
     object->angle_increment(increment(variant_));
@@ -274,15 +276,7 @@ class SickLms final : public orca::hw::LineDriver {
                                  .max = 600.0,
                                  .text = "For how long a laser is waited for that was just switched on; the "
                                          "deployer gives up after 10 s."}};
-  orca::Param<double> x_{
-      *this, "x", 0.0, {.unit = "m", .text = "Where it sits on the robot: ahead of the middle."}};
-  orca::Param<double> y_{*this, "y", 0.0, {.unit = "m", .text = "To the left of the middle."}};
-  orca::Param<double> z_{*this, "z", 0.0, {.unit = "m", .text = "Height of its beams above the floor."}};
-  orca::Param<double> yaw_{
-      *this,
-      "yaw",
-      0.0,
-      {.unit = "rad", .text = "Direction of its middle beam, 0 ahead, positive to the left."}};
+  orca::hw::LaserPlace place_{*this, "its middle beam"};
 
   Variant variant_{};
   Scale scale_ = kMillimetres;

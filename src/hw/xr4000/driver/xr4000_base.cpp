@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orca/hardware.hpp"
+#include "orca/hw/base_figures.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/xr4000/request.hpp"
@@ -47,17 +48,18 @@ class Xr4000Base final : public orca::hw::LineDriver {
 
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
+    for (orca::HardwareFault& fault : base_.read(orca::idl::HOLONOMIC)) faults.push_back(std::move(fault));
     if (!faults.empty()) return faults;
     senses_.emplace(as_duration(*sonar_cycle_),
                     XrSenses::BatteryScale{*battery_scale_, static_cast<std::size_t>(*battery_channel_)});
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
-                                          .max_turn_rate = *max_turn_rate_,
-                                          .steer_gain = 1.0,
-                                          .big_turn_angle = std::numbers::pi / 3.0,
-                                          .big_turn_speed = 0.1,
-                                          .type = orca::idl::HOLONOMIC},
-                    as_duration(*max_command_age_));
+    motion_.emplace(base_.within({.max_speed = *max_speed_,
+                                  .max_turn_rate = *max_turn_rate_,
+                                  .steer_gain = 1.0,
+                                  .big_turn_angle = std::numbers::pi / 3.0,
+                                  .big_turn_speed = 0.1,
+                                  .type = orca::idl::HOLONOMIC}),
+                    base_.max_command_age());
     set_motion(*motion_);
     return faults;
   }
@@ -69,8 +71,9 @@ class Xr4000Base final : public orca::hw::LineDriver {
     robot.model("XR4000");
     robot.radius(*radius_);
     robot.bumper_radius(*radius_);
+    base_.describe(robot);
     robot.drives().push_back(describe_wheels());
-    robot.drives().back().speed_change(*max_acceleration_);
+    robot.drives().back().speed_change(base_.within(*max_acceleration_));
     robot.sonar_rings().push_back(senses_->describe_sonars(device()));
     return robot;
   }
@@ -295,7 +298,8 @@ class Xr4000Base final : public orca::hw::LineDriver {
   [[nodiscard]] Frame drive_axes(const DriveSetpoint& setpoint) const {
     return orca::hw::xr4000::drive(
         speeds_of(setpoint.velocity),
-        setpoint.at_once ? kHardest : accelerations_of(*max_acceleration_, *max_turn_acceleration_));
+        setpoint.at_once ? kHardest
+                         : accelerations_of(base_.within(*max_acceleration_), *max_turn_acceleration_));
   }
 
   [[nodiscard]] bool is_ready() const {
@@ -353,11 +357,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
        .text = "Voltage of one count of the battery; measure it. 0: not known, and no battery is reported."}};
   orca::Param<std::int64_t> battery_channel_{
       *this, "battery_channel", 0, {.min = 0, .max = 3, .text = "Channel of the battery that is reported."}};
-  orca::Param<double> max_command_age_{
-      *this,
-      "max_command_age",
-      0.2,
-      {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}};
+  orca::hw::BaseFigures base_{*this};
 
   std::optional<XrSenses> senses_;
   std::optional<orca::hw::MotionHW> motion_;

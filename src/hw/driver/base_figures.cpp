@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/hw/base_figures.hpp"
+
+#include <algorithm>
+
+#include "orca/base/text.hpp"
+
+namespace orca::hw {
+namespace {
+
+const char* name_of(idl::DriveType type) {
+  switch (type) {
+    case idl::DIFFERENTIAL: return "differential";
+    case idl::SYNCHRO: return "synchro";
+    case idl::HOLONOMIC: return "holonomic";
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+std::vector<HardwareFault> BaseFigures::read(idl::DriveType type) {
+  std::vector<HardwareFault> faults;
+  figures_ = read_robot_figures(*file_, faults);
+  if (!figures_) return faults;
+  if (!figures_->wheels)
+    faults.push_back({"robot", in_quotes(*file_) + " has no <drive>: it is no file of a robot that moves"});
+  else if (figures_->wheels->type != type)
+    faults.push_back({"robot", in_quotes(*file_) + " is the file of a robot whose drive is " +
+                                   name_of(figures_->wheels->type) + ", and the drive of this one is " +
+                                   name_of(type)});
+  return faults;
+}
+
+DriveLimits BaseFigures::within(DriveLimits limits) const {
+  if (!figures_ || !figures_->wheels) return limits;
+  limits.max_speed = std::min(limits.max_speed, figures_->wheels->max_speed);
+  limits.max_turn_rate = std::min(limits.max_turn_rate, figures_->wheels->max_turn_rate);
+  return limits;
+}
+
+double BaseFigures::within(double acceleration) const {
+  if (!figures_ || !figures_->wheels) return acceleration;
+  return std::min(acceleration, figures_->wheels->max_acceleration);
+}
+
+void BaseFigures::describe(idl::Robot& robot) const {
+  if (!figures_) return;
+  robot.radius(figures_->radius);
+  robot.bumper_radius(figures_->bumper_radius);
+}
+
+}  // namespace orca::hw

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/base/time.hpp"
+#include "orca/component/param.hpp"
+#include "orca/hw/endpoints.hpp"
+#include "orca/hw/robot_figures.hpp"
+
+namespace orca::hw {
+
+/// The parameters that the drivers of all bases have: the robot's file, and for how long a command holds.
+///
+/// Thread contract: the driver's.
+class BaseFigures {
+ public:
+  /// @param owner  the driver, which declares the parameters.
+  template <class Owner>
+  explicit BaseFigures(Owner& owner)
+      : file_(
+            owner, "robot", "",
+            {.file = true,
+             .text =
+                 "The robot's file, which the simulator reads, too: it limits speeds beside the parameters, "
+                 "and says how large the robot is. Empty: what the driver knows of such robots."}),
+        max_command_age_(
+            owner, "max_command_age", 0.2,
+            {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}) {}
+
+  /// Reads the file, if there is one. To be called in prepare().
+  /// @param type  of the base that the driver drives.
+  /// @return what is wrong with the file.
+  [[nodiscard]] std::vector<HardwareFault> read(idl::DriveType type);
+
+  /// Returns the limits, or those of the file where they are less.
+  [[nodiscard]] DriveLimits within(DriveLimits limits) const;
+  /// Returns the acceleration [m/s2], or that of the file if it is less.
+  [[nodiscard]] double within(double acceleration) const;
+  [[nodiscard]] Duration max_command_age() const { return from_seconds(*max_command_age_); }
+  /// Returns the file's figures; null: there is no file.
+  [[nodiscard]] const RobotFigures* figures() const { return figures_ ? &*figures_ : nullptr; }
+  /// Writes into the description how large the robot is, if the file says so.
+  void describe(idl::Robot& robot) const;
+
+ private:
+  Param<std::string> file_;
+  Param<double> max_command_age_;
+  std::optional<RobotFigures> figures_;
+};
+
+}  // namespace orca::hw

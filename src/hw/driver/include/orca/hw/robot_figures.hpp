@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/component/host.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/idl/hardware.hpp"
+
+namespace orca::hw {
+
+/// What a driver wants to know of its robot, from the file that the simulator reads, too (docs/robot-files.md). A plain value.
+struct RobotFigures {
+  struct Wheels {
+    idl::DriveType type = idl::DIFFERENTIAL;
+    double max_speed = 0.0;         ///< [m/s]
+    double max_turn_rate = 0.0;     ///< [rad/s]
+    double max_acceleration = 0.0;  ///< [m/s2]
+    double track = 0.0;             ///< [m] Diameter of the circle through the wheels.
+  };
+  struct Laser {
+    std::string name;
+    Pose2 place;          ///< In the robot frame.
+    double height = 0.0;  ///< [m] Above the floor.
+  };
+
+  double radius = 0.0;         ///< [m] Of the circle that holds the body.
+  double bumper_radius = 0.0;  ///< [m] Of the parts that touch first.
+  std::optional<Wheels> wheels{};
+  std::vector<Laser> lasers{};
+};
+
+/// Reads a robot file.
+/// @param path    empty: there is none, and nothing is wrong.
+/// @param faults  gets what is wrong, as faults of the parameter `robot`.
+/// @return the figures; nothing without a file, and if something is wrong.
+/// @thread  any.
+[[nodiscard]] std::optional<RobotFigures> read_robot_figures(const std::string& path,
+                                                             std::vector<HardwareFault>& faults);
+
+}  // namespace orca::hw

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What drivers read from a robot file, beside what the simulator reads from it.
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+#include "orca/hw/base_figures.hpp"
+#include "orca/hw/laser_place.hpp"
+#include "orca/hw/robot_figures.hpp"
+#include "orca/sim/robot_file.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca;
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+const std::string kRobots = std::string(ORCA_SOURCE_DIR) + "/sim/robots/";
+
+// A driver that has only parameters, which a test sets.
+struct Owner {
+  std::vector<ParamDeclaration> params;
+  void declare_param(ParamDeclaration declaration) { params.push_back(std::move(declaration)); }
+  template <class T>
+  void set(const std::string& name, T value) {
+    for (ParamDeclaration& param : params)
+      if (param.contract.name == name) return param.set(ParamValue(std::move(value)));
+    FAIL("there is no parameter " << name);
+  }
+};
+
+std::string all_of(const std::vector<HardwareFault>& faults) {
+  std::string text;
+  for (const HardwareFault& fault : faults) text += fault.param + ": " + fault.text + "\n";
+  return text;
+}
+
+std::string faults_of(const std::string& text) {
+  const TempFolder folder;
+  std::vector<HardwareFault> faults;
+  CHECK_FALSE(hw::read_robot_figures(folder.write("r.urdf", text), faults));
+  return all_of(faults);
+}
+
+// Where a laser sits by the file of that text.
+struct Placed {
+  explicit Placed(const std::string& text) { owner.set("robot", folder.write("r.urdf", text)); }
+  std::string faults() { return all_of(place.read()); }
+  TempFolder folder;
+  Owner owner;
+  hw::LaserPlace place{owner, "its middle beam"};
+};
+
+const std::string kTwoLasers = R"(<robot name="r"><link name="base"/><link name="mast"/><link name="head"/>
+  <joint name="m" type="fixed"><parent link="base"/><child link="mast"/><origin xyz="0.1 0.2 0.5" rpy="0 0 1.5"/></joint>
+  <joint name="h" type="fixed"><parent link="mast"/><child link="head"/><origin xyz="0.3 0 0.25"/></joint>
+  <orca radius="20 cm"><laser name="low" link="base"/><laser name="high" link="head"/></orca></robot>)";
+
+}  // namespace
+
+TEST_CASE("of each shipped robot a driver reads the same figures as the simulator", "[hw][robot_file]") {
+  for (const auto& file : std::filesystem::directory_iterator(kRobots)) {
+    CAPTURE(file.path().string());
+    std::vector<HardwareFault> faults;
+    const auto figures = hw::read_robot_figures(file.path(), faults);
+    INFO(all_of(faults));
+    REQUIRE(figures);
+    xml::Diagnostics diagnostics;
+    const auto model = sim::read_robot(file.path(), diagnostics);
+    REQUIRE(model);
+    CHECK(figures->radius == model->radius);
+    CHECK(figures->bumper_radius == model->bumper_radius);
+    REQUIRE(figures->wheels);
+    CHECK(figures->wheels->max_speed == model->drive.max_speed);
+    CHECK(figures->wheels->max_turn_rate == model->drive.max_turn_rate);
+    CHECK(figures->wheels->max_acceleration == model->drive.max_acceleration);
+    CHECK(figures->wheels->track == model->drive.track);
+    REQUIRE(figures->lasers.size() == model->lasers.size());
+    for (std::size_t i = 0; i < model->lasers.size(); ++i) {
+      CHECK(figures->lasers[i].name == model->lasers[i].name);
+      CHECK(figures->lasers[i].place.x == Approx(model->lasers[i].center.x).margin(1e-12));
+      CHECK(figures->lasers[i].place.y == Approx(model->lasers[i].center.y).margin(1e-12));
+      CHECK(figures->lasers[i].place.yaw == Approx(model->lasers[i].center.yaw).margin(1e-12));
+      CHECK(figures->lasers[i].height == Approx(model->lasers[i].height).margin(1e-12));
+    }
+  }
+}
+
+TEST_CASE("without a file there are no figures, and nothing is wrong", "[hw][robot_file]") {
+  std::vector<HardwareFault> faults;
+  CHECK_FALSE(hw::read_robot_figures("", faults));
+  CHECK(faults.empty());
+}
+
+TEST_CASE("what is wrong with a robot file is said with its place, all at once", "[hw][robot_file]") {
+  CHECK_THAT(faults_of("<robot"), Contains("robot: ") && Contains("r.urdf:1:"));
+  CHECK_THAT(faults_of("<robot name='r'/>"), Contains("there is no element <orca> with the robot's figures"));
+  const std::string figures = faults_of("<robot name='r'>\n<orca>\n<drive max_speed='1 kg'/></orca></robot>");
+  CHECK_THAT(figures, Contains("r.urdf:2:1: <orca> needs radius in m"));
+  CHECK_THAT(figures, Contains("r.urdf:3:1: <drive> needs max_speed in m/s"));
+  CHECK_THAT(figures, Contains("<drive> needs track in m"));
+  std::string tilted = kTwoLasers;
+  tilted.replace(tilted.find("0 0 1.5"), 7, "0.2 0 0");
+  CHECK_THAT(faults_of(tilted), Contains("the laser \"high\" is tilted"));
+  std::string short_of = kTwoLasers;
+  short_of.replace(short_of.find("0.3 0 0.25"), 10, "0.3 0");
+  CHECK_THAT(faults_of(short_of), Contains("xyz needs three numbers"));
+}
+
+TEST_CASE("a base is no faster than its file and its parameters say", "[hw][robot_file]") {
+  Owner owner;
+  hw::BaseFigures base(owner);
+  const hw::DriveLimits own{.max_speed = 0.5, .max_turn_rate = 9.0};
+  CHECK(base.read(idl::DIFFERENTIAL).empty());
+  CHECK(base.within(own).max_turn_rate == 9.0);
+  owner.set("robot", kRobots + "pioneer_2dx.urdf");
+  CHECK(base.read(idl::DIFFERENTIAL).empty());
+  CHECK(base.within(own).max_speed == 0.5);  // less than the 2.2 m/s of the file
+  CHECK(base.within(own).max_turn_rate == Approx(500.0 / 180.0 * 3.14159265358979));
+  CHECK(base.within(0.76) == 0.5);
+  idl::Robot robot;
+  base.describe(robot);
+  CHECK(robot.radius() == 0.309);
+}
+
+TEST_CASE("the file of a robot that drives otherwise, or not at all, is refused", "[hw][robot_file]") {
+  Owner owner;
+  hw::BaseFigures base(owner);
+  owner.set("robot", kRobots + "omni.urdf");
+  CHECK_THAT(
+      all_of(base.read(idl::DIFFERENTIAL)),
+      Contains("the file of a robot whose drive is holonomic, and the drive of this one is differential"));
+  owner.set("robot", std::string(ORCA_SOURCE_DIR) + "/sim/fixtures/scanner_post.urdf");
+  CHECK_THAT(all_of(base.read(idl::DIFFERENTIAL)), Contains("has no <drive>"));
+  owner.set("robot", kRobots + "nobody.urdf");
+  CHECK_THAT(all_of(base.read(idl::DIFFERENTIAL)), Contains("nobody.urdf"));
+}
+
+TEST_CASE("a laser sits where the robot's file says, through all joints", "[hw][robot_file]") {
+  Placed laser(kTwoLasers);
+  laser.owner.set("mount", std::string("high"));
+  CHECK(laser.faults().empty());
+  CHECK(laser.place.place().x == Approx(0.1 + 0.3 * std::cos(1.5)));
+  CHECK(laser.place.place().y == Approx(0.2 + 0.3 * std::sin(1.5)));
+  CHECK(laser.place.place().yaw == Approx(1.5));
+  CHECK(laser.place.height() == Approx(0.75));
+}
+
+TEST_CASE("a laser whose place is not clear is refused with what to do", "[hw][robot_file]") {
+  Placed laser(kTwoLasers);
+  CHECK_THAT(laser.faults(), Contains("mount: the robot's file has several lasers; name one of low, high"));
+  laser.owner.set("mount", std::string("middle"));
+  CHECK_THAT(laser.faults(), Contains("has no laser \"middle\"; lasers: low, high"));
+  laser.owner.set("mount", std::string("low"));
+  laser.owner.set("z", 0.3);
+  CHECK_THAT(laser.faults(), Contains("and so do x, y, z or yaw; leave these away, or the file"));
+  Placed blind(R"(<robot name="r"><orca radius="20 cm"/></robot>)");
+  CHECK_THAT(blind.faults(), Contains("has no laser; leave it away, and set x, y, z and yaw"));
+  Owner owner;
+  hw::LaserPlace place(owner, "its middle beam");
+  owner.set("mount", std::string("low"));
+  CHECK_THAT(all_of(place.read()),
+             Contains("mount: it names a laser of the robot's file, and there is none"));
+}
