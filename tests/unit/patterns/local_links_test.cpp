@@ -351,3 +351,17 @@ TEST_CASE("ends that do not fit are not renewed", "[patterns][local][renew]") {
     CHECK(refused.error().code == Code::invalid_argument);
   });
 }
+
+TEST_CASE("a connection that is renewed with another queue stays the one it was", "[patterns][local]") {
+  with_ends([](Ends& a, Ends& b) {
+    REQUIRE(connect(a, "send_out", b, "send_in").ok());
+    b.open();
+    REQUIRE(a.send_out.send(MotionCommand()).ok());
+    QueuePolicy longer;
+    longer.depth = 8;
+    REQUIRE(LocalLinks().renew(a.endpoint("send_out"), b.endpoint("send_in"), longer).ok());
+    // What waits is still counted as waiting, and handled.
+    CHECK(static_cast<SendServerEndpoint&>(b.endpoint("send_in")).counters().queued == 1);
+    CHECK(b.handle_one());
+  });
+}
