@@ -96,6 +96,7 @@ LAYERS = (
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
     Layer("components", ("src/components",), (), ("avoidance", "goals", "hw_player", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
+    Layer("player_server", ("src/components/player_server",), (), ("hw_link", "hw_player", "geometry_objects", *DEVICE)),
     Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
         "event", "figures", "floor", "guesses", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "sensors", "shape", "snapshot", "walker", "world_model")),
           SIM_MODEL, ("eigen", "fmt"), module="sim"),

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,26 +32,6 @@ class Connection {
   Descriptor socket_;
   const std::string peer_;
   ClientSession session_;
-};
-
-/// A TCP port at which clients arrive.
-///
-/// Thread contract: not synchronised.
-class Listener {
- public:
-  /// @param address  IPv4 address of this machine, or 0.0.0.0 for all of its own.
-  /// @param port     0: any; port() tells which.
-  /// @errors  already_exists if another program has the port, unavailable with any other reason, and what to do.
-  Status open(const std::string& address, std::uint16_t port);
-  void close() { socket_.reset(); }
-  [[nodiscard]] bool is_open() const { return static_cast<bool>(socket_); }
-  [[nodiscard]] std::uint16_t port() const { return port_; }
-  /// Returns the next client that has arrived; null: none.
-  [[nodiscard]] std::unique_ptr<Connection> accept(const RobotFace& face);
-
- private:
-  Descriptor socket_;
-  std::uint16_t port_ = 0;
 };
 
 }  // namespace orca::player_server

@@ -9,6 +9,7 @@
 
 #include "connection.hpp"
 #include "orca/component.hpp"
+#include "orca/hw/link/tcp_listener.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
@@ -90,10 +91,10 @@ class PlayerServer final : public orca::Component {
         return orca::failed(listens.error().message);
     take_news();
     while (is_known() && clients_.size() < kMostClients) {
-      auto client = listener_.accept(face_);
+      auto client = listener_.accept();
       if (!client) break;
-      log_info("a client of Player has come: " + client->peer());
-      clients_.push_back(std::move(client));
+      log_info("a client of Player has come: " + client->peer);
+      clients_.push_back(std::make_unique<Connection>(std::move(client->socket), face_, client->peer));
     }
     std::erase_if(clients_, [this](const auto& client) { return !exchange(*client); });
     drive();
@@ -195,7 +196,7 @@ class PlayerServer final : public orca::Component {
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
   orca::player_server::RobotFace face_;
-  orca::player_server::Listener listener_;
+  orca::hw::link::TcpListener listener_;
   orca::TimePoint listens_by_{};
   std::vector<std::unique_ptr<Connection>> clients_;
 };

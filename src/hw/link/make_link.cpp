@@ -54,12 +54,14 @@ std::optional<std::uint16_t> read_port(std::string_view digits) {
   return port;
 }
 
-Made make_tcp(std::string_view text, std::string_view rest, const LinkOptions& options) {
+Made make_tcp(std::string_view text, std::string_view rest, const LinkOptions& options,
+              Duration patience = {}) {
   const std::optional<Place> place = split(rest);
   if (!place) return wrong(text, "tcp needs a host and a port, with an IPv6 address in brackets");
   const std::optional<std::uint16_t> port = read_port(place->port);
   if (!port) return wrong(text, in_quotes(printable(place->port)) + " is no port; ports are 1 to 65535");
-  return Made(std::make_unique<TcpLink>(TcpOptions{std::string(place->host), *port, options.connect_limit}));
+  return Made(std::make_unique<TcpLink>(
+      TcpOptions{std::string(place->host), *port, options.connect_limit, patience}));
 }
 
 Made make_serial(std::string_view device, const LinkOptions& options) {
@@ -70,6 +72,8 @@ Made make_serial(std::string_view device, const LinkOptions& options) {
 }
 
 Made make_emulated(std::string_view text, std::string_view name, const LinkOptions& options) {
+  constexpr std::string_view kTcp = "tcp:";
+  if (name.starts_with(kTcp)) return make_tcp(text, name.substr(kTcp.size()), options, kEmulationStarts);
   if (name.find('/') != std::string_view::npos || name.starts_with('.'))
     return wrong(text, "the name of an emulation is no path");
   SerialOptions serial;

@@ -18,6 +18,7 @@
 #include "orca/base/descriptor.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/steady_clock.hpp"
+#include "orca/hw/link/tcp_listener.hpp"
 #include "stream.hpp"
 
 namespace orca::hw::link {
@@ -137,22 +138,47 @@ TcpLink::TcpLink(TcpOptions options)
                                        "the other end has gone: was it switched off, or its cable pulled?")) {
 }
 
+TcpLink::TcpLink(TcpListener& listener)
+    : listener_(&listener),
+      stream_(std::make_unique<Stream>(*this, Stream::Kind::socket, "the client has gone")) {}
+
 TcpLink::~TcpLink() = default;
+
+Result<Opening> TcpLink::take_client() {
+  if (!listener_->is_open())
+    return fail(Code::failed_precondition, "nobody listens for clients; open the listener first", name());
+  std::optional<TcpClient> client = listener_->accept();
+  if (!client) return Opening::under_way;
+  keep_fresh(client->socket.number());
+  peer_ = std::move(client->peer);
+  stream_->attach(std::move(client->socket));
+  return Opening::done;
+}
 
 Result<Opening> TcpLink::open() {
   if (stream_->is_attached()) return Opening::done;
+  if (listener_ != nullptr) return take_client();
   if (!connecting_) connecting_ = std::make_unique<Connecting>(options_);
   Result<Descriptor> socket = connecting_->go_on();
   if (socket && !*socket) return Opening::under_way;
   connecting_.reset();
+  if (!socket && goes_on_waiting(socket.error())) return Opening::under_way;
+  waits_since_.reset();
   if (!socket) return fail(socket.error().code, socket.error().message, name());
   keep_fresh(socket->number());
   stream_->attach(std::move(*socket));
   return Opening::done;
 }
 
+// Of what cannot be reached, somebody may listen a moment later.
+bool TcpLink::goes_on_waiting(const Error& why) {
+  if (!waits_since_) waits_since_ = steady_now();
+  return why.code == Code::unavailable && steady_now() - *waits_since_ < options_.patience;
+}
+
 void TcpLink::close() {
   connecting_.reset();
+  waits_since_.reset();
   stream_->drain();  // or the system cuts the connection, and the device loses what was written last
   stream_->detach();
 }
@@ -177,6 +203,8 @@ void TcpLink::discard_output() { stream_->discard_output(); }
 int TcpLink::descriptor() const { return stream_->descriptor(); }
 
 std::string TcpLink::name() const {
+  if (listener_ != nullptr)
+    return (peer_.empty() ? "a client" : "the client " + peer_) + " of " + listener_->name();
   const bool v6 = options_.host.find(':') != std::string::npos;
   return "tcp:" + (v6 ? "[" + options_.host + "]" : options_.host) + ":" + std::to_string(options_.port);
 }

@@ -19,6 +19,7 @@
 #include "orca/hw/link/pty_link.hpp"
 #include "orca/hw/link/serial_link.hpp"
 #include "orca/hw/link/tcp_link.hpp"
+#include "orca/hw/link/tcp_listener.hpp"
 #include "tcp_device.hpp"
 #include "temp_folder.hpp"
 
@@ -94,6 +95,23 @@ struct TcpKit : LinkKit {
   }
 };
 
+/// A connection from a client; the "device" is that client here.
+struct ListenerKit : LinkKit {
+  static constexpr bool kHasDescriptor = true;
+  static constexpr bool kKeepsLastWords = true;
+  static constexpr bool kDeliversLastWords = true;
+  static constexpr bool kTellsPending = true;
+
+  hw::link::TcpListener listener;
+
+  ListenerKit() {
+    REQUIRE(listener.open("127.0.0.1", 0).ok());
+    link = std::make_unique<hw::link::TcpLink>(listener);
+    device = std::make_unique<hw::link::TcpLink>(hw::link::TcpOptions{"127.0.0.1", listener.port(), 5s});
+  }
+  ~ListenerKit() { link.reset(); }
+};
+
 /// A line in memory.
 template <bool kDescriptors>
 struct MemoryKit : LinkKit {
@@ -134,5 +152,5 @@ struct FaultlessKit : MemoryKit<true> {
 
 #define ORCA_LINK_KITS                                                                                  \
   orca::test::SerialKit, orca::test::PtyKit, orca::test::TcpKit<AF_INET>, orca::test::TcpKit<AF_INET6>, \
-      orca::test::MemoryKit<false>, orca::test::MemoryKit<true>, orca::test::LoggedKit,                 \
-      orca::test::FaultlessKit
+      orca::test::ListenerKit, orca::test::MemoryKit<false>, orca::test::MemoryKit<true>,               \
+      orca::test::LoggedKit, orca::test::FaultlessKit

@@ -25,6 +25,7 @@ struct LinkOptions {
 /// | serial:usb-FTDI_FT232R-if00      | a name in /dev/serial/by-id, /dev/serial/by-path or /dev        |
 /// | tcp:scout.local:4000             | a connection; an IPv6 address stands in brackets: tcp:[::1]:4000 |
 /// | emulated:scout                   | the driver's side of an emulation, as a serial line; open() waits 10 s for it |
+/// | emulated:tcp:127.0.0.1:6665      | a connection to an emulation; open() waits 10 s for that to listen |
 /// | pty:/tmp/scout                   | the device's side of a line, which the driver opens at that path |
 /// | replay:run7.bytes                | a recording                                                     |
 ///
