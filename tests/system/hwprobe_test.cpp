@@ -9,8 +9,10 @@
 #include "deployer.hpp"
 #include "device_on_desk.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
+#include "orca/emulators/player_firmware.hpp"
 #include "orca/emulators/rplidar_firmware.hpp"
 #include "ports.hpp"
+#include "tcp_front.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -71,6 +73,24 @@ TEST_CASE("hwprobe says why no driver has found its device", "[system][hardware]
   const Run run = probe(Words{device} + kOnlyPioneers);
   CHECK(run.exit_code() == 1);
   CHECK_THAT(run.out, Contains("orca.hw.P2os: no Pioneer answers at serial:" + device + " at 9600, 38400"));
+}
+
+TEST_CASE("hwprobe looks for devices of networks at a named connection, and not at serial ports",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("silent");
+  Pioneer silent(device);
+  silent.fall_silent(true);
+  const Run serial = probe({"--limit", "0.2", device});
+  CHECK_THAT(serial.out, Contains("orca.hw.P2os: ") && !Contains("orca.hw.Player"));
+  CHECK_THAT(probe({"--limit", "0.2", "serial:" + device}).out, !Contains("orca.hw.Player"));
+  const Run named = probe({"--limit", "0.2", "--driver", "orca.hw.Player", device});
+  CHECK_THAT(named.out, Contains("orca.hw.Player: "));
+  TcpFront<orca::emulators::PlayerFirmware, PlainBody> server;
+  const Run network = probe({"--limit", "3", server.address()});
+  INFO(network.out);
+  CHECK(network.exit_code() == 0);
+  CHECK_THAT(network.out, Contains("orca.hw.Player: ") && Contains("connected to a Player server"));
 }
 
 TEST_CASE("hwprobe says what is wrong with a port before any driver tries it", "[system][hardware]") {

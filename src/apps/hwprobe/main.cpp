@@ -28,7 +28,8 @@ constexpr const char* kHelp =
     "  hwprobe --driver orca.hw.P2os      only one kind of device\n"
     "\n"
     "Each driver looks for its device in turn, at all rates that the device may have. It may take half a "
-    "minute per port. Nothing is\n"
+    "minute per port. Drivers of\n"
+    "devices that are in networks only look for them where a port tcp:HOST:PORT is named. Nothing is\n"
     "moved: motors get no power. A port that cannot be opened, and a device that does not answer, is told "
     "with what to do. Stop a running\n"
     "system first: a port belongs to one program at a time.\n"
@@ -114,16 +115,17 @@ void show_device(const std::string& type, const std::string& port, const Finding
 }
 
 // Returns whether a device has answered.
-bool probe(host::PluginCatalogue& catalogue, const Options& options, const std::string& port) {
+bool probe(host::PluginCatalogue& catalogue, const std::vector<std::string>& types, double seconds,
+           const std::string& port) {
   show(port);
   if (const Status opened = try_port(port); !opened.ok()) {
     show("  " + opened.error().text());
     return false;
   }
   std::vector<std::string> reasons;
-  for (const std::string& type : options.types) {
+  for (const std::string& type : types) {
     if (isatty(STDERR_FILENO) != 0) LiveLine::show(STDERR_FILENO, "  looking for " + type);
-    const Duration limit(static_cast<Duration::rep>(1e9 * options.limit));
+    const Duration limit(static_cast<Duration::rep>(1e9 * seconds));
     const Result<Finding> finding = try_driver(catalogue, type, port, limit);
     LiveLine::erase();
     if (finding && finding->answers) {
@@ -141,19 +143,30 @@ ExitCode refuse(const Error& error) {
   return ExitCode::usage;
 }
 
-Status check_types(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
+Status check_types(const std::vector<std::string>& wanted, const std::vector<Driver>& known) {
+  std::vector<std::string> names;
+  for (const Driver& driver : known) names.push_back(driver.type);
   for (const std::string& type : wanted)
-    if (std::find(known.begin(), known.end(), type) == known.end())
-      return wrong("there is no driver " + in_quotes(type) + "; drivers: " + listed(known) +
-                   xml::did_you_mean(xml::nearest_name(type, known)));
+    if (std::find(names.begin(), names.end(), type) == names.end())
+      return wrong("there is no driver " + in_quotes(type) + "; drivers: " + listed(names) +
+                   xml::did_you_mean(xml::nearest_name(type, names)));
   return ok();
+}
+
+// Returns the drivers that look for their device at a port: those that the user names, or all that may find it there.
+std::vector<std::string> types_for(const std::string& port, const Options& options,
+                                   const std::vector<Driver>& known) {
+  if (!options.types.empty()) return options.types;
+  std::vector<std::string> types;
+  for (const Driver& driver : known)
+    if (driver.may_be_at(port)) types.push_back(driver.type);
+  return types;
 }
 
 ExitCode run(Options options) {
   host::PluginCatalogue catalogue(plugin::PluginIndex(plugin_folders(options)));
-  const std::vector<std::string> known = drivers(catalogue);
+  const std::vector<Driver> known = drivers(catalogue);
   if (const Status checked = check_types(options.types, known); !checked.ok()) return refuse(checked.error());
-  if (options.types.empty()) options.types = known;
   if (options.ports.empty()) options.ports = serial_ports();
   if (options.ports.empty()) {
     show(
@@ -162,7 +175,8 @@ ExitCode run(Options options) {
     return ExitCode::some_silent;
   }
   bool all_answer = true;
-  for (const std::string& port : options.ports) all_answer = probe(catalogue, options, port) && all_answer;
+  for (const std::string& port : options.ports)
+    all_answer = probe(catalogue, types_for(port, options, known), options.limit, port) && all_answer;
   return all_answer ? ExitCode::all_answer : ExitCode::some_silent;
 }
 

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "orca/base/executive.hpp"
 #include "orca/hw/link/make_link.hpp"
@@ -98,12 +99,19 @@ Finding looked(hw::HardwareContainer& driver, Executive& executive, Duration lim
 
 }  // namespace
 
-std::vector<std::string> drivers(host::PluginCatalogue& catalogue) {
-  std::vector<std::string> found;
+bool Driver::may_be_at(std::string_view port) const {
+  const bool is_serial = port.starts_with('/') || port.starts_with("serial:");
+  return !is_serial || !usual_line.starts_with("tcp:");
+}
+
+std::vector<Driver> drivers(host::PluginCatalogue& catalogue) {
+  std::vector<Driver> found;
   for (const std::string& type : catalogue.type_names(PluginKind::hardware)) {
     const Result<Contract> contract = catalogue.hardware(type);
-    const auto is_port = [](const ParamContract& param) { return param.name == "device"; };
-    if (contract && std::ranges::any_of(contract->params, is_port)) found.push_back(type);
+    if (!contract) continue;
+    for (const ParamContract& param : contract->params)
+      if (const auto* usual = std::get_if<std::string>(&param.default_value); usual && param.name == "device")
+        found.push_back({type, *usual});
   }
   return found;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "orca/base/result.hpp"
@@ -23,8 +24,17 @@ struct Finding {
   idl::DeviceStatistics line{};
 };
 
-/// Returns the hardware types that drive a device at a port: those with a parameter "device".
-[[nodiscard]] std::vector<std::string> drivers(host::PluginCatalogue& catalogue);
+/// A hardware type that drives a device at a port.
+struct Driver {
+  std::string type;
+  std::string usual_line;  ///< The default of its parameter "device".
+
+  /// Returns whether its device may be at a port. A driver whose usual line is a connection has none at serial ports.
+  [[nodiscard]] bool may_be_at(std::string_view port) const;
+};
+
+/// Returns all drivers: the hardware types with a parameter "device".
+[[nodiscard]] std::vector<Driver> drivers(host::PluginCatalogue& catalogue);
 
 /// Lets a driver look for its device at a port and, if that answers, waits for its first data. Motors get no power.
 /// @param limit  [s] for an answer, and once more for data.

@@ -24,7 +24,8 @@ class LineDriver : public HardwareContainer {
   [[nodiscard]] std::vector<HardwareFault> conflicts_with(const HardwareContainer& earlier) const override;
 
  protected:
-  /// @param usual  the line where such a device is often found: the default of `device`.
+  /// @param usual  the line where such a device is often found: the default of `device`. If that is a connection (tcp:HOST:PORT),
+  ///               the device is one of networks only, and hwprobe does not look for it at serial ports.
   /// @param first  how bytes go over a serial line at first; begin() may set another rate.
   LineDriver(HardwareHost& host, const std::string& usual, const link::Line& first = {});
 
