@@ -149,9 +149,9 @@ class P2osBase final : public orca::hw::LineDriver {
       log("the robot calls itself " + orca::in_quotes(robot.subclass) + "; write model=\"" +
           std::string(choice.model.subclass) + "\", or its sonars and size are those of another robot");
     }
+    const std::string rate = has_rate() ? " at " + std::to_string(session_->rate()) + " baud" : std::string();
     host().write_log(orca::log::Level::info, "connected to " + orca::in_quotes(robot.name) + " (" +
-                                                 robot.robot_class + " " + robot.subclass + ") at " +
-                                                 std::to_string(session_->rate()) + " baud");
+                                                 robot.robot_class + " " + robot.subclass + ")" + rate);
     senses_->connect(choice.is_known ? choice.model : *model_);
     say_again_ = host().now() + kSayAgain;
   }
