@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,14 +14,22 @@
 
 namespace orca::sim {
 
-/// A device that a robot is to have, as the parameter `lines` names it.
-struct DeviceWish {
-  std::string kind;   ///< "p2os"
-  std::string model;  ///< "p2dx"; empty: the usual one.
-  std::string name;   ///< Of its line.
+/// A TCP port of this machine.
+struct TcpPlace {
+  std::string address = "127.0.0.1";  ///< IPv4.
+  std::uint16_t port = 0;             ///< 0: any that is free.
 };
 
-/// Reads a list of devices: KIND NAME or KIND:MODEL NAME, with semicolons between them.
+/// A device that a robot is to have, as the parameter `lines` names it.
+struct DeviceWish {
+  std::string kind;                 ///< "p2os"
+  std::string model;                ///< "p2dx"; empty: the usual one.
+  std::string line;                 ///< As it is written: a name, or a TCP port.
+  std::optional<TcpPlace> place{};  ///< If it is a TCP port.
+};
+
+/// Reads a list of devices: KIND LINE or KIND:MODEL LINE, with semicolons between them. A line is a name, tcp:PORT or
+/// tcp:ADDRESS:PORT.
 /// @errors  invalid_argument with what is wrong, and how such a list is written.
 [[nodiscard]] Result<std::vector<DeviceWish>> read_devices(std::string_view text);
 

@@ -1,36 +1,29 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include "orca/base/descriptor.hpp"
 #include "orca/base/result.hpp"
-#include "orca/emulators/firmware.hpp"
-#include "orca/hw/link/pty_link.hpp"
+#include "orca/base/time.hpp"
 
 namespace orca::sim {
 
-/// An emulated device with its line, which a driver opens as emulated:NAME.
+/// An emulated device with the line at which hosts find it.
 ///
 /// Thread contract: one strand.
 class DeviceLine {
  public:
-  DeviceLine(std::string name, std::unique_ptr<emulators::Firmware> firmware);
+  virtual ~DeviceLine() = default;
 
-  /// @errors  already_exists if another system offers a line of that name; those of PtyLink::open().
-  Status open();
-  void close();
-  /// Passes bytes on, as the line's rate allows.
-  /// @return whether a driver has the line open.
-  bool exchange(TimePoint now);
-
- private:
-  const std::string name_;
-  const std::string path_;
-  Descriptor lock_;  // of the name, while it is open
-  hw::link::PtyLink link_;
-  std::unique_ptr<emulators::Firmware> firmware_;
+  /// Offers the line.
+  /// @errors  already_exists if another system offers it; others of its kind, with what to do.
+  virtual Status open() = 0;
+  virtual void close() = 0;
+  /// Passes bytes on, as the line's rate allows, and lets the device go on.
+  /// @return whether a host has the line open.
+  virtual bool exchange(TimePoint now) = 0;
+  /// Returns what a driver's parameter `device` names on this machine. @pre  it was opened.
+  [[nodiscard]] virtual std::string name() const = 0;
 };
 
 }  // namespace orca::sim

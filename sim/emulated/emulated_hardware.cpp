@@ -5,9 +5,11 @@
 
 #include "device_kinds.hpp"
 #include "device_line.hpp"
+#include "network_line.hpp"
 #include "objects.hpp"
 #include "orca/hardware.hpp"
 #include "simulated_robot.hpp"
+#include "terminal_line.hpp"
 #include "world_body.hpp"
 
 namespace {
@@ -20,8 +22,14 @@ using orca::TimePoint;
 constexpr orca::Duration kTurn = 2ms;  // of the lines: at 38400 baud 8 bytes
 constexpr orca::Duration kLeaveTime = 500ms;
 
-/// A robot in the simulated world whose devices are at the other ends of lines, where real drivers find them. Here it has nothing but
-/// its true pose.
+std::unique_ptr<DeviceLine> make_line(const DeviceWish& wish,
+                                      std::unique_ptr<orca::emulators::Firmware> firmware) {
+  if (!wish.place) return std::make_unique<TerminalLine>(wish.line, std::move(firmware));
+  return std::make_unique<NetworkLine>(wish.place->address, wish.place->port, std::move(firmware));
+}
+
+/// A robot in the simulated world whose devices are at the other ends of lines, where real drivers and programs of others find them.
+/// Here it has nothing but its true pose.
 class EmulatedHardware final : public SimulatedRobot {
  public:
   using SimulatedRobot::SimulatedRobot;
@@ -35,15 +43,17 @@ class EmulatedHardware final : public SimulatedRobot {
     for (const DeviceWish& wish : *wishes) {
       auto firmware = make_firmware(wish, *body_);
       if (!firmware) return {{"lines", firmware.error().message}};
-      lines_.push_back(std::make_unique<DeviceLine>(wish.name, std::move(*firmware)));
+      lines_.push_back({wish.kind, make_line(wish, std::move(*firmware))});
     }
     return {};
   }
 
   Status open() override {
     if (Status world = SimulatedRobot::open(); !world.ok()) return world;
-    for (const auto& line : lines_)
+    for (const auto& [kind, line] : lines_) {
       if (Status opened = line->open(); !opened.ok()) return opened;
+      host().write_log(orca::log::Level::info, "an emulated " + kind + " is at " + line->name());
+    }
     is_open_ = true;
     return orca::ok();
   }
@@ -53,7 +63,7 @@ class EmulatedHardware final : public SimulatedRobot {
     const std::unique_ptr<orca::Event> pause = host().executive().make_event();
     const TimePoint end = host().now() + kLeaveTime;
     while (is_open_ && host().now() < end && turn()) pause->wait_until(host().now() + kTurn);
-    for (const auto& line : lines_) line->close();
+    for (const auto& [kind, line] : lines_) line->close();
     is_open_ = false;
   }
 
@@ -62,12 +72,12 @@ class EmulatedHardware final : public SimulatedRobot {
     return orca::ok();
   }
 
-  // Returns whether any driver has its line open.
+  // Returns whether any driver or other program has its line open.
   bool turn() {
     const TimePoint now = host().now();
     if (now >= next_tick()) go_on();
     bool has_driver = false;
-    for (const auto& line : lines_) has_driver = line->exchange(now) || has_driver;
+    for (const auto& [kind, line] : lines_) has_driver = line->exchange(now) || has_driver;
     turned_ = now;
     return has_driver;
   }
@@ -88,16 +98,23 @@ class EmulatedHardware final : public SimulatedRobot {
 
   void miss(const SharedWorld::Inbox& inbox) override { body_->sense(inbox); }
 
-  orca::Param<std::string> lines_text_{*this,
-                                       "lines",
-                                       "",
-                                       {.text = "Its devices, e.g. \"p2os pioneer\": the kind of each (with "
-                                                "a model: p2os:p3dx) and the name of its "
-                                                "line, which is emulated:NAME to the driver."}};
+  orca::Param<std::string> lines_text_{
+      *this,
+      "lines",
+      "",
+      {.text = "Its devices, e.g. \"p2os pioneer; player tcp:6665\": the kind "
+               "of each (with a model: p2os:p3dx) and its line, a name "
+               "(emulated:NAME to the driver) or tcp:PORT "
+               "(emulated:tcp:127.0.0.1:PORT to the driver, tcp:127.0.0.1:PORT to "
+               "programs on this machine; tcp:0.0.0.0:PORT for those on others, too)."}};
 
   orca::hw::SensorHW<orca::idl::RobotPose> truth_{kTruthPeriod, orca::hw::Source::truth};
   std::optional<WorldBody> body_;
-  std::vector<std::unique_ptr<DeviceLine>> lines_;
+  struct Offer {
+    std::string kind;
+    std::unique_ptr<DeviceLine> line;
+  };
+  std::vector<Offer> lines_;
   bool is_open_ = false;
   TimePoint turned_{};
 };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "deployer.hpp"
+#include "free_port.hpp"
 #include "record_table.hpp"
 #include "temp_folder.hpp"
 
@@ -23,6 +24,7 @@ struct Robot {
   const char* graph;
   double length_step;  // [m] resolution of the odometry on the line
   double angle_step;   // [rad]
+  bool on_network = false;
 };
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -32,7 +34,7 @@ constexpr double kCreateCount = std::numbers::pi * 0.072 / 508.8;  // [m]
 const std::vector<Robot> kRobots{{"peoplebot", 0.000424, 360.0 / 4096.0 * kDegree},
                                  {"nomad_scout", 0.00254, 0.1 * kDegree},
                                  {"nomad_xr4000", 0.001, 0.001},
-                                 {"player_robot", 1e-9, 1e-9},
+                                 {"player_robot", 1e-9, 1e-9, true},
                                  {"pioneer2dx_sick", 0.00084, 360.0 / 4096.0 * kDegree},
                                  {"create2_rplidar", kCreateCount, 2.0 * kCreateCount / 0.235}};
 
@@ -42,8 +44,9 @@ std::string graph_of(const Robot& robot) {
 
 // Two systems of other tests may run at the same time.
 Words emulate(const Robot& robot, const TempFolder& folder) {
-  return {graph_of(robot), "--profile", "emulate", "--set",
-          "emulated=" + std::string(folder.path().filename())};
+  const std::string line = robot.on_network ? "port=" + std::to_string(free_port())
+                                            : "emulated=" + std::string(folder.path().filename());
+  return {graph_of(robot), "--profile", "emulate", "--set", line};
 }
 
 // How the odometry of a robot that stands lies beside the truth there.
@@ -155,6 +158,19 @@ TEST_CASE("each shipped robot reaches its first goal with its real drivers on em
     CHECK(run.arrivals().size() == 1);
     CHECK(run.contacts().empty());
   }
+}
+
+TEST_CASE("a robot behind a serial server, without a baud rate, reaches its first goal with its real driver",
+          "[system][hardware]") {
+  const std::string place = "tcp:127.0.0.1:" + std::to_string(free_port());
+  const Run run = run_deployer(
+      {source_file("graphs/peoplebot.xml"), "--profile", "emulate", "--set", "world.lines=p2os:p2pb " + place,
+       "--set", "peoplebot.device=emulated:" + place, "--set", "goals=door: 3.6 6 > 3.6 7.4"},
+      Seconds(90));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("connected to \"Orca_Emu\" (Pioneer p2pb)\n"));
+  CHECK(run.arrivals().size() == 1);
 }
 
 TEST_CASE("each shipped robot reaches all its goals with its real drivers on emulated devices", "[.][slow]") {

@@ -13,10 +13,26 @@ TEST_CASE("a list of devices names the kind, the model and the line of each", "[
   REQUIRE(devices->size() == 2);
   CHECK((*devices)[0].kind == "p2os");
   CHECK((*devices)[0].model.empty());
-  CHECK((*devices)[0].name == "pioneer");
+  CHECK((*devices)[0].line == "pioneer");
+  CHECK_FALSE((*devices)[0].place);
   CHECK((*devices)[1].kind == "p2os");
   CHECK((*devices)[1].model == "p3dx");
-  CHECK((*devices)[1].name == "second-robot_2");
+  CHECK((*devices)[1].line == "second-robot_2");
+}
+
+TEST_CASE("a line may be a TCP port, heard from this machine unless an address is named", "[emulated]") {
+  const auto devices =
+      read_devices("player tcp:6665; p2os:p3dx tcp:0.0.0.0:8101; rplidar tcp:0; sick_lms tcp:0");
+  REQUIRE(devices);
+  REQUIRE(devices->size() == 4);
+  REQUIRE((*devices)[0].place);
+  CHECK((*devices)[0].place->address == "127.0.0.1");
+  CHECK((*devices)[0].place->port == 6665);
+  REQUIRE((*devices)[1].place);
+  CHECK((*devices)[1].model == "p3dx");
+  CHECK((*devices)[1].place->address == "0.0.0.0");
+  CHECK((*devices)[1].place->port == 8101);
+  CHECK((*devices)[3].place->port == 0);
 }
 
 TEST_CASE("what is no list of devices is refused with what is wrong", "[emulated]") {
@@ -26,12 +42,22 @@ TEST_CASE("what is no list of devices is refused with what is wrong", "[emulated
     CHECK(devices.error().code == Code::invalid_argument);
     return devices.error().message;
   };
-  CHECK_THAT(refusal(""), Contains("no device is named; lines are a list such as \"p2os pioneer;"));
+  CHECK_THAT(refusal(""),
+             Contains("no device is named; lines are a list such as \"p2os pioneer; player tcp:6665\""));
   CHECK_THAT(refusal(" ; "), Contains("no device is named"));
-  CHECK_THAT(refusal("p2os"), Contains("\"p2os\" is no kind and name"));
-  CHECK_THAT(refusal("p2os a b"), Contains("\"p2os a b\" is no kind and name"));
+  CHECK_THAT(refusal("p2os"), Contains("\"p2os\" is no kind and line"));
+  CHECK_THAT(refusal("p2os a b"), Contains("\"p2os a b\" is no kind and line"));
   CHECK_THAT(refusal("p2os ../x"), Contains("\"../x\" is no name of a line: letters, digits, _ and -"));
   CHECK_THAT(refusal("p2os a; p2os a"), Contains("two lines have the name \"a\""));
+  CHECK_THAT(refusal("player tcp:"),
+             Contains("\"\" is no port; ports are 1 to 65535, and 0 is any that is free"));
+  CHECK_THAT(refusal("player tcp:65536"), Contains("\"65536\" is no port"));
+  CHECK_THAT(refusal("player tcp:-1"), Contains("\"-1\" is no port"));
+  CHECK_THAT(refusal("player tcp:127.0.0.1"), Contains("\"127.0.0.1\" is no port"));
+  CHECK_THAT(refusal("player tcp:localhost:6665"),
+             Contains("\"localhost\" is no IPv4 address of this machine"));
+  CHECK_THAT(refusal("player tcp::6665"), Contains("\"\" is no IPv4 address"));
+  CHECK_THAT(refusal("player tcp:6665; p2os tcp:0.0.0.0:6665"), Contains("two lines have the port 6665"));
 }
 
 TEST_CASE("a device of an unknown kind or model is refused with those that there are", "[emulated]") {

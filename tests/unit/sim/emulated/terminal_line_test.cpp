@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "device_line.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/hw/link/make_link.hpp"
 #include "temp_folder.hpp"
+#include "terminal_line.hpp"
 
 using namespace orca;
 using namespace orca::sim;
@@ -52,7 +52,7 @@ TEST_CASE("a driver finds an emulated device by the name of its line, and both p
   const Runtime runtime;
   auto firmware = std::make_unique<Counter>();
   const Counter& counter = *firmware;
-  DeviceLine line("counter", std::move(firmware));
+  TerminalLine line("counter", std::move(firmware));
   REQUIRE(line.open().ok());
   const auto driver = driver_of("emulated:counter");
   REQUIRE(open_within(*driver, 5s).ok());
@@ -77,7 +77,7 @@ TEST_CASE("a driver waits for an emulation that starts later", "[emulated]") {
   const auto first = driver->open();
   REQUIRE(first);
   CHECK(*first == hw::link::Opening::under_way);
-  DeviceLine line("late", std::make_unique<Counter>());
+  TerminalLine line("late", std::make_unique<Counter>());
   REQUIRE(line.open().ok());
   CHECK(open_within(*driver, 5s).ok());
 }
@@ -98,9 +98,9 @@ TEST_CASE("a driver gives up when no emulation of its name comes", "[emulated]")
 
 TEST_CASE("two systems cannot offer a line of one name, and the first one keeps it", "[emulated]") {
   const Runtime runtime;
-  DeviceLine first("robot", std::make_unique<Counter>());
+  TerminalLine first("robot", std::make_unique<Counter>());
   REQUIRE(first.open().ok());
-  DeviceLine second("robot", std::make_unique<Counter>());
+  TerminalLine second("robot", std::make_unique<Counter>());
   const Status refused = second.open();
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.error().code == Code::already_exists);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "device_line.hpp"
+#include "terminal_line.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -15,13 +15,13 @@
 
 namespace orca::sim {
 
-DeviceLine::DeviceLine(std::string name, std::unique_ptr<emulators::Firmware> firmware)
+TerminalLine::TerminalLine(std::string name, std::unique_ptr<emulators::Firmware> firmware)
     : name_(std::move(name)),
       path_(hw::link::emulated_path(name_)),
       link_(path_),
       firmware_(std::move(firmware)) {}
 
-Status DeviceLine::open() {
+Status TerminalLine::open() {
   std::error_code failure;
   const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
   if (std::filesystem::create_directories(folder, failure))
@@ -38,13 +38,13 @@ Status DeviceLine::open() {
   return opened ? link_.await_driver() : Status(opened.error());
 }
 
-void DeviceLine::close() {
+void TerminalLine::close() {
   link_.close();
   lock_.reset();
 }
 
 // While no driver has the line open there is nothing to read, and what the device says is lost.
-bool DeviceLine::exchange(TimePoint now) {
+bool TerminalLine::exchange(TimePoint now) {
   std::array<std::uint8_t, 512> bytes{};
   const std::uint32_t baud = link_.line() ? link_.line()->baud : 0;
   auto count = link_.read(bytes);
