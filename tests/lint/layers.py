@@ -30,7 +30,7 @@ PATTERNS = "src/patterns"
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
 SUPERVISOR = "src/runtime/supervisor"
 BATCH = "src/runtime/batch"
-SIM_MODEL = ("geometry", "xml", "base")
+SIM_MODEL = ("robots", "geometry", "xml", "base")
 SIM_RAYS = ("sim_model", *SIM_MODEL)
 SIM_SENSORS = ("sim_rays", *SIM_RAYS)
 SIM_MOTION = ("sim_sensors", *SIM_SENSORS)
@@ -47,6 +47,7 @@ LAYERS = (
     Layer("geometry", ("src/geometry",), ("orca/geometry/",), ("base",)),
     Layer("geometry_objects", ("src/geometry/objects",), ("orca/geometry/objects/",), ("geometry", "idl", "base"),
           ("eigen",)),
+    Layer("robots", ("src/robots",), ("orca/robots/",), ("geometry", "xml", "base"), ("urdfdom", "bullet")),  # Bullet: transforms
     Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base")),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ENDPOINTS, ("fmt",)),  # its handles need them inside only
     Layer("patterns_endpoints", ("src/patterns/endpoints", *(f"src/patterns/include/orca/patterns/{name}" for name in (
@@ -97,7 +98,7 @@ LAYERS = (
     Layer("components", ("src/components",), (), ("avoidance", "goals", "hw_player", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
     Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
-        "event", "figures", "floor", "guesses", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "sensors", "shape", "snapshot", "walker", "world_model")),
+        "event", "figures", "floor", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "shape", "snapshot", "walker", "world_model")),
           SIM_MODEL, ("eigen", "fmt"), module="sim"),
     Layer("sim_rays", ("sim/rays",), ("orca/sim/caster.hpp",), SIM_RAYS, ("eigen", "fmt"), module="sim"),
     Layer("sim_generators", ("sim/generators",), ("orca/sim/generate.hpp",), SIM_RAYS, ("fmt",), module="sim"),
@@ -105,7 +106,7 @@ LAYERS = (
     Layer("sim_motion", ("sim/motion",), (), SIM_MOTION, ("bullet", "eigen", "fmt"), module="sim"),
     Layer("sim_world", ("sim/world",), ("orca/sim/world.hpp",), SIM_WORLD, ("eigen", "fmt"), module="sim"),
     Layer("sim_files", ("sim/files",), ("orca/sim/bitmap.hpp", "orca/sim/robot_file.hpp", "orca/sim/world_file.hpp"),
-          SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # Bullet: transforms
+          SIM_FILES, ("png", "zlib", "eigen", "fmt"), module="sim"),
     Layer("emulators", ("sim/emulators",), ("orca/emulators/",), ("hw_framing", "geometry", "base")),
     Layer("sim_plugin", ("sim/plugin",), (), ("geometry_objects", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
     Layer("sim_emulated", ("sim/emulated",), (), ("emulators", "sim_plugin", "hw_link", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),

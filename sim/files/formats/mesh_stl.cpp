@@ -11,7 +11,7 @@
 namespace orca::sim::detail {
 namespace {
 
-constexpr std::size_t kHeader = 84;
+constexpr std::size_t kStlHeader = 84;
 constexpr std::size_t kRecord = 50;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
@@ -26,14 +26,14 @@ double float_at(std::string_view bytes, std::size_t at) { return std::bit_cast<f
 Result<Mesh> decode_binary(std::string_view bytes, const std::string& path) {
   const std::size_t count = word_at(bytes, 80);
   if (count > kMaxFaces) return too_many_faces(path);
-  const std::size_t expected = kHeader + count * kRecord;
+  const std::size_t expected = kStlHeader + count * kRecord;
   if (bytes.size() < expected)
     return fail(Code::data_loss,
                 "the file is torn: " + std::to_string(count) + " faces need " + std::to_string(expected) +
                     " bytes, and there are " + std::to_string(bytes.size()),
                 path);
   Mesh mesh;
-  for (std::size_t at = kHeader; at < expected; at += kRecord) {
+  for (std::size_t at = kStlHeader; at < expected; at += kRecord) {
     Triangle t;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t corner = at + 12 * (k + 1);
@@ -116,8 +116,8 @@ class Text {
 
 // Some binary files also begin with "solid", so a file whose size fits exactly is taken as binary.
 Result<Mesh> decode_stl(std::string_view bytes, const std::string& path) {
-  const bool has_header = bytes.size() >= kHeader;
-  const bool fits = has_header && bytes.size() == kHeader + std::size_t{word_at(bytes, 80)} * kRecord;
+  const bool has_header = bytes.size() >= kStlHeader;
+  const bool fits = has_header && bytes.size() == kStlHeader + std::size_t{word_at(bytes, 80)} * kRecord;
   if (!fits && bytes.starts_with("solid")) return Text(bytes, path).read();
   if (!has_header)
     return fail(Code::data_loss, "the file is too short for an STL mesh: neither \"solid\" nor a header",

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/sim/robot_file.hpp"
 
-#include "codes.hpp"
-#include "mounts.hpp"
-#include "orca/xml/attributes.hpp"
-#include "orca/xml/document.hpp"
+#include <cmath>
+#include <tuple>
+
+#include "footprint.hpp"
+#include "motion/hull_corners.hpp"
+#include "orca/robots/codes.hpp"
+#include "orca/robots/robot_file.hpp"
+#include "orca/sim/world.hpp"
 #include "orca/xml/number.hpp"
-#include "robot_extension.hpp"
-#include "robot_rules.hpp"
-#include "urdf_body.hpp"
-#include "urdf_check.hpp"
-#include "urdf_parts.hpp"
 
 namespace orca::sim {
 namespace {
 
-namespace robot_codes = detail::robot_codes;
+namespace codes = robots::codes;
+
+static_assert(robots::kShortestPeriod == World::kTick);
 
 constexpr double kBumperTolerance = 0.001;  // [m]
 
@@ -26,79 +27,57 @@ double reach_of(const Shape& footprint) {
   return reach;
 }
 
-void check_body(const RobotModel& model, const xml::Attributes& robot, const xml::Attributes& extension) {
-  if (model.mass <= 0.0)
-    robot.error(robot_codes::kMass, "no link of the robot has a mass; give its main link an <inertial>");
-  if (model.parts.empty())
-    return robot.error(robot_codes::kMissing,
-                       "no link of the robot has a <collision>; without one it would pass through walls");
-  const double reach = reach_of(model.footprint);
-  if (reach > model.bumper_radius + kBumperTolerance)
-    extension.error_at("bumper_radius", robot_codes::kBumperRadius,
-                       "the collision geometry reaches " + xml::number_text(reach) +
-                           " m from the axis, but bumper_radius is " + xml::number_text(model.bumper_radius) +
-                           " m; make them agree");
-}
-
-// @pre  the root is <robot> and has an <orca>; urdf and extension are checked as far as they stand alone.
-void read_body(const xml::Element& root, const xml::Element& orca, const detail::MeshHulls& hulls,
-               RobotModel& model, xml::Reporter& reporter) {
-  const xml::Attributes robot(root, detail::kRobotFile, reporter);
-  Result<detail::UrdfBody> body = detail::read_urdf_body(root, model.urdf, hulls);
-  if (!body) return robot.error(robot_codes::kUrdfdom, body.error().message);
-  model.name = body->name;
-  model.mass = body->mass;
-  model.yaw_inertia = body->yaw_inertia;
-  model.parts = body->parts;
-  if (!model.parts.empty()) {
-    model.footprint = footprint_of(model.parts);
-    std::tie(model.bottom, model.top) = height_range_of(model.parts);
+// The solid body of the robot that is read: what the simulator needs beyond the robot's characteristics.
+class SolidBody final : public robots::BodyReader {
+ public:
+  Result<std::vector<Vec3>> hull_of(const std::string& path) override {
+    const Result<Mesh> mesh = read_mesh(path);
+    if (!mesh) return mesh.error();
+    return detail::hull_corners(*mesh);
   }
-  check_body(model, robot, {orca, detail::kRobotFile, reporter});
-  detail::mount_devices(model, *body, orca, reporter);
-}
 
-std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
-                                    xml::Diagnostics& diagnostics) {
-  const std::size_t before = diagnostics.error_count();
-  xml::Reporter reporter(diagnostics);
-  const xml::Attributes robot(root, detail::kRobotFile, reporter);
-  if (root.name() != "robot")
-    return robot.refuse(robot_codes::kWrongRoot, "the root element is <" + root.name() +
-                                                     ">; a robot file begins with <robot name=\"...\">");
-  robot.require("name");
-  detail::MeshHulls hulls;
-  detail::check_urdf(root, reporter, hulls);
-  const bool urdf_is_sound = diagnostics.error_count() == before;
-  RobotModel model;
-  model.urdf = std::move(text);
-  const xml::Element* orca = detail::only_child(root, "orca");
-  if (orca == nullptr)
-    return robot.refuse(robot_codes::kMissing,
-                        "<robot> needs the element <orca radius=\"...\"> with its drive and sensors");
-  detail::read_extension(*orca, model, reporter);
-  detail::check_mounts(root, *orca, reporter);
-  if (urdf_is_sound) read_body(root, *orca, hulls, model, reporter);
-  if (diagnostics.error_count() != before) return std::nullopt;
-  return model;
-}
+  void check(const robots::Characteristics& robot, const xml::Attributes& extension) override {
+    footprint_ = footprint_of(robot.parts);
+    std::tie(bottom_, top_) = height_range_of(robot.parts);
+    const double reach = reach_of(footprint_);
+    if (reach > robot.bumper_radius + kBumperTolerance)
+      extension.error_at("bumper_radius", codes::kBumperRadius,
+                         "the collision geometry reaches " + xml::number_text(reach) +
+                             " m from the axis, but bumper_radius is " +
+                             xml::number_text(robot.bumper_radius) + " m; make them agree");
+  }
+
+  void check_turret(const robots::Characteristics& robot, const xml::Attributes& turret) override {
+    for (std::size_t i = robot.turret->first_part; i < robot.turret->end_part; ++i)
+      if (detail::round_radius(robot.parts[i], robot.turret->axis) < 0.0)
+        return turret.error_at(
+            "joint", codes::kContradiction,
+            "the collision geometry of a turret must be round about its axis, upright cylinders "
+            "and spheres on it: the simulator does not turn it");
+  }
+
+  [[nodiscard]] std::optional<RobotModel> model_of(std::optional<robots::Characteristics> read) const {
+    if (!read) return std::nullopt;
+    return RobotModel{std::move(*read), footprint_, bottom_, top_};
+  }
+
+ private:
+  Shape footprint_;
+  double bottom_ = 0.0;
+  double top_ = 0.0;
+};
 
 }  // namespace
 
 std::optional<RobotModel> read_robot_text(std::string_view text, const std::string& file_name,
                                           xml::Diagnostics& diagnostics) {
-  const std::size_t before = diagnostics.error_count();
-  const auto document = xml::read_text(text, file_name, diagnostics);
-  if (!document || diagnostics.error_count() != before) return std::nullopt;
-  return read_root(document->root, std::string(text), diagnostics);
+  SolidBody body;
+  return body.model_of(robots::read_robot_text(text, file_name, diagnostics, &body));
 }
 
 std::optional<RobotModel> read_robot(const std::string& path, xml::Diagnostics& diagnostics) {
-  const std::size_t before = diagnostics.error_count();
-  const Result<std::string> bytes = xml::read_bytes(path);
-  const auto document = bytes ? xml::read_text(*bytes, path, diagnostics) : xml::read_file(path, diagnostics);
-  if (!bytes || !document || diagnostics.error_count() != before) return std::nullopt;
-  return read_root(document->root, *bytes, diagnostics);  // urdfdom has its own parser and needs the text
+  SolidBody body;
+  return body.model_of(robots::read_robot(path, diagnostics, &body));
 }
 
 }  // namespace orca::sim

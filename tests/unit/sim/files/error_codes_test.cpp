@@ -56,7 +56,7 @@ TEST_CASE("docs/world-files.md explains every code of a world, and no other", "[
 
 TEST_CASE("docs/robot-files.md explains every code of a robot, and no other", "[sim][docs]") {
   CHECK(documented_codes("robot-files.md", 'R') ==
-        codes_in(bytes_of(kRoot / "sim/files/robot/codes.hpp"), 'R'));
+        codes_in(bytes_of(kRoot / "src/robots/include/orca/robots/codes.hpp"), 'R'));
 }
 
 TEST_CASE("every code appears in the approved text of a broken world or robot", "[sim][approval]") {
@@ -67,7 +67,8 @@ TEST_CASE("every code appears in the approved text of a broken world or robot", 
     INFO(code);
     CHECK((worlds.contains(code) || code == "W013" || code == "W017" || code == "W023"));
   }
-  for (const std::string& code : codes_in(bytes_of(kRoot / "sim/files/robot/codes.hpp"), 'R')) {
+  for (const std::string& code :
+       codes_in(bytes_of(kRoot / "src/robots/include/orca/robots/codes.hpp"), 'R')) {
     INFO(code);
     CHECK((robots.contains(code) || code == "R024"));
   }

@@ -11,7 +11,7 @@
 namespace orca::sim {
 
 /// Reads a robot: a URDF file with one <orca> element inside <robot> (docs/robot-files.md). The URDF's root
-/// link is the base frame, on the floor; moving joints stand at zero.
+/// link is the base frame, on the floor; moving joints stand at zero. robots::read_robot() reads all but the solid body.
 ///
 /// @param diagnostics  receives all errors at once, each with file, line and column (codes R001 ...).
 /// @return nothing if there was any error.

@@ -7,17 +7,12 @@
 
 #include "orca/base/result.hpp"
 #include "orca/geometry/pose2.hpp"
+#include "orca/robots/characteristics.hpp"
 #include "orca/sim/shape.hpp"
 
 namespace orca::sim {
 
-/// A point in space [m], z up.
-struct Vec3 {
-  double x = 0.0;
-  double y = 0.0;
-  double z = 0.0;
-  friend bool operator==(const Vec3&, const Vec3&) = default;
-};
+using robots::Vec3;
 
 /// Three corners, counter-clockwise when seen from outside.
 using Triangle = std::array<Vec3, 3>;

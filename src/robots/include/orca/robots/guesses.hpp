@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "orca/geometry/error_guess.hpp"
+#include "orca/robots/realism.hpp"
+
+namespace orca::robots {
+
+/// What a robot's file guesses of a device's errors: for the device in general, and for levels of realism at which it
+/// is worse or better. Without any guess they are not known.
+/// @tparam Guess  a WheelErrorGuess or a RangeErrorGuess.
+template <class Guess>
+class Guesses {
+ public:
+  /// Sets the guess for a level; without a level the one for all levels that have none of their own.
+  /// @return false if it has been set before.
+  bool set(std::optional<Realism> level, const Guess& guess) {
+    std::optional<Guess>& place = level ? by_level_[static_cast<std::size_t>(*level)] : general_;
+    if (place) return false;
+    place = guess;
+    return true;
+  }
+
+  [[nodiscard]] Guess at(Realism level) const {
+    return by_level_[static_cast<std::size_t>(level)].value_or(general_.value_or(Guess{}));
+  }
+
+ private:
+  std::optional<Guess> general_;
+  std::array<std::optional<Guess>, 3> by_level_;
+};
+
+}  // namespace orca::robots

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "orca/robots/characteristics.hpp"
+#include "orca/robots/codes.hpp"
+#include "orca/robots/values.hpp"
+
+// The readers of the elements inside <orca>, each in a file of its own. They add what they read to the
+// model, and report whatever is wrong at its attribute. A new element needs a rule in robot_rules.cpp, a
+// reader, a line in robot_extension.cpp, and, if it sits on a link, a line in mounts.cpp.
+namespace orca::robots::detail {
+
+using namespace values;
+
+void read_drive(const xml::Attributes& e, Characteristics& model);
+void read_turret(const xml::Attributes& e, Characteristics& model);
+void read_sonar_ring(const xml::Attributes& e, Characteristics& model);
+void read_laser(const xml::Attributes& e, Characteristics& model);
+void read_infrared_ring(const xml::Attributes& e, Characteristics& model);
+void read_bumper_ring(const xml::Attributes& e, Characteristics& model);
+void read_odometry(const xml::Attributes& e, Characteristics& model);
+
+// Reports a name that another device of the robot has, because noise is keyed by it. Returns true if it is
+// free.
+[[nodiscard]] bool name_is_free(const xml::Attributes& e, const std::string& name,
+                                const Characteristics& model);
+
+// Read the children <wheel_errors> of an odometer, and <range_errors> of a sensor that measures up to `max_range` [m].
+[[nodiscard]] Guesses<WheelErrorGuess> read_wheel_errors(const xml::Attributes& odometry);
+[[nodiscard]] Guesses<RangeErrorGuess> read_range_errors(const xml::Attributes& sensor, double max_range);
+
+// Reads vendor, model and port.
+[[nodiscard]] DeviceLabel read_label(const xml::Attributes& e);
+
+// Reports a period that is shorter than the simulation's tick, or longer than an hour.
+void check_period(const xml::Attributes& e, Duration period);
+
+}  // namespace orca::robots::detail
