@@ -210,12 +210,18 @@ Result<Contract> FakeCatalogue::hardware(const std::string& type) {
   return find(type, PluginKind::hardware);
 }
 
+// Returns what the graph sets, or else the default.
+template <class T>
+static T set_or(const graph::HardwareUse& use, const std::string& param, T usual) {
+  const auto found = use.params.find(param);
+  return found != use.params.end() ? std::get<T>(found->second) : usual;
+}
+
 std::vector<orca::HardwareFault> FakeCatalogue::validate_hardware(const graph::HardwareUse& use) {
   calls.push_back("validate " + use.name);
-  if (use.type == "orca.hw.Deep" && std::get<double>(use.params.at("depth")) == 0.0)
+  if (use.type == "orca.hw.Deep" && set_or(use, "depth", 0.0) == 0.0)
     return {{"ship", "the sea is 0 m deep", {"depth"}}};
-  const auto world = use.params.find("world");
-  const std::string path = world == use.params.end() ? "" : std::get<std::string>(world->second);
+  const std::string path = set_or<std::string>(use, "world", "");
   if (path.ends_with("broken.world")) {
     return {{"", "broken.world:4:3: error W001: two walls cross"},
             {"", "broken.world:9:3: error W002: the floor has no size"}};
@@ -227,12 +233,15 @@ std::vector<orca::HardwareFault> FakeCatalogue::validate_hardware(const graph::H
 
 std::vector<orca::HardwareFault> FakeCatalogue::hardware_conflicts(const graph::HardwareUse& use,
                                                                    const graph::HardwareUse& earlier) {
-  if (use.type == "orca.hw.Sim" && use.params.at("world") == earlier.params.at("world"))
+  if (use.type == "orca.hw.Sim" &&
+      set_or<std::string>(use, "world", "") == set_or<std::string>(earlier, "world", ""))
     return {{"world",
              "hardware \"" + earlier.name + "\" has this world too, which lives in one process",
              {},
              true}};
-  if (use.type != "orca.hw.NomadScout" || use.params.at("port") != earlier.params.at("port")) return {};
+  if (use.type != "orca.hw.NomadScout" ||
+      set_or<std::string>(use, "port", "/dev/ttyS0") != set_or<std::string>(earlier, "port", "/dev/ttyS0"))
+    return {};
   return {{"port", "hardware \"" + earlier.name + "\" is on this port already"}};
 }
 

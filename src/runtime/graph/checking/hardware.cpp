@@ -44,6 +44,9 @@ CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   const std::optional<Contract> contract = types.hardware(node);
   if (!contract) return checked;
   ReadParams params = read_params(node, *contract, report);
+  // Hardware has defaults of its own that depend on what else it is told, for instance on the robot's file; so it
+  // keeps only what the graph sets.
+  std::erase_if(params.values, [&](const auto& param) { return !params.given.contains(param.first); });
   checked.value.params = std::move(params.values);
   const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use_of(checked));
   for (const HardwareFault& fault : faults)

@@ -51,6 +51,7 @@ class ParamReader {
                                               node_.title() + ": parameter " + in_quotes(name), report_);
     if (read) {
       result_.values[name] = std::move(*read);
+      result_.given.insert(name);
     } else {
       result_.unread.insert(name);
     }

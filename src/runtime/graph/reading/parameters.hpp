@@ -14,6 +14,7 @@ namespace orca::graph {
 // All parameters of a hardware or component node.
 struct ReadParams {
   Params values;                 // those that the node sets, and defaults for the rest
+  std::set<std::string> given;   // those that the node sets, readable ones only
   std::set<std::string> unread;  // parameters that have their default because an error is reported instead
 
   [[nodiscard]] bool sound() const { return unread.empty(); }

@@ -35,6 +35,15 @@ TEST_CASE("a parameter of a hardware is set like one of a component", "[graph][s
         (std::filesystem::current_path() / "hall.world").string());
 }
 
+TEST_CASE(
+    "hardware keeps the parameters that the graph sets, even to a default; the others are its driver's "
+    "affair",
+    "[graph][set]") {
+  const Graph graph = must_load(robot_with(""), with({"robot.realism=ideal"}));
+  CHECK(graph.hardware.at(0).params.contains("realism"));
+  CHECK_FALSE(graph.hardware.at(0).params.contains("robot"));
+}
+
 TEST_CASE("a parameter from the command line has precedence over the profiles", "[graph][set]") {
   const std::string text =
       "<graph name='g'><component name='l' type='orca.Label'/><profile name='loud'><component name='l'>"

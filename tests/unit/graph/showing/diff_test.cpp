@@ -64,7 +64,7 @@ TEST_CASE("changes within a part are listed field by field, with both values", "
   after.edges[0].queue.depth = 9;
   CHECK(diff_text(diff(before, after)) ==
         "~ graph\n    seed: nothing -> 5\n"
-        "~ hardware robot\n    param realism: ideal -> harsh\n"
+        "~ hardware robot\n    param realism: nothing -> harsh\n"
         "~ component avoid\n    param stop_distance: 0.5 -> 0.25\n    port odometry: nothing -> "
         "disabled=\"true\"\n"
         "    priority: nothing -> 7\n"
