@@ -25,7 +25,7 @@ class Layer:
 COMPONENT = ("component_api", "patterns", "idl", "base")
 ENDPOINTS = ("patterns_endpoints", "idl", "base")
 DEVICE = ("hw_api", "geometry", *COMPONENT)
-DRIVER = ("hw_driver", "hw_framing", "hw_link", "geometry_objects", *DEVICE)
+DRIVER = ("hw_driver", "hw_framing", "hw_link", "robots", "geometry_objects", *DEVICE)
 PATTERNS = "src/patterns"
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
 SUPERVISOR = "src/runtime/supervisor"
@@ -71,7 +71,8 @@ LAYERS = (
     Layer("hw_framing", ("src/hw/framing",), ("orca/hw/framing/",)),  # emulators use it too
     Layer("hw_nomad_scout", ("src/hw/nomad_scout",), ("orca/hw/nomad_scout/",), ("hw_framing", "geometry", "base")),
     Layer("hw_p2os", ("src/hw/p2os",), ("orca/hw/p2os/",), ("hw_framing", "geometry", "base")),
-    Layer("hw_driver", ("src/hw/driver",), ("orca/hw/line_driver.hpp", "orca/hw/line_frames.hpp"), ("hw_framing", "hw_link", *DEVICE), ("fmt",)),
+    Layer("hw_driver", ("src/hw/driver",), tuple(f"orca/hw/{name}.hpp" for name in (
+        "base_params", "file_param", "laser_mount", "line_driver", "line_frames")), ("hw_framing", "hw_link", "robots", "xml", *DEVICE), ("fmt",)),
     Layer("create2_driver", ("src/hw/create2/driver",), (), ("hw_create2", *DRIVER), ("fmt",)),
     Layer("nomad_scout_driver", ("src/hw/nomad_scout/driver",), (), ("hw_nomad_scout", *DRIVER), ("fmt",)),
     Layer("p2os_driver", ("src/hw/p2os/driver",), (), ("hw_p2os", *DRIVER), ("fmt",)),

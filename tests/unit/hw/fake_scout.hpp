@@ -16,7 +16,7 @@
 namespace orca::test {
 
 /// The host of a container: keeps the container's states and errors as lines of a diary.
-class FakeHardwareHost final : public hw::HardwareHost {
+class FakeHardwareHost : public hw::HardwareHost {
  public:
   FakeHardwareHost(Executive& executive, Diary& diary) : executive_(executive), diary_(diary) {}
 

@@ -8,6 +8,7 @@
 #include "create2_senses.hpp"
 #include "create2_session.hpp"
 #include "orca/hardware.hpp"
+#include "orca/hw/base_params.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 
@@ -39,11 +40,9 @@ class Create2Base final : public orca::hw::LineDriver {
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
     if (!faults.empty()) return faults;
+    faults = base_.read();
     for (orca::hw::SensorEndpoint* const sensor : senses_.endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
-                                          .max_turn_rate = *max_turn_rate_,
-                                          .big_turn_angle = 1.0,
-                                          .big_turn_speed = 0.1},
+    motion_.emplace(base_.limits(),
                     std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*max_command_age_)));
     set_motion(*motion_);
     return faults;
@@ -51,13 +50,14 @@ class Create2Base final : public orca::hw::LineDriver {
 
   [[nodiscard]] orca::idl::Robot description() const override {
     orca::idl::Robot robot;
-    robot.name(*name_);
+    robot.name(base_.name());
     robot.vendor("iRobot");
     robot.model("Create 2");
     robot.radius(kRadius);
     robot.bumper_radius(kRadius);
     robot.drives().push_back(describe_wheels());
     robot.sensors() = describe_senses();
+    base_.complete(robot);
     return robot;
   }
 
@@ -154,14 +154,12 @@ class Create2Base final : public orca::hw::LineDriver {
     return session_->send(drive_wheels(wheel_speeds(setpoint.velocity)));
   }
 
-  orca::Param<std::string> name_{*this, "name", "Create", {.text = "Name of this robot, one word."}};
-  orca::Param<double> max_speed_{
-      *this, "max_speed", 0.3, {.unit = "m/s", .min = 0.0, .max = kMaxWheelSpeed, .text = "Greatest speed."}};
-  orca::Param<double> max_turn_rate_{
-      *this,
-      "max_turn_rate",
-      1.5,
-      {.unit = "rad/s", .min = 0.0, .max = kMaxTurnRate, .text = "Greatest turn rate."}};
+  orca::hw::BaseParams base_{*this,
+                             {.name = "Create",
+                              .max_speed = 0.3,
+                              .most_speed = kMaxWheelSpeed,
+                              .most_turn_rate = kMaxTurnRate,
+                              .fixed_track = kWheelBase}};
   orca::Param<double> max_command_age_{
       *this,
       "max_command_age",

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orca/hardware.hpp"
+#include "orca/hw/base_params.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/nomad_scout/command.hpp"
@@ -47,21 +48,17 @@ class ScoutBase final : public orca::hw::LineDriver {
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
     if (!faults.empty()) return faults;
+    faults = read_figures();
     senses_.emplace(*track_, kSonars * as_duration(*sonar_interval_));
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
-                                          .max_turn_rate = *max_turn_rate_,
-                                          .steer_gain = 2.0,
-                                          .big_turn_angle = std::numbers::pi / 3.0,
-                                          .big_turn_speed = 1.0},
-                    as_duration(*max_command_age_));
+    motion_.emplace(base_.limits(), as_duration(*max_command_age_));
     set_motion(*motion_);
     return faults;
   }
 
   [[nodiscard]] orca::idl::Robot description() const override {
     orca::idl::Robot robot;
-    robot.name(*name_);
+    robot.name(base_.name());
     robot.vendor("Nomadics");
     robot.model("SuperScout");
     robot.radius(kRadius);
@@ -70,6 +67,7 @@ class ScoutBase final : public orca::hw::LineDriver {
     robot.drives().back().speed_change(*max_acceleration_);
     robot.sensors() = describe_senses();
     robot.sonar_rings().push_back(senses_->describe_sonars());
+    base_.complete(robot);
     return robot;
   }
 
@@ -136,6 +134,17 @@ class ScoutBase final : public orca::hw::LineDriver {
   }
 
  private:
+  // Takes what the robot's file says.
+  std::vector<orca::HardwareFault> read_figures() {
+    std::vector<orca::HardwareFault> faults = base_.read();
+    for (orca::HardwareFault& fault :
+         base_.give(max_acceleration_, &orca::robots::Drive::max_acceleration, "max_acceleration"))
+      faults.push_back(std::move(fault));
+    for (orca::HardwareFault& fault : base_.give(track_, &orca::robots::Drive::track, "track"))
+      faults.push_back(std::move(fault));
+    return faults;
+  }
+
   // The robot has answered. Its settings may be those of others, and its wheels may turn.
   void meet(TimePoint now) {
     host().write_log(orca::log::Level::info,
@@ -201,24 +210,29 @@ class ScoutBase final : public orca::hw::LineDriver {
     return session_->ask(packet, host().now());
   }
 
-  orca::Param<std::string> name_{*this, "name", "Scout", {.text = "Name of this robot, one word."}};
-  orca::Param<double> max_speed_{
-      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .max = kMaxSpeed, .text = "Greatest speed."}};
-  orca::Param<double> max_turn_rate_{
-      *this,
-      "max_turn_rate",
-      1.5,
-      {.unit = "rad/s", .min = 0.0, .max = kMaxTurnRate, .text = "Greatest turn rate."}};
-  orca::Param<double> max_acceleration_{
+  orca::hw::BaseParams base_{*this,
+                             {.name = "Scout",
+                              .most_speed = kMaxSpeed,
+                              .most_turn_rate = kMaxTurnRate,
+                              .steer_gain = 2.0,
+                              .big_turn_angle = std::numbers::pi / 3.0,
+                              .big_turn_speed = 1.0}};
+  orca::hw::FileParam<double> max_acceleration_{
       *this,
       "max_acceleration",
       0.76,
-      {.unit = "m/s2", .min = 0.05, .max = 5.0, .text = "Greatest acceleration of a wheel."}};
-  orca::Param<double> track_{
-      *this,
-      "track",
-      kTrack,
-      {.unit = "m", .min = 0.2, .max = 0.5, .text = "Distance between the wheels; measure it by turning."}};
+      {.unit = "m/s2",
+       .min = 0.05,
+       .max = 5.0,
+       .text = "Greatest acceleration of a wheel. Not set: as `robot` says, if that names a file."}};
+  orca::hw::FileParam<double> track_{*this,
+                                     "track",
+                                     kTrack,
+                                     {.unit = "m",
+                                      .min = 0.2,
+                                      .max = 0.5,
+                                      .text = "Distance between the wheels; measure it by turning. Not set: "
+                                              "as `robot` says, if that names a file."}};
   orca::Param<double> sonar_interval_{
       *this,
       "sonar_interval",

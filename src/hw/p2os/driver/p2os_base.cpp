@@ -7,6 +7,7 @@
 
 #include "orca/base/text.hpp"
 #include "orca/hardware.hpp"
+#include "orca/hw/base_params.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/p2os/model.hpp"
@@ -43,13 +44,17 @@ class P2osBase final : public orca::hw::LineDriver {
       faults.push_back({"model", orca::in_quotes(*model_name_) + " is none of " + all_models()});
     if (!faults.empty()) return faults;
     model_ = &choice.model;
+    base_.limit(model_->max_speed, model_->max_turn_rate);
+    faults = base_.read();
+    if (std::string doubt = doubt_about_sonars(*model_); !doubt.empty() && faults.empty())
+      faults.push_back({.param = "robot", .text = std::move(doubt), .only_warns = true});
     declare_endpoints();
     return faults;
   }
 
   [[nodiscard]] orca::idl::Robot description() const override {
     orca::idl::Robot robot;
-    robot.name(*name_);
+    robot.name(base_.name());
     robot.vendor("ActivMedia");
     robot.model(std::string(model_->name));
     robot.radius(model_->radius);
@@ -59,6 +64,7 @@ class P2osBase final : public orca::hw::LineDriver {
     robot.drives().push_back(describe_wheels());
     robot.sensors() = describe_senses();
     if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);
+    base_.complete(robot);
     return robot;
   }
 
@@ -117,17 +123,18 @@ class P2osBase final : public orca::hw::LineDriver {
   void declare_endpoints() {
     senses_.emplace(*model_);
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = within(*max_speed_, model_->max_speed),
-                                          .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
-                                          .big_turn_angle = 1.0,
-                                          .big_turn_speed = 0.1},
+    motion_.emplace(base_.limits(),
                     std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*max_command_age_)));
     set_motion(*motion_);
   }
 
-  // Of some models the limit is not known.
-  [[nodiscard]] static double within(double wish, double limit) {
-    return limit > 0.0 ? std::min(wish, limit) : wish;
+  // Returns what to say if the robot's file describes a robot with other sonars than the model has; empty: nothing.
+  [[nodiscard]] std::string doubt_about_sonars(const Model& model) const {
+    const auto count = static_cast<std::size_t>(model.sonars);
+    if (count == 0 || base_.sonars() == 0 || base_.sonars() == count) return {};
+    return "the robot of " + base_.file().shown() + " has " + std::to_string(base_.sonars()) +
+           " sonars, and a " + std::string(model.name) + " (model=\"" + std::string(model.subclass) +
+           "\") has " + std::to_string(count) + "; name the model and the file of the same robot";
   }
 
   [[nodiscard]] static std::string all_models() {
@@ -148,6 +155,7 @@ class P2osBase final : public orca::hw::LineDriver {
     } else if (&choice.model != model_) {
       log("the robot calls itself " + orca::in_quotes(robot.subclass) + "; write model=\"" +
           std::string(choice.model.subclass) + "\", or its sonars and size are those of another robot");
+      if (const std::string doubt = doubt_about_sonars(choice.model); !doubt.empty()) log(doubt);
     }
     host().write_log(orca::log::Level::info, "connected to " + orca::in_quotes(robot.name) + " (" +
                                                  robot.robot_class + " " + robot.subclass + ") at " +
@@ -198,11 +206,7 @@ class P2osBase final : public orca::hw::LineDriver {
 
   orca::Param<std::string> model_name_{
       *this, "model", "p2dx", {.text = "What the robot calls itself (subclass): p2dx, p2pb, p3dx, ..."}};
-  orca::Param<std::string> name_{*this, "name", "Pioneer", {.text = "Name of this robot, one word."}};
-  orca::Param<double> max_speed_{
-      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Greatest speed."}};
-  orca::Param<double> max_turn_rate_{
-      *this, "max_turn_rate", 1.5, {.unit = "rad/s", .min = 0.0, .text = "Greatest turn rate."}};
+  orca::hw::BaseParams base_{*this, {.name = "Pioneer"}};
   orca::Param<double> max_command_age_{
       *this,
       "max_command_age",

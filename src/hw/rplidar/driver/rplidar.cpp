@@ -11,6 +11,7 @@
 
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/hardware.hpp"
+#include "orca/hw/laser_mount.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/rplidar/turns.hpp"
 #include "orca/idl/hardware.hpp"
@@ -47,6 +48,7 @@ class Rplidar final : public orca::hw::LineDriver {
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
     if (!faults.empty()) return faults;
+    faults = mount_.read();
     turns_.emplace(static_cast<std::size_t>(*beams_));
     scans_.emplace(kUsualTurn);
     add_sensor(*scans_);
@@ -55,17 +57,17 @@ class Rplidar final : public orca::hw::LineDriver {
 
   [[nodiscard]] orca::idl::Robot description() const override {
     orca::idl::Robot robot;
-    robot.name(*name_);
+    robot.name(mount_.name());
     robot.vendor("SLAMTEC");
     robot.model("RPLIDAR A1");
     orca::idl::LaserSensor laser;
-    laser.name(*name_);
+    laser.name(mount_.name());
     laser.vendor("SLAMTEC");
     laser.model("RPLIDAR A1");
     laser.port(device());
     laser.type("LaserRangeReadings");
     laser.update_interval(orca::to_seconds(kUsualTurn));
-    laser.mount(orca::level_frame({*x_, *y_, *yaw_}, *z_));
+    laser.mount(orca::level_frame(mount_.pose(), mount_.height()));
     laser.number(static_cast<std::uint32_t>(*beams_));
     laser.angle_start(std::numbers::pi);
     laser.angle_increment(increment());
@@ -180,7 +182,7 @@ class Rplidar final : public orca::hw::LineDriver {
     note_sight(object->ranges());
     object->min_range(kMinRange);
     object->max_range(*max_range_);
-    object->pose(orca::level_pose({*x_, *y_, *yaw_}, *z_, turn.stamp));
+    object->pose(orca::level_pose(mount_.pose(), mount_.height(), turn.stamp));
     object->stamp(orca::to_time_value(turn.stamp));
     object->angle_start(std::numbers::pi);
     object->angle_increment(increment());
@@ -200,7 +202,7 @@ class Rplidar final : public orca::hw::LineDriver {
           "or is there nothing within its range?");
   }
 
-  orca::Param<std::string> name_{*this, "name", "laser", {.text = "Name of this laser, one word."}};
+  orca::hw::LaserMount mount_{*this, orca::hw::LaserMount::Ahead::angle_0};
   orca::Param<std::string> mode_{
       *this,
       "mode",
@@ -218,12 +220,6 @@ class Rplidar final : public orca::hw::LineDriver {
        .min = 1.0,
        .max = 16.0,
        .text = "What is farther away is nothing: 12 m for an A1M8, 6 m for older ones."}};
-  orca::Param<double> x_{
-      *this, "x", 0.0, {.unit = "m", .text = "Where it sits on the robot: ahead of the middle."}};
-  orca::Param<double> y_{*this, "y", 0.0, {.unit = "m", .text = "To the left of the middle."}};
-  orca::Param<double> z_{*this, "z", 0.0, {.unit = "m", .text = "Height of its beams above the floor."}};
-  orca::Param<double> yaw_{
-      *this, "yaw", 0.0, {.unit = "rad", .text = "Direction of its angle 0, 0 ahead, positive to the left."}};
 
   std::optional<orca::hw::SensorHW<orca::idl::LaserRangeReadings>> scans_;
   std::optional<TurnCollector> turns_;

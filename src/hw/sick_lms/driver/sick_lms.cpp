@@ -10,6 +10,7 @@
 #include "orca/base/text.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/hardware.hpp"
+#include "orca/hw/laser_mount.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/sick_lms/scan.hpp"
@@ -64,7 +65,9 @@ class SickLms final : public orca::hw::LineDriver {
     if (*rate_ != 0 && !request_rate(static_cast<unsigned>(*rate_)))
       faults.push_back(
           {"rate", request_rate(static_cast<unsigned>(*rate_)).error().message + ", or 0 for the fastest"});
-    if (!faults.empty()) return faults;
+    for (orca::HardwareFault& fault : mount_.read()) faults.push_back(std::move(fault));
+    if (std::ranges::any_of(faults, [](const orca::HardwareFault& fault) { return !fault.only_warns; }))
+      return faults;
     scale_ = *unit_ == kCentimetres.name ? kCentimetres : kMillimetres;
     scans_.emplace(scan_period(variant_, expected_rate()));
     add_sensor(*scans_);
@@ -73,17 +76,17 @@ class SickLms final : public orca::hw::LineDriver {
 
   [[nodiscard]] orca::idl::Robot description() const override {
     orca::idl::Robot robot;
-    robot.name(*name_);
+    robot.name(mount_.name());
     robot.vendor("SICK");
     robot.model("LMS200");
     orca::idl::LaserSensor laser;
-    laser.name(*name_);
+    laser.name(mount_.name());
     laser.vendor("SICK");
     laser.model("LMS200");
     laser.port(device());
     laser.type("LaserRangeReadings");
     laser.update_interval(orca::to_seconds(scan_period(variant_, expected_rate())));
-    laser.mount(orca::level_frame({*x_, *y_, *yaw_}, *z_));
+    laser.mount(orca::level_frame(mount_.pose(), mount_.height()));
     laser.number(static_cast<std::uint32_t>(beams(variant_)));
     laser.angle_start(beam_angle(variant_, 0));
     laser.angle_increment(increment(variant_));
@@ -208,7 +211,7 @@ class SickLms final : public orca::hw::LineDriver {
     object->ranges().assign(scan_.ranges.begin(), scan_.ranges.end());
     object->min_range(0.0);
     object->max_range(scale_.max_range);
-    object->pose(orca::level_pose({*x_, *y_, *yaw_}, *z_, stamp));
+    object->pose(orca::level_pose(mount_.pose(), mount_.height(), stamp));
     object->stamp(orca::to_time_value(stamp));
     object->angle_start(beam_angle(variant_, 0));
     object->angle_increment(increment(variant_));
@@ -246,7 +249,7 @@ class SickLms final : public orca::hw::LineDriver {
     }
   }
 
-  orca::Param<std::string> name_{*this, "name", "laser", {.text = "Name of this laser, one word."}};
+  orca::hw::LaserMount mount_{*this, orca::hw::LaserMount::Ahead::middle_beam};
   orca::Param<double> angle_{
       *this, "angle", 180.0 * kDegree, {.unit = "rad", .text = "Angle that it scans: 100 or 180 deg."}};
   orca::Param<double> resolution_{
@@ -274,15 +277,6 @@ class SickLms final : public orca::hw::LineDriver {
                                  .max = 600.0,
                                  .text = "For how long a laser is waited for that was just switched on; the "
                                          "deployer gives up after 10 s."}};
-  orca::Param<double> x_{
-      *this, "x", 0.0, {.unit = "m", .text = "Where it sits on the robot: ahead of the middle."}};
-  orca::Param<double> y_{*this, "y", 0.0, {.unit = "m", .text = "To the left of the middle."}};
-  orca::Param<double> z_{*this, "z", 0.0, {.unit = "m", .text = "Height of its beams above the floor."}};
-  orca::Param<double> yaw_{
-      *this,
-      "yaw",
-      0.0,
-      {.unit = "rad", .text = "Direction of its middle beam, 0 ahead, positive to the left."}};
 
   Variant variant_{};
   Scale scale_ = kMillimetres;

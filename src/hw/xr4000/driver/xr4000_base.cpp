@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orca/hardware.hpp"
+#include "orca/hw/base_params.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/xr4000/request.hpp"
@@ -48,30 +49,26 @@ class Xr4000Base final : public orca::hw::LineDriver {
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
     if (!faults.empty()) return faults;
+    faults = read_figures();
     senses_.emplace(as_duration(*sonar_cycle_),
                     XrSenses::BatteryScale{*battery_scale_, static_cast<std::size_t>(*battery_channel_)});
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
-                                          .max_turn_rate = *max_turn_rate_,
-                                          .steer_gain = 1.0,
-                                          .big_turn_angle = std::numbers::pi / 3.0,
-                                          .big_turn_speed = 0.1,
-                                          .type = orca::idl::HOLONOMIC},
-                    as_duration(*max_command_age_));
+    motion_.emplace(base_.limits(), as_duration(*max_command_age_));
     set_motion(*motion_);
     return faults;
   }
 
   [[nodiscard]] orca::idl::Robot description() const override {
     orca::idl::Robot robot;
-    robot.name(*name_);
+    robot.name(base_.name());
     robot.vendor("Nomadic Technologies");
     robot.model("XR4000");
-    robot.radius(*radius_);
-    robot.bumper_radius(*radius_);
     robot.drives().push_back(describe_wheels());
     robot.drives().back().speed_change(*max_acceleration_);
     robot.sonar_rings().push_back(senses_->describe_sonars(device()));
+    base_.complete(robot);
+    if (base_.file().robot() == nullptr || radius_.is_set()) robot.radius(*radius_);
+    robot.bumper_radius(*radius_);
     return robot;
   }
 
@@ -137,6 +134,20 @@ class Xr4000Base final : public orca::hw::LineDriver {
   }
 
  private:
+  // Takes what the robot's file says.
+  std::vector<orca::HardwareFault> read_figures() {
+    std::vector<orca::HardwareFault> faults = base_.read();
+    const auto add = [&faults](std::vector<orca::HardwareFault> more) {
+      for (orca::HardwareFault& fault : more) faults.push_back(std::move(fault));
+    };
+    add(base_.give(max_acceleration_, &orca::robots::Drive::max_acceleration, "max_acceleration"));
+    add(base_.give(max_turn_acceleration_, &orca::robots::Drive::max_turn_acceleration,
+                   "max_steer_acceleration"));
+    if (const auto* const robot = base_.file().robot(); robot != nullptr)
+      add(base_.file().give(radius_, robot->bumper_radius, "bumper_radius"));
+    return faults;
+  }
+
   // What is asked again and again.
   struct Question {
     Type type;
@@ -302,38 +313,38 @@ class Xr4000Base final : public orca::hw::LineDriver {
     return (senses_->status() & (kEmergencyStop | kJoystick | kMotionError)) == 0;
   }
 
-  orca::Param<std::string> name_{*this, "name", "Nomad", {.text = "Name of this robot, one word."}};
-  orca::Param<double> max_speed_{*this,
-                                 "max_speed",
-                                 0.5,
-                                 {.unit = "m/s",
-                                  .min = 0.0,
-                                  .max = 0.001 * kMaxSpeed,
-                                  .text = "Greatest speed, in whatever direction."}};
-  orca::Param<double> max_turn_rate_{
+  orca::hw::BaseParams base_{*this,
+                             {.name = "Nomad",
+                              .max_turn_rate = 0.5,
+                              .most_speed = 0.001 * kMaxSpeed,
+                              .most_turn_rate = 0.001 * kMaxTurnRate,
+                              .steer_gain = 1.0,
+                              .big_turn_angle = std::numbers::pi / 3.0,
+                              .type = orca::idl::HOLONOMIC}};
+  orca::hw::FileParam<double> max_acceleration_{
       *this,
-      "max_turn_rate",
+      "max_acceleration",
       0.5,
-      {.unit = "rad/s", .min = 0.0, .max = 0.001 * kMaxTurnRate, .text = "Greatest turn rate."}};
-  orca::Param<double> max_acceleration_{*this,
-                                        "max_acceleration",
-                                        0.5,
-                                        {.unit = "m/s2",
-                                         .min = 0.05,
-                                         .max = 0.001 * kMaxAcceleration,
-                                         .text = "Greatest acceleration along an axis."}};
-  orca::Param<double> max_turn_acceleration_{*this,
-                                             "max_turn_acceleration",
-                                             2.0,
-                                             {.unit = "rad/s2",
-                                              .min = 0.1,
-                                              .max = 0.001 * kMaxTurnAcceleration,
-                                              .text = "Greatest acceleration of the turn."}};
-  orca::Param<double> radius_{
+      {.unit = "m/s2",
+       .min = 0.05,
+       .max = 0.001 * kMaxAcceleration,
+       .text = "Greatest acceleration along an axis. Not set: as `robot` says, if that names a file."}};
+  orca::hw::FileParam<double> max_turn_acceleration_{
       *this,
-      "radius",
-      kBodyRadius,
-      {.unit = "m", .min = kRadius, .max = 0.5, .text = "Radius of the robot with its bumpers; measure it."}};
+      "max_turn_acceleration",
+      2.0,
+      {.unit = "rad/s2",
+       .min = 0.1,
+       .max = 0.001 * kMaxTurnAcceleration,
+       .text = "Greatest acceleration of the turn. Not set: as `robot` says, if that names a file."}};
+  orca::hw::FileParam<double> radius_{*this,
+                                      "radius",
+                                      kBodyRadius,
+                                      {.unit = "m",
+                                       .min = kRadius,
+                                       .max = 0.5,
+                                       .text = "Radius of the robot with its bumpers; measure it. Not set: "
+                                               "as `robot` says, if that names a file."}};
   orca::Param<double> sonar_cycle_{
       *this,
       "sonar_cycle",
