@@ -76,6 +76,7 @@ std::vector<HardwareFault> BaseParams::read() {
   if (is_one_word(robot->name)) name_.take_from_file(robot->name);
   append(faults, wrong_kind());
   append(faults, wrong_track());
+  append(faults, wrong_sonars());
   append(faults, file_.give(max_speed_, robot->drive.max_speed, "max_speed of the <drive>", own_.most_speed));
   append(faults, file_.give(max_turn_rate_, robot->drive.max_turn_rate, "max_steer_speed of the <drive>",
                             own_.most_turn_rate));
@@ -97,6 +98,15 @@ std::vector<HardwareFault> BaseParams::wrong_track() const {
            .text = "track of the <drive> in " + file_.shown() + " is " + xml::number_text(track) +
                    " m, but this driver computes with " + xml::number_text(*own_.fixed_track) +
                    " m, which all its robots have; correct the file, or name that of the robot at this line",
+           .only_warns = true}};
+}
+
+std::vector<HardwareFault> BaseParams::wrong_sonars() const {
+  if (!own_.sonars || sonars() == 0 || sonars() == *own_.sonars) return {};
+  return {{.param = "robot",
+           .text = "the robot of " + file_.shown() + " has " + std::to_string(sonars()) +
+                   " sonars, and each robot of this driver has " + std::to_string(*own_.sonars) +
+                   "; name the file of the robot that is at this line",
            .only_warns = true}};
 }
 

@@ -216,7 +216,8 @@ class ScoutBase final : public orca::hw::LineDriver {
                               .most_turn_rate = kMaxTurnRate,
                               .steer_gain = 2.0,
                               .big_turn_angle = std::numbers::pi / 3.0,
-                              .big_turn_speed = 1.0}};
+                              .big_turn_speed = 1.0,
+                              .sonars = kSonars}};
   orca::hw::FileParam<double> max_acceleration_{
       *this,
       "max_acceleration",

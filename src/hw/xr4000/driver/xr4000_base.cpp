@@ -320,7 +320,8 @@ class Xr4000Base final : public orca::hw::LineDriver {
                               .most_turn_rate = 0.001 * kMaxTurnRate,
                               .steer_gain = 1.0,
                               .big_turn_angle = std::numbers::pi / 3.0,
-                              .type = orca::idl::HOLONOMIC}};
+                              .type = orca::idl::HOLONOMIC,
+                              .sonars = kSonars}};
   orca::hw::FileParam<double> max_acceleration_{
       *this,
       "max_acceleration",

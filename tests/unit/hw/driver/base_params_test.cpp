@@ -182,6 +182,24 @@ TEST_CASE("a track that no robot of the driver has is doubted", "[hw][driver][ro
   for (const std::string& text : texts_of(desk.part.read())) CHECK_THAT(text, !Contains("track"));
 }
 
+TEST_CASE("a number of sonars that no robot of the driver has is doubted, but not a file without sonars",
+          "[hw][driver][robot_file]") {
+  OwnFigures own = usual();
+  own.sonars = 16;
+  BaseDesk desk(own);
+  desk.with("robot", kShipped + "peoplebot.urdf");
+  CHECK(
+      texts_of(desk.part.read()) ==
+      Texts{
+          "warning robot: the robot of \"" + kShipped +
+          "peoplebot.urdf\" has 24 sonars, and each robot of this driver has 16; name the file of the robot "
+          "that is at this line"});
+  for (const char* const robot : {"nomad_scout.urdf", "create2.urdf"}) {
+    desk.with("robot", kShipped + robot);
+    for (const std::string& text : texts_of(desk.part.read())) CHECK_THAT(text, !Contains("sonars"));
+  }
+}
+
 TEST_CASE("a missing robot file is a fault of the parameter, an error in it has its place",
           "[hw][driver][robot_file]") {
   const TempFolder folder;

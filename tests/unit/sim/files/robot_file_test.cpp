@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "angles.hpp"
+#include "orca/robots/robot_file.hpp"
 #include "orca/sim/robot_file.hpp"
 
 using namespace orca::sim;
@@ -228,6 +229,22 @@ TEST_CASE("an uneven sonar ring lists where its transducers look and sit", "[sim
              Catch::Contains("error R022: positions need angles"));
   CHECK_THAT(errors_of_robot(ring_with("angles='1 2 3 4' positions='0 0; 1 1'")),
              Catch::Contains("error R022: there are 2 positions for 4 transducers"));
+}
+
+TEST_CASE("a robot may be read without its solid body: meshes are not looked for, and all else is the same",
+          "[sim][robot_file]") {
+  const std::string mesh =
+      "<link name='m'><collision><geometry><mesh filename='none.stl'/></geometry></collision></link>" +
+      joint("j", "base", "m");
+  CHECK_THAT(errors_with(mesh), Catch::Contains("error R021"));
+  orca::xml::Diagnostics diagnostics;
+  const auto read = orca::robots::read_robot_text(robot(kBase + mesh, kDrive + kRing), "r.urdf", diagnostics);
+  REQUIRE(read);
+  CHECK(read->parts.size() == 2);
+  CHECK(std::get<Part::Hull>(read->parts[1].form).corners.empty());
+  CHECK(read->mass == 10.0);
+  CHECK(read->drive.max_speed == 1.0);
+  CHECK(read->sonar("sonar")->count == 4);
 }
 
 TEST_CASE("a missing robot file is reported with its name", "[sim][robot_file]") {

@@ -22,8 +22,9 @@ struct OwnFigures {
   double big_turn_angle = 1.0;             ///< [rad]
   double big_turn_speed = 0.1;             ///< [m/s]
   idl::DriveType type = idl::DIFFERENTIAL;
+  std::optional<std::size_t> sonars{};  ///< How many it has, if all robots of the driver have as many.
   std::optional<double>
-      fixed_track{};  ///< [m] The distance between the wheels if there are no robots with another.
+      fixed_track{};  ///< [m] Between its wheels, if it is that of all robots of the driver.
 };
 
 /// The parameters that drivers of bases have in common: the robot's file, its name and its limits.
@@ -56,6 +57,7 @@ class BaseParams {
  private:
   [[nodiscard]] std::vector<HardwareFault> wrong_kind() const;
   [[nodiscard]] std::vector<HardwareFault> wrong_track() const;
+  [[nodiscard]] std::vector<HardwareFault> wrong_sonars() const;
 
   OwnFigures own_;
   RobotFileParam file_;

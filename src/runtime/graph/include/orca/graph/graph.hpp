@@ -15,7 +15,7 @@
 
 namespace orca::graph {
 
-/// Parameter values by name, in SI. Complete: those that the file does not set have their declared defaults.
+/// Parameter values by name, in SI. A component has all: those that the file does not set have their defaults.
 using Params = std::map<std::string, ParamValue>;
 
 /// A hardware container of the system: a device, or the simulator in its place.
@@ -23,8 +23,8 @@ struct HardwareNode {
   std::string name;
   std::string type;                    ///< E.g. "orca.hw.Sim".
   std::string process = kMainProcess;  ///< Of all components that are bound to it.
-  Params params;
-  xml::Position position;  ///< Place of its element; not compared.
+  Params params;                       ///< Only those that the graph sets: its driver knows the others.
+  xml::Position position;              ///< Place of its element; not compared.
 
   friend bool operator==(const HardwareNode& a, const HardwareNode& b);
 };
