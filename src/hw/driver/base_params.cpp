@@ -62,7 +62,11 @@ BaseParams::BaseParams(HardwareContainer& owner, const OwnFigures& own)
                      {.unit = "rad/s",
                       .min = 0.0,
                       .max = own.most_turn_rate,
-                      .text = or_of_file("Greatest turn rate.")}) {}
+                      .text = or_of_file("Greatest turn rate.")}),
+      steer_gain_(owner, "steer_gain", own.steer_gain,
+                  {.min = 0.0,
+                   .text = or_of_file(
+                       "Turn rate per angle off the wanted direction, in 1/s. A smaller one is calmer.")}) {}
 
 void BaseParams::limit(double speed, double turn_rate) {
   if (speed > 0.0) own_.most_speed = speed;
@@ -74,6 +78,7 @@ std::vector<HardwareFault> BaseParams::read() {
   const robots::Characteristics* const robot = file_.robot();
   if (robot == nullptr) return faults;
   if (is_one_word(robot->name)) name_.take_from_file(robot->name);
+  steer_gain_.take_from_file(robot->drive.steer_gain);
   append(faults, wrong_kind());
   append(faults, wrong_track());
   append(faults, wrong_sonars());
@@ -122,12 +127,11 @@ DriveLimits BaseParams::limits() const {
   };
   DriveLimits limits{.max_speed = at_most(*max_speed_, own_.most_speed),
                      .max_turn_rate = at_most(*max_turn_rate_, own_.most_turn_rate),
-                     .steer_gain = own_.steer_gain,
+                     .steer_gain = *steer_gain_,
                      .big_turn_angle = own_.big_turn_angle,
                      .big_turn_speed = own_.big_turn_speed,
                      .type = own_.type};
   if (const robots::Characteristics* const robot = file_.robot(); robot != nullptr) {
-    limits.steer_gain = robot->drive.steer_gain;
     limits.big_turn_angle = robot->drive.big_turn_angle;
     limits.big_turn_speed = robot->drive.big_turn_speed;
   }

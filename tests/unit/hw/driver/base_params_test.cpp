@@ -81,9 +81,10 @@ TEST_CASE("what the graph sets counts more than the robot file, even if it is th
   const TempFolder folder;
   BaseDesk desk(usual());
   desk.with("robot", folder.write("r.urdf", robot_text("")));
-  desk.with("max_speed", 0.5).with("name", "Dewey");
+  desk.with("max_speed", 0.5).with("name", "Dewey").with("steer_gain", 0.5);
   CHECK(texts_of(desk.part.read()) == Texts{});
   CHECK(desk.part.limits().max_speed == 0.5);
+  CHECK(desk.part.limits().steer_gain == 0.5);
   CHECK(desk.part.limits().max_turn_rate == 2.0);
   CHECK(desk.part.name() == "Dewey");
 }

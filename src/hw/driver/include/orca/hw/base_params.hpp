@@ -64,6 +64,7 @@ class BaseParams {
   FileParam<std::string> name_;
   FileParam<double> max_speed_;
   FileParam<double> max_turn_rate_;
+  FileParam<double> steer_gain_;
 };
 
 }  // namespace orca::hw
