@@ -66,4 +66,13 @@ Result<Loan<idl::Robot>> part_of(const idl::Robot& robot, const std::string& abo
   return part;
 }
 
+const char* name_of(idl::DriveType type) {
+  switch (type) {
+    case idl::DIFFERENTIAL: return "differential";
+    case idl::SYNCHRO: return "synchro";
+    case idl::HOLONOMIC: return "holonomic";
+  }
+  return "unknown";
+}
+
 }  // namespace orca::hw

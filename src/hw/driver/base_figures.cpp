@@ -4,21 +4,9 @@
 #include <algorithm>
 
 #include "orca/base/text.hpp"
+#include "orca/hw/description.hpp"
 
 namespace orca::hw {
-namespace {
-
-const char* name_of(idl::DriveType type) {
-  switch (type) {
-    case idl::DIFFERENTIAL: return "differential";
-    case idl::SYNCHRO: return "synchro";
-    case idl::HOLONOMIC: return "holonomic";
-  }
-  return "unknown";
-}
-
-}  // namespace
-
 std::vector<HardwareFault> BaseFigures::read(idl::DriveType type) {
   std::vector<HardwareFault> faults;
   figures_ = read_robot_figures(*file_, faults);

@@ -64,9 +64,10 @@ Result<Opening> ListenLink::open() {
                     " is no address; write 127.0.0.1 for programs of this machine, 0.0.0.0 for others, too",
                 name());
   Descriptor socket(::socket(place->place.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket) return refused(errno);
   const int on = 1;
   (void)setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  if (!socket || bind(socket.number(), reinterpret_cast<const sockaddr*>(&place->place), place->size) != 0 ||
+  if (bind(socket.number(), reinterpret_cast<const sockaddr*>(&place->place), place->size) != 0 ||
       listen(socket.number(), kBacklog) != 0)
     return refused(errno);
   port_ = port_of(socket.number());

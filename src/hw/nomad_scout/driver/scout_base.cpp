@@ -229,8 +229,8 @@ class ScoutBase final : public orca::hw::LineDriver {
                              {.unit = "m",
                               .min = 0.2,
                               .max = 0.5,
-                              .text = "Distance between the wheels; measure it by turning. Unless it is set, "
-                                      "that of the robot's file counts, if there is one."}};
+                              .text = "Distance between the wheels; measure it by turning. As long as it is "
+                                      "this one, that of the robot's file counts."}};
   orca::Param<double> sonar_interval_{
       *this,
       "sonar_interval",

@@ -71,7 +71,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
     robot.model("XR4000");
     robot.radius(*radius_);
     robot.bumper_radius(*radius_);
-    base_.describe(robot);
+    if (*radius_ == kBodyRadius) base_.describe(robot);
     robot.drives().push_back(describe_wheels());
     robot.drives().back().speed_change(base_.within(*max_acceleration_));
     robot.sonar_rings().push_back(senses_->describe_sonars(device()));
@@ -333,11 +333,14 @@ class Xr4000Base final : public orca::hw::LineDriver {
                                               .min = 0.1,
                                               .max = 0.001 * kMaxTurnAcceleration,
                                               .text = "Greatest acceleration of the turn."}};
-  orca::Param<double> radius_{
-      *this,
-      "radius",
-      kBodyRadius,
-      {.unit = "m", .min = kRadius, .max = 0.5, .text = "Radius of the robot with its bumpers; measure it."}};
+  orca::Param<double> radius_{*this,
+                              "radius",
+                              kBodyRadius,
+                              {.unit = "m",
+                               .min = kRadius,
+                               .max = 0.5,
+                               .text = "Radius of the robot with its bumpers; measure it. As long as it is "
+                                       "this one, that of the robot's file counts."}};
   orca::Param<double> sonar_cycle_{
       *this,
       "sonar_cycle",

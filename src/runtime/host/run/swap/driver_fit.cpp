@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "orca/base/text.hpp"
+#include "orca/hw/description.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::host {
@@ -37,15 +38,6 @@ void compare_sensors(const hw::HardwareContainer& present, const hw::HardwareCon
   }
 }
 
-const char* name_of(idl::DriveType type) {
-  switch (type) {
-    case idl::DIFFERENTIAL: return "differential";
-    case idl::SYNCHRO: return "synchro";
-    case idl::HOLONOMIC: return "holonomic";
-  }
-  return "unknown";
-}
-
 void compare_bases(const hw::HardwareContainer& present, const hw::HardwareContainer& offered,
                    Texts& faults) {
   if (present.motion() == nullptr) return;
@@ -53,8 +45,8 @@ void compare_bases(const hw::HardwareContainer& present, const hw::HardwareConta
   const hw::DriveLimits& is = offered.motion()->limits();
   const hw::DriveLimits& was = present.motion()->limits();
   if (is.type != was.type)
-    faults.push_back(std::string("its drive is ") + name_of(is.type) + ", and the present one's is " +
-                     name_of(was.type));
+    faults.push_back(std::string("its drive is ") + hw::name_of(is.type) + ", and the present one's is " +
+                     hw::name_of(was.type));
   if (was.turret && !is.turret) faults.push_back("it has no turret");
 }
 

@@ -20,4 +20,8 @@ namespace orca::hw {
 /// @thread  pure function; any thread.
 [[nodiscard]] Result<Loan<idl::Robot>> part_of(const idl::Robot& robot, const std::string& about);
 
+/// Returns what robot files and messages call a kind of drive: "differential".
+/// @thread  pure function; any thread.
+[[nodiscard]] const char* name_of(idl::DriveType type);
+
 }  // namespace orca::hw
