@@ -56,4 +56,9 @@ Status check_command(const idl::TurretCommand& turret) {
   return fail(Code::invalid_argument, "a turret's angle must be finite");
 }
 
+Status check_command(const idl::GripperCommand& gripper) {
+  if (gripper.paddles() <= idl::PADDLES_CLOSE && gripper.lift() <= idl::LIFT_DOWN) return ok();
+  return fail(Code::invalid_argument, "a gripper's command holds a motion that there is not");
+}
+
 }  // namespace orca

@@ -57,8 +57,7 @@ hw::DriveLimits limits_of(const RobotModel& robot) {
           .steer_gain = drive.steer_gain,
           .big_turn_angle = drive.big_turn_angle,
           .big_turn_speed = drive.big_turn_speed,
-          .type = type_of(drive.kind),
-          .turret = robot.turret.has_value()};
+          .type = type_of(drive.kind)};
 }
 
 namespace {

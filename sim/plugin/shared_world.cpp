@@ -67,14 +67,17 @@ SharedWorld::Member& SharedWorld::member(RobotId robot) {
 Status SharedWorld::command(RobotId robot, const hw::DriveSetpoint& setpoint, TimePoint now) {
   const std::lock_guard lock(mutex_);
   catch_up(now);
-  if (world_.robot_model(robot).turret)
-    if (Status pointed = world_.set_turret_command(robot, setpoint.turret_angle); !pointed.ok())
-      return pointed;
   if (setpoint.at_once) {
     world_.emergency_stop(robot);
     return ok();
   }
   return world_.set_velocity_command(robot, setpoint.velocity);
+}
+
+Status SharedWorld::point_turret(RobotId robot, double angle, TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  catch_up(now);
+  return world_.set_turret_command(robot, angle);
 }
 
 SharedWorld::Inbox SharedWorld::advance(RobotId robot, TimePoint now) {

@@ -71,8 +71,11 @@ class SharedWorld {
 
   /// Sets the command that the robot follows from `now` [run's clock] on: the ticks until then come first.
   ///
-  /// @errors  as World::set_velocity_command() and, for a robot with a turret, set_turret_command().
+  /// @errors  as World::set_velocity_command().
   Status command(RobotId robot, const hw::DriveSetpoint& setpoint, TimePoint now);
+  /// Points the robot's turret from `now` [run's clock] on.
+  /// @errors  as World::set_turret_command().
+  Status point_turret(RobotId robot, double angle, TimePoint now);
 
   /// Simulates up to `now` [run's clock] and returns what the robot has sensed since its last call, stamped by
   /// the run's clock.

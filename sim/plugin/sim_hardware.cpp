@@ -26,6 +26,8 @@ class SimHardware final : public SimulatedRobot {
   using SimulatedRobot::SimulatedRobot;
 
  private:
+  using Turret = orca::hw::ActuatorHW<orca::idl::TurretCommand>;
+
   std::vector<orca::HardwareFault> declare() override {
     std::vector<orca::HardwareFault> faults;
     declare_endpoints();
@@ -41,6 +43,11 @@ class SimHardware final : public SimulatedRobot {
     motion_ = std::make_unique<orca::hw::MotionHW>(limits_of(robot()), kMaxCommandAge);
     set_motion(*motion_);
     if (*stop_on_touch_) guard_.emplace(robot(), *motion_);
+    if (robot().turret) {
+      turret_ = std::make_unique<Turret>(Turret::Driver{
+          .act = [this](const orca::idl::TurretCommand& turret) { return point_turret(turret.angle()); }});
+      add_actuator(*turret_);
+    }
   }
 
   Status drive(const orca::hw::DriveSetpoint& setpoint) override {
@@ -76,6 +83,7 @@ class SimHardware final : public SimulatedRobot {
                "are stalled, until a command asks for another direction."}};
   std::unique_ptr<SimSensors> sensors_;
   std::unique_ptr<orca::hw::MotionHW> motion_;
+  std::unique_ptr<Turret> turret_;
   std::optional<TouchGuard> guard_;
 };
 

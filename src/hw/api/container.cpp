@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/container.hpp"
 
+#include <utility>
+
 #include "hardware_loop.hpp"
 
 namespace orca::hw {
@@ -52,6 +54,24 @@ Status HardwareContainer::check_active() const {
     return fail(Code::unavailable,
                 host_.name() + " is " + to_string(state()) + ", not Active: nobody has started it");
   return ok();
+}
+
+Status HardwareContainer::command(ActuatorEndpoint& actuator, ObjectRef command) {
+  const Status taken = actuator.command(std::move(command));
+  if (taken.ok()) wake();
+  return taken;
+}
+
+void HardwareContainer::hold(const std::string& reason) {
+  for (ActuatorEndpoint* const actuator : actuators_) actuator->hold(reason);
+  if (motion_ != nullptr) motion_->hold(reason);
+  wake();
+}
+
+bool HardwareContainer::let_go() {
+  bool was_held = motion_ != nullptr && motion_->let_go();
+  for (ActuatorEndpoint* const actuator : actuators_) was_held = actuator->let_go() || was_held;
+  return was_held;
 }
 
 void HardwareContainer::wake() { loop_->wake(); }

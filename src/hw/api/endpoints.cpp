@@ -61,15 +61,6 @@ Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) 
   return move({.velocity = within_limits(velocity)}, velocity.mission(), now);
 }
 
-Status MotionHW::command(const idl::TurretCommand& turret, TimePoint /*now*/) {
-  if (!limits_.turret) return fail(Code::failed_precondition, "this base has no turret");
-  if (Status checked = check_command(turret); !checked.ok()) return checked;
-  const std::lock_guard lock(mutex_);
-  if (Status free = check_held(); !free.ok()) return free;
-  setpoint_.turret_angle = turret.angle();
-  return ok();
-}
-
 Status MotionHW::move(const DriveSetpoint& wanted, std::uint64_t mission, TimePoint now) {
   const std::lock_guard lock(mutex_);
   mission_ = mission;

@@ -24,6 +24,11 @@ void HardwareLifecycle::drive(const DriveSetpoint& setpoint) {
   if (const FollowUp failed = checked(drive_to(setpoint))) handle(*failed);
 }
 
+void HardwareLifecycle::act() {
+  for (ActuatorEndpoint* const actuator : container_.actuators())
+    if (const FollowUp failed = checked(actuator->carry_out())) return handle(*failed);
+}
+
 void HardwareLifecycle::probe_again() {
   if (const FollowUp next = probe()) handle(*next);
 }
@@ -74,11 +79,13 @@ void HardwareLifecycle::note_work() {
 
 // A fault belongs to the mission in which it happened. Motors do not start again because a plug is back.
 void HardwareLifecycle::halt(HardwareState to) {
+  const bool failed = to == HardwareState::fault;
+  if (failed)
+    for (ActuatorEndpoint* const actuator : container_.actuators()) actuator->forget();
+  if (failed && reopens()) container_.hold("it has failed; orcactl estop --release lets it move again");
   if (container_.motion() == nullptr) return;
   container_.motion()->halt();
-  if (to != HardwareState::fault) container_.motion()->end_mission();
-  if (to == HardwareState::fault && reopens())
-    container_.motion()->hold("it has failed; orcactl estop --release lets it move again");
+  if (!failed) container_.motion()->end_mission();
 }
 
 HardwareLifecycle::FollowUp HardwareLifecycle::probe() {

@@ -33,6 +33,8 @@ class HardwareLifecycle {
   void probe_again();
   /// Gives the motors a set-point, unless they already have it. An error of the driver is a fault.
   void drive(const DriveSetpoint& setpoint);
+  /// Lets the actuators do what was asked of them. An error is a fault.
+  void act();
 
   [[nodiscard]] HardwareState state() const { return state_.load(std::memory_order_acquire); }
   /// Returns why the device has failed.

@@ -63,6 +63,7 @@ void HardwareLoop::main() {
 void HardwareLoop::turn() {
   life_.handle(users_.load() > 0 ? HardwareEvent::wanted : HardwareEvent::unwanted);
   apply_motion();
+  if (life_.state() == HardwareState::active) life_.act();
   if (is_open()) attend();
   reopen();
   host_.pausing();

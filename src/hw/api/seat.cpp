@@ -13,6 +13,12 @@ SensorEndpoint* endpoint_of(const HardwareSeat::Sensor& wanted, const HardwareCo
   return nullptr;
 }
 
+ActuatorEndpoint* actuator_of(const HardwareSeat::Actuator& wanted, const HardwareContainer& driver) {
+  for (ActuatorEndpoint* const actuator : driver.actuators())
+    if (actuator->port_stem() == wanted.port_stem) return actuator;
+  return nullptr;
+}
+
 }  // namespace
 
 std::vector<HardwareSeat::Sensor> HardwareSeat::sensors() const {
@@ -35,6 +41,23 @@ ObjectRef HardwareSeat::latest(const Sensor& sensor) const {
   const std::lock_guard lock(mutex_);
   const SensorEndpoint* const endpoint = endpoint_of(sensor, *driver_);
   return endpoint != nullptr ? endpoint->latest() : ObjectRef{};
+}
+
+std::vector<HardwareSeat::Actuator> HardwareSeat::actuators() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Actuator> all;
+  for (const ActuatorEndpoint* const actuator : driver_->actuators())
+    all.push_back({&actuator->type(), actuator->port_stem()});
+  return all;
+}
+
+Status HardwareSeat::command(const Actuator& actuator, ObjectRef command) {
+  const std::lock_guard lock(mutex_);
+  if (Status open = check_open(); !open.ok()) return open;
+  ActuatorEndpoint* const endpoint = actuator_of(actuator, *driver_);
+  if (endpoint == nullptr)
+    return fail(Code::failed_precondition, "its driver has nothing that takes a " + actuator.port_stem);
+  return driver_->command(*endpoint, std::move(command));
 }
 
 std::optional<DriveLimits> HardwareSeat::limits() const {
@@ -80,12 +103,6 @@ bool HardwareSeat::is_used() const {
   return users_ > 0;
 }
 
-Status HardwareSeat::point(const idl::TurretCommand& turret, TimePoint now) {
-  const std::lock_guard lock(mutex_);
-  if (Status open = check_open(); !open.ok()) return open;
-  return driver_->motion()->command(turret, now);
-}
-
 HardwareState HardwareSeat::state() const {
   const std::lock_guard lock(mutex_);
   return pause_ ? pause_->state : driver_->state();
@@ -116,20 +133,19 @@ void HardwareSeat::unwatch(Strand& strand) {
 void HardwareSeat::hold(const std::string& reason) {
   const std::lock_guard lock(mutex_);
   held_ = reason;
-  if (!pause_) stop_motors(reason);
+  if (!pause_) driver_->hold(reason);
 }
 
 bool HardwareSeat::let_go() {
   const std::lock_guard lock(mutex_);
   const bool was_held = std::exchange(held_, std::nullopt).has_value();
-  if (pause_ || driver_->motion() == nullptr) return was_held;
-  return driver_->motion()->let_go() || was_held;
+  return (!pause_ && driver_->let_go()) || was_held;
 }
 
 void HardwareSeat::pause(const std::string& reason) {
   const std::lock_guard lock(mutex_);
   pause_ = {driver_->state(), reason};
-  stop_motors(reason);
+  driver_->hold(reason);
   for (int user = 0; user < users_; ++user) driver_->release();
 }
 
@@ -138,10 +154,8 @@ void HardwareSeat::resume(HardwareContainer& driver, const idl::Robot& descripti
   pause_.reset();
   if (&driver != driver_) take_over(driver);
   description_ = description;
-  if (MotionHW* const motion = driver.motion()) {
-    (void)motion->let_go();
-    if (held_) motion->hold(*held_);
-  }
+  (void)driver.let_go();
+  if (held_) driver.hold(*held_);
   for (int user = 0; user < users_; ++user) driver.acquire();
   wake_watchers();
 }
@@ -155,16 +169,6 @@ void HardwareSeat::give_up(const std::string& reason) {
 Status HardwareSeat::check_open() const {
   if (pause_) return fail(Code::unavailable, "the base is held: " + pause_->reason);
   return ok();
-}
-
-void HardwareSeat::stop_motors(const std::string& reason) {
-  MotionHW* const motion = driver_->motion();
-  if (motion == nullptr) return;
-  motion->hold(reason);
-  idl::MotionCommand stop;  // wakes the strand of the container, so that it stops at once
-  stop.kind(idl::FULLSTOP);
-  stop.mission(motion->mission());
-  (void)driver_->command(stop);  // it may not be active: then nothing moves
 }
 
 void HardwareSeat::take_over(HardwareContainer& driver) {

@@ -130,16 +130,23 @@ HardwareServer::~HardwareServer() {
 }
 
 void HardwareServer::offer_motion() {
-  const std::optional<DriveLimits> base = seat_ != nullptr ? seat_->limits() : std::nullopt;
+  if (seat_ == nullptr) return;
+  offer_base();
+  for (const HardwareSeat::Actuator& actuator : seat_->actuators())
+    actuators_.push_back(std::make_unique<SendServerHandle>(
+        *this, actuator.port_stem + "Send", type_id(*actuator.type),
+        [this, actuator](const ObjectRef& command) { return on_actuator(actuator, command); },
+        PortOptions{}));
+}
+
+void HardwareServer::offer_base() {
+  const std::optional<DriveLimits> base = seat_->limits();
   if (!base) return;
   motion_ = std::make_unique<SendServer<idl::MotionCommand>>(*this, "MotionCommandSend",
                                                              &HardwareServer::on_motion);
   if (base->type == idl::HOLONOMIC)
     velocity_ = std::make_unique<SendServer<idl::HolonomicVelocity>>(*this, "HolonomicVelocitySend",
                                                                      &HardwareServer::on_velocity);
-  if (base->turret)
-    turret_ = std::make_unique<SendServer<idl::TurretCommand>>(*this, "TurretCommandSend",
-                                                               &HardwareServer::on_turret);
 }
 
 Status HardwareServer::configure() {
@@ -200,12 +207,10 @@ Status HardwareServer::on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velo
                    velocity->forward() == 0.0 && velocity->left() == 0.0 && velocity->turn_rate() == 0.0);
 }
 
-// A turret command has no age, so idle hardware takes it before it is started.
-Status HardwareServer::on_turret(const ObjectPtr<idl::TurretCommand>& turret) {
+// The command of an actuator has no age, so idle hardware takes it before it is started.
+Status HardwareServer::on_actuator(const HardwareSeat::Actuator& actuator, const ObjectRef& command) {
   if (has_failed(seat_->state())) return fail(Code::unavailable, "it has failed: " + seat_->fault());
-  const bool active = seat_->state() == HardwareState::active;
-  const Status taken = active ? seat_->command(*turret) : seat_->point(*turret, now());
-  if (!taken.ok()) return taken;
+  if (Status taken = seat_->command(actuator, command); !taken.ok()) return taken;
   if (!waiting_command_) last_command_ = now();
   stay_active(true);
   return ok();

@@ -43,18 +43,20 @@ inline constexpr hw::DriveLimits kScoutLimits{
     .max_speed = 1.0, .max_turn_rate = 2.0, .steer_gain = 0.5, .big_turn_angle = 1.0, .big_turn_speed = 0.2};
 inline constexpr Duration kScoutCommandAge = 200ms;
 
-/// A Nomad Scout without a device: sonars, odometry, wheels. Notes every call of the driver's functions, and
-/// fails in them on request.
+/// A Nomad Scout without a device: sonars, odometry, wheels, and a turret if it is to have one. Notes every call of the driver's
+/// functions, and fails in them on request.
 class FakeScout : public hw::HardwareContainer {
  public:
   /// Called at the start of the driver's function of that name.
   std::map<std::string, std::function<Status()>> trouble;
 
-  explicit FakeScout(hw::HardwareHost& host, Diary& diary, const hw::DriveLimits& limits = kScoutLimits)
+  explicit FakeScout(hw::HardwareHost& host, Diary& diary, const hw::DriveLimits& limits = kScoutLimits,
+                     bool has_turret = false)
       : HardwareContainer(host), diary_(diary), wheels_(limits, kScoutCommandAge) {
     add_sensor(sonar_);
     add_sensor(odometry_);
     set_motion(wheels_);
+    if (has_turret) add_actuator(turret_);
   }
 
   std::vector<orca::HardwareFault> prepare() override { return {}; }
@@ -70,7 +72,6 @@ class FakeScout : public hw::HardwareContainer {
     std::ostringstream line;
     line << "drive " << setpoint.velocity.forward << " " << setpoint.velocity.turn_rate;
     if (wheels_.limits().type == idl::HOLONOMIC) line << " left " << setpoint.velocity.left;
-    if (wheels_.limits().turret) line << " turret " << setpoint.turret_angle;
     diary_.note(line.str());
     return meet_trouble("drive");
   }
@@ -95,6 +96,12 @@ class FakeScout : public hw::HardwareContainer {
     diary_.note(function);
     return meet_trouble(function);
   }
+  Status point(const idl::TurretCommand& turret) {
+    std::ostringstream line;
+    line << "turret " << turret.angle();
+    diary_.note(line.str());
+    return meet_trouble("turret");
+  }
   Status meet_trouble(const std::string& function) {
     const auto found = trouble.find(function);
     return found != trouble.end() ? found->second() : ok();
@@ -104,6 +111,8 @@ class FakeScout : public hw::HardwareContainer {
   hw::SensorHW<idl::SonarRangeReadings> sonar_{50ms};
   hw::SensorHW<idl::Odometry> odometry_{50ms};
   hw::MotionHW wheels_;
+  hw::ActuatorHW<idl::TurretCommand> turret_{{.act = [this](const auto& turret) { return point(turret); },
+                                              .halt = [this] { return act("halt turret"); }}};
   TimePoint next_poll_{};
   double x_ = 0.0;
 };
@@ -112,8 +121,8 @@ class FakeScout : public hw::HardwareContainer {
 struct RunningScout {
   explicit RunningScout(Executive& used) : RunningScout(used, {}) {}
   RunningScout(Executive& used, std::map<std::string, std::function<Status()>> trouble,
-               const hw::DriveLimits& limits = kScoutLimits)
-      : executive(used), host(used, diary), scout(host, diary, limits) {
+               const hw::DriveLimits& limits = kScoutLimits, bool has_turret = false)
+      : executive(used), host(used, diary), scout(host, diary, limits, has_turret) {
     scout.trouble = std::move(trouble);
     scout.run();
   }

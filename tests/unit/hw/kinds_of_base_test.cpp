@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <limits>
 
 #include "scout_base.hpp"
 
@@ -12,10 +13,9 @@ using hw::HardwareState;
 
 namespace {
 
-hw::DriveLimits with(idl::DriveType type, bool turret) {
+hw::DriveLimits with(idl::DriveType type) {
   hw::DriveLimits limits = kScoutLimits;
   limits.type = type;
-  limits.turret = turret;
   return limits;
 }
 
@@ -31,6 +31,30 @@ Loan<idl::HolonomicVelocity> straight_velocity(double forward, double left) {
   return made;
 }
 
+Loan<idl::TurretCommand> pointing(double angle) {
+  auto made = make_object<idl::TurretCommand>();
+  made->angle(angle);
+  return made;
+}
+
+ObjectRef sealed(Loan<idl::TurretCommand> command) { return ObjectLoan(std::move(command)).seal(); }
+
+/// What the turret was told, in order.
+std::vector<std::string> told(const ScoutBase& base) {
+  std::vector<std::string> lines = base.robot.diary.lines();
+  std::erase_if(lines, [](const std::string& line) { return !line.starts_with("turret"); });
+  return lines;
+}
+
+/// A base with a turret, connected and running.
+struct Nomad : ScoutBase {
+  explicit Nomad(Executive& used, std::map<std::string, std::function<Status()>> trouble = {})
+      : ScoutBase(used, std::move(trouble), with(idl::SYNCHRO), true) {
+    connect("turret", "TurretCommandSend");
+    run();
+  }
+};
+
 }  // namespace
 
 TEST_CASE("a server offers a port only for what its base can do", "[hw][server][motion]") {
@@ -39,11 +63,11 @@ TEST_CASE("a server offers a port only for what its base can do", "[hw][server][
     CHECK(offers(plain, "MotionCommandSend"));
     CHECK_FALSE(offers(plain, "HolonomicVelocitySend"));
     CHECK_FALSE(offers(plain, "TurretCommandSend"));
-    ScoutBase omni(executive, {}, with(idl::HOLONOMIC, false));
+    ScoutBase omni(executive, {}, with(idl::HOLONOMIC));
     CHECK(offers(omni, "MotionCommandSend"));
     CHECK(offers(omni, "HolonomicVelocitySend"));
     CHECK_FALSE(offers(omni, "TurretCommandSend"));
-    ScoutBase nomad(executive, {}, with(idl::SYNCHRO, true));
+    ScoutBase nomad(executive, {}, with(idl::SYNCHRO), true);
     CHECK_FALSE(offers(nomad, "HolonomicVelocitySend"));
     CHECK(offers(nomad, "TurretCommandSend"));
   });
@@ -51,7 +75,7 @@ TEST_CASE("a server offers a port only for what its base can do", "[hw][server][
 
 TEST_CASE("a holonomic velocity starts an idle base, is carried out, and expires", "[hw][server][motion]") {
   run_on_each(all_executives(), [](Executive& executive) {
-    ScoutBase base(executive, {}, with(idl::HOLONOMIC, false));
+    ScoutBase base(executive, {}, with(idl::HOLONOMIC));
     base.connect("velocity", "HolonomicVelocitySend");
     base.run();
     REQUIRE(base.client.velocity.send(straight_velocity(0.25, -0.5)).ok());
@@ -64,7 +88,7 @@ TEST_CASE("a holonomic velocity starts an idle base, is carried out, and expires
 TEST_CASE("a holonomic velocity of zero stops a moving base at once and releases it",
           "[hw][server][motion]") {
   run_on_each(all_executives(), [](Executive& executive) {
-    ScoutBase base(executive, {}, with(idl::HOLONOMIC, false));
+    ScoutBase base(executive, {}, with(idl::HOLONOMIC));
     base.connect("velocity", "HolonomicVelocitySend");
     base.run();
     REQUIRE(base.client.velocity.send(straight_velocity(0.0, 0.5)).ok());
@@ -77,19 +101,66 @@ TEST_CASE("a holonomic velocity of zero stops a moving base at once and releases
   });
 }
 
-TEST_CASE("a turret command starts an idle base, and the turret keeps its angle when the base is released",
-          "[hw][server][motion]") {
+TEST_CASE("the command of an actuator starts idle hardware, and is not undone when the hardware is released",
+          "[hw][server][actuators]") {
   run_on_each(all_executives(), [](Executive& executive) {
-    ScoutBase base(executive, {}, with(idl::SYNCHRO, true));
-    base.connect("turret", "TurretCommandSend");
-    base.run();
-    auto point = make_object<idl::TurretCommand>();
-    point->angle(1.5);
-    REQUIRE(base.client.turret.send(std::move(point)).ok());
-    CHECK(base.robot.notes("drive 0 0 turret 1.5"));
+    Nomad base(executive);
+    REQUIRE(base.client.turret.send(pointing(1.5)).ok());
+    CHECK(base.robot.notes("turret 1.5"));
     CHECK(base.gets(HardwareState::ready));
-    CHECK_FALSE(base.robot.diary.has("drive 0 0 turret 0"));
     REQUIRE(base.client.motion.send(turn(0.25, 0.5)).ok());
-    CHECK(base.robot.notes("drive 0.5 0.25 turret 1.5"));
+    CHECK(base.robot.notes("drive 0.5 0.25"));
+    CHECK(told(base) == std::vector<std::string>{"turret 1.5"});
+    CHECK_FALSE(base.robot.diary.has("halt turret"));
+  });
+}
+
+TEST_CASE("an actuator carries out all commands in their order", "[hw][server][actuators]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    Nomad base(executive);
+    for (const double angle : {0.5, 1.0, 0.25}) REQUIRE(base.client.turret.send(pointing(angle)).ok());
+    REQUIRE(base.robot.notes("turret 0.25"));
+    CHECK(told(base) == std::vector<std::string>{"turret 0.5", "turret 1", "turret 0.25"});
+  });
+}
+
+TEST_CASE("an emergency stop halts an actuator where it is, and it refuses commands until that ends",
+          "[hw][server][actuators]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    Nomad base(executive);
+    REQUIRE(base.client.turret.send(pointing(1.5)).ok());
+    REQUIRE(base.robot.notes("turret 1.5"));
+    base.seat.hold("emergency stop");
+    CHECK(base.robot.notes("halt turret"));
+    const hw::HardwareSeat::Actuator turret = base.seat.actuators().at(0);
+    const Status refused = base.seat.command(turret, sealed(pointing(0.5)));
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == Code::unavailable);
+    CHECK_THAT(refused.error().text(), Catch::Contains("emergency stop"));
+    CHECK(base.seat.let_go());
+    CHECK(base.seat.command(turret, sealed(pointing(0.75))).ok());
+    CHECK(base.robot.notes("turret 0.75"));
+    CHECK_FALSE(base.robot.diary.has("turret 0.5"));
+  });
+}
+
+TEST_CASE("an actuator refuses what no device can carry out", "[hw][server][actuators]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    Nomad base(executive);
+    const ObjectRef nowhere = sealed(pointing(std::numeric_limits<double>::quiet_NaN()));
+    const Status refused = base.seat.command(base.seat.actuators().at(0), nowhere);
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == Code::invalid_argument);
+  });
+}
+
+TEST_CASE("an actuator that does not do what it is told is a fault of the device",
+          "[hw][server][actuators]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    Nomad base(executive,
+               {{"turret", [] { return Status(fail(Code::unavailable, "the turret is stuck")); }}});
+    REQUIRE(base.client.turret.send(pointing(1.5)).ok());
+    CHECK(base.gets(HardwareState::fault));
+    CHECK_THAT(base.seat.fault(), Catch::Contains("the turret is stuck"));
   });
 }

@@ -139,19 +139,6 @@ TEST_CASE(
   CHECK(motion.due(kStart + 5ms) == driving(0.5, 0.1));
 }
 
-TEST_CASE("a turret that is held stays where it points", "[hw][motion]") {
-  DriveLimits limits = kLimits;
-  limits.turret = true;
-  MotionHW motion(limits, kAge);
-  idl::TurretCommand left;
-  left.angle(1.0);
-  motion.hold("emergency stop");
-  CHECK(motion.command(left, kStart).error().code == Code::unavailable);
-  CHECK(motion.due(kStart).turret_angle == 0.0);
-  motion.let_go();
-  CHECK(motion.command(left, kStart).ok());
-}
-
 TEST_CASE("a full stop is obeyed whatever its other fields hold", "[hw][motion]") {
   MotionHW motion(kLimits, kAge);
   REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
@@ -257,34 +244,6 @@ TEST_CASE("a holonomic velocity with a number that is not finite is refused and 
     CHECK(refused.error().code == Code::invalid_argument);
     CHECK(motion.due(kStart) == kStand);
   }
-}
-
-TEST_CASE("a turret stays where it was pointed when the base is commanded, halted, or its command expires",
-          "[hw][motion]") {
-  DriveLimits limits = kLimits;
-  limits.turret = true;
-  MotionHW motion(limits, kAge);
-  auto point = make_object<idl::TurretCommand>();
-  point->angle(1.5);
-  REQUIRE(motion.command(*point, kStart).ok());
-  CHECK(motion.due(kStart) == DriveSetpoint{.turret_angle = 1.5});
-  CHECK(motion.expiry() == kForever);
-  REQUIRE(motion.command(*turn(0.1, 0.5), kStart).ok());
-  CHECK(motion.due(kStart) ==
-        DriveSetpoint{.velocity = {.forward = 0.5, .turn_rate = 0.1}, .turret_angle = 1.5});
-  CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5, .at_once = true});
-  motion.halt();
-  CHECK(motion.due(kStart + kAge) == DriveSetpoint{.turret_angle = 1.5, .at_once = true});
-  point->angle(std::numeric_limits<double>::infinity());
-  CHECK_FALSE(motion.command(*point, kStart).ok());
-  CHECK(motion.due(kStart + kAge).turret_angle == 1.5);
-}
-
-TEST_CASE("a base without turret refuses to point it", "[hw][motion]") {
-  MotionHW motion(kLimits, kAge);
-  const Status refused = motion.command(*make_object<idl::TurretCommand>(), kStart);
-  REQUIRE_FALSE(refused.ok());
-  CHECK_THAT(refused.error().text(), Contains("no turret"));
 }
 
 TEST_CASE("a base belongs to the mission of its last command, even while it stands, until its use ends",

@@ -30,9 +30,9 @@ struct Client : Peer {
 /// A scout, a server around it, a client connected to all five interfaces; server and scout run.
 struct ScoutBase {
   explicit ScoutBase(Executive& used, std::map<std::string, std::function<Status()>> trouble = {},
-                     const hw::DriveLimits& limits = kScoutLimits)
+                     const hw::DriveLimits& limits = kScoutLimits, bool has_turret = false)
       : executive(used),
-        robot(used, std::move(trouble), limits),
+        robot(used, std::move(trouble), limits, has_turret),
         seat(robot.scout),
         bench(used, "base", &seat),
         server(bench),

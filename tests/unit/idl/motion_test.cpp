@@ -85,3 +85,12 @@ TEST_CASE("make_frame places something level at a point", "[idl][geometry]") {
   CHECK(frame.rotation().pitch() == 0.0);
   CHECK(frame.rotation().yaw() == 1.5);
 }
+
+TEST_CASE("a gripper's command may hold only motions that there are", "[idl][motion]") {
+  orca::idl::GripperCommand gripper;
+  gripper.paddles(orca::idl::PADDLES_CLOSE);
+  gripper.lift(orca::idl::LIFT_DOWN);
+  CHECK(orca::check_command(gripper).ok());
+  gripper.lift(static_cast<orca::idl::LiftMotion>(3));
+  CHECK(orca::check_command(gripper).error().code == orca::Code::invalid_argument);
+}

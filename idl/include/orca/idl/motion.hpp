@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// MotionCommand, short ways to make one, HolonomicVelocity, TurretCommand and FusionReason.
+/// MotionCommand, short ways to make one, HolonomicVelocity, TurretCommand, GripperCommand and FusionReason.
 /// idl/orca/motion.idl gives the meaning, unit and frame of each field.
 #pragma once
 
@@ -39,5 +39,7 @@ namespace orca {
 [[nodiscard]] Status check_command(const idl::HolonomicVelocity& velocity);
 /// @errors  invalid_argument for an angle that is not finite.
 [[nodiscard]] Status check_command(const idl::TurretCommand& turret);
+/// @errors  invalid_argument for a motion that there is not, as damaged data may hold.
+[[nodiscard]] Status check_command(const idl::GripperCommand& gripper);
 
 }  // namespace orca

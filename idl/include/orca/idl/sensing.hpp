@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// RobotPose, Odometry, TurretAngle, RangeReadings, SonarRangeReadings, LaserRangeReadings (thesis 8.3),
+/// RobotPose, Odometry, TurretAngle, GripperState, RangeReadings, SonarRangeReadings, LaserRangeReadings (thesis 8.3),
 /// InfraredRangeReadings, BumperReadings, Contact, Battery. idl/orca/sensing.idl gives the meaning, unit and frame of
 /// each field.
 #pragma once

@@ -47,7 +47,16 @@ void compare_bases(const hw::HardwareContainer& present, const hw::HardwareConta
   if (is.type != was.type)
     faults.push_back(std::string("its drive is ") + hw::name_of(is.type) + ", and the present one's is " +
                      hw::name_of(was.type));
-  if (was.turret && !is.turret) faults.push_back("it has no turret");
+}
+
+void compare_actuators(const hw::HardwareContainer& present, const hw::HardwareContainer& offered,
+                       Texts& faults) {
+  for (const hw::ActuatorEndpoint* const actuator : present.actuators()) {
+    const bool is_there = std::ranges::any_of(offered.actuators(), [&](const hw::ActuatorEndpoint* other) {
+      return other->port_stem() == actuator->port_stem();
+    });
+    if (!is_there) faults.push_back("it has nothing that takes a " + actuator->port_stem());
+  }
 }
 
 template <class Device>
@@ -74,6 +83,7 @@ std::vector<std::string> driver_misfits(HardwareInstance& present, HardwareInsta
   Texts faults;
   compare_sensors(present.container(), offered.container(), faults);
   compare_bases(present.container(), offered.container(), faults);
+  compare_actuators(present.container(), offered.container(), faults);
   compare_descriptions(present.description(), offered.description(), faults);
   if (offered.robot() != present.robot() && !offered.robot().empty())
     faults.push_back("it moves the robot " + in_quotes(offered.robot()) + ", and the present one " +

@@ -9,6 +9,7 @@
 #include "orca/base/strand.hpp"
 #include "orca/component/host.hpp"
 #include "orca/component/param.hpp"
+#include "orca/hw/actuator.hpp"
 #include "orca/hw/drawable.hpp"
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/hardware_state.hpp"
@@ -77,8 +78,8 @@ class DriverFunctions {
   virtual Status drive(const DriveSetpoint& setpoint) = 0;
 };
 
-/// All hardware behind one port or bus. It opens, starts, stops and closes the device, and has sensor and
-/// motion endpoints (thesis 10.2, Fig. 10.1-10.2). A server component (RobotBaseServer, LaserServer) wraps
+/// All hardware behind one port or bus. It opens, starts, stops and closes the device, and has endpoints: sensors, the motion
+/// of a base, and other actuators (thesis 10.2, Fig. 10.1-10.2). A server component (RobotBaseServer, LaserServer) wraps
 /// it, through a HardwareSeat.
 ///
 /// A driver overrides the DriverFunctions. The constructor only declares parameters. prepare() declares endpoints from them
@@ -110,7 +111,10 @@ class HardwareContainer : public DriverFunctions {
   }
 
   [[nodiscard]] const std::vector<SensorEndpoint*>& sensors() const { return sensors_; }
+  /// Returns the motion of its base; null if it has none.
   [[nodiscard]] MotionHW* motion() const { return motion_; }
+  /// Returns what else moves.
+  [[nodiscard]] const std::vector<ActuatorEndpoint*>& actuators() const { return actuators_; }
   /// Returns what this hardware is, for clients that ask by Query.
   [[nodiscard]] virtual idl::Robot description() const = 0;
   /// Returns the line to the device, as the graph names it; empty: it has none.
@@ -133,7 +137,7 @@ class HardwareContainer : public DriverFunctions {
   void release();
 
   /// Takes a command for the motion endpoint, to be carried out at once.
-  /// @tparam Command  what MotionHW takes: idl::MotionCommand, HolonomicVelocity, TurretCommand.
+  /// @tparam Command  what MotionHW takes: idl::MotionCommand, HolonomicVelocity.
   /// @errors  failed_precondition without a motion endpoint, unavailable unless active, and those of
   /// MotionHW::command().
   template <class Command>
@@ -143,6 +147,14 @@ class HardwareContainer : public DriverFunctions {
     if (taken.ok()) wake();
     return taken;
   }
+  /// Takes a command for one of the actuators, to be carried out at once, or as soon as the hardware is active.
+  /// @errors  those of ActuatorEndpoint::command().
+  Status command(ActuatorEndpoint& actuator, ObjectRef command);
+  /// Refuses commands to move and stops what moves, with the emergency stop of a base, until let_go().
+  /// @param reason  for people, as the error of a refused command gives it.
+  void hold(const std::string& reason);
+  /// Returns whether anything was held.
+  bool let_go();
 
   [[nodiscard]] HardwareState state() const;
   /// Returns why the state is Fault or Backoff, or was so last.
@@ -157,6 +169,7 @@ class HardwareContainer : public DriverFunctions {
   /// @pre  called from prepare(); the endpoints live as long as the container.
   void add_sensor(SensorEndpoint& sensor) { sensors_.push_back(&sensor); }
   void set_motion(MotionHW& motion) { motion_ = &motion; }
+  void add_actuator(ActuatorEndpoint& actuator) { actuators_.push_back(&actuator); }
   void set_line_name(std::string name) { line_name_ = std::move(name); }
 
   /// Notes that the device has said something that makes sense.
@@ -176,6 +189,7 @@ class HardwareContainer : public DriverFunctions {
   HardwareHost& host_;
   std::vector<SensorEndpoint*> sensors_;
   MotionHW* motion_ = nullptr;
+  std::vector<ActuatorEndpoint*> actuators_;
   std::string line_name_;
   // Everything that changes while the container runs; drivers are compiled without knowing it.
   const std::unique_ptr<HardwareLoop> loop_;

@@ -92,21 +92,17 @@ struct DriveLimits {
       0.0;  ///< [rad] at larger directions the base drives at most `big_turn_speed`; 0: no such limit.
   double big_turn_speed = 0.0;              ///< [m/s]
   idl::DriveType type = idl::DIFFERENTIAL;  ///< Only a holonomic base takes velocities with a sideways part.
-  bool turret = false;                      ///< Whether there is a turret to be pointed.
 };
 
 /// A crisp set-point for the motors of a base of any kind.
 struct DriveSetpoint {
-  Twist2 velocity{};          ///< Of the robot frame; to the left only if the base is holonomic.
-  double turret_angle = 0.0;  ///< [rad] where a turret points, counter-clockwise from ahead.
+  Twist2 velocity{};  ///< Of the robot frame; to the left only if the base is holonomic.
   /// Whether the base is to stop as hard as it can, with its emergency stop if it has one. Only with a velocity of 0.
   bool at_once = false;
-  /// Returns whether the base is to stand; a turret may turn meanwhile.
+  /// Returns whether the base is to stand.
   [[nodiscard]] bool stands() const { return velocity == Twist2{}; }
-  /// Returns what stops the base at once and leaves the turret where it points. A base that stands is told nothing new.
-  [[nodiscard]] DriveSetpoint stopped() const {
-    return {.turret_angle = turret_angle, .at_once = at_once || !stands()};
-  }
+  /// Returns what stops the base at once. A base that stands is told nothing new.
+  [[nodiscard]] DriveSetpoint stopped() const { return {.at_once = at_once || !stands()}; }
   friend bool operator==(const DriveSetpoint&, const DriveSetpoint&) = default;
 };
 
@@ -133,11 +129,6 @@ class MotionHW {
   /// @errors  failed_precondition unless the base is holonomic, those of check_command(), and unavailable as above.
   Status command(const idl::HolonomicVelocity& velocity, TimePoint now);
 
-  /// Points the turret. The turret then stays there: its command never becomes too old, because a turret does
-  /// not move the robot.
-  /// @errors  failed_precondition without turret, and those of check_command().
-  Status command(const idl::TurretCommand& turret, TimePoint now);
-
   /// Returns the set-point that holds now. The base stands when the last command is older than
   /// max_command_age.
   [[nodiscard]] DriveSetpoint due(TimePoint now);
@@ -145,7 +136,7 @@ class MotionHW {
   /// Makes the base stand from now on until the next command.
   void halt();
 
-  /// Stops the base at once. Until let_go() base and turret refuse all commands to move; an emergency stop. The base
+  /// Stops the base at once. Until let_go() it refuses all commands to move; an emergency stop. The base
   /// still stands after let_go(), until the next command.
   /// @param reason  for people, as the error of a refused command gives it: "emergency stop".
   /// @thread  any, as let_go().

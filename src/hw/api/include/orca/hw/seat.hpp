@@ -30,6 +30,11 @@ class HardwareSeat final : public Device {
     std::string port_stem;  ///< As SensorEndpoint::port_stem(); no other sensor of the source has it.
     Duration period;        ///< [s] Between two readings.
   };
+  /// Something that moves besides a base, whichever driver moves it.
+  struct Actuator {
+    const ObjectType* type;  ///< Of its commands.
+    std::string port_stem;   ///< As ActuatorEndpoint::port_stem(); no other actuator has it.
+  };
 
   /// @param driver       prepared before a server is constructed. Outlives the object, or its time in the seat.
   /// @param description  of the driver; nothing: it is asked when somebody wants to know.
@@ -44,7 +49,12 @@ class HardwareSeat final : public Device {
   /// Returns the last reading of a sensor since the hardware was started, or null.
   [[nodiscard]] ObjectRef latest(const Sensor& sensor) const;
 
-  /// Returns the limits of the base; nothing if there is nothing that moves.
+  [[nodiscard]] std::vector<Actuator> actuators() const;
+  /// Takes a command for an actuator, as HardwareContainer::command().
+  /// @errors  the same; unavailable during a pause.
+  Status command(const Actuator& actuator, ObjectRef command);
+
+  /// Returns the limits of the base; nothing if it has none.
   [[nodiscard]] std::optional<DriveLimits> limits() const;
   /// Returns for how long a command holds [s]. @pre  there is a base.
   [[nodiscard]] Duration max_command_age() const;
@@ -66,9 +76,6 @@ class HardwareSeat final : public Device {
     if (Status open = check_open(); !open.ok()) return open;
     return driver_->command(command);
   }
-  /// Points the turret of a base that is idle, when it is started. @pre  there is a base.
-  /// @errors  those of MotionHW::command(); unavailable during a pause.
-  Status point(const idl::TurretCommand& turret, TimePoint now);
 
   /// Returns the driver's state; during a pause the one before it.
   [[nodiscard]] HardwareState state() const;
@@ -112,7 +119,6 @@ class HardwareSeat final : public Device {
 
   // All of these: @pre  mutex_ is held.
   [[nodiscard]] Status check_open() const;
-  void stop_motors(const std::string& reason);
   void take_over(HardwareContainer& driver);
   void wake_watchers() const;
 

@@ -19,10 +19,10 @@ namespace orca::hw {
 
 /// A component that wraps a hardware container, whatever endpoints it has (thesis 10.2-10.3). Each sensor of
 /// the chosen source becomes a Push and a Query port named after its object type (`OdometryPush`,
-/// `OdometryQuery`); where several devices deliver one type, their names come first (`rear_LaserRangeReadingsPush`). The motion endpoint becomes a Send port `MotionCommandSend`. Abilities of some bases
-/// become ports on those bases alone: `HolonomicVelocitySend` on one that moves sideways, `TurretCommandSend`
-/// on one with a turret, and `DeviceStatisticsQuery` on a device that hangs on a line. A new sensor type needs no
-/// change here. A Query is answered with the latest reading, unless it was sensed before the time that the client
+/// `OdometryQuery`); where several devices deliver one type, their names come first (`rear_LaserRangeReadingsPush`). The motion of a base becomes a Send port `MotionCommandSend`, and
+/// `HolonomicVelocitySend` if it moves sideways. Each other actuator becomes a Send port named after the object type of its
+/// commands (`TurretCommandSend`, `GripperCommandSend`). A device that hangs on a line has `DeviceStatisticsQuery`. A new type
+/// of sensor or actuator needs no change here. A Query is answered with the latest reading, unless it was sensed before the time that the client
 /// asks for: then with an error, unavailable. RobotBaseServer, LaserServer and TruthLocalizer add a few lines of
 /// their own.
 ///
@@ -46,7 +46,7 @@ class HardwareServer : public Component {
   /// Returns the hardware that the graph binds to this component; null while a type is described without
   /// hardware.
   [[nodiscard]] HardwareSeat* seat() const { return seat_; }
-  /// Offers the commands that the base can carry out, if there is one.
+  /// Offers the commands that the base can carry out, if there is one, and those of the other actuators.
   void offer_motion();
 
  private:
@@ -55,9 +55,10 @@ class HardwareServer : public Component {
   Result<Loan<idl::DeviceStatistics>> on_statistics(const ObjectPtr<idl::Ask>& ask);
   Status on_motion(const ObjectPtr<idl::MotionCommand>& command);
   Status on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velocity);
-  Status on_turret(const ObjectPtr<idl::TurretCommand>& turret);
+  Status on_actuator(const HardwareSeat::Actuator& actuator, const ObjectRef& command);
   template <class Command>
   Status carry_out(const ObjectPtr<Command>& command, bool stands);
+  void offer_base();
   Status told_once(const Status& taken);
   void carry_out_waiting_command();
   void release_idle_motion();
@@ -68,7 +69,7 @@ class HardwareServer : public Component {
   std::unique_ptr<QueryServer<idl::Ask, idl::DeviceStatistics>> statistics_;
   std::unique_ptr<SendServer<idl::MotionCommand>> motion_;
   std::unique_ptr<SendServer<idl::HolonomicVelocity>> velocity_;
-  std::unique_ptr<SendServer<idl::TurretCommand>> turret_;
+  std::vector<std::unique_ptr<SendServerHandle>> actuators_;
   std::function<Status()> waiting_command_;  // came while the hardware was idle
   TimePoint last_command_{};
   std::string obstruction_;  // why the base did not carry out the last command
