@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A driver in several versions, made of this file with different definitions:
 //   CART_VERSION  number that it says with what it does
-//   CART_ODD      whether it is another kind of base, with another sensor
+//   CART_ODD      whether it is another kind of base, with another sensor and without gripper
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -40,6 +40,7 @@ class Cart final : public orca::hw::HardwareContainer {
     set_motion(*motion_);
     add_sensor(odometry_);
     if (CART_ODD == 0) add_sensor(bumper_);
+    if (CART_ODD == 0) add_actuator(gripper_);
     return {};
   }
 
@@ -132,6 +133,7 @@ class Cart final : public orca::hw::HardwareContainer {
   std::optional<orca::hw::MotionHW> motion_;
   orca::hw::SensorHW<orca::idl::Odometry> odometry_{kPeriod};
   orca::hw::SensorHW<orca::idl::BumperReadings> bumper_{kPeriod};
+  orca::hw::ActuatorHW<orca::idl::GripperCommand> gripper_{{.act = [](const auto&) { return orca::ok(); }}};
   orca::Twist2 velocity_{};
   double x_ = 0.0;  // [m]
   double y_ = 0.0;

@@ -136,7 +136,8 @@ TEST_CASE(
         text,
         Contains("test.Cart cannot take its place: it delivers Odometry every 0.1 s, and the present one "
                  "every 0.05 s; it has no sensor of BumperReadings; its drive is holonomic, and the "
-                 "present one's is differential; it describes no drive \"wheels\""));
+                 "present one's is differential; it has nothing that takes a GripperCommand; it describes no "
+                 "drive \"wheels\""));
     CHECK(cart_of_content_users(run).empty());
   });
 }
