@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "orca/base/text.hpp"
 #include "orca/hw/link/byte_log.hpp"
 #include "orca/hw/link/logged_link.hpp"
 #include "orca/hw/link/make_link.hpp"
@@ -25,13 +24,6 @@ std::vector<HardwareFault> LineDriver::prepare_line() {
   line_ = std::move(made).value();
   set_line_name(*device_);
   return {};
-}
-
-std::vector<HardwareFault> LineDriver::conflicts_with(const HardwareContainer& earlier) const {
-  const auto& other = static_cast<const LineDriver&>(earlier);
-  if (*device_ != *other.device_) return {};
-  return {{"device", "it is that of hardware " + in_quotes(other.host().name()) +
-                         ", too; each device has a line of its own"}};
 }
 
 idl::Drive LineDriver::describe_wheels() const {

@@ -64,7 +64,6 @@ constexpr std::size_t kMostCompared = 1000;
 
 // Reports what the two cannot have both, and notes what they cannot have in different processes.
 void compare(const Sound& later, const Sound& earlier, Catalogue& catalogue, Model& model, Report& report) {
-  if (later.use.type != earlier.use.type) return;
   for (HardwareFault& fault : catalogue.hardware_conflicts(later.use, earlier.use)) {
     if (fault.if_apart) {
       model.shared.push_back({later.node, earlier.use.name, std::move(fault)});

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "orca/base/text.hpp"
 #include "trial/rehearsal.hpp"
 
 namespace orca::host {
@@ -134,7 +135,13 @@ std::vector<HardwareFault> PluginCatalogue::validate_hardware(const graph::Hardw
 
 std::vector<HardwareFault> PluginCatalogue::hardware_conflicts(const graph::HardwareUse& use,
                                                                const graph::HardwareUse& earlier) {
-  return hardware_.at(use.name)->conflicts_with(*hardware_.at(earlier.name));
+  plugin::DescribedHardware& later = *hardware_.at(use.name);
+  plugin::DescribedHardware& first = *hardware_.at(earlier.name);
+  const std::string& line = later.container().line_name();
+  if (!line.empty() && line == first.container().line_name())
+    return {{"device", "it is that of hardware " + in_quotes(earlier.name) +
+                           ", too; each device has a line of its own"}};
+  return use.type == earlier.type ? later.conflicts_with(first) : std::vector<HardwareFault>{};
 }
 
 Result<Contract> PluginCatalogue::component(const std::string& type, const graph::HardwareUse* hardware) {

@@ -101,8 +101,8 @@ class HardwareContainer : public DriverFunctions {
   virtual std::vector<HardwareFault> prepare() = 0;
 
   /// Compares this hardware with one of the same type that the graph names earlier, so that a graph can be
-  /// checked for what the two cannot have both, for instance one serial port, and for what they can share only
-  /// within one process (HardwareFault::if_apart).
+  /// checked for what the two cannot have both, and for what they can share only within one process
+  /// (HardwareFault::if_apart). That no two of whatever type have one line_name() is checked without it.
   /// @pre  both were prepared, without a fault.
   /// @return the faults, of this hardware's parameters; empty: none.
   [[nodiscard]] virtual std::vector<HardwareFault> conflicts_with(
@@ -117,7 +117,7 @@ class HardwareContainer : public DriverFunctions {
   [[nodiscard]] const std::vector<ActuatorEndpoint*>& actuators() const { return actuators_; }
   /// Returns what this hardware is, for clients that ask by Query.
   [[nodiscard]] virtual idl::Robot description() const = 0;
-  /// Returns the line to the device, as the graph names it; empty: it has none.
+  /// Returns the line to the device, as its parameter `device` in the graph names it; empty: it has none.
   [[nodiscard]] const std::string& line_name() const { return line_name_; }
   /// Returns what was counted on that line, and the state of the device.
   [[nodiscard]] idl::DeviceStatistics statistics() const;

@@ -19,10 +19,6 @@ namespace orca::hw {
 ///
 /// Thread contract: as HardwareContainer. What is protected runs on the container's strand.
 class LineDriver : public HardwareContainer {
- public:
-  /// Two drivers of one type cannot have one line.
-  [[nodiscard]] std::vector<HardwareFault> conflicts_with(const HardwareContainer& earlier) const override;
-
  protected:
   /// @param usual  the line where such a device is often found: the default of `device`.
   /// @param first  how bytes go over a serial line at first; begin() may set another rate.

@@ -57,7 +57,7 @@ class Catalogue {
   /// @return the errors; empty if there are none.
   [[nodiscard]] virtual std::vector<HardwareFault> validate_hardware(const HardwareUse& use) = 0;
 
-  /// Compares a hardware container with one of the same type that the graph names earlier.
+  /// Compares a hardware container with one that the graph names earlier.
   /// @pre  validate_hardware() has found no errors in either of them.
   /// @return the errors of `use`, for instance a serial port that both want; empty if there are none.
   [[nodiscard]] virtual std::vector<HardwareFault> hardware_conflicts(const HardwareUse& use,
