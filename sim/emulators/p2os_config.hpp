@@ -10,6 +10,6 @@ namespace orca::emulators {
 
 /// Returns the body of the packet with which a controller tells what it is and how it is set.
 /// @source  ARCOS, "Configuration packet".
-[[nodiscard]] std::vector<std::uint8_t> p2os_config(const P2osSettings& settings);
+[[nodiscard]] std::vector<std::uint8_t> p2os_config(const P2osSettings& settings, bool has_gripper);
 
 }  // namespace orca::emulators

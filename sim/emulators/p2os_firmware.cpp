@@ -8,6 +8,7 @@
 #include "orca/emulators/command_diary.hpp"
 #include "orca/hw/framing/checksums.hpp"
 #include "p2os_config.hpp"
+#include "p2os_gripper.hpp"
 #include "p2os_servo.hpp"
 
 namespace orca::emulators {
@@ -39,6 +40,7 @@ enum Number {
   kSonar = 28,
   kStop = 29,
   kVel2 = 32,
+  kGripper = 33,
   kBumpstall = 44,
   kHostbaud = 50,
   kEstop = 55,
@@ -159,6 +161,7 @@ void P2osFirmware::carry_out(int number, int value, TimePoint now) {
   switch (number) {
     case kClose:
       stop();
+      halt_gripper(body_);
       power_ = sonar_ = open_ = false;
       syncs_ = 0;
       return;
@@ -166,10 +169,11 @@ void P2osFirmware::carry_out(int number, int value, TimePoint now) {
     case kSetv: return servo_->set_speed(0.001 * std::abs(value));
     case kSetrv: return servo_->set_turn_rate(kTurnDegree * std::abs(value));
     case kSeto: origin_ = body_.odometry(); return;
-    case kConfig: return send(p2os_config(settings_), now);
+    case kConfig: return send(p2os_config(settings_, body_.gripper().has_value()), now);
     case kSonar: sonar_ = value != 0; return;
     case kStop:
     case kEstop: return stop();
+    case kGripper: return move_gripper(body_, value);
     case kBumpstall: bumpers_stall_ = value; return;
     case kHostbaud: return set_baud(value);
     case kReset: return restart();
@@ -217,6 +221,7 @@ void P2osFirmware::reset(TimePoint) { restart(); }
 
 void P2osFirmware::restart() {
   stop();
+  halt_gripper(body_);
   power_ = sonar_ = open_ = false;
   bumpers_stall_ = 0;
   origin_ = body_.odometry();
@@ -228,6 +233,7 @@ void P2osFirmware::restart() {
 void P2osFirmware::press_button(bool pressed) {
   button_ = pressed;
   if (pressed) power_ = false;
+  if (pressed) halt_gripper(body_);
   drive();
 }
 
@@ -241,6 +247,7 @@ std::vector<std::uint8_t> P2osFirmware::advance(TimePoint now) {
     fed_ = false;
     if (!(wanted_ == Twist2{})) ++watchdog_stops_;
     stop();
+    halt_gripper(body_);
   }
   if (servo_->works()) {
     wanted_ = servo_->velocity(body_.odometry());
@@ -291,7 +298,9 @@ void P2osFirmware::send_information(TimePoint now) {
   body.push_back(0);  // no compass
   const std::vector<std::uint8_t> heard = echoes();
   body.insert(body.end(), heard.begin(), heard.end());
-  body.insert(body.end(), {0, 0, 0, 0, 0});  // analog port, gripper, analog, digital in and out
+  const GripperBytes gripper = gripper_bytes(body_);
+  body.insert(body.end(), {0, gripper.state, 0, gripper.inputs,
+                           0});  // first, third and last: analog port, its value, outputs
   send(std::move(body), now);
 }
 

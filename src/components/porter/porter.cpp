@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "errand.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/component.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
@@ -44,6 +45,7 @@ class Porter final : public orca::Component {
     goal_ = goal;
     if (!kind_of(*goal)) return goto_.send(copy_value(goal));
     auto near = orca::make_object(*goal);
+    near->via(true);  // Goto announces no arrival there
     near->reach_radius().distance(*standoff_);
     near->use_orientation(false);
     return goto_.send(std::move(near));
@@ -63,6 +65,7 @@ class Porter final : public orca::Component {
     const orca::Pose2 pose = orca::plane_pose(*localizer_.get_update());
     while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
     while (failed_.new_data_arrived()) hear(*failed_.get_update());
+    if (!errand_) begin_errand_near(pose);
     if (errand_) {
       do_errand(pose);
     } else {
@@ -73,7 +76,6 @@ class Porter final : public orca::Component {
 
   void hear(const orca::idl::Arrived& arrived) {
     if (is_late(arrived)) return;
-    if (const auto kind = kind_of(*goal_)) return begin_errand(*kind);
     done_.push(arrived);
     forget_goal();
   }
@@ -89,10 +91,20 @@ class Porter final : public orca::Component {
     return !goal_ || goal_->mission() != result.mission();
   }
 
-  void begin_errand(Errand::Kind kind) {
-    const auto& place = goal_->coordinate().point();
-    errand_.emplace(kind, orca::Vec2{place.x(), place.y()});
+  // Goto has done its part when the robot is as near as it was to bring it, with all via points behind it.
+  void begin_errand_near(const orca::Pose2& pose) {
+    const auto kind = goal_ ? kind_of(*goal_) : std::nullopt;
+    const auto towards = towards_.latest();
+    if (!kind || !towards || towards->mission() != goal_->mission()) return;
+    const orca::Vec2 place = place_of(*goal_);
+    if (place_of(*towards) != place) return;
+    if (orca::portable::hypot(place.x - pose.x, place.y - pose.y) > *standoff_) return;
+    errand_.emplace(*kind, place);
     heard_ = now();
+  }
+
+  [[nodiscard]] static orca::Vec2 place_of(const orca::idl::GoalPoint& goal) {
+    return {goal.coordinate().point().x(), goal.coordinate().point().y()};
   }
 
   void do_errand(const orca::Pose2& pose) {
@@ -166,6 +178,7 @@ class Porter final : public orca::Component {
 
   orca::SendProxy<orca::idl::GoalPoint> goto_{*this, "goto", {.text = "Where to drive to."}};
   orca::PushProxy<orca::idl::Arrived> arrived_{*this, "arrived", {.text = "That Goto is there."}};
+  orca::PushProxy<orca::idl::GoalPoint> towards_{*this, "towards", {.text = "Where Goto drives to now."}};
   orca::PushProxy<orca::idl::GoalFailed> failed_{*this, "failed", {.text = "That Goto has given up."}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
       *this, "localizer", {.text = "Pose of the robot, in the frame of the goals."}};

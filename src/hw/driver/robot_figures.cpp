@@ -40,6 +40,7 @@ class FiguresReader {
     figures.bumper_radius =
         orca->attribute("bumper_radius") != nullptr ? number(*orca, "bumper_radius", "m") : figures.radius;
     if (const Element* const drive = child(*orca, "drive")) figures.wheels = wheels(*drive);
+    if (const Element* const gripper = child(*orca, "gripper")) figures.gripper = text(*gripper, "link");
     read_joints();
     for (const Element& e : orca->children())
       if (e.name() == "laser") figures.lasers.push_back(laser(e));

@@ -10,6 +10,7 @@
 #include "orca/hw/base_figures.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
+#include "orca/hw/p2os/gripper.hpp"
 #include "orca/hw/p2os/model.hpp"
 #include "senses.hpp"
 #include "session.hpp"
@@ -62,6 +63,7 @@ class P2osBase final : public orca::hw::LineDriver {
     robot.drives().push_back(describe_wheels());
     robot.sensors() = describe_senses();
     if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);
+    if (gripper_) robot.actuators().push_back(describe_gripper());
     return robot;
   }
 
@@ -117,8 +119,10 @@ class P2osBase final : public orca::hw::LineDriver {
   }
 
  private:
+  using Gripper = orca::hw::ActuatorHW<orca::idl::GripperCommand>;
+
   void declare_endpoints() {
-    senses_.emplace(*model_);
+    senses_.emplace(*model_, has_gripper());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = within(*max_speed_, model_->max_speed),
                                   .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
@@ -126,6 +130,33 @@ class P2osBase final : public orca::hw::LineDriver {
                                   .big_turn_speed = 0.1}),
                     base_.max_command_age());
     set_motion(*motion_);
+    if (!has_gripper()) return;
+    gripper_.emplace(Gripper::Driver{
+        .act = [this](const orca::idl::GripperCommand& command) { return move_gripper(command); },
+        .halt = [this] { return send({encode_gripper(GripperAction::halt)}); }});
+    add_actuator(*gripper_);
+  }
+
+  [[nodiscard]] bool has_gripper() const {
+    return base_.figures() != nullptr && base_.figures()->gripper.has_value();
+  }
+
+  [[nodiscard]] orca::idl::Actuator describe_gripper() const {
+    orca::idl::Actuator gripper;
+    gripper.name(*base_.figures()->gripper);
+    gripper.port(device());
+    return gripper;
+  }
+
+  Status move_gripper(const orca::idl::GripperCommand& command) {
+    if (command.paddles() != orca::idl::PADDLES_STAY) {
+      const bool open = command.paddles() == orca::idl::PADDLES_OPEN;
+      const Status sent = send({encode_gripper(open ? GripperAction::open : GripperAction::close)});
+      if (!sent.ok()) return sent;
+    }
+    if (command.lift() == orca::idl::LIFT_STAY) return orca::ok();
+    const bool up = command.lift() == orca::idl::LIFT_UP;
+    return send({encode_gripper(up ? GripperAction::lift_up : GripperAction::lift_down)});
   }
 
   // Of some models the limit is not known.
@@ -211,6 +242,7 @@ class P2osBase final : public orca::hw::LineDriver {
   const Model* model_ = nullptr;
   std::optional<Senses> senses_;
   std::optional<orca::hw::MotionHW> motion_;
+  std::optional<Gripper> gripper_;
   std::optional<Session> session_;
   bool powered_ = false;  // the motors
   TimePoint powered_at_{};

@@ -9,6 +9,7 @@
 #include "orca/base/portable_math.hpp"
 #include "orca/geometry/angle.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/hw/p2os/gripper.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca::hw::p2os {
@@ -33,13 +34,15 @@ std::string bumper_name(int number, bool front) {
 
 }  // namespace
 
-Senses::Senses(const Model& model)
+Senses::Senses(const Model& model, bool has_gripper)
     : model_(model),
       units_(&model),
+      has_gripper_(has_gripper),
       odometry_(kPeriod),
       sonar_(kPeriod),
       bumpers_(kPeriod),
       battery_(kPeriod),
+      gripper_(kPeriod),
       wheels_(model.distance_unit),
       ranges_(model.sonar_poses.size(), kLongestRange),
       stamps_(model.sonar_poses.size()) {}
@@ -48,6 +51,7 @@ std::vector<SensorEndpoint*> Senses::endpoints() {
   std::vector<SensorEndpoint*> all{&odometry_, &battery_};
   if (!model_.sonar_poses.empty()) all.push_back(&sonar_);
   if (model_.bumpers > 0) all.push_back(&bumpers_);
+  if (has_gripper_) all.push_back(&gripper_);
   return all;
 }
 
@@ -91,6 +95,7 @@ void Senses::publish() {
   publish_battery();
   if (!ranges_.empty() && !sip_.echoes.empty()) publish_sonars();
   if (model_.bumpers > 0) publish_bumpers();
+  if (has_gripper_ && sip_.ports) publish_gripper();
 }
 
 void Senses::publish_odometry() {
@@ -143,6 +148,25 @@ void Senses::publish_battery() {
   object->charging(charge > 0 && charge < 255);
   object->stamp(to_time_value(stamp_));
   battery_.publish(std::move(object));
+}
+
+// Paddles that have closed on nothing press on each other, so only the beams tell that something is between them.
+void Senses::publish_gripper() {
+  const GripperState state = gripper_of(*sip_.ports);
+  const bool holds = state.left_contact && state.right_contact && !state.paddles_move &&
+                     (state.inner_beam || state.outer_beam);
+  auto object = gripper_.loan();
+  object->open(state.open);
+  object->closed(state.closed && !holds);
+  object->paddles_move(state.paddles_move);
+  object->up(state.up);
+  object->down(state.down);
+  object->lift_moves(state.lift_moves);
+  object->inner_beam(state.inner_beam);
+  object->outer_beam(state.outer_beam);
+  object->holds(holds);
+  object->stamp(to_time_value(stamp_));
+  gripper_.publish(std::move(object));
 }
 
 std::vector<Obstruction::Pressed> Senses::pressed() const {

@@ -15,13 +15,14 @@
 
 namespace orca::hw::p2os {
 
-/// What a Pioneer senses of itself and around it, as endpoints: odometry, sonars, battery, and bumpers if it has some.
+/// What a Pioneer senses of itself and around it, as endpoints: odometry, sonars, battery, and bumpers and a gripper if it has
+/// them.
 ///
 /// Thread contract: not synchronised; the container's strand.
 class Senses {
  public:
-  /// @param model  decides what there is.
-  explicit Senses(const Model& model);
+  /// @param model  decides what there is, besides the gripper.
+  Senses(const Model& model, bool has_gripper);
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
   /// Returns the description of the sonars; nothing if there are none.
@@ -46,13 +47,16 @@ class Senses {
   void publish_sonars();
   void publish_bumpers();
   void publish_battery();
+  void publish_gripper();
 
   const Model& model_;
   const Model* units_;
+  const bool has_gripper_;
   SensorHW<idl::Odometry> odometry_;
   SensorHW<idl::SonarRangeReadings> sonar_;
   SensorHW<idl::BumperReadings> bumpers_;
   SensorHW<idl::Battery> battery_;
+  SensorHW<idl::GripperState> gripper_;
 
   WheelOdometry wheels_;
   std::optional<double> heading_offset_;  // [rad] from the controller's heading to that of the pose

@@ -11,6 +11,23 @@
 
 namespace orca::emulators {
 
+/// What a gripper with two paddles on a lift is to do. It goes on until it is at the end, meets something or is told to stop.
+enum class GripperMove { open, close, stop, up, down, stop_lift };
+
+/// What the switches and beams of a gripper say.
+struct GripperLook {
+  bool open = false;           ///< The paddles are as far apart as they can be.
+  bool closed = false;         ///< The paddles are together.
+  bool paddles_move = false;   ///< They are on their way.
+  bool up = false;             ///< The lift is at its upper end.
+  bool down = false;           ///< The lift is at its lower end.
+  bool lift_moves = false;     ///< It is on its way.
+  bool inner_beam = false;     ///< Something is in the beam near the robot.
+  bool outer_beam = false;     ///< Something is in the beam near the tips.
+  bool left_contact = false;   ///< Something presses on the left paddle.
+  bool right_contact = false;  ///< Something presses on the right paddle.
+};
+
 /// The body of a robot, as its controller drives and senses it. The simulator is one; a test may have a simpler one.
 ///
 /// Thread contract: the firmware's.
@@ -33,6 +50,10 @@ class Body {
   [[nodiscard]] virtual std::uint8_t cliffs() const { return 0; }
   /// Returns whether the wheels hang, because the robot was lifted.
   [[nodiscard]] virtual bool is_lifted() const { return false; }
+  /// Moves the gripper, if there is one.
+  virtual void move_gripper(GripperMove /*move*/) {}
+  /// Returns what the gripper looks like; nothing if there is none.
+  [[nodiscard]] virtual std::optional<GripperLook> gripper() const { return std::nullopt; }
 };
 
 /// A turn of a scanning laser's mirror.

@@ -47,8 +47,9 @@ struct P2osSettings {
 /// A line that the host has set to another rate carries no command either way. What is sent takes its time at the rate.
 ///
 /// It sets its odometry to 0, drives ways and turns to headings by itself (MOVE, HEAD, DHEAD), tells its configuration, and
-/// lets bumpers raise a stall. What has no use for a body without grippers, gyros and serial ports of its own is
-/// passed over, as are gains and accelerations, which the body has.
+/// lets bumpers raise a stall. A gripper of the body goes as it is told, with or without the motors' power; when the connection
+/// ends, the watchdog bites or the red button is pressed, it halts (own choice: the manual does not say). Passed over are how hard
+/// it presses, lifting for a time, gyros and serial ports of its own, and gains and accelerations, which the body has.
 ///
 /// Thread contract: not synchronised.
 /// @source  Pioneer 2 operations manual, "Client commands" and "Server information packet".

@@ -30,6 +30,7 @@ struct RobotFigures {
   double bumper_radius = 0.0;  ///< [m] Of the parts that touch first.
   std::optional<Wheels> wheels{};
   std::vector<Laser> lasers{};
+  std::optional<std::string> gripper{};  ///< Its link; nothing: it has none.
 };
 
 /// Reads a robot file.
